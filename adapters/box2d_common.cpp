@@ -1,0 +1,119 @@
+#include "adapters/box2d_common.hpp"
+
+#include <box2d/b2_common.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace crossgrain {
+namespace {
+
+box2d_granular::Vector toVector(const Vec2& v) {
+  return {v.x(), v.y()};
+}
+
+double defaultLengthUnit(const Disks& disks) {
+  if (disks.size() == 0) return 1.0;
+  return std::exp2(std::round(std::log2(*std::ranges::min_element(disks.radius) / 5.0)));
+}
+
+box2d_granular::Wall box2dWall(const WallBody& body) {
+  if (body.motion.kind == Motion::Kind::radial)
+    throw UnsupportedScene(fmt::format(
+        "has rigid walls only; '{}' moves radially (fixed, rotating, translating and oscillating "
+        "walls are possible)",
+        body.name));
+  box2d_granular::Wall wall;
+  for (const Vec2& position : body.diskPosition) wall.diskPosition.push_back(toVector(position));
+  wall.diskRadius = body.diskRadius;
+  for (const Plane& plane : body.planes)
+    wall.planes.push_back({toVector(plane.point), toVector(plane.normal.normalized())});
+  wall.moves = body.motion.kind != Motion::Kind::fixed;
+  wall.pose = [motion = body.motion, centre = body.centre](double t) -> box2d_granular::Pose {
+    const BodyState now = stateAt(motion, centre, t);
+    return {toVector(now.centre), now.angle, toVector(now.velocity), now.angularVelocity};
+  };
+  return wall;
+}
+
+}  // namespace
+
+std::string box2dVersion() {
+  return fmt::format("{}.{}.{}", b2_version.major, b2_version.minor, b2_version.revision);
+}
+
+SettingSpec lengthUnitSetting() {
+  return {"length_unit",
+          0.0,
+          "m",
+          "Box2D's unit of length, in which its constants are; 0: the power of two nearest to a "
+          "fifth of the smallest radius",
+          {}};
+}
+
+double numberSetting(const Settings& settings, const std::vector<SettingSpec>& specs,
+                     const std::string& name) {
+  for (const auto& [given, value] : settings) {
+    if (std::ranges::find(specs, given, &SettingSpec::name) == specs.end())
+      throw std::invalid_argument(fmt::format("no setting '{}'", given));
+    if (!std::holds_alternative<double>(value))
+      throw std::invalid_argument(fmt::format("setting '{}' must be a number", given));
+  }
+  const auto given = settings.find(name);
+  if (given != settings.end()) return std::get<double>(given->second);
+  return std::get<double>(std::ranges::find(specs, name, &SettingSpec::name)->defaultValue);
+}
+
+box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUnit) {
+  if (!(dt > 0.0)) throw std::invalid_argument(fmt::format("dt must be > 0 s, not {}", dt));
+  box2d_granular::Model model;
+  for (std::size_t i = 0; i < scene.disks.size(); ++i)
+    model.disks.push_back({scene.disks.radius[i], scene.disks.mass[i], scene.disks.inertia[i],
+                           toVector(scene.disks.position[i]), toVector(scene.disks.velocity[i]),
+                           scene.disks.spin[i]});
+  for (const WallBody& body : scene.bodies) model.walls.push_back(box2dWall(body));
+  model.gravity = toVector(scene.gravity);
+  model.rotation = effectsOf(scene).contains(Effect::rotation);
+  model.dt = dt;
+  model.lengthUnit = lengthUnit > 0.0 ? lengthUnit : defaultLengthUnit(scene.disks);
+  return model;
+}
+
+// Both sides list the values of these options in the same order.
+box2d_granular::SoftLaw box2dSoftLaw(const ContactLaw& law) {
+  const LawConventions& how = law.conventions;
+  box2d_granular::SoftLaw to;
+  to.kn = law.kn;
+  to.gn = law.gn;
+  to.kt = law.kt;
+  to.gt = law.gt;
+  to.mu = law.mu;
+  to.tangential = static_cast<box2d_granular::Tangential>(law.tangential);
+  to.bound = static_cast<box2d_granular::Bound>(how.coulombBound);
+  to.cutTension = how.tension == Tension::cut;
+  to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
+  to.resetSpringOnly = how.springReset == SpringReset::springOnly;
+  to.stretchBefore = how.springUpdate == SpringUpdate::before;
+  to.leverToContactPoint = how.leverArm == LeverArm::contactPoint;
+  return to;
+}
+
+Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool rotation) {
+  Snapshot snapshot;
+  snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = time;
+  for (std::size_t i = 0; i < members.disks; ++i) {
+    snapshot.position.push_back(toVec2(members.position[i]));
+    snapshot.velocity.push_back(toVec2(members.velocity[i]));
+  }
+  if (rotation) snapshot.spin.emplace(members.spin.begin(), members.spin.begin() + members.disks);
+  for (std::size_t i = members.disks; i < members.position.size(); ++i)
+    snapshot.wallPosition.push_back(toVec2(members.position[i]));
+  for (const box2d_granular::Pose& pose : members.pose)
+    snapshot.bodies.push_back({toVec2(pose.centre), pose.angle, toVec2(pose.velocity), pose.spin,
+                               std::nullopt, std::nullopt});
+  return snapshot;
+}
+
+}  // namespace crossgrain

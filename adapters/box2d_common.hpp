@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "engines/box2d/members.hpp"
+#include "engines/box2d/soft_law.hpp"
+
+namespace crossgrain {
+
+/// What both Box2D engines share: the scene in the words of engines/box2d.
+
+/// The version of the library that runs, e.g. "2.4.1".
+std::string box2dVersion();
+
+/// Both engines' setting for Box2D's unit of length.
+SettingSpec lengthUnitSetting();
+
+/// A setting's value, or its default.
+/// @throws std::invalid_argument if a setting that `specs` lacks, or one of another type, is given
+double numberSetting(const Settings& settings, const std::vector<SettingSpec>& specs,
+                     const std::string& name);
+
+/// @param lengthUnit  [m]; 0: the power of two nearest to a fifth of the smallest radius, so that
+///                    changing units rounds nothing
+/// @throws UnsupportedScene if a wall is not rigid
+box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUnit);
+
+/// The scene's soft law.
+box2d_granular::SoftLaw box2dSoftLaw(const ContactLaw& law);
+
+inline Vec2 toVec2(box2d_granular::Vector v) {
+  return {v.x, v.y};
+}
+
+/// Disks, walls and times of a snapshot; contacts and loads are the engine's own.
+Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool rotation);
+
+}  // namespace crossgrain

@@ -1,0 +1,197 @@
+#include "adapters/box2d_impulse.hpp"
+
+#include <box2d/b2_common.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+
+#include "adapters/box2d.hpp"
+#include "adapters/pair_table.hpp"
+
+namespace crossgrain {
+
+using box2d_granular::PairImpulse;
+using box2d_granular::PairInertia;
+using box2d_granular::Restitution;
+using box2d_granular::WallImpulse;
+
+namespace {
+
+Contacts contactsFrom(std::span<const PairImpulse> impulses, double interval,
+                      const box2d_granular::Members& members) {
+  Contacts contacts;
+  for (const PairImpulse& impulse : impulses) {
+    const auto [normal, overlap] = box2d_granular::pairGeometry(members, impulse.i, impulse.j);
+    contacts.i.push_back(impulse.i);
+    contacts.j.push_back(impulse.j);
+    contacts.normal.push_back(toVec2(normal));
+    contacts.overlap.push_back(overlap);
+    contacts.normalForce.push_back(impulse.normal / interval);
+    contacts.tangentialForce.push_back(impulse.tangential / interval);
+  }
+  return contacts;
+}
+
+double friction(const ContactLaw& law) {
+  const bool frictionless =
+      law.normal == NormalLaw::linear && law.tangential == TangentialLaw::none;
+  return frictionless ? 0.0 : law.mu;
+}
+
+int iterations(double setting, const std::string& name) {
+  if (setting >= 1.0) return static_cast<int>(setting);
+  throw std::invalid_argument(fmt::format("setting '{}' must be at least 1", name));
+}
+
+std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Model& model,
+                                    const std::vector<PairCoefficients>& pairs) {
+  std::vector<Deviation> deviations;
+  if (scene.law.normal != NormalLaw::rigid && !pairs.empty()) {
+    std::string each;
+    for (const PairCoefficients& pair : pairs)
+      each += fmt::format("{}{}: {:.4f}, {:.4f}", each.empty() ? "" : "; ", pair.pair, pair.en,
+                          pair.et0);
+    deviations.push_back({"normal", pairs.front().en, "-",
+                          "rigid contacts with the soft law's e_n, and its -psi_f/psi_i at psi_i = "
+                          "0.5 as e_t0 (" +
+                              each + ")"});
+  }
+  const double unit = model.lengthUnit;
+  deviations.push_back({"rounding", box2d_granular::roundingAt(box2d_granular::extentOf(model)),
+                        "m", "positions are rounded to float32 by up to this much"});
+  deviations.push_back({"slop", static_cast<double>(b2_linearSlop) * unit, "m",
+                        "overlaps up to this are left standing"});
+  deviations.push_back({"speed_limit", static_cast<double>(b2_maxTranslation) * unit / model.dt,
+                        "m/s", "Box2D slows disks that are faster"});
+  return deviations;
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> makeBox2dImpulse() {
+  return std::make_unique<Box2dImpulse>();
+}
+
+Capabilities Box2dImpulse::capabilities() const {
+  Capabilities can;
+  can.version = box2dVersion();
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  // The plate's spring and dashpot are a soft law, for which the step of rigid contacts is too
+  // long.
+  can.effects[Effect::bottomFriction] = Support::never;
+  can.effects[Effect::bottomSpinFriction] = Support::never;
+  can.lawOptions = {{"normal", {"rigid"}}};
+  can.precision = "float";
+  can.accumulatedContacts = true;
+  can.settings = {
+      {"dt", 5e-4, "s", "time step; 0: the case's", {}},
+      lengthUnitSetting(),
+      {"impact_speed",
+       0.005,
+       "m/s",
+       "contacts that begin more slowly get no tangential restitution: the position solver moves "
+       "enduring ones apart by up to Box2D's slop, and slop/dt is of this order",
+       {}},
+      {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}},
+      {"position_iterations", 3.0, "-", "of Box2D's position solver", {}}};
+  return can;
+}
+
+Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
+  const std::vector<SettingSpec> specs = capabilities().settings;
+  const auto number = [&](const std::string& name) { return numberSetting(settings, specs, name); };
+  const auto passes = [&](const std::string& name) { return iterations(number(name), name); };
+  if (scene.bottom && scene.bottom->mu > 0.0) throw UnsupportedScene("has no bottom_friction");
+  const double dt = number("dt") > 0.0 ? number("dt") : scene.dt;
+  const box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
+
+  disks_ = scene.disks;
+  law_ = scene.law;
+  known_.clear();
+  world_.emplace(
+      model,
+      box2d_granular::ImpulseOptions{
+          friction(law_), [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
+          number("impact_speed"), passes("velocity_iterations"), passes("position_iterations")});
+  rotation_ = model.rotation;
+  stopwatch_ = {};
+
+  Realised realised;
+  realised.dt = dt;
+  realised.precision = "float";
+  realised.integrator = "semi_implicit_euler with sequential impulses";
+  realised.effects = effectsOf(scene);
+  realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double reducedMass) {
+    pair.mu = friction(law_);
+    const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
+    const Restitution used = restitutionOf({1.0 / reducedMass, (1.0 + 1.0 / q) / reducedMass});
+    pair.en = used.normal;
+    pair.et0 = used.tangential;
+  });
+  realised.deviations = deviationsOf(scene, model, realised.pairs);
+  return realised;
+}
+
+Restitution Box2dImpulse::restitution(std::int32_t i, std::int32_t j) {
+  PairInertia pair;
+  for (const std::int32_t id : {i, j}) {
+    const auto k = static_cast<std::size_t>(id);
+    if (k >= disks_.size()) continue;  // walls are infinitely heavy
+    pair.normal += 1.0 / disks_.mass[k];
+    pair.tangential +=
+        1.0 / disks_.mass[k] + disks_.radius[k] * disks_.radius[k] / disks_.inertia[k];
+  }
+  return restitutionOf(pair);
+}
+
+Restitution Box2dImpulse::restitutionOf(const PairInertia& pair) {
+  if (law_.normal == NormalLaw::rigid) return {law_.en, law_.et0};
+  const auto [known, isNew] = known_.try_emplace({pair.normal, pair.tangential});
+  if (isNew) known->second = box2d_granular::rigidEquivalent(box2dSoftLaw(law_), pair);
+  return known->second;
+}
+
+double Box2dImpulse::advance(double t) {
+  const auto wanted = std::llround(t / world_->dt());
+  const Stopwatch::Lap lap(stopwatch_);
+  while (static_cast<long long>(world_->steps()) < wanted) world_->step();
+  return world_->time();
+}
+
+Snapshot Box2dImpulse::snapshot(ContactReport report) {
+  const box2d_granular::Members& members = world_->members();
+  Snapshot snapshot = kinematicSnapshot(members, world_->time(), rotation_);
+  const bool accumulated = report == ContactReport::accumulated;
+  const std::uint64_t steps =
+      accumulated ? world_->sumSteps() : std::min<std::uint64_t>(1, world_->steps());
+  if (steps == 0) return snapshot;
+
+  const double interval = static_cast<double>(steps) * world_->dt();
+  snapshot.contactInterval = interval;
+  const std::span<const WallImpulse> onWalls =
+      accumulated ? world_->wallSums() : world_->lastWallImpulses();
+  for (std::size_t b = 0; b < onWalls.size(); ++b) {
+    snapshot.bodies[b].force = toVec2((1.0 / interval) * onWalls[b].linear);
+    snapshot.bodies[b].torque = onWalls[b].angular / interval;
+  }
+  if (report == ContactReport::instant)
+    snapshot.contacts = contactsFrom(world_->lastImpulses(), interval, members);
+  if (accumulated) {
+    snapshot.contacts = contactsFrom(world_->sums(), interval, members);
+    world_->clearSums();
+  }
+  return snapshot;
+}
+
+Stats Box2dImpulse::stats() const {
+  return {world_->steps(),
+          world_->contactEvaluations(),
+          stopwatch_.wallSeconds,
+          stopwatch_.cpuSeconds,
+          {{"impacts", static_cast<double>(world_->impacts())}}};
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,102 @@
+#include "adapters/box2d_penalty.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "adapters/box2d.hpp"
+#include "adapters/pair_table.hpp"
+
+namespace crossgrain {
+
+std::unique_ptr<Engine> makeBox2dPenalty() {
+  return std::make_unique<Box2dPenalty>();
+}
+
+Capabilities Box2dPenalty::capabilities() const {
+  Capabilities can;
+  can.version = box2dVersion();
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.lawOptions = {{"normal", {"linear"}},
+                    {"damping_velocity", {"lagged"}},
+                    {"integrator", {"semi_implicit_euler"}}};
+  can.precision = "double";
+  can.slidingFlags = true;
+  can.settings = {{"dt", 0.0, "s", "time step; 0: the case's", {}}, lengthUnitSetting()};
+  return can;
+}
+
+Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
+  if (scene.law.normal != NormalLaw::linear)
+    throw UnsupportedScene("has no rigid contacts, only normal = \"linear\"");
+  const std::vector<SettingSpec> specs = capabilities().settings;
+  const double dt = numberSetting(settings, specs, "dt");
+  const box2d_granular::Model model =
+      box2dModel(scene, dt > 0.0 ? dt : scene.dt, numberSetting(settings, specs, "length_unit"));
+  std::optional<box2d_granular::Plate> plate;
+  if (scene.bottom && scene.bottom->mu > 0.0)
+    plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
+             scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
+  world_.emplace(model, box2dSoftLaw(scene.law), plate);
+  rotation_ = model.rotation;
+  stopwatch_ = {};
+
+  Realised realised;
+  realised.dt = model.dt;
+  realised.precision = "double";
+  realised.integrator = "semi_implicit_euler";
+  realised.effects = effectsOf(scene);
+  realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double) {
+    pair.kn = scene.law.kn;
+    pair.gn = scene.law.gn;
+    pair.kt = scene.law.kt;
+    pair.gt = scene.law.gt;
+    pair.mu = scene.law.mu;
+  });
+  return realised;
+}
+
+double Box2dPenalty::advance(double t) {
+  const auto wanted = std::llround(t / world_->dt());
+  const Stopwatch::Lap lap(stopwatch_);
+  while (static_cast<long long>(world_->steps()) < wanted) world_->step();
+  return world_->time();
+}
+
+Snapshot Box2dPenalty::snapshot(ContactReport report) {
+  if (report == ContactReport::accumulated)
+    throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
+  Snapshot snapshot = kinematicSnapshot(world_->members(), world_->time(), rotation_);
+  const std::vector<box2d_granular::WallLoad> loads = world_->wallLoads();
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    snapshot.bodies[b].force = toVec2(loads[b].force);
+    snapshot.bodies[b].torque = loads[b].torque;
+  }
+  if (report == ContactReport::instant) snapshot.contacts = contacts();
+  snapshot.energies = {world_->kineticEnergy(), world_->elasticEnergy()};
+  return snapshot;
+}
+
+Contacts Box2dPenalty::contacts() const {
+  Contacts contacts;
+  for (const box2d_granular::SoftContact& contact : world_->contacts()) {
+    if (!contact.touching) continue;
+    contacts.i.push_back(contact.i);
+    contacts.j.push_back(contact.j);
+    contacts.normal.push_back(toVec2(contact.geometry.normal));
+    contacts.overlap.push_back(contact.geometry.overlap);
+    contacts.normalForce.push_back(contact.force.normal);
+    contacts.tangentialForce.push_back(contact.force.tangential);
+    contacts.sliding.push_back(contact.force.sliding);
+  }
+  return contacts;
+}
+
+Stats Box2dPenalty::stats() const {
+  return {world_->steps(),
+          world_->contactEvaluations(),
+          stopwatch_.wallSeconds,
+          stopwatch_.cpuSeconds,
+          {{"close_pairs", static_cast<double>(world_->contacts().size())}}};
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,115 @@
+#pragma once
+
+namespace crossgrain {
+
+/// The contact law of a scene and every convention that engines are known to differ in.
+///
+/// Signs, for a contact of i with j: n points from j to i, s = z × n, overlap δ > 0 in contact,
+///   v_n = (v_i − v_j)·n (negative on approach), v_t = (v_i − v_j)·s − (l_i ω_i + l_j ω_j) with the
+///   lever arms l,
+/// the force on i is f_n n + f_t s and its torque on i is −l_i f_t (Lätzel 2003, chapter 4).
+
+enum class NormalLaw {
+  linear,  ///< f_n = k_n δ − γ_n v_n  (Lätzel 2003, Eq. 4.9)
+  rigid    ///< hard disks: restitution e_n, tangential restitution e_t0, friction µ (Walton 1992)
+};
+
+enum class Tension {
+  allow,  ///< f_n as it is, also where the dashpot makes it attractive near the end of a contact
+  cut     ///< f_n := max(f_n, 0)
+};
+
+enum class TangentialLaw {
+  none,     ///< frictionless
+  coulomb,  ///< f_t = −µ f_n sign(v_t)                            (Lätzel 2003, Eq. 4.16)
+  viscous,  ///< f_t = −min(γ_t |v_t|, µ f_n) sign(v_t)            (Eq. 4.18)
+  spring,   ///< f_t = −min(k_t |ξ|, µ f_n) sign(ξ)                (Eq. 4.20, Cundall–Strack)
+  springDashpot  ///< f* = −k_t ξ − γ_t v_t, held to µ f_n              (Eqs. 4.22–4.25)
+};
+
+/// What multiplies µ in the Coulomb bound.
+enum class CoulombBound {
+  compression,  ///< max(f_n, 0)
+  magnitude,    ///< |f_n|
+  signedForce   ///< f_n itself; a negative bound counts as its value, so friction then drives
+};
+
+/// Whether the tangential dashpot is part of the trial force that the Coulomb bound is held
+/// against.
+enum class Dashpot {
+  inside,  ///< test |k_t ξ + γ_t v_t|
+  outside  ///< test |k_t ξ|; the dashpot force is added only while the contact sticks
+};
+
+/// What the spring is set to when the contact slips.
+enum class SpringReset {
+  total,      ///< ξ = −f_t / k_t: the spring alone carries the bound (Lätzel 2003, Eq. 4.25)
+  springOnly  ///< ξ = −(f_t + γ_t v_t) / k_t: spring and dashpot together carry the bound
+};
+
+/// When within a step the spring is stretched by v_t dt.
+enum class SpringUpdate {
+  after,    ///< force from the old ξ, then ξ += v_t dt
+  before,   ///< ξ += v_t dt, then the force
+  midpoint  ///< ξ += v_t dt/2, the force, ξ += v_t dt/2: second order where velocities are
+};
+
+/// The arm l_i of f_t about the disk's centre; v_t is taken with the same arm. A wall's plane does
+/// not yield: there both of the latter are a_i − δ.
+enum class LeverArm {
+  radius,        ///< a_i, the thesis' choice; dL/dt = −δ f_t for an isolated pair
+  contactPoint,  ///< a_i − δ a_j/(a_i + a_j): keeps angular momentum
+  overlapMiddle  ///< a_i − δ/2: keeps it too; the same for equal radii
+};
+
+/// The relative velocity that enters the dashpots when velocities live half a step away.
+enum class DampingVelocity {
+  lagged,     ///< v(t − dt/2)
+  predicted,  ///< v(t − dt/2) + a(t − dt) dt/2
+  implicit    ///< the velocity at t that the contact's own force brings about
+};
+
+enum class Integrator {
+  positionVerlet,  ///< Störmer's scheme on positions: x(t+dt) = 2x(t) − x(t−dt) + a dt²
+  velocityVerlet,
+  semiImplicitEuler
+};
+
+struct LawConventions {
+  Tension tension = Tension::allow;
+  CoulombBound coulombBound = CoulombBound::compression;
+  Dashpot dashpot = Dashpot::inside;
+  SpringReset springReset = SpringReset::total;
+  SpringUpdate springUpdate = SpringUpdate::after;
+  LeverArm leverArm = LeverArm::radius;
+  DampingVelocity dampingVelocity = DampingVelocity::predicted;
+  Integrator integrator = Integrator::positionVerlet;
+};
+
+/// Parameters of the law that the scene calls for; the same for all contacts.
+struct ContactLaw {
+  NormalLaw normal = NormalLaw::linear;
+  TangentialLaw tangential = TangentialLaw::springDashpot;
+  double kn = 0.0;   ///< normal stiffness [N/m]
+  double gn = 0.0;   ///< normal damping γ_n [kg/s]
+  double kt = 0.0;   ///< tangential stiffness [N/m]
+  double gt = 0.0;   ///< tangential damping γ_t [kg/s]
+  double mu = 0.0;   ///< Coulomb's coefficient, static = dynamic [-]
+  double en = 1.0;   ///< rigid law: normal restitution [-]
+  double et0 = 0.0;  ///< rigid law: tangential restitution of a sticking contact [-]
+  LawConventions conventions;
+};
+
+/// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29):
+/// f* = −k_b ξ_b − γ_b v with a vector spring ξ_b per disk, held to µ_b m g; its torque is
+/// sign(f_M*) min(µ_b m g, |f_M*|)·(2/3)a with f_M* = −sign(ω) τ_M |f*| − γ_b ω a.
+struct BottomPlate {
+  double mu = 0.0;        ///< µ_b [-]
+  double kb = 0.0;        ///< spring [N/m]
+  double gb = 0.0;        ///< dashpot [kg/s]
+  double tauM = 0.0;      ///< τ_M [-]
+  double gravity = 9.81;  ///< g that presses a disk on the plate, normal to the plane [m/s²]
+  bool spin = true;       ///< whether the plate also brakes spin
+};
+
+}  // namespace crossgrain

@@ -1,0 +1,66 @@
+#include "adapters/effects.hpp"
+
+#include <algorithm>
+
+namespace crossgrain {
+
+std::string toString(Effect effect) {
+  switch (effect) {
+    case Effect::normalDamping:
+      return "normal_damping";
+    case Effect::friction:
+      return "friction";
+    case Effect::tangentialSpring:
+      return "tangential_spring";
+    case Effect::tangentialDamping:
+      return "tangential_damping";
+    case Effect::rotation:
+      return "rotation";
+    case Effect::bottomFriction:
+      return "bottom_friction";
+    case Effect::bottomSpinFriction:
+      return "bottom_spin_friction";
+    case Effect::gravity:
+      return "gravity";
+    case Effect::movingWalls:
+      return "moving_walls";
+  }
+  return {};
+}
+
+Effects effectsOf(const Scene& scene) {
+  const ContactLaw& law = scene.law;
+  Effects effects;
+  const auto call = [&](bool called, Effect effect) {
+    if (called) effects.insert(effect);
+  };
+
+  if (law.normal == NormalLaw::rigid) {
+    call(law.en < 1.0, Effect::normalDamping);
+    call(law.mu > 0.0, Effect::friction);
+  } else {
+    const bool friction = law.tangential != TangentialLaw::none && law.mu > 0.0;
+    const bool spring =
+        law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
+    const bool dashpot =
+        law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::springDashpot;
+    call(law.gn > 0.0, Effect::normalDamping);
+    call(friction, Effect::friction);
+    call(friction && spring && law.kt > 0.0, Effect::tangentialSpring);
+    call(friction && dashpot && law.gt > 0.0, Effect::tangentialDamping);
+  }
+  call(effects.contains(Effect::friction), Effect::rotation);
+
+  if (scene.bottom && scene.bottom->mu > 0.0) {
+    effects.insert(Effect::bottomFriction);
+    call(scene.bottom->spin && effects.contains(Effect::rotation), Effect::bottomSpinFriction);
+  }
+  call(!scene.gravity.isZero(0.0), Effect::gravity);
+  call(std::ranges::any_of(
+           scene.bodies,
+           [](const WallBody& body) { return body.motion.kind != Motion::Kind::fixed; }),
+       Effect::movingWalls);
+  return effects;
+}
+
+}  // namespace crossgrain

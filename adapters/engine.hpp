@@ -1,0 +1,115 @@
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "adapters/effects.hpp"
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+
+namespace crossgrain {
+
+enum class Support { optional, always, never };
+
+/// A setting of one engine, under [engines.NAME] in a case file.
+using SettingValue = std::variant<bool, double, std::string>;
+using Settings = std::map<std::string, SettingValue>;
+
+struct SettingSpec {
+  std::string name;
+  SettingValue defaultValue;  ///< its alternative is the setting's type
+  std::string unit;
+  std::string doc;
+  std::vector<std::string> choices;  ///< of a string setting; empty: any
+};
+
+/// What an engine can do. Asked for, never assumed.
+struct Capabilities {
+  std::string version;  ///< of the engine itself
+  std::map<Effect, Support> effects;
+  /// Law options by their case-file name ("tension", "dashpot", …) → values that the engine has.
+  /// An option that is not listed does not matter to the engine's law.
+  std::map<std::string, std::vector<std::string>> lawOptions;
+  std::string precision;  ///< "double" | "float"
+  bool instantContacts = true;
+  bool accumulatedContacts = false;
+  bool warmHandover = false;
+  bool slidingFlags = false;
+  std::vector<SettingSpec> settings;
+};
+
+/// Something an engine does otherwise than the scene says.
+struct Deviation {
+  std::string name;  ///< a law option or effect as in `may_differ`, or free-standing ("rounding")
+  double value = 0.0;
+  std::string unit;
+  std::string note;  ///< one sentence for the report
+};
+
+/// The constants of one kind of pair after the engine's own mixing rule.
+struct PairCoefficients {
+  std::string pair;  ///< e.g. "3.70 mm – 3.70 mm", "3.70 mm – wall"
+  double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
+  double en = 0.0, et0 = 0.0;  ///< where the engine uses restitutions
+};
+
+/// What an engine really uses after loading a scene.
+struct Realised {
+  std::string engine;
+  std::string version;
+  double dt = 0.0;  ///< [s]
+  std::string precision;
+  std::string integrator;
+  Effects effects;
+  std::vector<PairCoefficients> pairs;
+  std::vector<Deviation> deviations;
+};
+
+/// Cost so far, of advance() alone.
+struct Stats {
+  std::uint64_t steps = 0;
+  std::uint64_t contactEvaluations = 0;
+  double wallSeconds = 0.0;
+  double cpuSeconds = 0.0;
+  std::map<std::string, double> counters;  ///< engine's own, e.g. "impacts", "rebuilds"
+};
+
+/// The engine cannot do what the scene calls for; what() names the first such thing.
+struct UnsupportedScene : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The engine itself failed: died, hung, returned a short file or a NaN.
+struct EngineFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One engine run.
+///
+///   load(scene) ── advance(t) ── snapshot() ── advance(t') ── … ── load(another) starts afresh
+///
+/// Every call but capabilities() needs a load() before it.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual Capabilities capabilities() const = 0;
+
+  /// @pre scene is valid (Scene's own rules) and its effects are within capabilities() but for
+  ///      what the caller knows to differ
+  /// @throws UnsupportedScene naming the first thing the engine cannot do
+  virtual Realised load(const Scene& scene, const Settings& settings) = 0;
+
+  /// Does llround(t/dt) − (steps done) steps. @returns the time reached [s]
+  virtual double advance(double t) = 0;
+
+  /// Looking does not change the run.
+  virtual Snapshot snapshot(ContactReport contacts) = 0;
+
+  virtual Stats stats() const = 0;
+};
+
+}  // namespace crossgrain

@@ -1,0 +1,234 @@
+#include "adapters/grain.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "adapters/law_options.hpp"
+#include "adapters/pair_table.hpp"
+#include "adapters/stopwatch.hpp"
+#include "engines/grain/simulation.hpp"
+
+namespace crossgrain {
+namespace {
+
+// Both sides list the values of these options in the same order; a test holds them together.
+grain::Law translate(const ContactLaw& law) {
+  const LawConventions& how = law.conventions;
+  grain::Law to;
+  to.kn = law.kn;
+  to.gn = law.gn;
+  to.kt = law.kt;
+  to.gt = law.gt;
+  to.mu = law.mu;
+  to.tangential = static_cast<grain::Tangential>(law.tangential);
+  to.bound = static_cast<grain::Bound>(how.coulombBound);
+  to.stretch = static_cast<grain::Stretch>(how.springUpdate);
+  to.cutTension = how.tension == Tension::cut;
+  to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
+  to.resetSpringOnly = how.springReset == SpringReset::springOnly;
+  to.lever = static_cast<grain::Lever>(how.leverArm);
+  // Euler's velocities belong to the same time as its positions: there is nothing to predict.
+  to.damping = how.integrator == Integrator::semiImplicitEuler
+                   ? grain::Damping::lagged
+                   : static_cast<grain::Damping>(how.dampingVelocity);
+  return to;
+}
+
+grain::WallState translate(const BodyState& state) {
+  return {state.centre.x(),   state.centre.y(),   state.angle,           state.radialShift,
+          state.velocity.x(), state.velocity.y(), state.angularVelocity, state.radialVelocity};
+}
+
+grain::Wall translate(const WallBody& body) {
+  grain::Wall wall;
+  for (const Vec2& position : body.diskPosition) {
+    wall.diskX.push_back(position.x());
+    wall.diskY.push_back(position.y());
+  }
+  wall.diskRadius = body.diskRadius;
+  for (const Plane& plane : body.planes)
+    wall.planes.push_back({plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
+  wall.motion = [motion = body.motion, centre = body.centre](double t) {
+    return translate(stateAt(motion, centre, t));
+  };
+  return wall;
+}
+
+grain::Setup translate(const Scene& scene) {
+  grain::Setup setup;
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    setup.disks.x.push_back(scene.disks.position[i].x());
+    setup.disks.y.push_back(scene.disks.position[i].y());
+    setup.disks.vx.push_back(scene.disks.velocity[i].x());
+    setup.disks.vy.push_back(scene.disks.velocity[i].y());
+  }
+  setup.disks.spin = scene.disks.spin;
+  setup.disks.radius = scene.disks.radius;
+  setup.disks.mass = scene.disks.mass;
+  setup.disks.inertia = scene.disks.inertia;
+  for (const WallBody& body : scene.bodies) setup.walls.push_back(translate(body));
+  setup.law = translate(scene.law);
+  if (scene.bottom && scene.bottom->mu > 0.0)
+    setup.bottom = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
+                    scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
+  setup.gravityX = scene.gravity.x();
+  setup.gravityY = scene.gravity.y();
+  setup.dt = scene.dt;
+  setup.integrator = static_cast<grain::Integrator>(scene.law.conventions.integrator);
+  return setup;
+}
+
+class GrainEngine : public Engine {
+ public:
+  GrainEngine(std::map<std::string, std::string> conventions, double stiffness)
+      : conventions_(std::move(conventions)), stiffness_(stiffness) {}
+
+  Capabilities capabilities() const override {
+    Capabilities can;
+    can.version = "0.1.0";
+    for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    for (const LawOption& option : lawOptions())
+      can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
+    can.lawOptions["normal"] = {"linear"};
+    for (const auto& [name, value] : conventions_) can.lawOptions[name] = {value};
+    can.precision = "double";
+    can.slidingFlags = true;
+    can.settings = {
+        {"dt", 0.0, "s", "time step; 0: the case's", {}},
+        {"skin", 0.0, "m", "of the Verlet list; 0: a fifth of the smallest radius", {}}};
+    return can;
+  }
+
+  Realised load(const Scene& scene, const Settings& settings) override {
+    if (scene.law.normal != NormalLaw::linear)
+      throw UnsupportedScene("has no rigid contacts, only normal = \"linear\"");
+    ContactLaw law = scene.law;
+    for (const auto& [name, value] : conventions_) setLawOption(law, name, value);
+    const double stiffness = setting(settings, "stiffness", stiffness_);
+    if (!(stiffness > 0.0)) throw std::invalid_argument("the setting stiffness must be > 0");
+    law.kn *= stiffness;
+    law.kt *= stiffness;
+    law.gn *= std::sqrt(stiffness);
+    law.gt *= std::sqrt(stiffness);
+    const double gtUsed = law.tangential == TangentialLaw::spring ? 0.0 : law.gt;
+
+    Scene own = scene;
+    own.law = law;
+    own.dt = scene.dt / std::sqrt(stiffness);
+    grain::Setup setup = translate(own);
+    if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
+    setup.skin = setting(settings, "skin", 0.0);
+    bodies_ = scene.bodies;
+    rotation_ = setup.law.friction();
+    stopwatch_ = {};
+    simulation_.emplace(std::move(setup));
+
+    Realised realised;
+    realised.dt = simulation_->dt();
+    realised.precision = "double";
+    realised.integrator = lawOptionValue(law, "integrator");
+    realised.effects = effectsOf(own);
+    if (stiffness != 1.0)
+      realised.deviations.push_back(
+          {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
+    realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double) {
+      pair.kn = law.kn;
+      pair.gn = law.gn;
+      pair.kt = law.kt;
+      pair.gt = gtUsed;
+      pair.mu = law.mu;
+    });
+    return realised;
+  }
+
+  double advance(double t) override {
+    const auto wanted = std::llround(t / simulation_->dt());
+    const Stopwatch::Lap lap(stopwatch_);
+    while (static_cast<long long>(simulation_->steps()) < wanted) simulation_->step();
+    return simulation_->time();
+  }
+
+  Snapshot snapshot(ContactReport report) override {
+    const grain::Simulation& now = *simulation_;
+    Snapshot snapshot;
+    snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = now.time();
+    for (std::size_t i = 0; i < now.movingCount(); ++i) {
+      snapshot.position.emplace_back(now.x()[i], now.y()[i]);
+      snapshot.velocity.emplace_back(now.velocityX(i), now.velocityY(i));
+    }
+    if (rotation_) {
+      snapshot.spin.emplace();
+      for (std::size_t i = 0; i < now.movingCount(); ++i) snapshot.spin->push_back(now.spin(i));
+    }
+    for (std::size_t i = now.movingCount(); i < now.x().size(); ++i)
+      snapshot.wallPosition.emplace_back(now.x()[i], now.y()[i]);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const grain::WallState wall = now.wallState(b);
+      const grain::WallLoad load = now.wallLoad(b);
+      snapshot.bodies.push_back({{wall.x, wall.y},
+                                 wall.angle,
+                                 {wall.vx, wall.vy},
+                                 wall.spin,
+                                 Vec2(load.fx, load.fy),
+                                 load.torque});
+    }
+    if (report == ContactReport::instant) snapshot.contacts = contacts();
+    if (report == ContactReport::accumulated)
+      throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
+    snapshot.energies = {now.kineticEnergy(), now.elasticEnergy()};
+    return snapshot;
+  }
+
+  Stats stats() const override {
+    return {simulation_->steps(),
+            simulation_->contactEvaluations(),
+            stopwatch_.wallSeconds,
+            stopwatch_.cpuSeconds,
+            {{"rebuilds", static_cast<double>(simulation_->neighbourRebuilds())}}};
+  }
+
+ private:
+  static double setting(const Settings& settings, const std::string& name, double otherwise) {
+    const auto found = settings.find(name);
+    return found == settings.end() ? otherwise : std::get<double>(found->second);
+  }
+
+  Contacts contacts() const {
+    Contacts contacts;
+    for (const grain::Contact& contact : simulation_->contacts()) {
+      contacts.i.push_back(contact.i);
+      contacts.j.push_back(contact.j);
+      contacts.normal.emplace_back(contact.nx, contact.ny);
+      contacts.overlap.push_back(contact.overlap);
+      contacts.normalForce.push_back(contact.normalForce);
+      contacts.tangentialForce.push_back(contact.tangentialForce);
+      contacts.sliding.push_back(contact.sliding);
+    }
+    return contacts;
+  }
+
+  std::map<std::string, std::string> conventions_;
+  double stiffness_;
+  std::vector<WallBody> bodies_;
+  bool rotation_ = false;
+  std::optional<grain::Simulation> simulation_;
+  Stopwatch stopwatch_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> makeGrain() {
+  return makeGrainMirror({});
+}
+
+std::unique_ptr<Engine> makeGrainMirror(std::map<std::string, std::string> conventions) {
+  return std::make_unique<GrainEngine>(std::move(conventions), 1.0);
+}
+
+std::unique_ptr<Engine> makeStiffGrain(double factor) {
+  return std::make_unique<GrainEngine>(std::map<std::string, std::string>{}, factor);
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "adapters/contact_law.hpp"
+
+namespace crossgrain {
+
+/// One option of the contact law under the name that case files use.
+struct LawOption {
+  std::string_view name;                              ///< e.g. "dashpot"
+  std::vector<std::string_view> values;               ///< e.g. "inside", "outside", in enum order
+  std::function<std::size_t(const ContactLaw&)> get;  ///< index into values
+  std::function<void(ContactLaw&, std::size_t)> set;
+};
+
+/// Every option of the law: normal, tangential, tension, coulomb_bound, dashpot, spring_reset,
+/// spring_update, lever_arm, damping_velocity, integrator.
+std::span<const LawOption> lawOptions();
+
+/// The value that a law has for an option, by name. @throws std::invalid_argument if unknown
+std::string lawOptionValue(const ContactLaw& law, std::string_view name);
+
+/// Sets an option by name. @throws std::invalid_argument saying which names or values there are
+void setLawOption(ContactLaw& law, std::string_view name, std::string_view value);
+
+/// Whether the option has any bearing on this law: a frictionless law has no lever arm.
+bool mattersTo(const ContactLaw& law, std::string_view name);
+
+}  // namespace crossgrain

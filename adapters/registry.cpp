@@ -1,0 +1,72 @@
+#include "adapters/registry.hpp"
+
+#include <algorithm>
+
+#include "adapters/box2d.hpp"
+#include "adapters/grain.hpp"
+#include "adapters/yade.hpp"
+
+namespace crossgrain {
+
+namespace {
+
+/// Law2_ScGeom_ViscElPhys_Basic and NewtonIntegrator (engines/yade/README.md).
+std::map<std::string, std::string> yadeConventions() {
+  return {{"tension", "cut"},
+          {"coulomb_bound", "compression"},
+          {"dashpot", "outside"},
+          {"spring_reset", "total"},
+          {"spring_update", "before"},
+          {"lever_arm", "overlap_middle"},
+          {"damping_velocity", "lagged"},
+          {"integrator", "position_verlet"}};
+}
+
+}  // namespace
+
+const std::vector<EngineEntry>& engineRegistry() {
+  static const std::vector<EngineEntry> entries = {
+      {"grain", "in-house: soft disks, every convention an option", makeGrain, {}, {}, ""},
+      {"yade",
+       "YADE, its viscoelastic law on spheres held in a plane",
+       {},
+       yadeCommand,
+       yadeMissing,
+       ""},
+      {"box2d-impulse",
+       "Box2D's impulse solver, with tangential restitution",
+       makeBox2dImpulse,
+       {},
+       {},
+       ""},
+      {"box2d-penalty",
+       "the scene's soft law on Box2D's collision detection",
+       makeBox2dPenalty,
+       {},
+       {},
+       ""},
+      {"grain-as-yade",
+       "the in-house engine held to YADE's conventions",
+       [] { return makeGrainMirror(yadeConventions()); },
+       {},
+       {},
+       "yade"},
+      // At 100 times the stiffness overlaps in a dense cell are as small as those that Box2D
+      // leaves.
+      {"grain-stiff",
+       "the in-house engine with contacts 100 times as stiff, towards rigid ones",
+       [] { return makeStiffGrain(100.0); },
+       {},
+       {},
+       "box2d-impulse"},
+  };
+  return entries;
+}
+
+const EngineEntry* findEngine(const std::string& name) {
+  const auto& entries = engineRegistry();
+  const auto found = std::ranges::find(entries, name, &EngineEntry::name);
+  return found == entries.end() ? nullptr : &*found;
+}
+
+}  // namespace crossgrain

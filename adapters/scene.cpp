@@ -1,0 +1,17 @@
+#include "adapters/scene.hpp"
+
+namespace crossgrain {
+
+std::size_t Scene::wallDiskCount() const {
+  std::size_t count = 0;
+  for (const WallBody& body : bodies) count += body.diskRadius.size();
+  return count;
+}
+
+std::size_t Scene::planeCount() const {
+  std::size_t count = 0;
+  for (const WallBody& body : bodies) count += body.planes.size();
+  return count;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/contact_law.hpp"
+#include "adapters/motion.hpp"
+#include "adapters/vec2.hpp"
+
+namespace crossgrain {
+
+/// The moving disks, structure of arrays, all of one length N; ids are 0 … N−1.
+struct Disks {
+  std::vector<double> radius;   ///< [m]
+  std::vector<double> mass;     ///< [kg]
+  std::vector<double> inertia;  ///< moment of inertia about the centre, q m a² [kg m²]
+  std::vector<Vec2> position;   ///< [m]
+  std::vector<Vec2> velocity;   ///< [m/s]
+  std::vector<double> spin;     ///< ω, counter-clockwise positive [rad/s]
+
+  std::size_t size() const { return radius.size(); }
+};
+
+/// A straight wall: the half plane behind `point`, `normal` pointing into the free side.
+struct Plane {
+  Vec2 point = Vec2::Zero();  ///< [m]
+  Vec2 normal = Vec2::UnitY();
+};
+
+/// A rigid body of wall disks and plane walls that moves as prescribed, whatever pushes on it.
+struct WallBody {
+  std::string name;                ///< "wheel", "ring", …
+  Vec2 centre = Vec2::Zero();      ///< at t = 0; angle and torque are about it [m]
+  std::vector<Vec2> diskPosition;  ///< at t = 0 [m]
+  std::vector<double> diskRadius;  ///< [m]
+  std::vector<Plane> planes;
+  Motion motion;
+};
+
+/// One granular scene: everything an engine needs, plain data in SI units, laboratory frame.
+/// Ids: disks 0 … N−1, then the wall disks body by body, then the planes body by body.
+struct Scene {
+  std::string name;
+  Disks disks;
+  std::vector<WallBody> bodies;
+  ContactLaw law;
+  std::optional<BottomPlate> bottom;
+  Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
+  double dt = 0.0;              ///< time step [s]
+
+  std::size_t wallDiskCount() const;
+  std::size_t planeCount() const;
+};
+
+}  // namespace crossgrain

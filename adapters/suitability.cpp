@@ -1,0 +1,89 @@
+#include "adapters/suitability.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "adapters/law_options.hpp"
+
+namespace crossgrain {
+namespace {
+
+Support supportOf(const Capabilities& can, Effect effect) {
+  const auto found = can.effects.find(effect);
+  return found == can.effects.end() ? Support::never : found->second;
+}
+
+void removeEffect(Scene& scene, Effect effect) {
+  switch (effect) {
+    case Effect::normalDamping:
+      scene.law.gn = 0.0;
+      scene.law.en = 1.0;
+      break;
+    case Effect::rotation:
+    case Effect::friction:
+      scene.law.mu = 0.0;
+      scene.law.tangential = TangentialLaw::none;
+      break;
+    case Effect::tangentialSpring:
+      scene.law.kt = 0.0;
+      break;
+    case Effect::tangentialDamping:
+      scene.law.gt = 0.0;
+      break;
+    case Effect::bottomFriction:
+      scene.bottom.reset();
+      break;
+    case Effect::bottomSpinFriction:
+      scene.bottom->spin = false;
+      break;
+    case Effect::gravity:
+      scene.gravity = Vec2::Zero();
+      break;
+    case Effect::movingWalls:
+      for (WallBody& body : scene.bodies) body.motion = {};
+      break;
+  }
+}
+
+}  // namespace
+
+std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
+  std::vector<Mismatch> found;
+  const Effects called = effectsOf(scene);
+  for (const Effect effect : allEffects) {
+    const Support support = supportOf(can, effect);
+    if (called.contains(effect) && support == Support::never)
+      found.push_back({toString(effect), fmt::format("has no {}", toString(effect)), true});
+    if (!called.contains(effect) && support == Support::always)
+      found.push_back({toString(effect), fmt::format("cannot do without {}", toString(effect))});
+  }
+  for (const auto& [name, values] : can.lawOptions) {
+    if (!mattersTo(scene.law, name)) continue;
+    const std::string wanted = lawOptionValue(scene.law, name);
+    if (std::ranges::find(values, wanted) == values.end())
+      found.push_back(
+          {name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "), wanted)});
+  }
+  return found;
+}
+
+Adapted adaptScene(const Capabilities& can, const Scene& scene,
+                   const std::vector<std::string>& mayDiffer) {
+  Adapted adapted{scene, {}};
+  for (const Mismatch& mismatch : mismatches(can, scene)) {
+    if (std::ranges::find(mayDiffer, mismatch.name) == mayDiffer.end())
+      throw UnsupportedScene(
+          fmt::format("{}; list \"{}\" under [run] may_differ to run it all the "
+                      "same",
+                      mismatch.reason, mismatch.name));
+    adapted.deviations.push_back({mismatch.name, 0.0, "", mismatch.reason});
+    if (mismatch.effectMissing)
+      for (const Effect effect : allEffects)
+        if (toString(effect) == mismatch.name) removeEffect(adapted.scene, effect);
+  }
+  return adapted;
+}
+
+}  // namespace crossgrain

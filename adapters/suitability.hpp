@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+
+namespace crossgrain {
+
+/// One thing in which an engine cannot follow a scene.
+struct Mismatch {
+  std::string name;            ///< the effect or law option, as in `[run] may_differ`
+  std::string reason;          ///< one clause: "always cuts tension", "has no bottom_friction"
+  bool effectMissing = false;  ///< an effect that the engine cannot simulate at all
+};
+
+/// Everything in the scene that the engine cannot do as written. Empty: it can run it faithfully.
+std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
+
+/// The scene as this engine may run it: what it cannot do, and `mayDiffer` lists, is changed to
+/// what the engine has, each change a deviation.
+struct Adapted {
+  Scene scene;
+  std::vector<Deviation> deviations;
+};
+
+/// @throws UnsupportedScene naming the first mismatch that is not in mayDiffer, and where to list
+/// it
+Adapted adaptScene(const Capabilities& can, const Scene& scene,
+                   const std::vector<std::string>& mayDiffer);
+
+}  // namespace crossgrain

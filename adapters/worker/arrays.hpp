@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "adapters/vec2.hpp"
+
+namespace crossgrain {
+
+/// Array files: raw little-endian arrays one after the other. The JSON beside them lists, for each,
+/// its name, type ("f64" | "i32" | "u8"), count of elements and offset [bytes].
+/// A list of vectors in the plane is one f64 array x0 y0 x1 y1 … of twice as many elements.
+
+/// Collects arrays and writes them as one file.
+class ArrayWriter {
+ public:
+  void add(const std::string& name, std::span<const double> values);
+  void add(const std::string& name, std::span<const std::int32_t> values);
+  void add(const std::string& name, std::span<const std::uint8_t> values);
+  void add(const std::string& name, std::span<const Vec2> values);
+
+  /// Writes the file. @returns the list that describes it
+  /// @throws std::runtime_error naming the file
+  nlohmann::json write(const std::filesystem::path& file) const;
+
+ private:
+  void append(const std::string& name, const char* type, std::size_t count,
+              std::span<const std::byte> bytes);
+
+  nlohmann::json list_ = nlohmann::json::array();
+  std::vector<std::byte> bytes_;
+};
+
+/// Reads an array file; nothing in it is trusted. Every failure is a std::runtime_error that names
+/// the file, the array and what was expected.
+class ArrayReader {
+ public:
+  /// Checks the list against the length of the file.
+  ArrayReader(const std::filesystem::path& file, const nlohmann::json& list);
+
+  bool has(const std::string& name) const { return arrays_.contains(name); }
+
+  /// The array of that name with exactly `count` elements, all finite.
+  std::vector<double> f64(const std::string& name, std::size_t count) const;
+  std::vector<Vec2> vec2(const std::string& name, std::size_t count) const;
+  std::vector<std::int32_t> i32(const std::string& name, std::size_t count) const;
+  std::vector<std::uint8_t> u8(const std::string& name, std::size_t count) const;
+
+  /// Number of elements of an array. @throws std::runtime_error if there is none of that name
+  std::size_t count(const std::string& name) const { return find(name).count; }
+
+ private:
+  struct Entry {
+    std::string type;
+    std::size_t count = 0, offset = 0;
+  };
+
+  const Entry& find(const std::string& name) const;
+  template <typename Value>
+  std::vector<Value> read(const std::string& name, const char* type, std::size_t count) const;
+
+  std::string file_;
+  std::map<std::string, Entry> arrays_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace crossgrain

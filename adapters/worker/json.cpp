@@ -1,0 +1,157 @@
+#include "adapters/worker/json.hpp"
+
+#include <stdexcept>
+
+#include "adapters/worker/json_names.hpp"
+
+namespace crossgrain {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 3> supportNames = {"optional", "always", "never"};
+constexpr std::array<std::string_view, 3> reportNames = {"none", "instant", "accumulated"};
+
+Effect effectFromName(const std::string& name) {
+  const auto found =
+      std::ranges::find_if(allEffects, [&](Effect effect) { return toString(effect) == name; });
+  if (found == allEffects.end()) throw std::runtime_error(fmt::format("no effect '{}'", name));
+  return *found;
+}
+
+json toJson(const SettingValue& value) {
+  return std::visit([](const auto& held) { return json(held); }, value);
+}
+
+SettingValue settingFromJson(const json& in) {
+  if (in.is_boolean()) return in.get<bool>();
+  if (in.is_number()) return in.get<double>();
+  return in.get<std::string>();
+}
+
+}  // namespace
+
+json toJson(const Capabilities& can) {
+  json effects = json::object();
+  for (const auto& [effect, support] : can.effects)
+    effects[toString(effect)] = nameOf(support, supportNames);
+  json settings = json::array();
+  for (const SettingSpec& spec : can.settings)
+    settings.push_back({{"name", spec.name},
+                        {"default", toJson(spec.defaultValue)},
+                        {"unit", spec.unit},
+                        {"doc", spec.doc},
+                        {"choices", spec.choices}});
+  return {{"version", can.version},
+          {"effects", effects},
+          {"law_options", can.lawOptions},
+          {"precision", can.precision},
+          {"instant_contacts", can.instantContacts},
+          {"accumulated_contacts", can.accumulatedContacts},
+          {"warm_handover", can.warmHandover},
+          {"sliding_flags", can.slidingFlags},
+          {"settings", settings}};
+}
+
+Capabilities capabilitiesFromJson(const json& in) {
+  Capabilities can;
+  can.version = in.at("version");
+  for (const auto& [name, support] : in.at("effects").items())
+    can.effects[effectFromName(name)] = valueOf<Support>(support, supportNames);
+  in.at("law_options").get_to(can.lawOptions);
+  can.precision = in.at("precision");
+  can.instantContacts = in.at("instant_contacts");
+  can.accumulatedContacts = in.at("accumulated_contacts");
+  can.warmHandover = in.at("warm_handover");
+  can.slidingFlags = in.at("sliding_flags");
+  for (const json& item : in.at("settings"))
+    can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
+                            item.at("doc"), item.at("choices")});
+  return can;
+}
+
+json toJson(const Settings& settings) {
+  json out = json::object();
+  for (const auto& [name, value] : settings) out[name] = toJson(value);
+  return out;
+}
+
+Settings settingsFromJson(const json& in) {
+  Settings settings;
+  for (const auto& [name, value] : in.items()) settings[name] = settingFromJson(value);
+  return settings;
+}
+
+json toJson(const Realised& realised) {
+  json effects = json::array();
+  for (const Effect effect : realised.effects) effects.push_back(toString(effect));
+  json pairs = json::array();
+  for (const PairCoefficients& pair : realised.pairs)
+    pairs.push_back({{"pair", pair.pair},
+                     {"kn", pair.kn},
+                     {"gn", pair.gn},
+                     {"kt", pair.kt},
+                     {"gt", pair.gt},
+                     {"mu", pair.mu},
+                     {"en", pair.en},
+                     {"et0", pair.et0}});
+  json deviations = json::array();
+  for (const Deviation& deviation : realised.deviations)
+    deviations.push_back({{"name", deviation.name},
+                          {"value", deviation.value},
+                          {"unit", deviation.unit},
+                          {"note", deviation.note}});
+  return {{"engine", realised.engine},
+          {"version", realised.version},
+          {"dt", realised.dt},
+          {"precision", realised.precision},
+          {"integrator", realised.integrator},
+          {"effects", effects},
+          {"pairs", pairs},
+          {"deviations", deviations}};
+}
+
+Realised realisedFromJson(const json& in) {
+  Realised realised;
+  realised.engine = in.at("engine");
+  realised.version = in.at("version");
+  realised.dt = in.at("dt");
+  realised.precision = in.at("precision");
+  realised.integrator = in.at("integrator");
+  for (const json& effect : in.at("effects")) realised.effects.insert(effectFromName(effect));
+  for (const json& pair : in.at("pairs"))
+    realised.pairs.push_back({pair.at("pair"), pair.at("kn"), pair.at("gn"), pair.at("kt"),
+                              pair.at("gt"), pair.at("mu"), pair.at("en"), pair.at("et0")});
+  for (const json& deviation : in.at("deviations"))
+    realised.deviations.push_back(
+        {deviation.at("name"), deviation.at("value"), deviation.at("unit"), deviation.at("note")});
+  return realised;
+}
+
+json toJson(const Stats& stats) {
+  return {{"steps", stats.steps},
+          {"contact_evaluations", stats.contactEvaluations},
+          {"wall_seconds", stats.wallSeconds},
+          {"cpu_seconds", stats.cpuSeconds},
+          {"counters", stats.counters}};
+}
+
+Stats statsFromJson(const json& in) {
+  Stats stats;
+  stats.steps = in.at("steps");
+  stats.contactEvaluations = in.at("contact_evaluations");
+  stats.wallSeconds = in.at("wall_seconds");
+  stats.cpuSeconds = in.at("cpu_seconds");
+  in.at("counters").get_to(stats.counters);
+  return stats;
+}
+
+json toJson(ContactReport report) {
+  return nameOf(report, reportNames);
+}
+
+ContactReport contactReportFromJson(const json& in) {
+  return valueOf<ContactReport>(in, reportNames);
+}
+
+}  // namespace crossgrain

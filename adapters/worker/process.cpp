@@ -1,0 +1,222 @@
+#include "adapters/worker/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace crossgrain {
+namespace {
+
+/// A descriptor that closes itself and is never inherited by an exec'd program: a sibling that held
+/// our end of a worker's pipe would keep that worker from seeing its end.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+  void reset() {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = -1;
+  }
+
+ private:
+  int fd_;
+};
+
+[[noreturn]] void systemFailure(const std::string& what, int error) {
+  throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
+}
+
+struct ChildSide {
+  int requests, replies, log, nothing, failure;
+  pid_t parent;
+};
+
+/// Between fork and exec only async-signal-safe calls are allowed: another thread of the parent may
+/// have held any lock at the moment of the fork.
+[[noreturn]] void becomeChild(const ChildSide& side, char* const* argv) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != side.parent) ::_exit(127);  // the parent died before prctl
+
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+
+  // First out of the way of 0 … 4, then into place; dup2 clears close-on-exec.
+  const int requests = ::fcntl(side.requests, F_DUPFD_CLOEXEC, 10);
+  const int replies = ::fcntl(side.replies, F_DUPFD_CLOEXEC, 10);
+  const int log = ::fcntl(side.log, F_DUPFD_CLOEXEC, 10);
+  const int nothing = ::fcntl(side.nothing, F_DUPFD_CLOEXEC, 10);
+  const int failure = ::fcntl(side.failure, F_DUPFD_CLOEXEC, 10);
+  if (::dup2(nothing, 0) >= 0 && ::dup2(log, 1) >= 0 && ::dup2(log, 2) >= 0 &&
+      ::dup2(requests, 3) >= 0 && ::dup2(replies, 4) >= 0) {
+    ::close_range(5, UINT_MAX, CLOSE_RANGE_CLOEXEC);  // what libraries opened without the flag
+    ::execvp(argv[0], argv);
+  }
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
+  ::_exit(127);
+}
+
+int millisecondsUntil(ChildProcess::Clock::time_point deadline) {
+  const auto left =
+      std::chrono::ceil<std::chrono::milliseconds>(deadline - ChildProcess::Clock::now());
+  return static_cast<int>(std::clamp<long long>(left.count(), 0, INT_MAX));
+}
+
+/// Waits until the descriptor has one of the events. @throws ProcessTimeout
+void await(int fd, short events, ChildProcess::Clock::time_point deadline) {
+  pollfd entry{fd, events, 0};
+  for (;;) {
+    const int ready = ::poll(&entry, 1, millisecondsUntil(deadline));
+    if (ready > 0) return;
+    if (ready == 0) throw ProcessTimeout("no answer");
+    if (errno != EINTR) systemFailure("poll", errno);
+  }
+}
+
+std::string describeExit(const siginfo_t& info) {
+  if (info.si_code == CLD_EXITED) return fmt::format("exit status {}", info.si_status);
+  const char* name = ::sigdescr_np(info.si_status);
+  return fmt::format("signal {} ({})", info.si_status, name ? name : "unknown");
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+
+  // A socket for the requests, because writing to it can be kept from raising SIGPIPE.
+  int request[2], reply[2], failure[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, request) != 0)
+    systemFailure("socketpair", errno);
+  Descriptor requestOurs(request[0]), requestTheirs(request[1]);
+  if (::pipe2(reply, O_CLOEXEC) != 0) systemFailure("pipe", errno);
+  Descriptor replyOurs(reply[0]), replyTheirs(reply[1]);
+  if (::pipe2(failure, O_CLOEXEC) != 0) systemFailure("pipe", errno);
+  Descriptor failureOurs(failure[0]), failureTheirs(failure[1]);
+  Descriptor logFile(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (logFile.get() < 0) systemFailure(log.string(), errno);
+  Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+  if (nothing.get() < 0) systemFailure("/dev/null", errno);
+
+  const ChildSide side{requestTheirs.get(), replyTheirs.get(),   logFile.get(),
+                       nothing.get(),       failureTheirs.get(), ::getpid()};
+  pid_ = ::fork();
+  if (pid_ < 0) systemFailure("fork", errno);
+  if (pid_ == 0) becomeChild(side, arguments.data());
+  ::setpgid(pid_, pid_);  // here too: whichever comes first
+
+  failureTheirs.reset();
+  int error = 0;
+  ssize_t count;
+  do count = ::read(failureOurs.get(), &error, sizeof error);
+  while (count < 0 && errno == EINTR);
+  if (count > 0) {
+    kill();
+    systemFailure(fmt::format("cannot start {}", argv[0]), error);
+  }
+  in_ = requestOurs.release();
+  out_ = replyOurs.release();
+}
+
+ChildProcess::~ChildProcess() {
+  kill();
+  closeInput();
+  if (out_ >= 0) ::close(out_);
+}
+
+void ChildProcess::sendLine(const std::string& line, Clock::time_point deadline) {
+  const std::string text = line + '\n';
+  std::size_t sent = 0;
+  while (sent < text.size()) {
+    const ssize_t count =
+        ::send(in_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count >= 0)
+      sent += static_cast<std::size_t>(count);
+    else if (errno == EAGAIN)
+      await(in_, POLLOUT, deadline);
+    else if (errno != EINTR)
+      throw ProcessEnded("it reads no more");
+  }
+}
+
+std::string ChildProcess::receiveLine(Clock::time_point deadline) {
+  std::size_t searched = 0;
+  for (;;) {
+    const std::size_t end = received_.find('\n', searched);
+    if (end != std::string::npos) {
+      std::string line = received_.substr(0, end);
+      received_.erase(0, end + 1);
+      return line;
+    }
+    searched = received_.size();
+    await(out_, POLLIN, deadline);
+    char buffer[65536];
+    const ssize_t count = ::read(out_, buffer, sizeof buffer);
+    if (count == 0) throw ProcessEnded("it answers no more");
+    if (count > 0)
+      received_.append(buffer, static_cast<std::size_t>(count));
+    else if (errno != EINTR)
+      systemFailure("reading an answer", errno);
+  }
+}
+
+void ChildProcess::closeInput() {
+  if (in_ >= 0) ::close(in_);
+  in_ = -1;
+}
+
+bool ChildProcess::waitForExit(std::chrono::milliseconds patience) {
+  const auto deadline = Clock::now() + patience;
+  while (pid_ > 0) {
+    // The zombie stays until reap(): its number must not pass to a stranger before the group's end.
+    siginfo_t info{};
+    if (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+        info.si_pid == pid_) {
+      reap();
+      return true;
+    }
+    if (Clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+void ChildProcess::kill() {
+  if (pid_ > 0) reap();
+}
+
+void ChildProcess::reap() {
+  ::kill(-pid_, SIGKILL);  // the whole group, also what a worker left behind
+  siginfo_t info{};
+  while (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {
+  }
+  exitText_ = describeExit(info);
+  pid_ = -1;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace crossgrain {
+
+/// The child did not answer in time.
+struct ProcessTimeout : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The child ended, or closed its end of the conversation.
+struct ProcessEnded : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A child process that is spoken to in lines: it reads them from descriptor 3 and answers on
+/// descriptor 4. Its input is empty, its output and error go to a log file.
+///
+/// It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and the whole
+/// group is killed when this object goes. It does not outlive its parent either: the kernel kills
+/// it when the **thread** that made this object ends (Linux' PR_SET_PDEATHSIG), so that thread must
+/// live for as long as the child is wanted.
+///
+///   ChildProcess ── sendLine ── receiveLine ── … ── closeInput ── waitForExit ── ~ChildProcess
+class ChildProcess {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Starts argv[0], looked up in PATH, without a shell.
+  /// @throws std::runtime_error if it cannot be started: why
+  ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// @throws ProcessTimeout, ProcessEnded
+  void sendLine(const std::string& line, Clock::time_point deadline);
+
+  /// The next line without its end. @throws ProcessTimeout, ProcessEnded
+  std::string receiveLine(Clock::time_point deadline);
+
+  /// The child's descriptor 3 comes to its end.
+  void closeInput();
+
+  /// Whether the child ended by itself within that time.
+  bool waitForExit(std::chrono::milliseconds patience);
+
+  /// Kills the child's whole process group and waits until the child has gone.
+  void kill();
+
+  /// How it ended: "exit status 3", "signal 11 (Segmentation fault)"; empty while it runs.
+  const std::string& exitText() const { return exitText_; }
+
+  pid_t pid() const { return pid_; }
+
+ private:
+  void reap();
+
+  pid_t pid_ = -1;  ///< also the process group
+  int in_ = -1;     ///< our end of the child's descriptor 3
+  int out_ = -1;    ///< our end of the child's descriptor 4
+  std::string received_;
+  std::string exitText_;
+};
+
+}  // namespace crossgrain

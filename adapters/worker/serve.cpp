@@ -1,0 +1,112 @@
+#include "adapters/worker/serve.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "adapters/worker/json.hpp"
+
+namespace crossgrain {
+namespace {
+
+using nlohmann::json;
+
+constexpr int requestDescriptor = 3;
+constexpr int replyDescriptor = 4;
+
+class LineReader {
+ public:
+  std::optional<std::string> next() {
+    for (;;) {
+      const std::size_t end = buffer_.find('\n');
+      if (end != std::string::npos) {
+        std::string line = buffer_.substr(0, end);
+        buffer_.erase(0, end + 1);
+        return line;
+      }
+      char chunk[65536];
+      const ssize_t count = ::read(requestDescriptor, chunk, sizeof chunk);
+      if (count > 0)
+        buffer_.append(chunk, static_cast<std::size_t>(count));
+      else if (count == 0 || errno != EINTR)
+        return std::nullopt;
+    }
+  }
+
+ private:
+  std::string buffer_;
+};
+
+bool writeLine(const std::string& line) {
+  const std::string text = line + '\n';
+  std::size_t sent = 0;
+  while (sent < text.size()) {
+    const ssize_t count = ::write(replyDescriptor, text.data() + sent, text.size() - sent);
+    if (count > 0)
+      sent += static_cast<std::size_t>(count);
+    else if (errno != EINTR)
+      return false;
+  }
+  return true;
+}
+
+/// The file that a request names, in the scratch directory.
+std::filesystem::path fileOf(const json& request) {
+  return request.at("file").get<std::string>();
+}
+
+json answer(Engine& engine, const json& request) {
+  const auto what = request.at("request").get<std::string>();
+  if (what == "hello")
+    return {{"protocol", protocolVersion}, {"capabilities", toJson(engine.capabilities())}};
+  if (what == "load") {
+    const ArrayReader arrays(fileOf(request), request.at("arrays"));
+    return {{"realised", toJson(engine.load(sceneFromJson(request.at("scene"), arrays),
+                                            settingsFromJson(request.at("settings"))))}};
+  }
+  if (what == "advance") return {{"time", engine.advance(request.at("time"))}};
+  if (what == "snapshot") {
+    ArrayWriter arrays;
+    json reply = {{"snapshot",
+                   toJson(engine.snapshot(contactReportFromJson(request.at("contacts"))), arrays)}};
+    reply["arrays"] = arrays.write(fileOf(request));
+    return reply;
+  }
+  if (what == "stats") return {{"stats", toJson(engine.stats())}};
+  if (what == "quit") return json::object();
+  throw std::runtime_error(fmt::format(
+      "no request '{}' (there are: hello, load, advance, snapshot, stats, quit)", what));
+}
+
+json refusal(const char* kind, const std::exception& error) {
+  return {{"ok", false}, {"kind", kind}, {"what", error.what()}};
+}
+
+}  // namespace
+
+int serve(Engine& engine) {
+  LineReader requests;
+  while (const auto line = requests.next()) {
+    json reply;
+    bool last = false;
+    try {
+      const json request = json::parse(*line);
+      reply = answer(engine, request);
+      reply["ok"] = true;
+      last = request.at("request") == "quit";
+    } catch (const UnsupportedScene& error) {
+      reply = refusal("unsupported", error);
+    } catch (const std::exception& error) {
+      reply = refusal("failed", error);
+    }
+    // What an engine throws need not be UTF-8.
+    if (!writeLine(reply.dump(-1, ' ', false, json::error_handler_t::replace)) || last) break;
+  }
+  return 0;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,187 @@
+#include "adapters/worker/worker_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+
+#include "adapters/worker/json.hpp"
+#include "adapters/worker/serve.hpp"
+
+namespace crossgrain {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+/// An array file that goes when it has been read.
+class ScratchFile {
+ public:
+  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string shortened(const std::string& text, std::size_t length) {
+  return text.size() <= length ? text : text.substr(0, length) + " …";
+}
+
+}  // namespace
+
+template <typename Read>
+std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Read&& read) const {
+  try {
+    return read();
+  } catch (const UnsupportedScene&) {
+    throw;
+  } catch (const EngineFailure&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail(fmt::format("its answer to {} is unusable: {}", what, error.what()));
+  }
+}
+
+WorkerEngine::WorkerEngine(std::string name, const std::vector<std::string>& argv,
+                           std::filesystem::path scratch, double timeout)
+    : name_(std::move(name)),
+      scratch_(std::filesystem::absolute(scratch)),
+      log_(scratch_ / (name_ + ".log")),
+      timeout_(timeout) {
+  try {
+    std::filesystem::create_directories(scratch_);
+    process_ = std::make_unique<ChildProcess>(argv, log_);
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  const json reply = ask({{"request", "hello"}, {"protocol", protocolVersion}}, "hello");
+  capabilities_ = understand("hello", [&] {
+    const int spoken = reply.at("protocol");
+    if (spoken != protocolVersion)
+      throw std::runtime_error(
+          fmt::format("it speaks protocol {}, this program speaks {}", spoken, protocolVersion));
+    return capabilitiesFromJson(reply.at("capabilities"));
+  });
+}
+
+WorkerEngine::~WorkerEngine() {
+  if (!process_) return;
+  try {
+    process_->sendLine(R"({"request":"quit"})", ChildProcess::Clock::now() + 100ms);
+  } catch (const std::exception&) {
+    // It is ended below whether or not it listens.
+  }
+  process_->closeInput();
+  process_->waitForExit(1s);
+}
+
+Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
+  shape_ = scene;
+  time_ = 0.0;
+  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
+  ArrayWriter arrays;
+  json request = {{"request", "load"},
+                  {"scene", toJson(scene, arrays)},
+                  {"settings", toJson(settings)},
+                  {"file", file.path().string()}};
+  request["arrays"] = arrays.write(file.path());
+  const json reply = ask(request, "load");
+  return understand("load", [&] { return realisedFromJson(reply.at("realised")); });
+}
+
+double WorkerEngine::advance(double t) {
+  const std::string what = fmt::format("advance(t = {} s)", t);
+  const json reply = ask({{"request", "advance"}, {"time", t}}, what);
+  time_ = understand(what, [&] { return reply.at("time").get<double>(); });
+  return time_;
+}
+
+Snapshot WorkerEngine::snapshot(ContactReport contacts) {
+  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
+  const json reply =
+      ask({{"request", "snapshot"}, {"contacts", toJson(contacts)}, {"file", file.path().string()}},
+          "snapshot");
+  return understand("snapshot", [&] {
+    return snapshotFromJson(reply.at("snapshot"), ArrayReader(file.path(), reply.at("arrays")),
+                            shape_);
+  });
+}
+
+Stats WorkerEngine::stats() const {
+  const json reply = ask({{"request", "stats"}}, "stats");
+  return understand("stats", [&] { return statsFromJson(reply.at("stats")); });
+}
+
+json WorkerEngine::ask(const json& request, const std::string& what) const {
+  if (!process_) throw EngineFailure(firstFailure_);
+  const json reply = exchange(request, what);
+  return understand(what, [&]() -> json {
+    if (reply.at("ok").get<bool>()) return reply;
+    const auto reason = reply.at("what").get<std::string>();
+    if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
+    throw EngineFailure(fmt::format("{}: {}", where(), reason));
+  });
+}
+
+json WorkerEngine::exchange(const json& request, const std::string& what) const {
+  const auto deadline =
+      ChildProcess::Clock::now() + std::chrono::duration_cast<ChildProcess::Clock::duration>(
+                                       std::chrono::duration<double>(timeout_));
+  std::string line;
+  try {
+    process_->sendLine(request.dump(), deadline);
+    line = process_->receiveLine(deadline);
+  } catch (const ProcessTimeout&) {
+    fail(fmt::format("no answer within {} s to {}", timeout_, what));
+  } catch (const ProcessEnded&) {
+    fail(howItEnded(what));
+  }
+  json reply = json::parse(line, nullptr, false);
+  if (!reply.is_object())
+    fail(fmt::format("its answer to {} is not a JSON object: '{}'", what, shortened(line, 60)));
+  return reply;
+}
+
+std::string WorkerEngine::where() const {
+  if (shape_.name.empty()) return name_;
+  return fmt::format("{}, {} at t = {} s", name_, shape_.name, time_);
+}
+
+std::string WorkerEngine::howItEnded(const std::string& what) const {
+  const bool ended = process_->waitForExit(1s);
+  const std::string how =
+      ended ? fmt::format("ended ({})", process_->exitText()) : "closed its descriptors";
+  const std::string log = lastLinesOfLog();
+  return fmt::format("{} during {}{}", how, what,
+                     log.empty() ? "" : fmt::format("; the end of its log: {}", log));
+}
+
+std::string WorkerEngine::lastLinesOfLog() const {
+  constexpr std::size_t lines = 3;
+  std::ifstream in(log_);
+  std::deque<std::string> last;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty()) continue;
+    last.push_back(shortened(line, 200));
+    if (last.size() > lines) last.pop_front();
+  }
+  std::string text;
+  for (const std::string& line : last) text += (text.empty() ? "" : " | ") + line;
+  return text;
+}
+
+void WorkerEngine::fail(const std::string& what) const {
+  firstFailure_ = fmt::format("{}: {}", where(), what);
+  process_.reset();
+  throw EngineFailure(firstFailure_);
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "adapters/worker/process.hpp"
+
+namespace crossgrain {
+
+/// An engine in a process of its own, spoken to by the worker protocol (README.md).
+///
+/// Whatever goes wrong with that process — it ends, hangs, answers nonsense, writes a short file or
+/// a NaN — is an EngineFailure of one line that names the engine, the scene and the time. The
+/// process is then gone and every later call throws the same line. A refusal or a failure that the
+/// worker itself reports leaves it alive.
+///
+/// The worker dies with the thread that made this object: see ChildProcess.
+class WorkerEngine final : public Engine {
+ public:
+  /// Starts the worker and asks what it can do.
+  /// @param argv     the command, run without a shell in the current directory
+  /// @param scratch  directory for array files and the log NAME.log; made if there is none
+  /// @param timeout  longest wait for one answer [s]
+  /// @throws EngineFailure
+  WorkerEngine(std::string name, const std::vector<std::string>& argv,
+               std::filesystem::path scratch, double timeout);
+  ~WorkerEngine() override;
+
+  Capabilities capabilities() const override { return capabilities_; }
+  Realised load(const Scene& scene, const Settings& settings) override;
+  double advance(double t) override;
+  Snapshot snapshot(ContactReport contacts) override;
+  Stats stats() const override;
+
+  /// Of the worker, which is also its process group; −1 once it has gone.
+  pid_t pid() const { return process_ ? process_->pid() : -1; }
+
+ private:
+  nlohmann::json ask(const nlohmann::json& request, const std::string& what) const;
+  nlohmann::json exchange(const nlohmann::json& request, const std::string& what) const;
+  /// Ends the worker and throws.
+  [[noreturn]] void fail(const std::string& what) const;
+  /// Runs `read` on a reply; what it throws becomes an EngineFailure that says which reply.
+  template <typename Read>
+  std::invoke_result_t<Read> understand(const std::string& what, Read&& read) const;
+  std::string where() const;
+  std::string howItEnded(const std::string& what) const;
+  std::string lastLinesOfLog() const;
+
+  std::string name_;
+  std::filesystem::path scratch_;
+  std::filesystem::path log_;
+  double timeout_;
+  mutable std::unique_ptr<ChildProcess> process_;
+  mutable std::string firstFailure_;
+  Capabilities capabilities_;
+  Scene shape_;  ///< the loaded scene: what snapshots are checked against
+  double time_ = 0.0;
+  unsigned files_ = 0;
+};
+
+}  // namespace crossgrain

@@ -1,0 +1,44 @@
+#include "adapters/yade.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace crossgrain {
+namespace {
+
+std::filesystem::path script() {
+  const char* directory = std::getenv("CROSSGRAIN_ENGINES_DIR");
+  return std::filesystem::path(directory ? directory : CROSSGRAIN_ENGINES_DIR) / "yade/worker.py";
+}
+
+bool onPath(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream directories(path ? path : "");
+  for (std::string directory; std::getline(directories, directory, ':');)
+    if (::access((std::filesystem::path(directory) / program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> yadeCommand() {
+  // Without display, leave when the script ends, one thread: sums in one order.
+  return {"yade", "-n", "-x", "-j1", script().string()};
+}
+
+std::string yadeMissing() {
+  if (!onPath("yade"))
+    return "there is no program 'yade' in PATH (Debian and Ubuntu: package yade)";
+  if (!std::filesystem::exists(script()))
+    return fmt::format(
+        "there is no {}; set CROSSGRAIN_ENGINES_DIR to the folder that holds "
+        "yade/worker.py",
+        script().string());
+  return {};
+}
+
+}  // namespace crossgrain

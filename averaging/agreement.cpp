@@ -1,0 +1,181 @@
+#include "averaging/agreement.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace crossgrain {
+
+namespace {
+
+constexpr int fewestPackings = 4;
+constexpr int mostPackings = 10000;
+
+/// t of the upper tail `level`, P − 1 degrees of freedom.
+double upperQuantile(double level, int packings) {
+  return gsl_cdf_tdist_Qinv(level, packings - 1);
+}
+
+std::vector<double> pairedDifferences(const PairedSample& sample) {
+  if (sample.reference.size() != sample.other.size())
+    throw std::invalid_argument(
+        fmt::format("agreement: {} packings of the reference, {} of the other engine",
+                    sample.reference.size(), sample.other.size()));
+  if (!(sample.margin >= 0.0))
+    throw std::invalid_argument(
+        fmt::format("agreement: the margin must be 0 or more, got {}", sample.margin));
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < sample.reference.size(); ++k)
+    if (sample.reference[k] && sample.other[k])
+      differences.push_back(*sample.other[k] - *sample.reference[k]);
+  return differences;
+}
+
+bool anything(const PairedSample& sample) {
+  const auto has = [](const std::optional<double>& x) { return x.has_value(); };
+  return std::ranges::any_of(sample.reference, has) || std::ranges::any_of(sample.other, has);
+}
+
+/// Largest chance, over all |µ| ≤ margin, of a mean difference as far out as this one.
+double pWithin(double difference, double standardError, double margin, int packings) {
+  const double beyond = std::abs(difference) - margin;
+  if (standardError == 0.0) return beyond > 0.0 ? 0.0 : 1.0;
+  const double dof = packings - 1;
+  const double p = gsl_cdf_tdist_Q(beyond / standardError, dof) +
+                   gsl_cdf_tdist_Q((std::abs(difference) + margin) / standardError, dof);
+  return std::min(p, 1.0);
+}
+
+PairedComparison describe(const PairedSample& sample, double alpha) {
+  const std::vector<double> differences = pairedDifferences(sample);
+  PairedComparison result;
+  result.packings = static_cast<int>(differences.size());
+  std::vector<std::optional<double>> present(differences.begin(), differences.end());
+  const auto mean = ensembleMean(present);
+  if (!mean) return result;
+  result.difference = mean->mean;
+  result.standardError = mean->standardError;
+  if (!result.standardError) return result;
+  const double half = upperQuantile(alpha, result.packings) * *result.standardError;
+  result.low = result.difference - half;
+  result.high = result.difference + half;
+  if (result.packings >= fewestPackings)
+    result.pDisagree =
+        pWithin(result.difference, *result.standardError, sample.margin, result.packings);
+  return result;
+}
+
+/// Turns the family's p-values into Holm's adjusted ones. @returns how many tests there were
+std::size_t adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
+  std::vector<double*> tests;
+  for (auto& comparison : family)
+    if (comparison && comparison->pDisagree) tests.push_back(&*comparison->pDisagree);
+  std::ranges::stable_sort(tests, {}, [](const double* p) { return *p; });
+  double largest = 0.0;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    largest = std::max(largest, std::min(1.0, static_cast<double>(tests.size() - k) * *tests[k]));
+    *tests[k] = largest;
+  }
+  return tests.size();
+}
+
+/// Packings beyond P until the interval at `level` fits into the room between mean and margin, if
+/// mean and scatter stay as they are.
+std::optional<int> packingsWanted(const PairedComparison& c, double margin, double alpha,
+                                  std::size_t tests) {
+  const int atLeast = std::max(fewestPackings - c.packings, 0);
+  if (!c.standardError) return atLeast;
+  const double room = std::abs(margin - std::abs(c.difference));
+  const bool couldAgree = std::abs(c.difference) < margin;
+  const double level =
+      couldAgree ? alpha : alpha / static_cast<double>(std::max(tests, std::size_t{1}));
+  const double sd = *c.standardError * std::sqrt(c.packings);
+  const auto fits = [&](int n) { return upperQuantile(level, n) * sd / std::sqrt(n) <= room; };
+  if (!fits(mostPackings)) return std::nullopt;
+  int tooFew = std::max(c.packings, fewestPackings) - 1;
+  int enough = mostPackings;
+  while (enough - tooFew > 1) {
+    const int middle = tooFew + (enough - tooFew) / 2;
+    (fits(middle) ? enough : tooFew) = middle;
+  }
+  return std::max(enough - c.packings, 1);
+}
+
+}  // namespace
+
+std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> packingMeans) {
+  std::vector<double> present;
+  for (const auto& mean : packingMeans)
+    if (mean) present.push_back(*mean);
+  if (present.empty()) return std::nullopt;
+  const double n = static_cast<double>(present.size());
+  EnsembleMean result;
+  result.packings = static_cast<int>(present.size());
+  result.mean = std::accumulate(present.begin(), present.end(), 0.0) / n;
+  if (present.size() < 2) return result;
+  double squares = 0.0;
+  for (const double x : present) squares += (x - result.mean) * (x - result.mean);
+  result.standardError = std::sqrt(squares / (n - 1.0) / n);
+  return result;
+}
+
+std::string_view toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::agree:
+      return "agree";
+    case Verdict::disagree:
+      return "disagree";
+    case Verdict::undecided:
+      return "undecided";
+  }
+  throw std::invalid_argument("agreement: not a verdict");
+}
+
+std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
+                                                           double confidence) {
+  const double alpha = 1.0 - confidence;
+  std::vector<std::optional<PairedComparison>> result;
+  for (const PairedSample& sample : family)
+    result.push_back(anything(sample) ? std::optional(describe(sample, alpha)) : std::nullopt);
+  const std::size_t tests = adjustByHolm(result);
+  for (std::size_t k = 0; k < family.size(); ++k) {
+    if (!result[k]) continue;
+    PairedComparison& c = *result[k];
+    const double margin = family[k].margin;
+    if (c.packings >= fewestPackings && *c.low >= -margin && *c.high <= margin)
+      c.verdict = Verdict::agree;
+    else if (c.pDisagree && *c.pDisagree <= alpha)
+      c.verdict = Verdict::disagree;
+    else
+      c.morePackings = packingsWanted(c, margin, alpha, tests);
+  }
+  return result;
+}
+
+FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {
+  FieldVerdict result;
+  bool telling = true;
+  int most = 0;
+  for (const auto& ring : rings) {
+    if (!ring) continue;
+    ++result.compared;
+    result.agreeing += ring->verdict == Verdict::agree;
+    result.disagreeing += ring->verdict == Verdict::disagree;
+    if (ring->verdict != Verdict::undecided) continue;
+    telling = telling && ring->morePackings;
+    most = std::max(most, ring->morePackings.value_or(0));
+  }
+  if (result.disagreeing > 0)
+    result.verdict = Verdict::disagree;
+  else if (result.compared > 0 && result.agreeing == result.compared)
+    result.verdict = Verdict::agree;
+  else if (result.compared > 0 && telling)
+    result.morePackings = most;
+  return result;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace crossgrain {
+
+/// The packing is a random effect: one number per packing, and what they say together.
+struct EnsembleMean {
+  double mean = 0.0;
+  std::optional<double> standardError;  ///< sd/√P; absent for one packing
+  int packings = 0;                     ///< P, those that have the number
+};
+
+/// Absent where no packing has the number.
+std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> packingMeans);
+
+enum class Verdict { agree, disagree, undecided };
+
+/// "agree", "disagree", "undecided"
+std::string_view toString(Verdict verdict);
+
+/// One ring of one field as two engines found it on the same packings.
+struct PairedSample {
+  std::vector<std::optional<double>> reference;  ///< per packing
+  std::vector<std::optional<double>> other;      ///< per packing, in the same order
+  double margin = 0.0;  ///< largest |other − reference| that still counts as agreement, ≥ 0
+};
+
+/// What the paired differences other − reference of one ring say.
+struct PairedComparison {
+  int packings = 0;         ///< P, those that both engines have
+  double difference = 0.0;  ///< mean over packings
+  std::optional<double>
+      standardError;                ///< of difference, sd/√P; absent for P < 2, like low and high
+  std::optional<double> low, high;  ///< (1 − 2α) confidence interval of the difference
+  std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for P < 4
+  Verdict verdict = Verdict::undecided;
+  std::optional<int> morePackings;  ///< undecided: about how many would decide; absent: no telling
+};
+
+/// Verdicts on a family of tests (rings and fields of one comparison), α = 1 − confidence:
+/// - agree: two one-sided t tests at α, i.e. the (1 − 2α) interval lies within ±margin
+///   (Schuirmann 1987). A field needs all of its rings, so this needs no correction.
+/// - disagree: |µ| ≤ margin is rejected by a t test under Holm's (1979) step-down procedure, so
+/// that
+///   the chance of any false disagree in the family is at most α.
+/// - undecided: neither, and always with fewer than 4 packings.
+/// A ring where neither engine has anything is absent; where only one has, it is undecided with
+/// P = 0.
+/// @throws std::invalid_argument for unequal numbers of packings or a negative margin
+std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
+                                                           double confidence);
+
+/// The verdict on a field from its rings.
+struct FieldVerdict {
+  Verdict verdict = Verdict::undecided;
+  int compared = 0, agreeing = 0, disagreeing = 0;  ///< rings
+  std::optional<int> morePackings;                  ///< the most that any undecided ring asks for
+};
+
+/// Agree iff every compared ring agrees, disagree if any ring disagrees, else undecided.
+FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings);
+
+}  // namespace crossgrain

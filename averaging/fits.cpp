@@ -1,0 +1,285 @@
+#include "averaging/fits.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "averaging/agreement.hpp"
+#include "averaging/least_squares.hpp"
+
+namespace crossgrain {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Correlation of amplitude and phase beyond which their linearised errors mean nothing: the valley
+/// of equal χ² is bent. (In the other laws a correlation is only an extrapolation.)
+constexpr double inseparable = 0.95;
+
+/// A law y = Σ_k c_k g_k(x; q), linear but for the shape q. The best of a grid of q starts the fit.
+struct Law {
+  std::vector<std::string> names;
+  std::vector<double> periods;
+  std::vector<double> shapes;  ///< the grid, rising; a fit that leaves it has not found q
+  std::size_t shapeIndex;      ///< of q among the parameters
+  std::function<std::vector<double>(double x, double q)> basis;
+  std::function<std::vector<double>(const std::vector<double>& c, double q)> parameters;
+  std::function<double(const std::vector<double>& p, double x)> value;
+  bool constantIsNull;  ///< no signal means y = const rather than y = 0
+};
+
+std::vector<double> geometric(double from, double to, int count) {
+  std::vector<double> grid;
+  for (int k = 0; k < count; ++k) grid.push_back(from * std::pow(to / from, k / (count - 1.0)));
+  return grid;
+}
+
+/// The law's best linear coefficients for one shape.
+std::optional<LinearSolution> solveAt(const Law& law, const WeightedPoints& points, double q) {
+  return solveLinear(
+      points, [&](double x) { return law.basis(x, q); }, law.basis(0.5, q).size());
+}
+
+double chi2At(const Law& law, const WeightedPoints& points, double q) {
+  const auto solution = solveAt(law, points, q);
+  return solution ? solution->chi2 : std::numeric_limits<double>::infinity();
+}
+
+/// Golden section between two shapes that enclose a minimum.
+double refinedShape(const Law& law, const WeightedPoints& points, double low, double high) {
+  const double section = 1.0 / std::numbers::phi;
+  double left = high - section * (high - low);
+  double right = low + section * (high - low);
+  double atLeft = chi2At(law, points, left);
+  double atRight = chi2At(law, points, right);
+  for (int k = 0; k < 40; ++k) {
+    if (atLeft < atRight) {
+      high = std::exchange(right, left);
+      atRight = atLeft;
+      left = high - section * (high - low);
+      atLeft = chi2At(law, points, left);
+    } else {
+      low = std::exchange(left, right);
+      atLeft = atRight;
+      right = low + section * (high - low);
+      atRight = chi2At(law, points, right);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// Parameters near the least sum of squares: the grid finds the valley, golden section its bottom.
+/// Empty if no shape can be solved for.
+std::vector<double> bestStart(const Law& law, const WeightedPoints& points) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < law.shapes.size(); ++k) {
+    const double chi2 = chi2At(law, points, law.shapes[k]);
+    if (!(chi2 < least)) continue;
+    least = chi2;
+    best = k;
+  }
+  if (!std::isfinite(least)) return {};
+  double q = refinedShape(law, points, law.shapes[best - (best > 0)],
+                          law.shapes[std::min(best + 1, law.shapes.size() - 1)]);
+  if (!(chi2At(law, points, q) <= least)) q = law.shapes[best];
+  return law.parameters(solveAt(law, points, q)->coefficients, q);
+}
+
+/// Sum of squares of the law without a signal, and how many parameters that has.
+std::pair<double, int> nullModel(const Law& law, const WeightedPoints& points) {
+  double weights = 0.0;
+  double weightedSum = 0.0;
+  for (std::size_t k = 0; k < points.x.size(); ++k) {
+    weights += points.weight[k];
+    weightedSum += points.weight[k] * points.y[k];
+  }
+  const double level = law.constantIsNull ? weightedSum / weights : 0.0;
+  double chi2 = 0.0;
+  for (std::size_t k = 0; k < points.x.size(); ++k)
+    chi2 += points.weight[k] * (points.y[k] - level) * (points.y[k] - level);
+  return {chi2, law.constantIsNull ? 1 : 0};
+}
+
+bool determined(const FitParameter& p) {
+  if (!std::isfinite(p.value) || !p.standardError || !std::isfinite(*p.standardError)) return false;
+  return p.period == 0.0 || *p.standardError < 0.25 * p.period;
+}
+
+/// Why the fit is not to be believed; empty if it is.
+std::string objection(const Law& law, const WeightedPoints& points,
+                      const NonlinearSolution& solution, const Fit& fit) {
+  for (const FitParameter& p : fit.parameters)
+    if (!determined(p)) return fmt::format("the points do not determine {}", p.name);
+  if (law.periods.back() > 0.0 && solution.strongestCorrelation > inseparable)
+    return fmt::format("the points cannot tell {} from {} (correlation {:.3f})",
+                       law.names[solution.correlated[0]], law.names[solution.correlated[1]],
+                       solution.strongestCorrelation);
+  const FitParameter& shape = fit.parameters[law.shapeIndex];
+  if (shape.value < law.shapes.front() || shape.value > law.shapes.back())
+    return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is looked at",
+                       shape.name, shape.value, law.shapes.front(), law.shapes.back());
+  const auto [nullChi2, nullParameters] = nullModel(law, points);
+  const double gained = static_cast<double>(fit.parameters.size()) - nullParameters;
+  const double ratio = (nullChi2 - fit.chi2) / gained / (fit.chi2 / fit.dof);
+  const double chance =
+      fit.chi2 > 0.0 ? gsl_cdf_fdist_Q(std::max(ratio, 0.0), gained, fit.dof) : 0.0;
+  if (!(chance < 0.01))
+    return fmt::format("no better than {} (F test: p = {:.2g}, 0.01 wanted)",
+                       law.constantIsNull ? "a constant" : "zero", chance);
+  return {};
+}
+
+Fit fitLaw(const Law& law, std::span<const FitPoint> given) {
+  Fit fit;
+  const WeightedPoints points = weightedPoints(given);
+  const std::size_t unknowns = law.names.size();
+  fit.weighted = points.weighted;
+  fit.dof = static_cast<int>(points.x.size()) - static_cast<int>(unknowns);
+  if (fit.dof < 1) {
+    fit.reason =
+        fmt::format("{} points in range, at least {} wanted", points.x.size(), unknowns + 1);
+    return fit;
+  }
+  const std::vector<double> start = bestStart(law, points);
+  if (start.empty()) {
+    fit.reason = "no start found: the points are degenerate";
+    return fit;
+  }
+  const NonlinearSolution solution = solveNonlinear(points, law.value, start);
+  if (!solution.reason.empty()) {
+    fit.reason = solution.reason;
+    return fit;
+  }
+  fit.chi2 = solution.chi2;
+  const double perDof = fit.chi2 / fit.dof;
+  const double scale = std::sqrt(points.weighted ? std::max(perDof, 1.0) : perDof);
+  for (std::size_t k = 0; k < unknowns; ++k)
+    fit.parameters.push_back(
+        {law.names[k], solution.parameters[k], scale * solution.standardErrors[k], law.periods[k]});
+  fit.reason = objection(law, points, solution, fit);
+  fit.converged = fit.reason.empty();
+  return fit;
+}
+
+std::vector<FitPoint> inRange(std::span<const FitPoint> points, bool (*inside)(double)) {
+  std::vector<FitPoint> result;
+  std::ranges::copy_if(points, std::back_inserter(result), inside, &FitPoint::x);
+  return result;
+}
+
+std::vector<FitPoint> pointsOf(const Rings& rings, const Profile& profile, double scale,
+                               const std::function<double(int)>& x) {
+  std::vector<FitPoint> points;
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    const auto k = static_cast<std::size_t>(ring);
+    if (!profile.mean[k]) continue;
+    FitPoint point{x(ring), scale * *profile.mean[k], profile.standardError[k]};
+    if (point.standardError) *point.standardError *= std::abs(scale);
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// A > 0 and φ within ±π say the same as any other pair.
+void makeCanonical(Fit& fit) {
+  if (fit.parameters.empty()) return;
+  FitParameter& amplitude = fit.parameters[0];
+  FitParameter& phase = fit.parameters[2];
+  if (amplitude.value < 0.0) {
+    amplitude.value = -amplitude.value;
+    phase.value += pi;
+  }
+  phase.value = std::remainder(phase.value, 2.0 * pi);
+}
+
+}  // namespace
+
+Fit fitPowerLaw(std::span<const FitPoint> points) {
+  Law law{{"A", "p"}, {0.0, 0.0}, {}, 1, {}, {}, {}, false};
+  for (int k = -40; k <= 20; ++k) law.shapes.push_back(0.25 * k);
+  law.basis = [](double x, double p) { return std::vector{std::pow(x, p)}; };
+  law.parameters = [](const auto& c, double p) { return std::vector{c[0], p}; };
+  law.value = [](const auto& p, double x) { return p[0] * std::pow(x, p[1]); };
+  return fitLaw(law, inRange(points, [](double x) { return x > 0.0; }));
+}
+
+Fit fitVelocityDecay(std::span<const FitPoint> points) {
+  Law law{{"A", "B"}, {0.0, 0.0}, geometric(0.05, 50.0, 61), 1, {}, {}, {}, false};
+  law.basis = [](double x, double b) { return std::vector{std::exp(-x / b)}; };
+  law.parameters = [](const auto& c, double b) { return std::vector{c[0], b}; };
+  law.value = [](const auto& p, double x) { return p[0] * std::exp(-x / p[1]); };
+  return fitLaw(law, inRange(points, [](double x) { return x > 0.0 && x < 6.0; }));
+}
+
+Fit fitDilation(std::span<const FitPoint> points) {
+  Law law{{"nu0", "B", "C"}, {0.0, 0.0, 0.0}, geometric(0.02, 20.0, 61), 2, {}, {}, {}, true};
+  law.basis = [](double x, double c) { return std::vector{1.0, -std::exp(-c * x)}; };
+  law.parameters = [](const auto& c, double shape) { return std::vector{c[0], c[1], shape}; };
+  law.value = [](const auto& p, double x) { return p[0] - p[1] * std::exp(-p[2] * x); };
+  return fitLaw(law, inRange(points, [](double x) { return x >= 0.5 && x <= 8.5; }));
+}
+
+Fit fitSpinOscillation(std::span<const FitPoint> points) {
+  Law law{{"A", "B", "phi"}, {0.0, 0.0, 2.0 * pi}, geometric(0.02, 20.0, 61), 1, {}, {}, {}, false};
+  law.basis = [](double x, double b) {
+    return std::vector{std::exp(-b * x) * std::cos(pi * x), -std::exp(-b * x) * std::sin(pi * x)};
+  };
+  law.parameters = [](const auto& c, double b) {
+    return std::vector{std::hypot(c[0], c[1]), b, std::atan2(c[1], c[0])};
+  };
+  law.value = [](const auto& p, double x) {
+    return p[0] * std::exp(-p[1] * x) * std::cos(pi * x + p[2]);
+  };
+  Fit fit = fitLaw(law, points);
+  makeCanonical(fit);
+  return fit;
+}
+
+double spinScale(const Rings& rings, double omega) {
+  return rings.diameter() / (omega * 2.0 * rings.innerRadius());
+}
+
+std::vector<FitPoint> pointsOverRTilde(const Rings& rings, const Profile& profile, double scale) {
+  return pointsOf(rings, profile, scale, [&](int ring) { return rings.rTilde(ring); });
+}
+
+std::vector<FitPoint> pointsOverRadius(const Rings& rings, const Profile& profile, double scale) {
+  return pointsOf(rings, profile, scale,
+                  [&](int ring) { return rings.centre(ring) / rings.innerRadius(); });
+}
+
+EnsembleFit ensembleFit(std::span<const Fit> perPacking) {
+  EnsembleFit result;
+  result.packings = static_cast<int>(perPacking.size());
+  std::vector<const Fit*> good;
+  for (const Fit& fit : perPacking)
+    if (fit.converged) good.push_back(&fit);
+  result.converged = static_cast<int>(good.size());
+  if (good.empty()) return result;
+  for (std::size_t k = 0; k < good.front()->parameters.size(); ++k) {
+    FitParameter parameter = good.front()->parameters[k];
+    std::vector<std::optional<double>> values;
+    for (const Fit* fit : good) {
+      const double step = fit->parameters[k].value - parameter.value;
+      // Angles next to the first packing's, not on the far side of ±π.
+      values.push_back(parameter.value +
+                       (parameter.period > 0.0 ? std::remainder(step, parameter.period) : step));
+    }
+    const auto mean = ensembleMean(values);
+    parameter.value = mean->mean;
+    parameter.standardError = mean->standardError;
+    result.parameters.push_back(parameter);
+  }
+  return result;
+}
+
+}  // namespace crossgrain

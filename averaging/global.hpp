@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+
+namespace crossgrain {
+
+/// Numbers of a whole scene at one instant. What the snapshot has no data for is absent.
+struct GlobalNumbers {
+  double kineticEnergy = 0.0;  ///< Σ ½ m v² + ½ J ω² over the disks (ω if there is one) [J]
+  std::optional<double> coordination;     ///< contacts per disk, those with walls included [-]
+  std::optional<double> maxOverlap;       ///< absent without a contact [m]
+  std::optional<double> meanOverlap;      ///< over contacts; absent without one [m]
+  std::optional<double> slidingFraction;  ///< of contacts at the Coulomb bound [-]
+};
+
+/// @throws std::invalid_argument if the snapshot does not fit the scene
+GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot);
+
+/// Pressure of the disks on the named body at radius R [m], height h [m] [N/m²]:
+/// Σ_c f·e_r / (2πRh) with f the force on the wall in one contact and e_r the direction from the
+/// body's centre to that contact; positive where the disks push outward on a ring (compression).
+/// Contact by contact, since the body's net force is about 0. Absent without contacts in the
+/// snapshot.
+/// @throws std::invalid_argument if the scene has no such body
+std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapshot,
+                                     std::string_view body, double radius, double height);
+
+/// Torque that the named body exerts on the disks about its centre [N m], > 0 where Ω > 0 drags
+/// them: minus BodySnapshot::torque. Without bottom friction it is σ_φr·2πr²h at every r.
+/// @throws std::invalid_argument if the scene has no such body
+std::optional<double> drivingTorque(const Scene& scene, const Snapshot& snapshot,
+                                    std::string_view body);
+
+}  // namespace crossgrain

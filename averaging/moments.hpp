@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+#include "averaging/rings.hpp"
+#include "averaging/weights.hpp"
+
+namespace crossgrain {
+
+/// The sums over disks that every field is made of. Each is Σ_p w_p Q_p over the moving disks, with
+/// w the disk's fraction in the bin, V = π a² h its volume and m its mass. Vectors and tensors are
+/// turned into (r, φ) at each disk's own angle (Lätzel 2003, section 5.1).
+enum class Moment : std::size_t {
+  volume,      ///< V [m³]
+  wallVolume,  ///< V of wall disks, only if asked for [m³]
+  mass,        ///< m [kg]
+  velocityR,   ///< V v_r [m⁴/s]
+  velocityP,   ///< V v_φ [m⁴/s]
+  spin,        ///< V ω [m³/s]
+  stressRR,    ///< −Σ_c f_r l_r [N m]; first index force, second branch (= face normal)
+  stressPP,    ///< −Σ_c f_φ l_φ [N m]
+  stressRP,    ///< −Σ_c f_r l_φ [N m]
+  stressPR,    ///< −Σ_c f_φ l_r [N m]
+  dynamicRR,   ///< m v_r v_r [N m]
+  dynamicPP,   ///< m v_φ v_φ [N m]
+  dynamicRP,   ///< m v_r v_φ [N m]
+  fabricRR,    ///< V Σ_c n_r n_r [m³]
+  fabricPP,    ///< V Σ_c n_φ n_φ [m³]
+  fabricRP,    ///< V Σ_c n_r n_φ [m³]
+  contacts     ///< V C, C the disk's number of contacts, those with walls included [m³]
+};
+
+inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::contacts) + 1;
+
+/// One number for each Moment.
+using Moments = std::array<double, momentCount>;
+
+inline double& at(Moments& moments, Moment which) {
+  return moments[static_cast<std::size_t>(which)];
+}
+inline double at(const Moments& moments, Moment which) {
+  return moments[static_cast<std::size_t>(which)];
+}
+
+/// Computes the moments of snapshots of one scene. In a contact of disk p, f is the force **on** p
+/// and l = a_p times the unit vector from p's centre to the contact, the whole radius as in the
+/// thesis (the overlap, 10⁻⁵ a, is not taken off). Both disks of a contact take part, each with its
+/// own l. Contacts count as the engine reports them, whatever their overlap.
+///
+/// Wall disks carry stress too: the half of a wall disk that lies in the cell (Lätzel 2003, section
+/// 3.2, builds the walls of half disks) holds all of its contacts, so its −Σ f⊗l goes to the rings
+/// that it reaches into, and nothing of it to the overflow bins. Without it the rings at the walls
+/// miss the force on its way from the contact to the wall, a sixth of the torque for wall disks of
+/// a sixth of the ring's width. All other sums are those of the moving disks; planes have no share.
+class MomentSums {
+ public:
+  /// @param countWallDisks also sums wallVolume; use with an area method, since wall disks are
+  ///        centred on R_i and R_o, where all-or-nothing is decided by rounding
+  MomentSums(const Rings& rings, const Scene& scene, bool countWallDisks = false);
+
+  /// Per bin (Rings::slot) the moments under each method. Moments that the snapshot has no data
+  /// for stay zero: ask Snapshot whether they mean anything.
+  /// @throws std::invalid_argument if the snapshot does not fit the scene
+  void compute(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
+               std::vector<std::vector<Moments>>& sums);
+
+ private:
+  /// Sums over one disk's contacts, in the laboratory frame.
+  struct ContactSums {
+    Eigen::Matrix2d stress = Eigen::Matrix2d::Zero();  ///< −Σ f⊗l [N m]
+    Eigen::Matrix2d fabric = Eigen::Matrix2d::Zero();  ///< Σ n⊗n
+    double count = 0.0;
+  };
+
+  void check(const Snapshot& snapshot) const;
+  void sumContacts(const Contacts& contacts);
+  Moments momentsOf(const Snapshot& snapshot, std::size_t disk) const;
+  void addWallStress(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
+                     std::vector<std::vector<Moments>>& sums);
+  void distribute(const Moments& moments, double r, double a,
+                  const std::vector<WeightMethod>& methods,
+                  std::vector<std::vector<Moments>>& sums);
+
+  Rings rings_;
+  std::vector<double> radius_;  ///< of moving disks, then of wall disks [m]
+  std::vector<double> mass_;
+  std::size_t planes_;
+  bool countWallDisks_;
+  std::vector<ContactSums> contactSums_;
+  BinWeights weights_;
+};
+
+}  // namespace crossgrain

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/contact_law.hpp"
+#include "adapters/engine.hpp"
+
+namespace crossgrain {
+
+/// The Couette shear cell (Lätzel 2003, chapter 3). All wall disks' centres lie on R_i and R_o.
+struct Cell {
+  double innerRadius = 0.0;  ///< R_i, the wheel, centre at the origin [m]
+  double outerRadius = 0.0;  ///< R_o, the fixed ring [m]
+  double wallRadius = 0.0;   ///< of a wall disk [m]
+  double wallSpacing = 0.0;  ///< between wall disks along each wall [m]
+  double height = 0.0;       ///< h of the disks, normal to the plane [m]
+  double omega = 0.0;        ///< Ω of the wheel, counter-clockwise positive [rad/s]
+};
+
+struct Particles {
+  int small = 0, large = 0;                     ///< numbers
+  double smallRadius = 0.0, largeRadius = 0.0;  ///< [m]
+  double smallMass = 0.0, largeMass = 0.0;      ///< [kg]
+  double inertiaFactor = 0.5;                   ///< q in J = q m a²: 1/2 disk, 2/5 sphere
+  double maxOverlap = 0.05;  ///< largest overlap allowed at a start, in units of the small radius
+  std::optional<std::filesystem::path> file;  ///< a packing of the user's own (see cases/README)
+};
+
+/// Dilute lattice, random velocities, turning wheel, shrinking ring, then rotations (thesis §3.3).
+struct Preparation {
+  int packings = 4;
+  std::uint64_t seed = 1;
+  double dilation = 1.25;   ///< R_prepare / R_o
+  double velocity = 0.05;   ///< rms of each component of the initial velocities [m/s]
+  double shrinkTime = 1.0;  ///< in which the ring goes from R_prepare to R_o [s]
+  double rotations = 2.0;   ///< of the wheel, after the ring has reached R_o
+};
+
+/// How far apart two engines may be in one field and still agree.
+struct Margin {
+  double value = 0.0;  ///< in the field's unit, or a fraction of the reference's mean
+  bool relative = false;
+  std::string why;  ///< not optional in a case file
+};
+
+struct Averaging {
+  int rings = 20;
+  std::vector<std::string> methods = {"slicing"};  ///< "slicing" | "straight_cut" | "centre"
+  double settleRotations = 0.25;                   ///< after hand-over, not averaged
+  double rotations = 1.0;                          ///< averaged
+  int snapshotsPerRotation = 400;
+  double confidence = 0.95;
+  std::map<std::string, Margin> margins;  ///< by field name as in profiles.csv
+};
+
+struct RunOptions {
+  std::optional<double> dt;            ///< [s]; else from stepsPerContact
+  double stepsPerContact = 50.0;       ///< t_c of the stiffest, lightest pair divided by dt
+  std::string handover = "cold";       ///< "cold" | "warm"
+  std::vector<std::string> mayDiffer;  ///< law options and effects in which engines may deviate
+  double timeout = 120.0;              ///< longest wait for one answer of a worker [s]
+  bool mirrors = true;                 ///< also run the in-house mirrors of the engines named
+  int keepSnapshots = 20;              ///< snapshots kept per run in HDF5
+};
+
+/// Two-body collisions: head-on approach with opposite spins that give v_t = Ψ_i v_n.
+struct Collision {
+  std::vector<double> psi;        ///< Ψ_i = v_t/|v_n| before
+  std::vector<double> vn;         ///< approach speeds [m/s]
+  double radius[2] = {0.0, 0.0};  ///< [m]
+  double mass[2] = {0.0, 0.0};    ///< [kg]
+  double inertiaFactor = 0.5;
+  std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
+  double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
+  std::map<std::string, Margin> margins;  ///< "psi_f", "e_n": largest distance from the oracle
+};
+
+enum class CaseKind { couette, collision, assembly };
+
+/// One case with all its `extends` resolved and one variant applied.
+struct Case {
+  std::string name;
+  std::string variant;  ///< empty for the case itself
+  CaseKind kind = CaseKind::couette;
+  std::filesystem::path file;
+  std::string resolvedToml;  ///< the merged document, printed: what was really run
+  ContactLaw law;
+  std::optional<BottomPlate> bottom;
+  Cell cell;
+  Particles particles;
+  Preparation preparation;
+  Averaging averaging;
+  RunOptions run;
+  Collision collision;
+  std::map<std::string, Settings> engines;  ///< [engines.NAME]
+};
+
+}  // namespace crossgrain

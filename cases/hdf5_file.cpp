@@ -1,0 +1,135 @@
+#include "cases/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace crossgrain {
+namespace {
+
+std::mutex libraryMutex;
+
+/// Closes an HDF5 handle of any kind at the end of the scope.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: reads as the handle it is
+
+ private:
+  hid_t id_;
+};
+
+std::unique_lock<std::mutex> lockLibrary() {
+  std::unique_lock lock(libraryMutex);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions here, not print-outs
+  return lock;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(hid_t file, std::filesystem::path name, std::unique_lock<std::mutex> lock)
+    : lock_(std::move(lock)), file_(file), name_(std::move(name)) {}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : lock_(std::move(other.lock_)),
+      file_(std::exchange(other.file_, -1)),
+      name_(std::move(other.name_)) {}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (id < 0) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  return {id, file, std::move(lock)};
+}
+
+Hdf5File Hdf5File::open(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0)
+    throw std::runtime_error(fmt::format("{}: cannot be read as an HDF5 file", file.string()));
+  return {id, file, std::move(lock)};
+}
+
+void Hdf5File::check(herr_t status, const std::string& what) const {
+  if (status < 0)
+    throw std::runtime_error(
+        fmt::format("{}: writing {} failed (is the disk full?)", name_.string(), what));
+}
+
+void Hdf5File::writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,
+                          std::size_t columns) {
+  const hsize_t size[2] = {rows, columns};
+  const Handle space(H5Screate_simple(columns > 1 ? 2 : 1, size, nullptr));
+  const Handle links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links, 1);
+  const Handle set(H5Dcreate2(file_, path.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT));
+  check(set < 0 ? -1 : H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+}
+
+void Hdf5File::write(const std::string& path, const double* values, std::size_t rows,
+                     std::size_t columns) {
+  writeArray(path, values, H5T_NATIVE_DOUBLE, rows, columns);
+}
+
+void Hdf5File::write(const std::string& path, const std::vector<double>& values) {
+  writeArray(path, values.data(), H5T_NATIVE_DOUBLE, values.size(), 1);
+}
+
+void Hdf5File::write(const std::string& path, const std::vector<std::int32_t>& values) {
+  writeArray(path, values.data(), H5T_NATIVE_INT32, values.size(), 1);
+}
+
+void Hdf5File::writeAttribute(const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle attribute(
+      H5Acreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT));
+  check(attribute < 0 ? -1 : H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), name);
+}
+
+void Hdf5File::writeAttribute(const std::string& name, const std::string& value) {
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, value.size() + 1);
+  const Handle attribute(H5Acreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+  check(attribute < 0 ? -1 : H5Awrite(attribute, type, value.c_str()), name);
+}
+
+std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const {
+  if (H5Lexists(file_, path.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
+  const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  const Handle space(H5Dget_space(set));
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw std::runtime_error(fmt::format("{}: {} cannot be read", name_.string(), path));
+  return values;
+}
+
+std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
+  if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
+  double value = 0.0;
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
+  return value;
+}
+
+std::optional<std::string> Hdf5File::readTextAttribute(const std::string& name) const {
+  if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
+  const Handle type(H5Aget_type(attribute));
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, value.data()) < 0) return std::nullopt;
+  value.resize(std::char_traits<char>::length(value.c_str()));
+  return value;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,140 @@
+#include "cases/loader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cases/loader_document.hpp"
+#include "cases/loader_print.hpp"
+#include "cases/loader_sections.hpp"
+#include "cases/time_step.hpp"
+#include "cases/volume_fraction.hpp"
+
+namespace crossgrain {
+namespace {
+
+const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
+constexpr std::array couetteSections = {"bottom", "cell", "particles", "preparation", "averaging"};
+constexpr std::array collisionSections = {"collision"};
+
+void readHeader(Reader& in, Case& c) {
+  std::string kind;
+  in.read("name", c.name);
+  in.require("kind", kind, kinds);
+  in.finish();
+  if (!usableName(c.name)) {
+    if (in.has("name")) in.fail("name", usableNameRule);
+    in.failMissing("name", "the name of the file cannot stand in for it");
+  }
+  if (kind == "assembly") in.fail("kind", "not yet supported");
+  c.kind = kind == "couette" ? CaseKind::couette : CaseKind::collision;
+}
+
+void refuseSections(const Reader& root, const auto& names, std::string_view kind) {
+  for (const char* const name : names)
+    if (root.has(name)) root.fail(name, fmt::format("has no part in a {} case", kind));
+}
+
+/// A soft contact must oscillate: e_n and t_c are defined by that.
+void checkDamping(const Reader& law, const Case& c) {
+  const double mass = lightestReducedMass(c);
+  const double critical = 2.0 * std::sqrt(c.law.kn * mass);
+  if (c.law.normal == NormalLaw::linear && !(c.law.gn < critical))
+    law.fail("gn", fmt::format("overdamps the lightest pair: must be < {:.4g} kg/s", critical));
+}
+
+void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
+  const Particles& p = c.particles;
+  const double gap = c.cell.outerRadius - c.cell.innerRadius - 2.0 * c.cell.wallRadius;
+  if (gap < 2.0 * p.largeRadius)
+    cell.fail("outer_radius", fmt::format("a disk of radius {} m does not fit between the walls, "
+                                          "{:.4g} m apart",
+                                          p.largeRadius, gap));
+  const double hole = c.cell.wallSpacing - 2.0 * c.cell.wallRadius;
+  if (hole >= 2.0 * p.smallRadius)
+    cell.fail("wall_spacing", fmt::format("a disk of radius {} m slips through holes of {:.4g} m",
+                                          p.smallRadius, hole));
+  if (volumeFraction(c) >= 1.0)
+    particles.fail("small", fmt::format("the disks have {:.4g} times the area of the cell",
+                                        volumeFraction(c)));
+}
+
+void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
+  Reader cell = root.section("cell");
+  Reader particles = root.section("particles");
+  Reader bottom = root.section("bottom");
+  Reader preparation = root.section("preparation");
+  Reader averaging = root.section("averaging");
+  readCell(cell, c.cell);
+  readParticles(particles, c.particles);
+  if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
+  readPreparation(preparation, c.preparation);
+  readAveraging(averaging, c.averaging);
+  if (!c.run.dt && c.law.normal == NormalLaw::rigid)
+    run.failMissing("dt", "a rigid law has no contact time");
+  checkDamping(law, c);
+  checkFit(cell, particles, c);
+}
+
+void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
+  Reader collision = root.section("collision");
+  readCollision(collision, c.collision);
+  if (run.has("steps_per_contact"))
+    run.fail("steps_per_contact", "a collision takes collision.steps_per_contact");
+  if (c.law.normal == NormalLaw::rigid) {
+    if (collision.has("steps_per_contact"))
+      collision.fail("steps_per_contact", "a rigid law has no contact time, give run.dt");
+    if (!c.run.dt) run.failMissing("dt", "a rigid law has no contact time");
+  } else if (c.run.dt) {
+    run.fail("dt", "a collision of a soft law takes collision.steps_per_contact");
+  }
+  checkDamping(law, c);
+}
+
+Case readCase(const std::filesystem::path& file, CaseDocument& document) {
+  Case c;
+  c.file = file;
+  c.variant = document.variant;
+  c.name = file.stem().string();
+
+  Reader root(&document.root, "", file.string());
+  Reader header = root.section("case");
+  Reader law = root.section("law");
+  Reader run = root.section("run");
+  Reader engines = root.section("engines");
+  for (const char* const name : couetteSections) root.take(name);
+  for (const char* const name : collisionSections) root.take(name);
+  root.finish();
+
+  readHeader(header, c);
+  const bool couette = c.kind == CaseKind::couette;
+  if (couette)
+    refuseSections(root, collisionSections, "couette");
+  else
+    refuseSections(root, couetteSections, "collision");
+  readLaw(law, c.law);
+  readRun(run, c.run);
+  readEngines(engines, c.engines);
+  if (couette)
+    readCouette(root, law, run, c);
+  else
+    readCollisionCase(root, law, run, c);
+
+  document.root["case"].as_table()->insert("name", c.name);
+  c.resolvedToml = printDocument(document.root);
+  return c;
+}
+
+}  // namespace
+
+std::vector<Case> loadCase(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides) {
+  std::vector<Case> cases;
+  for (CaseDocument& document : readCaseDocuments(file, overrides))
+    cases.push_back(readCase(file, document));
+  return cases;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cases/bad_input.hpp"
+#include "cases/case.hpp"
+
+namespace crossgrain {
+
+/// Reads a case file (TOML, SI units; cases/README.md has every key): resolves what it extends,
+/// expands its variants, applies the command line's changes, and checks everything, so that nothing
+/// that uses a Case has to check it again.
+///
+/// @param overrides  "key.path=value" each, as after `--set`: the value is TOML, a bare word is a
+///                   string; they come last and hold for every variant
+/// @return one case per variant in the file's order, or one case with an empty variant
+/// @throws BadInput  with one line: where, what is there, what would be right
+std::vector<Case> loadCase(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides = {});
+
+}  // namespace crossgrain

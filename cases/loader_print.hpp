@@ -1,0 +1,15 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+namespace crossgrain {
+
+/// One value as TOML on one line, numbers with the fewest digits that read back the same.
+std::string printValue(const toml::node& node);
+
+/// A document as TOML: every table under its full name, its own values first.
+std::string printDocument(const toml::table& root);
+
+}  // namespace crossgrain

@@ -1,0 +1,250 @@
+#include "cases/loader_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cases/loader_document.hpp"
+#include "cases/loader_print.hpp"
+#include "cases/nearest.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr std::size_t longestList = 10'000;
+
+std::string typeName(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a decimal number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+/// One value under its full path, e.g. "run.may_differ[2]".
+struct Value {
+  const toml::node& node;
+  std::string path;
+
+  [[noreturn]] void fail(std::string_view what) const {
+    const std::string where = location(node.source());
+    if (node.is_table()) throw BadInput(fmt::format("{}[{}]: {}", where, path, what));
+    if (node.is_array()) throw BadInput(fmt::format("{}{}: {}", where, path, what));
+    throw BadInput(fmt::format("{}{} = {}: {}", where, path, printValue(node), what));
+  }
+  [[noreturn]] void failType(std::string_view wanted) const {
+    fail(fmt::format("must be {}, is {}", wanted, typeName(node)));
+  }
+  void check(const Range& range, double value) const {
+    if (!range.contains(value)) fail("must be " + range.text());
+  }
+};
+
+void convert(const Value& value, bool& target) {
+  const auto found = value.node.value_exact<bool>();
+  if (!found) value.failType("true or false");
+  target = *found;
+}
+
+void convert(const Value& value, double& target, const Range& range) {
+  if (!value.node.is_number()) value.failType("a number");
+  const double found = *value.node.value<double>();
+  value.check(range, found);
+  target = found;
+}
+
+template <typename Integer>
+void convertInteger(const Value& value, Integer& target, const Range& range) {
+  const auto found = value.node.value_exact<std::int64_t>();
+  if (!found) value.failType("a whole number");
+  value.check(range, static_cast<double>(*found));
+  if (!std::in_range<Integer>(*found))
+    value.fail(fmt::format("must be at most {}", std::numeric_limits<Integer>::max()));
+  target = static_cast<Integer>(*found);
+}
+
+void convert(const Value& value, std::string& target) {
+  const auto found = value.node.value_exact<std::string>();
+  if (!found) value.failType("a string");
+  target = *found;
+}
+
+void convert(const Value& value, std::string& target, std::span<const std::string> choices) {
+  convert(value, target);
+  if (std::ranges::find(choices, target) == choices.end())
+    value.fail("unknown name" + suggestion(target, choices));
+}
+
+template <typename Element, typename Constraint>
+void convertList(const Value& value, std::vector<Element>& target, const Constraint& constraint) {
+  std::vector<Element> list;
+  if (const toml::array* const array = value.node.as_array()) {
+    if (array->size() > longestList)
+      value.fail(fmt::format("must have at most {} entries", longestList));
+    for (std::size_t k = 0; k < array->size(); ++k)
+      convert({*array->get(k), fmt::format("{}[{}]", value.path, k)}, list.emplace_back(),
+              constraint);
+  } else {
+    convert(value, list.emplace_back(), constraint);
+  }
+  target = std::move(list);
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (lowOpen ? value > low : value >= low) &&
+         (highOpen ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  const std::string tail = unit.empty() ? "" : " " + unit;
+  if (std::isinf(low) && std::isinf(high)) return "a finite number" + tail;
+  if (std::isinf(high)) return fmt::format("{} {}{}", lowOpen ? ">" : ">=", low, tail);
+  return fmt::format("in {}{}, {}{}{}", lowOpen ? '(' : '[', low, high, highOpen ? ')' : ']', tail);
+}
+
+Range positive(std::string unit) {
+  return above(0.0, std::move(unit));
+}
+
+Range above(double low, std::string unit) {
+  return {.low = low, .lowOpen = true, .unit = std::move(unit)};
+}
+
+Range atLeast(double low, std::string unit) {
+  return {.low = low, .unit = std::move(unit)};
+}
+
+Range between(double low, double high, std::string unit) {
+  return {.low = low, .high = high, .unit = std::move(unit)};
+}
+
+Range inside(double low, double high, std::string unit) {
+  return {.low = low, .high = high, .lowOpen = true, .highOpen = true, .unit = std::move(unit)};
+}
+
+Range aboveZeroTo(double high) {
+  return {.low = 0.0, .high = high, .lowOpen = true, .unit = {}};
+}
+
+Reader::Reader(const toml::table* table, std::string path, std::string file)
+    : table_(table), path_(std::move(path)), file_(std::move(file)) {}
+
+bool Reader::has(std::string_view key) const {
+  return table_ && table_->contains(key);
+}
+
+std::vector<std::string> Reader::keys() const {
+  std::vector<std::string> names;
+  if (table_)
+    for (const auto& [key, node] : *table_) names.emplace_back(key.str());
+  return names;
+}
+
+std::string Reader::pathOf(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+const toml::node* Reader::take(std::string_view key) {
+  known_.emplace_back(key);
+  return table_ ? table_->get(key) : nullptr;
+}
+
+void Reader::read(std::string_view key, bool& target) {
+  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target);
+}
+
+void Reader::read(std::string_view key, double& target, const Range& range) {
+  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target, range);
+}
+
+void Reader::read(std::string_view key, int& target, const Range& range) {
+  if (const toml::node* const node = take(key)) convertInteger({*node, pathOf(key)}, target, range);
+}
+
+void Reader::read(std::string_view key, std::uint64_t& target, const Range& range) {
+  if (const toml::node* const node = take(key)) convertInteger({*node, pathOf(key)}, target, range);
+}
+
+void Reader::read(std::string_view key, std::string& target) {
+  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target);
+}
+
+void Reader::read(std::string_view key, std::string& target, std::span<const std::string> choices) {
+  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target, choices);
+}
+
+void Reader::read(std::string_view key, std::vector<double>& target, const Range& range) {
+  const toml::node* const node = take(key);
+  if (!node) return;
+  convertList({*node, pathOf(key)}, target, range);
+  if (target.empty()) fail(key, "must not be empty");
+}
+
+void Reader::read(std::string_view key, std::vector<std::string>& target,
+                  std::span<const std::string> choices) {
+  const toml::node* const node = take(key);
+  if (!node) return;
+  convertList({*node, pathOf(key)}, target, choices);
+  std::set<std::string> seen;
+  for (const std::string& name : target)
+    if (!seen.insert(name).second) fail(key, fmt::format("\"{}\" is there twice", name));
+}
+
+std::optional<std::filesystem::path> Reader::readFile(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (!node) return std::nullopt;
+  std::filesystem::path file;
+  if (!isOverride(node->source())) file = std::filesystem::path(*node->source().path).parent_path();
+  std::string name;
+  read(key, name);
+  file = (file / name).lexically_normal();
+  if (!isFile(file)) fail(key, fmt::format("no such file (looked for {})", file.string()));
+  return file;
+}
+
+bool Reader::isTable(std::string_view key) const {
+  return has(key) && table_->get(key)->is_table();
+}
+
+Reader Reader::section(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (node && !node->is_table()) Value{*node, pathOf(key)}.failType("a table");
+  return {node ? node->as_table() : nullptr, pathOf(key), file_};
+}
+
+void Reader::finish() const {
+  if (table_)
+    for (const auto& [key, node] : *table_)
+      if (std::ranges::find(known_, key.str()) == known_.end())
+        throw BadInput(fmt::format("{}unknown key {}{}", location(key.source()), pathOf(key.str()),
+                                   suggestion(key.str(), known_)));
+  if (!missing_.empty()) failMissing(missing_.front());
+}
+
+void Reader::failMissing(std::string_view key, std::string_view reason) const {
+  const std::string where = table_ ? location(table_->source()) : file_ + ": ";
+  throw BadInput(
+      fmt::format("{}{} is missing{}{}", where, pathOf(key), reason.empty() ? "" : ": ", reason));
+}
+
+void Reader::fail(std::string_view key, std::string_view what) const {
+  Value{*table_->get(key), pathOf(key)}.fail(what);
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,192 @@
+#include "cases/loader_sections.hpp"
+
+#include <fmt/format.h>
+
+#include "adapters/effects.hpp"
+#include "adapters/law_options.hpp"
+#include "averaging/fields.hpp"
+#include "cases/loader_document.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr double manyDisks = 10'000'000;
+
+/// Everything an engine may do otherwise than the scene says.
+std::vector<std::string> deviationNames() {
+  std::vector<std::string> names;
+  for (const Effect effect : allEffects) names.push_back(toString(effect));
+  for (const LawOption& option : lawOptions()) names.emplace_back(option.name);
+  names.emplace_back("rounding");
+  return names;
+}
+
+std::vector<std::string> fieldNames() {
+  std::vector<std::string> names;
+  for (const FieldSpec& field : fieldTable()) names.emplace_back(field.name);
+  return names;
+}
+
+Margin readMargin(Reader in, const std::string& path) {
+  Margin margin;
+  margin.relative = in.has("relative");
+  in.read("relative", margin.value, positive());
+  in.read("absolute", margin.value, positive());
+  in.require("why", margin.why);
+  in.finish();
+  if (in.has("relative") && in.has("absolute"))
+    in.fail("absolute", fmt::format("{} is relative or absolute, not both", path));
+  if (!in.has("relative") && !in.has("absolute"))
+    in.failMissing("relative", "or absolute: a margin has one of them");
+  if (margin.why.empty()) in.fail("why", "must give the reason");
+  return margin;
+}
+
+/// Margins of the fields listed; any other field is an unknown key.
+std::map<std::string, Margin> readMargins(Reader in, const std::vector<std::string>& fields) {
+  std::map<std::string, Margin> margins;
+  for (const std::string& field : fields) {
+    Reader margin = in.section(field);
+    if (in.has(field)) margins[field] = readMargin(std::move(margin), field);
+  }
+  in.finish();
+  return margins;
+}
+
+/// Ψ_i as a number, a list, or { from, to, count } for equal steps.
+void requirePsi(Reader& in, std::vector<double>& psi) {
+  if (!in.isTable("psi")) return in.require("psi", psi, Range{});
+  double from = 0.0, to = 0.0;
+  int count = 0;
+  Reader range = in.section("psi");
+  range.require("from", from, Range{});
+  range.require("to", to, Range{});
+  range.require("count", count, between(2, 10'000));
+  range.finish();
+  if (!(to > from)) range.fail("to", fmt::format("must be > {} (from)", from));
+  for (int k = 0; k < count; ++k) psi.push_back(from + (to - from) * k / (count - 1));
+}
+
+/// One number for both bodies, or two.
+void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range) {
+  std::vector<double> values;
+  in.require(key, values, range);
+  if (values.empty()) return;
+  if (values.size() > 2) in.fail(key, "must be one number or two");
+  pair[0] = values.front();
+  pair[1] = values.back();
+}
+
+}  // namespace
+
+void readBottom(Reader& in, BottomPlate& bottom) {
+  in.require("mu", bottom.mu, atLeast(0.0));
+  in.require("kb", bottom.kb, atLeast(0.0, "N/m"));
+  in.require("gb", bottom.gb, atLeast(0.0, "kg/s"));
+  in.require("tau_m", bottom.tauM, atLeast(0.0));
+  in.read("gravity", bottom.gravity, positive("m/s^2"));
+  in.read("spin", bottom.spin);
+  in.finish();
+}
+
+void readCell(Reader& in, Cell& cell) {
+  in.require("inner_radius", cell.innerRadius, positive("m"));
+  in.require("outer_radius", cell.outerRadius, positive("m"));
+  in.require("wall_radius", cell.wallRadius, positive("m"));
+  in.require("wall_spacing", cell.wallSpacing, positive("m"));
+  in.require("height", cell.height, positive("m"));
+  in.require("omega", cell.omega, positive("rad/s"));
+  in.finish();
+  if (!(cell.outerRadius > cell.innerRadius))
+    in.fail("outer_radius", fmt::format("must be > inner_radius = {} m", cell.innerRadius));
+  if (cell.wallSpacing > cell.innerRadius)
+    in.fail("wall_spacing", fmt::format("must be <= inner_radius = {} m", cell.innerRadius));
+}
+
+void readParticles(Reader& in, Particles& particles) {
+  in.read("inertia_factor", particles.inertiaFactor, aboveZeroTo(1.0));
+  in.read("max_overlap", particles.maxOverlap, between(0.0, 1.0));
+  in.read("small", particles.small, between(0, manyDisks));
+  in.read("large", particles.large, between(0, manyDisks));
+  in.require("small_radius", particles.smallRadius, positive("m"));
+  in.require("large_radius", particles.largeRadius, positive("m"));
+  in.require("small_mass", particles.smallMass, positive("kg"));
+  in.require("large_mass", particles.largeMass, positive("kg"));
+  particles.file = in.readFile("file");
+  in.finish();
+  if (particles.largeRadius < particles.smallRadius)
+    in.fail("large_radius", fmt::format("must be >= small_radius = {} m", particles.smallRadius));
+  if (particles.file)
+    particles.small = particles.large = 0;  // how many there are is for the file to say
+  else if (particles.small + particles.large == 0)
+    in.has("small") ? in.fail("small", "no small and no large disks: a cell without disks")
+                    : in.failMissing("small", "or large, or file: a cell without disks");
+}
+
+void readPreparation(Reader& in, Preparation& preparation) {
+  in.read("packings", preparation.packings, between(1, 10'000));
+  in.read("seed", preparation.seed, atLeast(0));
+  in.read("dilation", preparation.dilation, above(1.0));
+  in.read("velocity", preparation.velocity, atLeast(0.0, "m/s"));
+  in.read("shrink_time", preparation.shrinkTime, positive("s"));
+  in.read("rotations", preparation.rotations, atLeast(0.0));
+  in.finish();
+}
+
+void readAveraging(Reader& in, Averaging& averaging) {
+  static const std::vector<std::string> methods = {"slicing", "straight_cut", "centre"};
+  in.read("rings", averaging.rings, between(1, 10'000));
+  in.read("method", averaging.methods, methods);
+  in.read("settle_rotations", averaging.settleRotations, atLeast(0.0));
+  in.read("rotations", averaging.rotations, positive());
+  in.read("snapshots_per_rotation", averaging.snapshotsPerRotation, between(1, 1'000'000));
+  in.read("confidence", averaging.confidence, inside(0.0, 1.0));
+  averaging.margins = readMargins(in.section("margins"), fieldNames());
+  in.finish();
+  if (averaging.methods.empty()) in.fail("method", "must not be empty");
+}
+
+void readRun(Reader& in, RunOptions& run) {
+  static const std::vector<std::string> handovers = {"cold", "warm"};
+  if (in.has("dt")) in.read("dt", run.dt.emplace(), positive("s"));
+  in.take("dt");
+  in.read("steps_per_contact", run.stepsPerContact, atLeast(2.0));
+  in.read("handover", run.handover, handovers);
+  in.read("may_differ", run.mayDiffer, deviationNames());
+  in.read("timeout", run.timeout, positive("s"));
+  in.read("mirrors", run.mirrors);
+  in.read("keep_snapshots", run.keepSnapshots, between(0, 1'000'000));
+  in.finish();
+  if (run.dt && in.has("steps_per_contact"))
+    in.fail("steps_per_contact", "the step is given by run.dt, leave out one of them");
+}
+
+void readCollision(Reader& in, Collision& collision) {
+  requirePsi(in, collision.psi);
+  in.require("vn", collision.vn, positive("m/s"));
+  requirePair(in, "radius", collision.radius, positive("m"));
+  requirePair(in, "mass", collision.mass, positive("kg"));
+  in.read("inertia_factor", collision.inertiaFactor, aboveZeroTo(1.0));
+  in.read("steps_per_contact", collision.stepsPerContact, atLeast(2.0));
+  in.read("start_phase", collision.startPhase, {.low = 0.0, .high = 1.0, .highOpen = true});
+  collision.margins = readMargins(in.section("margins"), {"psi_f", "e_n"});
+  in.finish();
+}
+
+void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
+  for (const std::string& name : in.keys()) {
+    Reader engine = in.section(name);
+    Settings& settings = engines[name];
+    for (const std::string& key : engine.keys()) {
+      const toml::node& node = *engine.take(key);
+      if (const auto flag = node.value_exact<bool>())
+        settings[key] = *flag;
+      else if (const auto text = node.value_exact<std::string>())
+        settings[key] = *text;
+      else
+        engine.read(key, std::get<double>(settings[key] = 0.0), Range{});
+    }
+  }
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "cases/case.hpp"
+#include "cases/loader_reader.hpp"
+
+namespace crossgrain {
+
+// One function per section of a case file: reads every key, then checks what the section can tell
+// alone. All throw BadInput.
+
+void readLaw(Reader& in, ContactLaw& law);
+void readBottom(Reader& in, BottomPlate& bottom);
+void readCell(Reader& in, Cell& cell);
+void readParticles(Reader& in, Particles& particles);
+void readPreparation(Reader& in, Preparation& preparation);
+void readAveraging(Reader& in, Averaging& averaging);
+void readRun(Reader& in, RunOptions& run);
+void readCollision(Reader& in, Collision& collision);
+void readEngines(Reader& in, std::map<std::string, Settings>& engines);
+
+}  // namespace crossgrain

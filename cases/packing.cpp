@@ -1,0 +1,124 @@
+#include "cases/packing.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include "adapters/law_options.hpp"
+#include "cases/bad_input.hpp"
+#include "cases/hdf5_file.hpp"
+
+namespace crossgrain {
+namespace {
+
+std::uint64_t fnv1a(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::vector<Vec2> asVectors(const std::vector<double>& values) {
+  std::vector<Vec2> vectors;
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2)
+    vectors.emplace_back(values[i], values[i + 1]);
+  return vectors;
+}
+
+}  // namespace
+
+std::uint64_t packingSeed(const Case& setup, int index) {
+  return setup.preparation.seed + static_cast<std::uint64_t>(index);
+}
+
+std::string packingHash(const Case& setup, int index, double dt) {
+  // The leading tag changes whenever the preparation itself does.
+  std::string text = fmt::format("preparation 1; dt {};", dt);
+  const ContactLaw& law = setup.law;
+  for (const LawOption& option : lawOptions())
+    text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
+  text += fmt::format("law {} {} {} {} {};", law.kn, law.gn, law.kt, law.gt, law.mu);
+  if (setup.bottom)
+    text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
+                        setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,
+                        setup.bottom->spin);
+  const Cell& cell = setup.cell;
+  text += fmt::format("cell {} {} {} {} {};", cell.innerRadius, cell.outerRadius, cell.wallRadius,
+                      cell.wallSpacing, cell.omega);
+  const Particles& disks = setup.particles;
+  text += fmt::format("disks {} {} {} {} {} {} {};", disks.small, disks.large, disks.smallRadius,
+                      disks.largeRadius, disks.smallMass, disks.largeMass, disks.inertiaFactor);
+  const Preparation& how = setup.preparation;
+  text += fmt::format("prepare {} {} {} {} {}", packingSeed(setup, index), how.dilation,
+                      how.velocity, how.shrinkTime, how.rotations);
+  return fmt::format("{:016x}", fnv1a(text));
+}
+
+void writePacking(const Packing& packing, const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  // Written aside and renamed, so that a run killed half way leaves no half packing behind.
+  const std::filesystem::path aside = fmt::format("{}.{}", file.string(), ::getpid());
+  {
+    Hdf5File out = Hdf5File::create(aside);
+    const Disks& disks = packing.disks;
+    out.write("radius", disks.radius);
+    out.write("mass", disks.mass);
+    out.write("inertia", disks.inertia);
+    out.write("position", disks.position.front().data(), disks.size(), 2);
+    out.write("velocity", disks.velocity.front().data(), disks.size(), 2);
+    out.write("spin", disks.spin);
+    out.writeAttribute("wheel_angle", packing.wheelAngle);
+    out.writeAttribute("hash", packing.hash);
+  }
+  std::filesystem::rename(aside, file);
+}
+
+Packing readPacking(const std::filesystem::path& file, const Case& setup) {
+  const auto bad = [&](const std::string& what) {
+    return BadInput(fmt::format("{}: {}", file.string(), what));
+  };
+  if (!std::filesystem::exists(file)) throw bad("there is no such packing file");
+  const Hdf5File in = Hdf5File::open(file);
+  const auto radius = in.read("radius");
+  const auto position = in.read("position");
+  if (!radius || !position)
+    throw bad("a packing needs the datasets radius (N) and position (N x 2)");
+  const std::size_t count = radius->size();
+  if (count == 0) throw bad("the packing has no disks");
+  const auto sized = [&](const char* name, std::size_t columns) {
+    auto values = in.read(name);
+    if (values && values->size() != columns * count)
+      throw bad(fmt::format("{} has {} values for {} disks; {} are needed", name, values->size(),
+                            count, columns * count));
+    return values;
+  };
+
+  Packing packing;
+  Disks& disks = packing.disks;
+  disks.radius = *radius;
+  disks.position = asVectors(*sized("position", 2));
+  const auto velocity = sized("velocity", 2);
+  disks.velocity = velocity ? asVectors(*velocity) : std::vector<Vec2>(count, Vec2::Zero());
+  disks.spin = sized("spin", 1).value_or(std::vector<double>(count, 0.0));
+  const Particles& kinds = setup.particles;
+  const double border = 0.5 * (kinds.smallRadius + kinds.largeRadius);
+  std::vector<double> mass(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(disks.radius[i] > 0.0))
+      throw bad(fmt::format("the radius of disk {} is {} m; it must be > 0", i, disks.radius[i]));
+    mass[i] = disks.radius[i] < border ? kinds.smallMass : kinds.largeMass;
+  }
+  disks.mass = sized("mass", 1).value_or(mass);
+  std::vector<double> inertia(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(disks.mass[i] > 0.0))
+      throw bad(fmt::format("the mass of disk {} is {} kg; it must be > 0", i, disks.mass[i]));
+    inertia[i] = kinds.inertiaFactor * disks.mass[i] * disks.radius[i] * disks.radius[i];
+  }
+  disks.inertia = sized("inertia", 1).value_or(inertia);
+  packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
+  packing.hash = in.readTextAttribute("hash").value_or("file");
+  return packing;
+}
+
+}  // namespace crossgrain

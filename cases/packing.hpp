@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "adapters/scene.hpp"
+#include "cases/case.hpp"
+
+namespace crossgrain {
+
+/// Disks in the cell, ready to be handed to an engine at t = 0.
+struct Packing {
+  Disks disks;
+  double wheelAngle = 0.0;  ///< by which the wheel's disks have turned since it was built [rad]
+  std::string hash;         ///< of all that it was made from
+  bool fromCache = false;
+};
+
+/// The seed of one packing of a case; packings of one case differ in nothing else.
+std::uint64_t packingSeed(const Case& setup, int index);
+
+/// Fingerprint of everything that a prepared packing depends on.
+std::string packingHash(const Case& setup, int index, double dt);
+
+/// HDF5: datasets radius, mass, inertia (N), position, velocity (N × 2), spin (N), SI units, and
+/// the attributes wheel_angle and hash. Velocity, spin, mass and inertia may be absent from a file
+/// of the user's own: then they are zero, and what the case says for the radius.
+void writePacking(const Packing& packing, const std::filesystem::path& file);
+
+/// @throws BadInput naming the file and what it lacks
+Packing readPacking(const std::filesystem::path& file, const Case& setup);
+
+}  // namespace crossgrain

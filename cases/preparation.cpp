@@ -1,0 +1,147 @@
+#include "cases/preparation.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+
+#include "cases/bad_input.hpp"
+#include "cases/couette.hpp"
+
+namespace crossgrain {
+namespace {
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+
+Random seededRandom(std::uint64_t seed) {
+  Random random(gsl_rng_alloc(gsl_rng_mt19937), &gsl_rng_free);
+  gsl_rng_set(random.get(), seed);
+  return random;
+}
+
+/// Sites of a triangular lattice of the given constant with `inner` <= r <= `outer`.
+std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
+  std::vector<Vec2> sites;
+  const double line = constant * std::sqrt(3.0) / 2.0;
+  const auto lines = static_cast<int>(outer / line) + 1;
+  const auto columns = static_cast<int>(outer / constant) + 2;
+  for (int l = -lines; l <= lines; ++l) {
+    for (int c = -columns; c <= columns; ++c) {
+      const Vec2 site((c + (l % 2 == 0 ? 0.0 : 0.5)) * constant, l * line);
+      const double r = site.norm();
+      if (r >= inner && r <= outer) sites.push_back(site);
+    }
+  }
+  return sites;
+}
+
+/// The widest lattice that still has a site for every disk.
+std::vector<Vec2> diluteLattice(std::size_t disks, double inner, double outer) {
+  double wide = outer - inner, narrow = 0.0;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (wide + narrow);
+    if (middle * middle * static_cast<double>(disks) < 1e-6 * (outer * outer)) break;
+    (latticeSites(middle, inner, outer).size() >= disks ? narrow : wide) = middle;
+  }
+  if (narrow == 0.0) return {};
+  return latticeSites(narrow, inner, outer);
+}
+
+void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
+  const double clearance = setup.cell.wallRadius + setup.particles.largeRadius;
+  const double outer = setup.preparation.dilation * setup.cell.outerRadius;
+  std::vector<Vec2> sites =
+      diluteLattice(disks.size(), setup.cell.innerRadius + clearance, outer - clearance);
+  if (sites.size() < disks.size())
+    throw BadInput(
+        fmt::format("{}: preparation.dilation = {:g} leaves no room for {} disks on a "
+                    "lattice; a larger one does",
+                    setup.file.string(), setup.preparation.dilation, disks.size()));
+  gsl_ran_shuffle(random, sites.data(), sites.size(), sizeof(Vec2));
+  std::copy_n(sites.begin(), disks.size(), disks.position.begin());
+  for (Vec2& velocity : disks.velocity) {
+    velocity.x() = gsl_ran_gaussian(random, setup.preparation.velocity);
+    velocity.y() = gsl_ran_gaussian(random, setup.preparation.velocity);
+  }
+}
+
+/// The cell with its ring at R_prepare, about to shrink.
+Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
+  Scene scene = couetteScene(setup, {disks, 0.0, {}, false}, dt);
+  const double start = setup.preparation.dilation * setup.cell.outerRadius;
+  WallBody& ring = scene.bodies.back();
+  for (Vec2& position : ring.diskPosition) position *= setup.preparation.dilation;
+  ring.motion.kind = Motion::Kind::radial;
+  ring.motion.radialEnd = setup.preparation.shrinkTime;
+  ring.motion.radialVelocity = (setup.cell.outerRadius - start) / setup.preparation.shrinkTime;
+  return scene;
+}
+
+}  // namespace
+
+Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
+                       const std::function<void(double)>& progress) {
+  Packing packing;
+  packing.disks = diskKinds(setup.particles);
+  packing.hash = packingHash(setup, index, dt);
+  const Random random = seededRandom(packingSeed(setup, index));
+  placeAtRandom(packing.disks, setup, random.get());
+
+  const Scene scene = diluteScene(setup, packing.disks, dt);
+  checkStart(scene, setup.particles,
+             setup.file.string() + ": preparation.dilation leaves too little room");
+  engine.load(scene, {});
+  const double rotation = 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
+  const double end = setup.preparation.shrinkTime + setup.preparation.rotations * rotation;
+  constexpr int slices = 200;
+  for (int slice = 1; slice <= slices; ++slice) {
+    engine.advance(end * slice / slices);
+    progress(static_cast<double>(slice) / slices);
+  }
+
+  const Snapshot last = engine.snapshot(ContactReport::none);
+  packing.disks.position = last.position;
+  packing.disks.velocity = last.velocity;
+  if (last.spin) packing.disks.spin = *last.spin;
+  packing.wheelAngle = std::remainder(last.bodies.front().angle, 2.0 * std::numbers::pi);
+  return packing;
+}
+
+std::filesystem::path packingCacheFile(const std::string& hash) {
+  namespace fs = std::filesystem;
+  fs::path folder;
+  if (const char* own = std::getenv("CROSSGRAIN_CACHE"))
+    folder = own;
+  else if (const char* cache = std::getenv("XDG_CACHE_HOME"))
+    folder = fs::path(cache) / "crossgrain";
+  else if (const char* home = std::getenv("HOME"))
+    folder = fs::path(home) / ".cache" / "crossgrain";
+  else
+    folder = fs::temp_directory_path() / "crossgrain-cache";
+  return folder / ("packing-" + hash + ".h5");
+}
+
+Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
+                  const std::function<void(double)>& progress) {
+  if (setup.particles.file) {
+    Packing packing = readPacking(*setup.particles.file, setup);
+    checkStart(couetteScene(setup, packing, dt), setup.particles, setup.particles.file->string());
+    return packing;
+  }
+  const std::filesystem::path file = packingCacheFile(packingHash(setup, index, dt));
+  if (std::filesystem::exists(file)) {
+    Packing packing = readPacking(file, setup);
+    packing.fromCache = true;
+    return packing;
+  }
+  Packing packing = preparePacking(setup, index, dt, engine, progress);
+  writePacking(packing, file);
+  return packing;
+}
+
+}  // namespace crossgrain

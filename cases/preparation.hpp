@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "adapters/engine.hpp"
+#include "cases/packing.hpp"
+
+namespace crossgrain {
+
+/// Prepares packing `index` of a case as Lätzel (2003, section 3.3) does: disks on a dilute
+/// triangular lattice with random velocities, wheel turning, ring shrinking from R_prepare to R_o,
+/// then some rotations.
+/// @param engine    does the work
+/// @param progress  told the fraction done, 0 … 1
+Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
+                       const std::function<void(double)>& progress);
+
+/// Where a prepared packing is kept: CROSSGRAIN_CACHE, else the user's cache folder.
+std::filesystem::path packingCacheFile(const std::string& hash);
+
+/// The packing from the user's file, the cache, or preparePacking() (then cached).
+Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
+                  const std::function<void(double)>& progress);
+
+}  // namespace crossgrain

@@ -1,0 +1,271 @@
+#include "cli/commands.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "adapters/worker/json.hpp"
+#include "adapters/worker/serve.hpp"
+#include "cases/bad_input.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "reports/report.hpp"
+#include "runs/collide.hpp"
+#include "runs/collision_sweep.hpp"
+#include "runs/compare.hpp"
+#include "runs/couette_run.hpp"
+#include "runs/engine_access.hpp"
+
+namespace crossgrain {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+fs::path scratchFolder() {
+  std::string name = (fs::temp_directory_path() / "crossgrain-XXXXXX").string();
+  if (!::mkdtemp(name.data()))
+    throw std::runtime_error(fmt::format("{}: cannot be made", fs::temp_directory_path().string()));
+  return name;
+}
+
+/// A folder of this process' own, gone at the end of the scope.
+struct ScratchFolder {
+  fs::path path = scratchFolder();
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+std::string supportMark(Support support) {
+  switch (support) {
+    case Support::optional:
+      return "yes";
+    case Support::always:
+      return "always";
+    case Support::never:
+      break;
+  }
+  return "no";
+}
+
+int countOf(const json& list, const char* key, const std::string& value) {
+  return static_cast<int>(
+      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
+}
+
+/// Only the verdicts between engines that the user named decide the exit status.
+json peerRows(const json& results) {
+  json rows = json::array();
+  for (const json& row : results["agreement"])
+    if (row["kind"] == "peer") rows.push_back(row);
+  return rows;
+}
+
+Case onlyCase(const CommandLine& line, CaseKind kind, const char* command) {
+  if (line.inputs.size() != 1)
+    throw BadInput(fmt::format("{} takes one case file, not {}", command, line.inputs.size()));
+  std::vector<std::string> overrides = line.overrides;
+  if (line.quick)
+    for (const char* change :
+         {"preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
+          "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"})
+      overrides.insert(overrides.begin(), change);
+  std::vector<Case> cases = loadCase(line.inputs.front(), overrides);
+  if (cases.front().kind != kind)
+    throw BadInput(fmt::format("{}: {} cannot run a case of this kind",
+                               line.inputs.front().string(), command));
+  if (cases.size() > 1)
+    throw BadInput(
+        fmt::format("{}: {} takes a case without variants", line.inputs.front().string(), command));
+  return cases.front();
+}
+
+}  // namespace
+
+int listEngines(const CommandLine& line) {
+  const ScratchFolder scratch;
+  json list = json::array();
+  for (const EngineEntry& entry : engineRegistry()) {
+    json row = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
+    try {
+      row["capabilities"] = toJson(startEngine(entry, scratch.path, 60.0)->capabilities());
+    } catch (const std::exception& missing) {
+      row["missing"] = missing.what();
+    }
+    list.push_back(row);
+  }
+  if (line.json) {
+    fmt::print("{}\n", list.dump(2));
+    return exitHeld;
+  }
+  for (const json& row : list) {
+    if (row.contains("missing")) {
+      fmt::print("{:<16} not available: {}\n\n", row["name"].get<std::string>(),
+                 row["missing"].get<std::string>());
+      continue;
+    }
+    const Capabilities can = capabilitiesFromJson(row["capabilities"]);
+    fmt::print("{:<16} {} (version {}, {})\n", row["name"].get<std::string>(),
+               row["summary"].get<std::string>(), can.version, can.precision);
+    for (const auto& [effect, support] : can.effects)
+      fmt::print("  {:<22} {}\n", toString(effect), supportMark(support));
+    for (const auto& [option, values] : can.lawOptions)
+      fmt::print("  {:<22} {}\n", option, fmt::join(values, " | "));
+    for (const SettingSpec& setting : can.settings)
+      fmt::print("  setting {:<14} {} [{}]\n", setting.name, setting.doc,
+                 setting.unit.empty() ? "-" : setting.unit);
+    fmt::print("\n");
+  }
+  return exitHeld;
+}
+
+int checkCase(const CommandLine& line) {
+  if (line.inputs.size() != 1) throw BadInput("check takes one case file");
+  const ScratchFolder scratch;
+  bool allCan = true;
+  for (const Case& setup : loadCase(line.inputs.front(), line.overrides)) {
+    const std::string name = setup.variant.empty() ? setup.name : setup.variant;
+    Scene scene;
+    double end = 0.0;
+    if (setup.kind == CaseKind::collision) {
+      const double dt = collisionTimeSteps(setup).front();
+      scene = collisionScene(setup, sweepStarts(setup), dt);
+    } else {
+      // The packing need not be prepared for this: disks on their lattice are as many.
+      Case dilute = setup;
+      dilute.preparation.shrinkTime = 1e-3;
+      dilute.preparation.rotations = 0.0;
+      const double dt = timeStep(setup);
+      Packing lattice;
+      lattice.disks = diskKinds(setup.particles);
+      scene = couetteScene(setup, lattice, dt);
+      end = (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
+    }
+    fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n", name, scene.disks.size(),
+               scene.wallDiskCount(), scene.dt);
+    std::vector<std::string> called;
+    for (const Effect effect : effectsOf(scene)) called.push_back(toString(effect));
+    fmt::print("  effects called for: {}\n", fmt::join(called, ", "));
+    for (const EngineEntry& entry : selectEngines(line.run.engines)) {
+      try {
+        const auto engine = startEngine(entry, scratch.path, setup.run.timeout);
+        const Capabilities can = engine->capabilities();
+        settingsFor(setup, entry.name, can);
+        const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
+        fmt::print("  {:<16} can run it", entry.name);
+        if (end > 0.0) fmt::print(" ({:.0f} steps of the case's dt per packing)", end / scene.dt);
+        fmt::print("\n");
+        for (const Deviation& deviation : adapted.deviations)
+          fmt::print("    differs: {}\n", deviation.note);
+      } catch (const UnsupportedScene& refusal) {
+        allCan = false;
+        fmt::print("  {:<16} cannot: {}\n", entry.name, refusal.what());
+      }
+    }
+  }
+  return allCan ? exitHeld : exitFellShort;
+}
+
+int compare(const CommandLine& line) {
+  const Case setup = onlyCase(line, CaseKind::couette, "compare");
+  const json results = compareEngines(setup, line.run);
+  writeReport(results, line.run.out);
+
+  const json rows = peerRows(results);
+  const int agree = countOf(rows, "verdict", "agree");
+  const int disagree = countOf(rows, "verdict", "disagree");
+  const int undecided = countOf(rows, "verdict", "undecided");
+  const int failed = countOf(results["runs"], "status", "failed");
+  if (line.json)
+    fmt::print("{}\n", (line.run.out / "results.json").string());
+  else {
+    for (const json& row : rows)
+      if (row["a"] == results["engines"][0]["name"])
+        fmt::print("{:<16} {:<22} {}\n", row["b"].get<std::string>(),
+                   row["field"].get<std::string>(), row["verdict"].get<std::string>());
+    fmt::print("{} agree, {} disagree, {} undecided; {} of {} runs failed\nreport: {}\n", agree,
+               disagree, undecided, failed, results["runs"].size(),
+               (line.run.out / "report.html").string());
+  }
+  for (const json& run : results["runs"])
+    if (run["status"] == "failed")
+      fmt::print(stderr, "crossgrain: {}\n", run["reason"].get<std::string>());
+  if (failed > 0) return exitEngineFailed;
+  if (disagree > 0 || (line.strict && undecided > 0)) return exitFellShort;
+  return exitHeld;
+}
+
+namespace {
+
+int collideFile(const fs::path& file, const fs::path& out, const CommandLine& line) {
+  const std::vector<Case> variants = loadCase(file, line.overrides);
+  if (variants.front().kind != CaseKind::collision)
+    throw BadInput(fmt::format("{}: collide cannot run a case of this kind", file.string()));
+  RunCommand command = line.run;
+  command.out = out;
+  const json results = collideEngines(variants, command);
+  writeReport(results, out);
+
+  int failed = 0, fellShort = 0;
+  std::map<std::string, std::string> reasons;
+  for (const json& variant : results["variants"])
+    for (const json& curve : variant["curves"]) {
+      const std::string status = curve["status"];
+      if (status == "failed" || status == "refused") {
+        failed += status == "failed";
+        reasons.emplace(curve["engine"], curve["reason"]);
+      }
+      fellShort += curve["score"]["verdict"] == "fell short";
+    }
+  for (const auto& [engine, reason] : reasons) fmt::print(stderr, "crossgrain: {}\n", reason);
+  if (line.json)
+    fmt::print("{}\n", (out / "results.json").string());
+  else
+    fmt::print("{} curves fell short\nreport: {}\n", fellShort, (out / "report.html").string());
+  if (failed > 0) return exitEngineFailed;
+  return fellShort > 0 ? exitFellShort : exitHeld;
+}
+
+}  // namespace
+
+int collide(const CommandLine& line) {
+  if (line.inputs.size() != 1) throw BadInput("collide takes one case file or folder");
+  const fs::path& input = line.inputs.front();
+  if (!fs::is_directory(input)) return collideFile(input, line.run.out, line);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(input))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty()) throw BadInput(input.string() + ": there is no case file (*.toml) in it");
+  std::ranges::sort(files);
+  int worst = exitHeld;
+  for (const fs::path& file : files)
+    worst = std::max(worst, collideFile(file, line.run.out / file.stem(), line));
+  return worst;
+}
+
+int rebuildReports(const CommandLine& line) {
+  for (const fs::path& folder : line.inputs) {
+    writeReport(readResults(folder), folder);
+    fmt::print("report: {}\n", (folder / "report.html").string());
+  }
+  return exitHeld;
+}
+
+int serveEngine(const std::string& name) {
+  const EngineEntry* entry = findEngine(name);
+  if (!entry || !entry->make) throw BadInput(fmt::format("there is no engine '{}' to serve", name));
+  return serve(*entry->make());
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "runs/options.hpp"
+
+namespace crossgrain {
+
+/// Exit statuses, as design and README promise them.
+enum ExitStatus {
+  exitHeld = 0,
+  exitFellShort = 1,
+  exitBadInput = 2,
+  exitEngineFailed = 3,
+  exitInterrupted = 130
+};
+
+/// What the command line said, whichever command it was.
+struct CommandLine {
+  RunCommand run;
+  std::vector<std::filesystem::path> inputs;  ///< case files, or result folders
+  std::vector<std::string> overrides;         ///< --set
+  bool quick = false;
+  bool strict = false;
+  bool json = false;
+};
+
+int listEngines(const CommandLine& line);
+int checkCase(const CommandLine& line);
+int collide(const CommandLine& line);
+int compare(const CommandLine& line);
+int rebuildReports(const CommandLine& line);
+int serveEngine(const std::string& name);
+
+}  // namespace crossgrain

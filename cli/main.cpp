@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gsl/gsl_errno.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "adapters/engine.hpp"
+#include "cases/bad_input.hpp"
+#include "cli/commands.hpp"
+#include "runs/interrupt.hpp"
+#include "runs/version.hpp"
+
+namespace crossgrain {
+namespace {
+
+void addEngines(CLI::App& command, CommandLine& line) {
+  command
+      .add_option("--engines", line.run.engines,
+                  "engines by name, or all; the first is the reference")
+      ->delimiter(',')
+      ->required();
+}
+
+void addRun(CLI::App& command, CommandLine& line, std::uint64_t& seed) {
+  addEngines(command, line);
+  command.add_option("--out", line.run.out, "folder for results")->required();
+  command.add_option("--set", line.overrides,
+                     "key=value: changes the case, e.g. averaging.rings=40");
+  command.add_option("--seed", seed, "preparation.seed of the case");
+  command.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
+  command.add_flag("--quick", line.quick, "a short version, to see that everything works");
+  command.add_flag("--strict", line.strict, "undecided verdicts count as falling short");
+  command.add_flag("--quiet", line.run.quiet, "no progress");
+  command.add_flag("--json", line.json, "print results.json's path only, for scripts");
+}
+
+CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what,
+                     const std::string& example) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->footer("Example:\n  " + example);
+  return command;
+}
+
+int run(int argc, char** argv) {
+  CommandLine line;
+  line.run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  line.run.commandLine =
+      fmt::format("crossgrain {}", fmt::join(std::vector<std::string>(argv + 1, argv + argc), " "));
+  std::uint64_t seed = 0;
+  std::string served;
+
+  CLI::App app{
+      "crossgrain: one granular scene on several engines, averaged and held against each "
+      "other"};
+  app.set_version_flag("--version", programVersion);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 held, 1 disagreement or fell short, 2 bad input, 3 an engine failed, "
+      "130 interrupted.");
+
+  CLI::App* engines = addCommand(app, "engines", "engines found, what they can do, their settings",
+                                 "crossgrain engines");
+  engines->add_flag("--json", line.json, "as JSON");
+
+  CLI::App* check = addCommand(app, "check", "who can run a case, deviations, predicted time",
+                               "crossgrain check cases/couette/quick.toml --engines all");
+  check->add_option("case", line.inputs, "case file")->required();
+  check->add_option("--engines", line.run.engines, "engines by name, or all")
+      ->delimiter(',')
+      ->default_val("all");
+  check->add_option("--set", line.overrides, "key=value: changes the case");
+
+  CLI::App* collisions = addCommand(
+      app, "collide", "two-particle sweeps against the oracle",
+      "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out");
+  collisions->add_option("case", line.inputs, "case file or folder of case files")->required();
+  addRun(*collisions, line, seed);
+
+  CLI::App* comparison =
+      addCommand(app, "compare", "run, average, cross-check",
+                 "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out");
+  comparison->add_option("case", line.inputs, "case file")->required();
+  addRun(*comparison, line, seed);
+
+  CLI::App* report =
+      addCommand(app, "report", "rebuild reports from results.json", "crossgrain report out");
+  report->add_option("folder", line.inputs, "folders that hold a results.json")->required();
+
+  CLI::App* serve =
+      app.add_subcommand("__serve", "speak the worker protocol on descriptors 3 and 4");
+  serve->group("");
+  serve->add_option("engine", served)->required();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    throw BadInput(fmt::format("{}; see crossgrain --help", error.what()));
+  }
+  for (CLI::App* command : {collisions, comparison})
+    if (command->parsed() && command->count("--seed") > 0)
+      line.overrides.push_back(fmt::format("preparation.seed={}", seed));
+
+  if (engines->parsed()) return listEngines(line);
+  if (check->parsed()) return checkCase(line);
+  if (collisions->parsed()) return collide(line);
+  if (comparison->parsed()) return compare(line);
+  if (report->parsed()) return rebuildReports(line);
+  return serveEngine(served);
+}
+
+/// Every way to end, as one line on standard error and the status that goes with it.
+int runAndExplain(int argc, char** argv) {
+  const auto explain = [](const std::exception& error, int status) {
+    fmt::print(stderr, "crossgrain: {}\n", error.what());
+    return status;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const Interrupted& error) {
+    fmt::print(stderr, "crossgrain: interrupted; --resume takes up the runs that are finished\n");
+    return exitInterrupted;
+  } catch (const BadInput& error) {
+    return explain(error, exitBadInput);
+  } catch (const UnsupportedScene& error) {
+    return explain(error, exitBadInput);
+  } catch (const EngineFailure& error) {
+    return explain(error, exitEngineFailed);
+  } catch (const std::exception& error) {  // a folder that cannot be written, a full disk
+    return explain(error, exitBadInput);
+  }
+}
+
+}  // namespace
+}  // namespace crossgrain
+
+int main(int argc, char** argv) {
+  gsl_set_error_handler_off();  // GSL's own would abort; its status codes are looked at
+  crossgrain::catchInterrupts();
+  return crossgrain::runAndExplain(argc, argv);
+}

@@ -1,0 +1,147 @@
+#include "engines/box2d/impulse_world.hpp"
+
+#include <algorithm>
+
+namespace box2d_granular {
+namespace {
+
+// v_B − v_A at a point of contact, in units.
+b2Vec2 relativeVelocity(b2Contact* contact, const b2Vec2& point) {
+  return contact->GetFixtureB()->GetBody()->GetLinearVelocityFromWorldPoint(point) -
+         contact->GetFixtureA()->GetBody()->GetLinearVelocityFromWorldPoint(point);
+}
+
+}  // namespace
+
+ImpulseWorld::ImpulseWorld(const Model& model, ImpulseOptions options)
+    : options_(std::move(options)),
+      dt_(model.dt),
+      walls_(model.walls),
+      members_(model),
+      world_(model, 0.0),
+      lastOnWalls_(model.walls.size()),
+      sumOnWalls_(model.walls.size()),
+      sums_(model.disks.size()) {
+  world_.box2d().SetContactListener(this);
+}
+
+void ImpulseWorld::step() {
+  setWallsMoving();
+  touching_.clear();
+  turnedBack_.clear();
+  world_.box2d().Step(static_cast<float>(dt_), options_.velocityIterations,
+                      options_.positionIterations);
+  harvest();
+  ++steps_;
+}
+
+/// Box2D carries walls on by their float velocities; each step starts from where they should be, so
+/// no error builds up.
+void ImpulseWorld::setWallsMoving() {
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    if (!walls_[w].moves) continue;
+    const Pose now = walls_[w].pose(time());
+    const Pose next = walls_[w].pose(time() + dt_);
+    members_.pose[w] = now;
+    world_.placeWall(w, now);
+    world_.wall(w).SetLinearVelocity(world_.toUnits((1.0 / dt_) * (next.centre - now.centre)));
+    world_.wall(w).SetAngularVelocity(static_cast<float>((next.angle - now.angle) / dt_));
+  }
+}
+
+void ImpulseWorld::BeginContact(b2Contact* contact) {
+  const std::int32_t a = World::id(contact->GetFixtureA());
+  const std::int32_t b = World::id(contact->GetFixtureB());
+  const Restitution restitution = options_.restitution(std::min(a, b), std::max(a, b));
+  contact->SetFriction(static_cast<float>(options_.friction));
+  contact->SetRestitution(static_cast<float>(restitution.normal));
+  contact->SetRestitutionThreshold(0.0f);
+  if (restitution.tangential == 0.0) return;
+
+  b2WorldManifold manifold;
+  contact->GetWorldManifold(&manifold);
+  const b2Vec2 approach = relativeVelocity(contact, manifold.points[0]);
+  const double normalSpeed = world_.toMetres({b2Dot(approach, manifold.normal), 0.0f}).x;
+  if (normalSpeed > -options_.impactSpeed) return;
+  const float tangentSpeed = b2Dot(approach, b2Cross(manifold.normal, 1.0f));
+  contact->SetTangentSpeed(-static_cast<float>(restitution.tangential) * tangentSpeed);
+  turnedBack_.push_back(contact);
+  ++impacts_;
+}
+
+void ImpulseWorld::PreSolve(b2Contact* contact, const b2Manifold*) {
+  const std::int32_t a = World::id(contact->GetFixtureA());
+  const std::int32_t b = World::id(contact->GetFixtureB());
+  b2WorldManifold manifold;  // its normal points from A to B
+  contact->GetWorldManifold(&manifold);
+  const double towardsI = b < a ? 1.0 : -1.0;
+  touching_.push_back({contact,
+                       std::min(a, b),
+                       std::max(a, b),
+                       {towardsI * static_cast<double>(manifold.normal.x),
+                        towardsI * static_cast<double>(manifold.normal.y)},
+                       world_.toMetres(manifold.points[0])});
+}
+
+void ImpulseWorld::harvest() {
+  last_.clear();
+  std::ranges::fill(lastOnWalls_, WallImpulse{});
+  for (const Touching& touch : touching_) {
+    const b2ManifoldPoint& solved = touch.contact->GetManifold()->points[0];
+    // Box2D's tangent is the normal turned by −90°; with either order of A and B that is −(z × n)
+    // for a force on i.
+    const PairImpulse impulse{touch.i, touch.j, world_.toMetres({solved.normalImpulse, 0.0f}).x,
+                              -world_.toMetres({solved.tangentImpulse, 0.0f}).x};
+    last_.push_back(impulse);
+    addToSum(impulse);
+    if (!members_.isWall(touch.j)) continue;
+    const std::size_t w = members_.wallOf(touch.j);
+    const Vector onWall =
+        -impulse.normal * touch.normal + -impulse.tangential * perpendicular(touch.normal);
+    const Vector arm = touch.point - members_.pose[w].centre;
+    for (auto* load : {&lastOnWalls_[w], &sumOnWalls_[w]}) {
+      load->linear = load->linear + onWall;
+      load->angular += cross(arm, onWall);
+    }
+  }
+  contactEvaluations_ += touching_.size();
+  for (b2Contact* contact : turnedBack_) contact->SetTangentSpeed(0.0f);
+}
+
+void ImpulseWorld::addToSum(const PairImpulse& impulse) {
+  if (impulse.normal == 0.0 && impulse.tangential == 0.0) return;
+  std::vector<PairImpulse>& ofDisk = sums_[static_cast<std::size_t>(impulse.i)];
+  const auto found = std::ranges::find(ofDisk, impulse.j, &PairImpulse::j);
+  if (found == ofDisk.end()) {
+    ofDisk.push_back(impulse);
+    return;
+  }
+  found->normal += impulse.normal;
+  found->tangential += impulse.tangential;
+}
+
+std::vector<PairImpulse> ImpulseWorld::sums() const {
+  std::vector<PairImpulse> all;
+  for (const auto& ofDisk : sums_) all.insert(all.end(), ofDisk.begin(), ofDisk.end());
+  return all;
+}
+
+void ImpulseWorld::clearSums() {
+  for (auto& ofDisk : sums_) ofDisk.clear();
+  std::ranges::fill(sumOnWalls_, WallImpulse{});
+  sumsFrom_ = steps_;
+}
+
+const Members& ImpulseWorld::members() {
+  for (std::size_t i = 0; i < members_.disks; ++i) {
+    const b2Body& disk = world_.disk(i);
+    members_.position[i] = world_.toMetres(disk.GetPosition());
+    members_.velocity[i] = world_.toMetres(disk.GetLinearVelocity());
+    members_.spin[i] = static_cast<double>(disk.GetAngularVelocity());
+  }
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (walls_[w].moves) members_.place(w, walls_[w].pose(time()));
+  return members_;
+}
+
+}  // namespace box2d_granular

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engines/box2d/members.hpp"
+#include "engines/box2d/restitution.hpp"
+#include "engines/box2d/world.hpp"
+
+namespace box2d_granular {
+
+struct ImpulseOptions {
+  double friction = 0.0;  ///< µ
+  /// e_n and e_t0 of the disk i with j, asked for when they begin to touch.
+  std::function<Restitution(std::int32_t i, std::int32_t j)> restitution;
+  /// Approach speed below which a beginning contact is taken for an enduring one that the position
+  /// solver had pushed apart, and gets no tangential restitution [m/s].
+  double impactSpeed = 0.0;
+  int velocityIterations = 8;
+  int positionIterations = 3;
+};
+
+/// Impulse that j gave i: `normal` along n (from j to i), `tangential` along z × n [N s].
+struct PairImpulse {
+  std::int32_t i, j;
+  double normal, tangential;
+};
+
+/// Impulse of the disks on a wall [N s] and about its centre [N m s].
+struct WallImpulse {
+  Vector linear;
+  double angular = 0.0;
+};
+
+/// Rigid disks under Box2D's own solver, extended by tangential restitution: Box2D drives the
+/// contact point's tangential velocity to the contact's "tangent speed" within the friction it has,
+/// so a contact that begins with v_t is given the tangent speed −e_t0 v_t for that one step.
+/// Sticking then gives Ψ_f = −e_t0 Ψ_i, sliding Ψ_i − K(1 + e_n)µ (Walton; Luding 1998).
+///
+/// Box2D mixes friction by square root and restitution by maximum and ignores restitution below
+/// one unit a second: all three are set contact by contact.
+class ImpulseWorld : private b2ContactListener {
+ public:
+  ImpulseWorld(const Model& model, ImpulseOptions options);
+
+  void step();
+
+  std::uint64_t steps() const { return steps_; }
+  double time() const { return static_cast<double>(steps_) * dt_; }
+  double dt() const { return dt_; }
+
+  /// Disks as Box2D has them, walls as prescribed, both at time(). Velocities of disks likewise.
+  const Members& members();
+
+  /// Impulses of the last step, of the pairs that touched at its beginning.
+  std::span<const PairImpulse> lastImpulses() const { return last_; }
+  std::span<const WallImpulse> lastWallImpulses() const { return lastOnWalls_; }
+
+  /// Impulses summed since the last clearSums(), a pair's in the frame that turns along with it.
+  std::vector<PairImpulse> sums() const;
+  std::span<const WallImpulse> wallSums() const { return sumOnWalls_; }
+  std::uint64_t sumSteps() const { return steps_ - sumsFrom_; }
+  void clearSums();
+
+  std::uint64_t contactEvaluations() const { return contactEvaluations_; }  ///< touching, per step
+  std::uint64_t impacts() const { return impacts_; }  ///< contacts given tangential restitution
+
+ private:
+  /// A contact that the solver is about to see, with the geometry it will use.
+  struct Touching {
+    b2Contact* contact;
+    std::int32_t i, j;
+    Vector normal;  ///< from j to i
+    Vector point;   ///< [m]
+  };
+
+  void BeginContact(b2Contact* contact) override;
+  void PreSolve(b2Contact* contact, const b2Manifold* old) override;
+  void setWallsMoving();
+  void harvest();
+  void addToSum(const PairImpulse& impulse);
+
+  ImpulseOptions options_;
+  double dt_;
+  std::vector<Wall> walls_;
+  Members members_;
+  World world_;
+  std::uint64_t steps_ = 0, sumsFrom_ = 0, contactEvaluations_ = 0, impacts_ = 0;
+  std::vector<Touching> touching_;
+  std::vector<b2Contact*> turnedBack_;  ///< contacts that hold a tangent speed in this step
+  std::vector<PairImpulse> last_;
+  std::vector<WallImpulse> lastOnWalls_, sumOnWalls_;
+  std::vector<std::vector<PairImpulse>> sums_;  ///< by i, which is always a disk
+};
+
+}  // namespace box2d_granular

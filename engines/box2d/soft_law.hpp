@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace box2d_granular {
+
+enum class Tangential { none, coulomb, viscous, spring, springDashpot };
+enum class Bound { compression, magnitude, signedForce };  ///< µ times max(f_n, 0), |f_n| or f_n
+
+/// A soft contact law and its conventions.
+///
+/// n points from j to i, s = z × n, overlap δ = a_i + a_j − |x_i − x_j|;
+/// v_n = (v_i − v_j)·n, v_t = (v_i − v_j)·s − (l_i ω_i + l_j ω_j); the force on i is f_n n + f_t s,
+/// its torque −l_i f_t.
+struct SoftLaw {
+  double kn = 0.0;  ///< [N/m]
+  double gn = 0.0;  ///< [kg/s]
+  double kt = 0.0;  ///< [N/m]
+  double gt = 0.0;  ///< [kg/s]
+  double mu = 0.0;  ///< [-]
+  Tangential tangential = Tangential::none;
+  Bound bound = Bound::compression;
+  bool cutTension = false;
+  bool dashpotOutsideBound = false;  ///< hold only the spring's force against the bound
+  bool resetSpringOnly = false;      ///< on slip spring and dashpot together carry the bound
+  bool stretchBefore = false;        ///< ξ += v_t dt before the force, not after it
+  bool leverToContactPoint = false;  ///< l_i = a_i − δ a_j/(a_i + a_j) instead of a_i
+
+  bool friction() const { return tangential != Tangential::none && mu > 0.0; }
+};
+
+struct ContactForce {
+  double normal = 0.0;      ///< f_n [N]
+  double tangential = 0.0;  ///< f_t [N]
+  bool sliding = false;
+};
+
+/// The force on i (Lätzel 2003, Eqs. 4.9, 4.16, 4.18, 4.20 and 4.22–4.25).
+/// @tparam Damped  whether γ_n > 0
+/// @tparam T       which tangential law; `law.tangential` is not looked at
+/// @param spring   ξ [m], kept as long as the contact lasts
+template <bool Damped, Tangential T>
+ContactForce contactForce(const SoftLaw& law, double overlap, double vn, double vt, double& spring,
+                          double dt) {
+  double normal = law.kn * overlap;
+  if constexpr (Damped) normal -= law.gn * vn;
+  if (law.cutTension) normal = std::max(normal, 0.0);
+  if constexpr (T == Tangential::none) return {normal};
+
+  const double carrying = law.bound == Bound::compression ? std::max(normal, 0.0)
+                          : law.bound == Bound::magnitude ? std::abs(normal)
+                                                          : normal;
+  const double bound = law.mu * carrying;
+  const auto sign = [](double value) { return (value > 0.0) - (value < 0.0); };
+  if constexpr (T == Tangential::coulomb) return {normal, -bound * sign(vt), true};
+  if constexpr (T == Tangential::viscous) {
+    const double trial = law.gt * std::abs(vt);
+    return {normal, -std::min(trial, bound) * sign(vt), trial > bound};
+  }
+
+  if (law.stretchBefore) spring += vt * dt;
+  const double elastic = -law.kt * spring;
+  const double viscous = T == Tangential::springDashpot ? -law.gt * vt : 0.0;
+  const double trial = elastic + viscous;
+  const double tested = law.dashpotOutsideBound ? elastic : trial;
+  if (std::abs(tested) <= bound) {
+    if (!law.stretchBefore) spring += vt * dt;
+    return {normal, trial, false};
+  }
+  const double force = bound * sign(tested);
+  if (law.kt > 0.0) spring = -(law.resetSpringOnly ? force - viscous : force) / law.kt;
+  return {normal, force, true};
+}
+
+/// Calls f.template operator()<Damped, T>() with the parts that the law really has.
+template <typename F>
+auto withPartsOf(const SoftLaw& law, F&& f) {
+  const auto damped = [&]<bool Damped>() {
+    switch (law.friction() ? law.tangential : Tangential::none) {
+      case Tangential::coulomb:
+        return f.template operator()<Damped, Tangential::coulomb>();
+      case Tangential::viscous:
+        return f.template operator()<Damped, Tangential::viscous>();
+      case Tangential::spring:
+        return f.template operator()<Damped, Tangential::spring>();
+      case Tangential::springDashpot:
+        return f.template operator()<Damped, Tangential::springDashpot>();
+      case Tangential::none:
+        break;
+    }
+    return f.template operator()<Damped, Tangential::none>();
+  };
+  return law.gn > 0.0 ? damped.template operator()<true>() : damped.template operator()<false>();
+}
+
+}  // namespace box2d_granular

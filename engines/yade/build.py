@@ -1,0 +1,167 @@
+"""Puts a scene into YADE. Ids are the scene's: disks, wall disks by body, planes by body; bodies
+of YADE's own (hubs, clumps) come after them."""
+
+import math
+
+from protocol import Unsupported
+from yade import (
+    Bo1_Sphere_Aabb,
+    Bo1_Wall_Aabb,
+    ForceResetter,
+    HarmonicMotionEngine,
+    Ig2_Sphere_Sphere_ScGeom,
+    Ig2_Wall_Sphere_ScGeom,
+    InsertionSortCollider,
+    InteractionLoop,
+    Ip2_ViscElMat_ViscElMat_ViscElPhys,
+    Law2_ScGeom_ViscElPhys_Basic,
+    NewtonIntegrator,
+    O,
+    ViscElMat,
+    utils,
+)
+
+DISK_MASK, WALL_MASK, HUB_MASK = 1, 3, 0  # two walls share all bits: the collider skips them
+WHITE = (1, 1, 1)  # without a colour YADE reseeds Python's random numbers for one
+
+
+def check(scene, bodies):
+    """@raise Unsupported for what YADE cannot do and no law option names"""
+    bottom = scene.get("bottom")
+    if bottom and bottom["mu"] > 0:
+        raise Unsupported("has no bottom_friction")
+    for body in bodies:
+        for plane in body.planes:
+            if sorted(map(abs, plane["normal"])) != [0, 1]:
+                raise Unsupported(
+                    f"has planes along x or y only; one of {body.name} has the normal "
+                    f"{tuple(plane['normal'])}"
+                )
+        if body.planes and body.kind in ("rotating", "radial"):
+            raise Unsupported(f"has no planes with {body.kind} motion, as of {body.name}")
+
+
+def place_disks(arrays, rotation):
+    columns = (
+        arrays["disks.radius"].tolist(),
+        arrays["disks.mass"].tolist(),
+        arrays["disks.inertia"].tolist(),
+        arrays["disks.position"].reshape(-1, 2).tolist(),
+        arrays["disks.velocity"].reshape(-1, 2).tolist(),
+        arrays["disks.spin"].tolist(),
+    )
+    for radius, mass, inertia, (x, y), (u, v), spin in zip(*columns):
+        disk = utils.sphere((x, y, 0), radius, color=WHITE, material=0, mask=DISK_MASK)
+        state = disk.state
+        state.mass, state.inertia = mass, (inertia, inertia, inertia)
+        state.vel = (u, v, 0)
+        state.blockedDOFs = "zXY" if rotation else "zXYZ"
+        if rotation:
+            state.angVel = (0, 0, spin)
+        O.bodies.append(disk)
+
+
+def place_walls(bodies):
+    """Sets each body's disk_ids and plane_ids."""
+    for body in bodies:
+        disks = [
+            utils.sphere((x, y, 0), radius, fixed=True, color=WHITE, material=0, mask=WALL_MASK)
+            for (x, y), radius in zip(body.disk_position.tolist(), body.disk_radius.tolist())
+        ]
+        body.disk_ids = O.bodies.append(disks)
+    for body in bodies:
+        body.plane_ids = []
+        for plane in body.planes:
+            axis = 0 if plane["normal"][0] else 1
+            point = (*plane["point"], 0)
+            sense = int(plane["normal"][axis])
+            wall = utils.wall(point, axis, sense=sense, color=WHITE, material=0)
+            wall.mask = WALL_MASK
+            body.plane_ids.append(O.bodies.append(wall))
+
+
+def start_walls(bodies):
+    """Velocities at t = 0; a rotating body becomes a clump, which YADE turns rigidly."""
+    for body in bodies:
+        _, velocity, _, spin = body.state(0.0)
+        for id_, (u, v) in zip(body.disk_ids, body.disk_states(0.0)[1].tolist()):
+            O.bodies[id_].state.vel = (u, v, 0)
+            O.bodies[id_].state.angVel = (0, 0, spin)
+        for id_ in body.plane_ids:
+            O.bodies[id_].state.vel = (*velocity.tolist(), 0)
+        if body.kind == "rotating" and body.disk_ids:
+            clump_about(body.centre.tolist(), body.disk_ids, spin)
+
+
+def clump_about(centre, ids, spin):
+    # A clump turns about its centre of mass: a hub that outweighs all else puts it at the centre.
+    heavy = O.materials.append(ViscElMat(density=1e40))
+    hub = utils.sphere((*centre, 0), 1e-3, fixed=True, color=WHITE, material=heavy, mask=HUB_MASK)
+    hub.bounded = False
+    clump = O.bodies[O.bodies.clump([*ids, O.bodies.append(hub)], discretization=0)]
+    clump.state.blockedDOFs = "xyzXYZ"
+    clump.state.vel = (0, 0, 0)
+    clump.state.angVel = (0, 0, spin)
+
+
+def oscillation(body, dt):
+    """Two engines: before the forces the exact velocity at t, before the drift the one that brings
+    the body to its exact position at t + dt: a sin w(t + dt) − a sin wt = dt·a w' cos w(t + dt/2)
+    with w' = sin(w dt/2)/(dt/2)."""
+    w = body.motion["frequency"]
+    shrink = math.sin(w * dt / 2) / (w * dt / 2)
+
+    def engine(factor, phase):
+        return HarmonicMotionEngine(
+            ids=body.disk_ids + body.plane_ids,
+            A=(*(factor * a for a in body.motion["amplitude"]), 0),
+            f=(w / (2 * math.pi),) * 3,
+            fi=(phase - math.pi / 2,) * 3,  # YADE's velocity is −A w sin(wt + fi)
+        )
+
+    return engine(1.0, 0.0), engine(shrink, w * dt / 2)
+
+
+def build_engines(bodies, dt, gravity, verlet_distance):
+    """@return the integrator; O.engines is set"""
+    moved = [
+        oscillation(body, dt)
+        for body in bodies
+        if body.kind == "oscillating"
+        and body.motion["frequency"]
+        and body.disk_ids + body.plane_ids
+    ]
+    newton = NewtonIntegrator(damping=0, gravity=(*gravity, 0))
+    O.engines = [
+        ForceResetter(),
+        *(exact for exact, _ in moved),
+        InsertionSortCollider(
+            [Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()],
+            verletDist=-verlet_distance,
+            avoidSelfInteractionMask=WALL_MASK & ~DISK_MASK,
+        ),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Wall_Sphere_ScGeom()],
+            [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+            [Law2_ScGeom_ViscElPhys_Basic()],
+        ),
+        *(drift for _, drift in moved),
+        newton,
+    ]
+    return newton
+
+
+def radial_changes(bodies, dt):
+    """step → [(body, share of its radial speed from that step on)]: a ring stops at radial_end,
+    if need be part of the way through a step."""
+    changes = {}
+    for body in bodies:
+        if body.kind != "radial":
+            continue
+        last = body.motion["radial_end"] / dt
+        whole = math.floor(last + 1e-9)
+        share = max(last - whole, 0.0)
+        if share > 0:
+            changes.setdefault(whole, []).append((body, share))
+        changes.setdefault(whole + (share > 0), []).append((body, 0.0))
+    return changes

@@ -1,0 +1,62 @@
+"""Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp."""
+
+import math
+
+import numpy as np
+
+
+class Body:
+    """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays."""
+
+    def __init__(self, description, disk_position, disk_radius):
+        self.name = description["name"]
+        self.centre = np.array(description["centre"])
+        self.planes = description["planes"]
+        self.motion = description["motion"]
+        self.kind = self.motion["kind"]
+        self.disk_radius = disk_radius
+        self.disk_position = disk_position.reshape(-1, 2)
+        self.offset = self.disk_position - self.centre
+        self.distance = np.hypot(self.offset[:, 0], self.offset[:, 1])
+
+    def state(self, t):
+        """Centre, velocity of the centre, angle and angular velocity at time t."""
+        motion, velocity = self.motion, np.zeros(2)
+        if self.kind == "rotating":
+            spin = motion["angular_velocity"]
+            return self.centre, velocity, spin * t, spin
+        if self.kind == "translating":
+            velocity = np.array(motion["velocity"])
+            return self.centre + velocity * t, velocity, 0.0, 0.0
+        if self.kind == "oscillating":
+            w, amplitude = motion["frequency"], np.array(motion["amplitude"])
+            centre = self.centre + amplitude * math.sin(w * t)
+            return centre, amplitude * (w * math.cos(w * t)), 0.0, 0.0
+        return self.centre, velocity, 0.0, 0.0
+
+    def radial(self, t):
+        """How far members have moved from the centre, and their outward velocity, at time t."""
+        if self.kind != "radial":
+            return 0.0, 0.0
+        speed, end = self.motion["radial_velocity"], self.motion["radial_end"]
+        return speed * min(t, end), speed if t < end else 0.0
+
+    def disk_states(self, t):
+        """Positions and velocities of the wall disks at time t."""
+        centre, velocity, angle, spin = self.state(t)
+        shift, outward = self.radial(t)
+        apart = np.where(self.distance > 0, self.distance, 1.0)  # a disk at the centre stays there
+        scale = 1.0 + shift / apart
+        cos, sin = math.cos(angle) * scale, math.sin(angle) * scale
+        x = cos * self.offset[:, 0] - sin * self.offset[:, 1]
+        y = sin * self.offset[:, 0] + cos * self.offset[:, 1]
+        stretch = outward / (scale * apart)
+        return (
+            centre + np.column_stack([x, y]),
+            velocity + np.column_stack([stretch * x - spin * y, stretch * y + spin * x]),
+        )
+
+    def plane_points(self, t):
+        """Points of the planes at time t; planes only translate."""
+        shift = self.state(t)[0] - self.centre
+        return np.array([plane["point"] for plane in self.planes]).reshape(-1, 2) + shift

@@ -1,0 +1,264 @@
+"""A worker of crossgrain that runs scenes on YADE:  yade -n -x -j1 worker.py
+
+Disks are spheres held to the plane z = 0, wall disks are spheres that move as prescribed, planes
+are YADE's axis-aligned walls. README.md of this folder says what YADE makes of a scene.
+"""
+
+import gc
+import math
+import os
+import socketserver
+import sys
+import threading
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+sys.dont_write_bytecode = True
+
+import numpy as np
+import yade.config
+from yade import O, utils
+
+import build
+import protocol
+from contacts import read_contacts, xy, z
+from law import Law, coefficients, representative_pairs
+from motion import Body
+
+COUNT_EVERY = 100  # steps between two looks at the number of contacts
+
+
+def close_yades_servers():
+    """YADE listens for Python commands on all interfaces; a worker must not."""
+    for server in [o for o in gc.get_objects() if isinstance(o, socketserver.BaseServer)]:
+        threading.Thread(
+            target=lambda s=server: (s.shutdown(), s.server_close()), daemon=True
+        ).start()
+
+
+def setting(name, default, unit, doc):
+    return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []}
+
+
+class Yade:
+    def capabilities(self):
+        effects = "normal_damping friction tangential_spring tangential_damping rotation gravity"
+        return {
+            "version": yade.config.version,
+            "effects": {
+                **{name: "optional" for name in f"{effects} moving_walls".split()},
+                "bottom_friction": "never",
+                "bottom_spin_friction": "never",
+            },
+            "law_options": {
+                "normal": ["linear"],
+                "tangential": ["none", "spring", "spring_dashpot"],
+                "tension": ["cut"],
+                "coulomb_bound": ["compression"],
+                "dashpot": ["outside"],
+                "spring_reset": ["total"],
+                "spring_update": ["before"],
+                "lever_arm": ["overlap_middle"],
+                "damping_velocity": ["lagged"],
+                "integrator": ["position_verlet"],
+            },
+            "precision": "double",
+            "instant_contacts": True,
+            "accumulated_contacts": False,
+            "warm_handover": False,
+            "sliding_flags": True,
+            "settings": [
+                setting("dt", 0.0, "s", "time step; 0: the case's"),
+                setting(
+                    "verlet_distance",
+                    0.2,
+                    "smallest radius",
+                    "how far bounding boxes reach beyond disks; changes the speed only",
+                ),
+            ],
+        }
+
+    def load(self, scene, arrays, settings):
+        self.law = Law(scene["law"])
+        self.bodies = [
+            Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
+            for b, body in enumerate(scene["bodies"])
+        ]
+        build.check(scene, self.bodies)
+        self.dt = settings.get("dt", 0.0) or scene["dt"]
+        self.gravity = scene["gravity"]
+        self.disks = scene["disks"]
+        self.mass, self.inertia = arrays["disks.mass"], arrays["disks.inertia"]
+
+        O.reset()
+        O.dt = self.dt
+        O.materials.append(self.law.material())
+        build.place_disks(arrays, rotation=self.law.friction)
+        build.place_walls(self.bodies)
+        self.states = [body.state for body in O.bodies]
+        self.first_plane = self.disks + sum(len(body.disk_ids) for body in self.bodies)
+        self.radius = np.zeros(len(self.states))  # of planes: no arm
+        self.radius[: self.first_plane] = np.concatenate(
+            [arrays["disks.radius"], *(body.disk_radius for body in self.bodies)]
+        )
+        self.newton = build.build_engines(
+            self.bodies, self.dt, self.gravity, settings.get("verlet_distance", 0.2)
+        )
+        realised = self.realised(scene)
+        build.start_walls(self.bodies)
+        self.radial_changes = build.radial_changes(self.bodies, self.dt)
+
+        self.steps = self.evaluations = 0
+        self.wall_seconds = self.cpu_seconds = 0.0
+        gc.collect()
+        gc.freeze()  # thousands of lasting objects: a collection among them would take 40 ms
+        return realised
+
+    def realised(self, scene):
+        """Reads the pairs' coefficients back from YADE."""
+        pairs = []
+        wall_disks = [id_ for body in self.bodies for id_ in body.disk_ids]
+        planes = [id_ for body in self.bodies for id_ in body.plane_ids]
+        radius = self.radius
+        for name, i, j in representative_pairs(
+            radius[: self.disks], self.mass, wall_disks, planes
+        ):
+            pairs.append({"pair": name, **coefficients(utils.createInteraction(i, j).phys)})
+        O.interactions.clear()
+        return {
+            "engine": "yade",
+            "version": yade.config.version,
+            "dt": self.dt,
+            "precision": "double",
+            "integrator": "position_verlet",
+            "effects": self.law.effects(scene),
+            "pairs": pairs,
+            "deviations": [],
+        }
+
+    def advance(self, t):
+        wall, cpu = time.perf_counter(), time.thread_time()
+        target = math.floor(t / self.dt + 0.5)
+        while self.steps < target:
+            self.change_radial_motion()
+            if self.steps == 0:
+                self.first_step()
+                continue
+            stops = [step for step in self.radial_changes if step > self.steps]
+            chunk = min([target, self.steps + COUNT_EVERY, *stops]) - self.steps
+            for _ in range(chunk):  # O.run() would wait 40 ms for each call
+                O.step()
+            self.kick = self.dt
+            self.steps += chunk
+            self.evaluations += chunk * O.interactions.countReal()
+        self.wall_seconds += time.perf_counter() - wall
+        self.cpu_seconds += time.thread_time() - cpu
+        return self.steps * self.dt
+
+    def first_step(self):
+        """The scene's velocities are those of t = 0, YADE's live half a step earlier: the first
+        kick is half a kick, which twice the inertia and half the gravity make of a whole one."""
+        self.scale_inertia(2.0)
+        O.step()
+        self.scale_inertia(0.5)
+        self.kick = self.dt / 2
+        self.steps = 1
+        self.evaluations = O.interactions.countReal()
+
+    def scale_inertia(self, factor):
+        self.newton.gravity /= factor
+        for state in self.states[: self.disks]:
+            state.mass *= factor
+            state.inertia *= factor
+
+    def change_radial_motion(self):
+        for body, share in self.radial_changes.get(self.steps, []):
+            velocities = body.disk_states(0.0)[1]
+            for id_, (u, v) in zip(body.disk_ids, velocities.tolist()):
+                self.states[id_].vel = (share * u, share * v, 0)
+
+    def snapshot(self, report):
+        if report == "accumulated":
+            raise ValueError("has no accumulated contacts")
+        time_ = self.steps * self.dt
+        disks = self.states[: self.disks]
+        walls = self.states[self.disks : self.first_plane]
+        snapshot = {
+            "position_time": time_,
+            "velocity_time": time_ - self.dt / 2 if self.steps else 0.0,
+            "contact_time": time_ - self.dt if self.steps else 0.0,
+            "contact_interval": 0.0,
+        }
+        velocity = xy([state.vel for state in disks])
+        spin = z([state.angVel for state in disks])
+        arrays = {
+            "position": ("f64", xy([state.pos for state in disks])),
+            "velocity": ("f64", velocity),
+            "wall_position": ("f64", xy([state.pos for state in walls])),
+        }
+        if self.law.friction:
+            arrays["spin"] = ("f64", spin)
+        forces = None  # before the first step there are none, and so no contacts
+        if self.steps:
+            forces = self.forces(0 if report == "instant" else self.disks)
+            if report == "instant":
+                seen = self.seen_by_the_law(velocity, spin, *forces)
+                arrays.update(read_contacts(self.law, self.radius, self.first_plane, *seen))
+        snapshot["bodies"] = [self.body_snapshot(body, time_, forces) for body in self.bodies]
+        return snapshot, arrays
+
+    def forces(self, first):
+        """Forces and torques of the last step by id; those of ids below `first` are left out."""
+        force, torque = np.zeros((len(self.states), 2)), np.zeros(len(self.states))
+        of_yade, ids = O.forces, range(first, len(self.states))
+        force[first:] = xy([of_yade.f(i) for i in ids])
+        torque[first:] = z([of_yade.t(i) for i in ids])
+        return force, torque
+
+    def seen_by_the_law(self, velocity, spin, force, torque):
+        """Velocities and spins of all bodies as the forces of the last step saw them."""
+        n = self.disks
+        all_velocity, all_spin = np.zeros((len(self.states), 2)), np.zeros(len(self.states))
+        all_velocity[:n] = velocity - self.kick * (force[:n] / self.mass[:, None] + self.gravity)
+        if self.law.friction:
+            all_spin[:n] = spin - self.kick * torque[:n] / self.inertia
+        then = (self.steps - 1) * self.dt
+        for body in self.bodies:
+            _, of_centre, _, body_spin = body.state(then)
+            all_velocity[body.plane_ids] = of_centre
+            all_velocity[body.disk_ids] = body.disk_states(then)[1]
+            all_spin[body.disk_ids] = body_spin
+        return all_velocity, all_spin
+
+    def body_snapshot(self, body, time_, forces):
+        centre, velocity, angle, spin = body.state(time_)
+        snapshot = {
+            "centre": centre.tolist(),
+            "angle": angle,
+            "velocity": velocity.tolist(),
+            "angular_velocity": spin,
+        }
+        if forces:
+            then = time_ - self.dt
+            ids = body.disk_ids + body.plane_ids
+            force, torque = forces[0][ids], forces[1][ids]
+            points = np.concatenate([body.disk_states(then)[0], body.plane_points(then)])
+            arm = points - body.state(then)[0]
+            snapshot["force"] = force.sum(axis=0).tolist()
+            snapshot["torque"] = float(
+                torque.sum() + (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]).sum()
+            )
+        return snapshot
+
+    def stats(self):
+        return {
+            "steps": self.steps,
+            "contact_evaluations": self.evaluations,
+            "wall_seconds": self.wall_seconds,
+            "cpu_seconds": self.cpu_seconds,
+            "counters": {},
+        }
+
+
+close_yades_servers()
+protocol.serve(Yade())

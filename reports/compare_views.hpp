@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/engines.hpp"
+#include "reports/json_view.hpp"
+
+/// The parts of the comparison's page.
+namespace crossgrain::reports {
+
+/// The table of engines: what ran, what it cost, what state it was in.
+void addEngineTable(Json& view, const std::vector<EngineResults>& engines);
+
+/// Engines and runs that did not run to the end, with their reasons.
+void addTroubles(Json& view, const std::vector<EngineResults>& engines);
+
+/// Verdicts against the reference, of all pairs, and model against implementation.
+void addAgreement(Json& view, const Json& results, const std::vector<EngineResults>& engines);
+
+/// The verdict in a line (lead) and a sentence or two on each engine (sentences).
+void addSummary(Json& view, const Json& results, const std::vector<EngineResults>& engines);
+
+}  // namespace crossgrain::reports

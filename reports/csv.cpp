@@ -1,0 +1,138 @@
+#include "reports/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace crossgrain::reports {
+
+namespace {
+
+std::string cell(const std::string& value) {
+  if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
+  std::string quoted = "\"";
+  for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : std::string();
+}
+
+std::string cell(std::size_t value) {
+  return fmt::format("{}", value);
+}
+
+template <class... Values>
+std::string row(const Values&... values) {
+  std::string line;
+  ((line += cell(values) + ","), ...);
+  line.back() = '\n';
+  return line;
+}
+
+/// The index that a run's packing has in the results, as text.
+std::string packingOf(const Json& run) {
+  const Json& packing = member(run, "packing");
+  return packing.is_number_integer() ? packing.dump() : std::string();
+}
+
+std::string profileRows(const Json& results, const std::string& engine, const std::string& packing,
+                        const Json& profiles) {
+  const Json& rings = member(results, "rings");
+  const Json& radius = list(rings, "r");
+  std::string rows;
+  for (const Json& profile : profiles)
+    for (std::size_t ring = 0; ring < radius.size(); ++ring)
+      rows += row(engine, packing, text(profile, "method"), text(profile, "field"), ring + 1,
+                  number(radius[ring]), number(element(list(rings, "r_tilde"), ring)),
+                  number(element(list(profile, "mean"), ring)),
+                  number(element(list(profile, "stderr"), ring)),
+                  number(element(list(profile, "n_eff"), ring)), text(profile, "unit"));
+  return rows;
+}
+
+std::vector<std::string> seriesColumns(const Json& results) {
+  std::vector<std::string> columns = {"wheel_torque", "outer_pressure", "kinetic_energy",
+                                      "coordination", "max_overlap",    "sliding_fraction"};
+  std::set<std::string> further;
+  for (const Json& run : list(results, "runs"))
+    for (const auto& [name, values] : member(run, "series").items())
+      if (values.is_array() && name != "t_s" && std::ranges::find(columns, name) == columns.end())
+        further.insert(name);
+  columns.insert(columns.end(), further.begin(), further.end());
+  return columns;
+}
+
+}  // namespace
+
+std::string collisionsCsv(const Json& results) {
+  std::string table =
+      "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status\n";
+  const std::string name = text(member(results, "case"), "name");
+  const std::optional<double> absent;
+  for (const Json& variant : list(results, "variants")) {
+    const std::string label = text(variant, "variant");
+    for (const Json& curve : list(variant, "curves")) {
+      const std::string engine = text(curve, "engine");
+      const auto dt = number(curve, "dt");
+      for (const Json& point : list(curve, "points"))
+        table += row(engine, name, label, number(point, "psi_i"), number(point, "v_n"),
+                     number(point, "e_n"), number(point, "psi_f"), number(point, "e_n_reference"),
+                     number(point, "psi_f_reference"), dt, text(point, "status"));
+      if (list(curve, "points").empty())
+        table += row(engine, name, label, absent, absent, absent, absent, absent, absent, dt,
+                     text(curve, "status"));
+    }
+  }
+  return table;
+}
+
+std::string profilesCsv(const Json& results) {
+  std::string table = "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit\n";
+  for (const Json& run : list(results, "runs"))
+    table += profileRows(results, text(run, "engine"), packingOf(run), list(run, "profiles"));
+  for (const Json& ensemble : list(results, "ensemble"))
+    table += profileRows(results, text(ensemble, "engine"), "all", list(ensemble, "profiles"));
+  return table;
+}
+
+std::string seriesCsv(const Json& results) {
+  const std::vector<std::string> columns = seriesColumns(results);
+  std::string table = "engine,packing,t_s";
+  for (const std::string& column : columns) table += "," + cell(column);
+  table += "\n";
+  for (const Json& run : list(results, "runs")) {
+    const Json& series = member(run, "series");
+    for (std::size_t k = 0; k < list(series, "t_s").size(); ++k) {
+      table += cell(text(run, "engine")) + "," + packingOf(run) + "," +
+               cell(number(list(series, "t_s")[k]));
+      for (const std::string& column : columns)
+        table += "," + cell(number(element(list(series, column), k)));
+      table += "\n";
+    }
+  }
+  return table;
+}
+
+std::string agreementCsv(const Json& results) {
+  std::string table = "a,b,field,ring,difference,stderr,low,high,margin,verdict\n";
+  const std::optional<double> absent;
+  for (const Json& entry : list(results, "agreement")) {
+    const std::string a = text(entry, "a"), b = text(entry, "b"), field = text(entry, "field");
+    table += row(a, b, field, std::string("all"), absent, absent, absent, absent, absent,
+                 text(entry, "verdict"));
+    for (const Json& ring : list(entry, "rings")) {
+      const auto index = number(ring, "ring");
+      if (!index) continue;
+      table += row(a, b, field, static_cast<std::size_t>(*index) + 1, number(ring, "difference"),
+                   number(ring, "stderr"), number(ring, "low"), number(ring, "high"),
+                   number(ring, "margin"), text(ring, "verdict"));
+    }
+  }
+  return table;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "reports/json_view.hpp"
+
+/// The tables that a results folder offers to other programs. Columns and their order are a
+/// contract: new ones go to the end. Numbers are the shortest text that reads back as the same
+/// double; what is absent is an empty cell. Rings count from 1, at the wheel.
+namespace crossgrain::reports {
+
+/// engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status
+/// One row per collision; a sweep without any is one row with its status and no numbers.
+std::string collisionsCsv(const Json& results);
+
+/// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit
+/// packing is an index or "all", the mean over packings.
+std::string profilesCsv(const Json& results);
+
+/// engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,max_overlap,
+/// sliding_fraction, then further series that the results hold, by name.
+std::string seriesCsv(const Json& results);
+
+/// a,b,field,ring,difference,stderr,low,high,margin,verdict
+/// ring "all" is the verdict on the field.
+std::string agreementCsv(const Json& results);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// A plot as data; reports/gnuplot.hpp draws it. Labels of axes are gnuplot's enhanced text and
+/// never contain the user's words; names of curves may, and are printed as they are.
+namespace crossgrain::reports {
+
+struct Point {
+  double x = 0.0, y = 0.0;
+  std::optional<double> error;  ///< half length of the bar
+};
+
+/// How everything that belongs to one engine looks in every plot.
+struct LineStyle {
+  std::string colour = "#000000";  ///< "#rrggbb"
+  int pointType = 7;               ///< gnuplot's numbers
+  bool dashed = false;
+};
+
+enum class Draw { linesAndPoints, lines, points };
+
+struct Curve {
+  std::string name;  ///< empty: not in the key
+  LineStyle style;
+  Draw draw = Draw::linesAndPoints;
+  std::vector<Point> points;
+  double width = 1.5;
+};
+
+struct Range {
+  double low = 0.0, high = 0.0;
+};
+
+enum class Key { none, topRight, topLeft, outside };
+
+struct Panel {
+  std::string title;
+  std::string xLabel, yLabel;
+  std::optional<Range> xRange, yRange;
+  bool logX = false, logY = false;  ///< points that are not positive are left out
+  std::vector<double> xTicks;       ///< empty: gnuplot's choice
+  std::optional<Range> shaded;      ///< part of the x axis
+  std::optional<double> level;      ///< a thin horizontal line
+  std::vector<Curve> curves;
+  Key key = Key::outside;
+};
+
+/// One or more panels in a grid, one file.
+struct Figure {
+  std::string name;     ///< of its files
+  std::string title;    ///< what a reader who cannot see it is told
+  std::string caption;  ///< under it in the report
+  std::vector<Panel> panels;
+  int columns = 1;
+  int panelWidth = 560, panelHeight = 380;  ///< [px] in the SVG
+  bool png = false;                         ///< also as PNG, twice the size
+};
+
+/// Makes the y axis logarithmic where all values are positive and differ tenfold or more, so that
+/// one engine far off does not flatten the others.
+void chooseLogY(Panel& panel);
+
+/// Whether there is anything to draw; a figure without is not written.
+bool hasPoints(const Panel& panel);
+
+}  // namespace crossgrain::reports

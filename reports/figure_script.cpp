@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/files.hpp"
+#include "reports/gnuplot.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// Single quotes: gnuplot neither runs back-quoted commands nor reads escapes in them.
+std::string quoted(const std::string& words) {
+  std::string result = "'";
+  for (const char c : words) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) continue;
+    result += c;
+    if (c == '\'') result += c;
+  }
+  return result + "'";
+}
+
+bool drawable(const Panel& panel, const Point& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logX || point.x > 0.0) &&
+         (!panel.logY || point.y > 0.0);
+}
+
+/// The range of a log axis: whole decades, at most eight since below lies noise about zero; a
+/// narrow one just holds its data.
+std::optional<Range> logRange(const Panel& panel) {
+  double low = INFINITY, high = 0.0;
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points)
+      if (drawable(panel, point)) {
+        low = std::min(low, point.y);
+        high = std::max(high, point.y);
+      }
+  if (high <= 0.0) return std::nullopt;
+  if (high < 50.0 * low) return Range{low / 1.3, high * 1.3};
+  const double top = std::ceil(std::log10(high) - 1e-9);
+  const double bottom = std::max(std::floor(std::log10(low) + 1e-9), top - 8.0);
+  return Range{std::pow(10.0, bottom), std::pow(10.0, top)};
+}
+
+std::optional<Range> yRange(const Panel& panel) {
+  return !panel.yRange && panel.logY ? logRange(panel) : panel.yRange;
+}
+
+/// 1, 2, 5, 10, … within a log axis too short for powers of ten alone; empty: gnuplot's choice.
+std::vector<double> shortLogTicks(const std::optional<Range>& range) {
+  std::vector<double> places;
+  if (!range || range->high > 100.0 * range->low) return places;
+  const int last = static_cast<int>(std::ceil(std::log10(range->high)));
+  for (int power = static_cast<int>(std::floor(std::log10(range->low))); power <= last; ++power)
+    for (const double digit : {1.0, 2.0, 5.0}) places.push_back(digit * std::pow(10.0, power));
+  return places;
+}
+
+/// One block per curve: x, y, ends of the bar ("?" without one; clipped where a log axis ends).
+std::string dataBlock(const Panel& panel, const Curve& curve) {
+  const auto range = yRange(panel);
+  std::string block;
+  for (const Point& point : curve.points) {
+    if (!drawable(panel, point)) continue;
+    if (!point.error || !std::isfinite(*point.error)) {
+      block += fmt::format("{} {} ? ?\n", point.x, point.y);
+      continue;
+    }
+    double low = point.y - *point.error;
+    if (panel.logY && range) low = std::max(low, std::min(range->low, point.y));
+    block += fmt::format("{} {} {} {}\n", point.x, point.y, low, point.y + *point.error);
+  }
+  return block.empty() ? "? ? ? ?\n" : block;
+}
+
+bool hasBars(const Curve& curve) {
+  return std::ranges::any_of(curve.points, [](const Point& p) { return p.error.has_value(); });
+}
+
+/// Bars below the curve. Not "yerrorbars": as SVG it paints a white disk around each point.
+std::string barsElement(const std::string& source, const std::string& colour) {
+  return fmt::format("{} using 1:3:(0):($4-$3) with vectors nohead {} lw 1 notitle, \\\n    ",
+                     source, colour);
+}
+
+std::string plotElements(const std::string& data, std::size_t index, const Curve& curve) {
+  const std::string source = fmt::format("'{}' index {}", data, index);
+  const std::string colour = fmt::format("lc rgb '{}'", curve.style.colour);
+  const std::string line =
+      fmt::format("lw {} dt {}", curve.width, curve.style.dashed ? "(8,4)" : "solid");
+  const std::string marks = fmt::format("pt {} ps 0.6", curve.style.pointType);
+  const std::string look = curve.draw == Draw::lines    ? "lines " + line
+                           : curve.draw == Draw::points ? "points " + marks
+                                                        : "linespoints " + line + " " + marks;
+  const std::string title =
+      curve.name.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(curve.name));
+  return (hasBars(curve) ? barsElement(source, colour) : std::string()) +
+         fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title);
+}
+
+std::string rangeText(const std::optional<Range>& range) {
+  return range ? fmt::format("[{}:{}]", range->low, range->high) : "[*:*]";
+}
+
+std::string ticks(char axis, const std::vector<double>& at, bool log) {
+  std::string places;
+  for (const double tick : at) places += fmt::format("{}{:.6g}", places.empty() ? "" : ",", tick);
+  const bool powers = log && at.empty();
+  return fmt::format("set format {0} {1}\n  set {0}tics {2}", axis, powers ? "'10^{%L}'" : "'%g'",
+                     at.empty() ? "autofreq" : "(" + places + ")");
+}
+
+std::string keyText(Key key) {
+  switch (key) {
+    case Key::none:
+      return "unset key";
+    case Key::topRight:
+      return "set key inside top right noopaque samplen 2 spacing 1.1";
+    case Key::topLeft:
+      return "set key inside top left Left reverse noopaque samplen 2 spacing 1.1";
+    case Key::outside:
+      return "set key outside top center horizontal samplen 2 spacing 1.1";
+  }
+  return {};
+}
+
+/// Thin lines and the shaded part, drawn behind the data.
+std::string furniture(const Panel& panel) {
+  std::string lines = "  unset object\n  unset arrow\n";
+  if (panel.shaded)
+    lines += fmt::format(
+        "  set object 1 rectangle from {}, graph 0 to {}, graph 1 behind fillcolor rgb '#eeeeee' "
+        "fillstyle solid noborder\n",
+        panel.shaded->low, panel.shaded->high);
+  if (panel.level)
+    lines += fmt::format(
+        "  set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead back lc rgb '#888888' "
+        "lw 1\n",
+        *panel.level);
+  return lines;
+}
+
+std::string panelScript(const std::string& data, std::size_t firstBlock, const Panel& panel) {
+  const auto range = yRange(panel);
+  std::string script = fmt::format(
+      "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n"
+      "  {}\n  {}\n  set xrange {}\n  set yrange {}\n",
+      quoted(panel.title), quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key),
+      panel.logX ? "set" : "unset", panel.logY ? "set" : "unset",
+      ticks('x', panel.xTicks, panel.logX),
+      ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
+      rangeText(panel.xRange), rangeText(range));
+  script += furniture(panel);
+  script += "  plot ";
+  for (std::size_t k = 0; k < panel.curves.size(); ++k)
+    script += (k == 0 ? "" : ", \\\n    ") + plotElements(data, firstBlock + k, panel.curves[k]);
+  return script + "\n";
+}
+
+std::string terminals(const Figure& figure, std::size_t rows) {
+  const int width = figure.panelWidth * figure.columns;
+  const int height = figure.panelHeight * static_cast<int>(rows);
+  std::string script = fmt::format(
+      "  if (terminal eq 'svg') {{\n"
+      "    set terminal svg size {0},{1} font 'sans-serif,13' background rgb 'white'\n"
+      "    set output '{2}.svg'\n  }}\n"
+      "  if (terminal eq 'pdfcairo') {{\n"
+      "    set terminal pdfcairo size {3}in,{4}in font 'sans-serif,10'\n"
+      "    set output '{2}.pdf'\n  }}\n",
+      width, height, figure.name, width / 96.0, height / 96.0);
+  if (figure.png)
+    script += fmt::format(
+        "  if (terminal eq 'pngcairo') {{\n"
+        "    set terminal pngcairo size {},{} font 'sans-serif,10' fontscale 2 linewidth 2 "
+        "pointscale 2\n    set output '{}.png'\n  }}\n",
+        2 * width, 2 * height, figure.name);
+  return script;
+}
+
+}  // namespace
+
+void chooseLogY(Panel& panel) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points) {
+      low = std::min(low, point.y);
+      high = std::max(high, point.y);
+    }
+  panel.logY = low > 0.0 && high >= 10.0 * low;
+}
+
+bool hasPoints(const Panel& panel) {
+  return std::ranges::any_of(panel.curves, [&](const Curve& curve) {
+    return std::ranges::any_of(curve.points, [&](const Point& p) { return drawable(panel, p); });
+  });
+}
+
+std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) {
+  const std::string data = figure.name + ".dat";
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
+  const bool several = figure.panels.size() > 1;
+  std::string script = fmt::format(
+      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin 3.2\nset datafile missing '?'\nset "
+      "border 3 lc rgb "
+      "'#444444'\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw 0.7 dt solid\n"
+      "do for [terminal in 'svg pdfcairo{1}'] {{\n"
+      "  if (strstrt(GPVAL_TERMINALS, ' ' . terminal . ' ') == 0) {{ continue }}\n{2}{3}",
+      figure.name, figure.png ? " pngcairo" : "", terminals(figure, rows),
+      several ? fmt::format("  set multiplot layout {},{}\n", rows, columns) : "");
+  std::string blocks;
+  std::size_t block = 0;
+  for (const Panel& panel : figure.panels) {
+    script += panelScript(data, block, panel);
+    for (const Curve& curve : panel.curves) {
+      blocks +=
+          fmt::format("{}# x y low high\n{}", block == 0 ? "" : "\n\n", dataBlock(panel, curve));
+      ++block;
+    }
+  }
+  script += several ? "  unset multiplot\n" : "";
+  script += "  unset output\n}\n";
+  writeFile(dir / data, blocks);
+  writeFile(dir / (figure.name + ".gp"), script);
+  return figure.name + ".gp";
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/engines.hpp"
+#include "reports/figure.hpp"
+#include "reports/json_view.hpp"
+
+namespace crossgrain::reports {
+
+/// Every plot of a comparison that there are data for. Names of figures: overview; profile_FIELD
+/// (profile_azimuthal_velocity_log for its log axis); check_1, check_2, …; series_NAME.
+std::vector<Figure> compareFigures(const Json& results);
+
+/// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
+std::vector<Figure> collideFigures(const Json& results);
+
+/// The parts of compareFigures. A check of a single number is no plot.
+std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines);
+std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineResults>& engines);
+std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineResults>& engines);
+
+/// What the bars of the profiles are, in words: over packings, or within one run.
+std::string barsInWords(const std::vector<EngineResults>& engines);
+
+/// The radial axis of a cell, from the wheel to the ring; absent without a cell.
+std::optional<Range> rTildeRange(const Json& results);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// Names in results.json as people write them, in HTML. A name that is not known here is shown as
+/// it is, its underscores as spaces, escaped.
+namespace crossgrain::reports {
+
+/// Of a field: "stress_rp" → "shear stress σ<sub>rφ</sub>".
+std::string fieldLabel(std::string_view field);
+
+/// The symbol alone: "σ<sub>rφ</sub>".
+std::string fieldSymbol(std::string_view field);
+
+/// Of a number of the report's head: "kn_over_p" → "k<sub>n</sub>/p".
+std::string headLabel(std::string_view name);
+
+/// Escaped text in which "σ_rφ" has a subscript and "r^p" a superscript: ASCII letters and digits,
+/// minus signs and Greek letters after a mark that follows a letter.
+std::string mathHtml(std::string_view words);
+
+/// Underscores as spaces.
+std::string spaced(std::string_view name);
+
+}  // namespace crossgrain::reports

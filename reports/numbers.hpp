@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+/// Numbers for people to read, as plain text. Absent is "–".
+namespace crossgrain::reports {
+
+inline constexpr const char* absentText = "–";
+
+/// Three significant digits: 0.0123, 12.3, 12 346, 1.23×10⁻⁵.
+std::string readable(std::optional<double> value);
+
+/// What somebody chose, with the digits that were given, up to four: 352.1, 0.25, 4×10⁻⁵.
+std::string readableSetting(std::optional<double> value);
+
+/// A count, with spaces between thousands.
+std::string readableCount(std::optional<double> value);
+
+/// "9 more packings"; what is beyond any budget is "more than 100 more packings".
+std::string morePackings(double count);
+
+/// Value and standard error, both to the error's second digit: 0.242 ± 0.013.
+std::string readable(std::optional<double> value, std::optional<double> error);
+
+/// The same with the sign always there, for differences.
+std::string readableDifference(std::optional<double> value, std::optional<double> error);
+
+/// 0.42 s, 12.3 s, 4 min 12 s, 1 h 02 min.
+std::string readableDuration(std::optional<double> seconds);
+
+}  // namespace crossgrain::reports

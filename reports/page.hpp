@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/engines.hpp"
+#include "reports/pages.hpp"
+
+/// What both pages share. A view is the JSON that a template is filled from.
+namespace crossgrain::reports {
+
+/// Fills the template of that name; its parts may use all of the view.
+/// @throws std::logic_error if a template is malformed
+std::string render(const std::string& name, const Json& view);
+
+/// Heading, notes, machine, case text and command.
+Json commonView(const Json& results, const Illustrations& shown);
+
+/// Figures whose name begins so, with their SVG inside.
+Json figureViews(const Illustrations& shown, std::string_view prefix);
+
+/// Pictures of that kind.
+Json pictureViews(const Illustrations& shown, Picture::Shows shows);
+
+/// {name, colour, dashed, hasData} for each engine.
+Json columnsView(const std::vector<EngineResults>& engines);
+
+/// "1 field", "2 fields".
+std::string counted(std::size_t count, std::string_view noun);
+
+/// Realised scenes by engine → rows of the tables of deviations, pairs and effects, set in view.
+struct RealisedOf {
+  std::string engine;
+  const Json* realised;
+};
+void addDetails(Json& view, const Json& results, const std::vector<RealisedOf>& realised);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace crossgrain {
+
+/// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
+/// The kind of report follows from results["kind"], "compare" or "collide"; the layout of results
+/// is in reports/README.md.
+///
+/// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
+/// results.json and the CSVs come first: without gnuplot they and a report without plots are
+/// still written before the error is thrown.
+/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
+void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
+
+/// Reads dir/results.json back, to rebuild its report.
+/// @throws BadInput if there is none, it is not JSON, or its schema is not this version's
+nlohmann::json readResults(const std::filesystem::path& dir);
+
+}  // namespace crossgrain

@@ -1,0 +1,44 @@
+#include "reports/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "cases/bad_input.hpp"
+#include "reports/json_view.hpp"
+
+namespace crossgrain::reports {
+
+void checkSchema(const nlohmann::json& results, const std::string& where) {
+  const std::string schema = text(results, "schema");
+  if (schema != schemaVersion)
+    throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
+                               schemaVersion));
+  const std::string kind = text(results, "kind");
+  if (kind != kindCompare && kind != kindCollide)
+    throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of \"{}\" or \"{}\"", where,
+                               kind, kindCompare, kindCollide));
+}
+
+std::string toText(const nlohmann::json& results) {
+  constexpr int compact = -1;
+  return results.dump(compact, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::json readResultsFile(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw BadInput(fmt::format("{}: cannot be read; a folder that compare or collide wrote has it",
+                               file.string()));
+  nlohmann::json results;
+  try {
+    results = nlohmann::json::parse(in);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw BadInput(
+        fmt::format("{}: is not JSON, byte {}: {}", file.string(), error.byte, error.what()));
+  }
+  checkSchema(results, file.string());
+  return results;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,194 @@
+#include "runs/collide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "adapters/law_options.hpp"
+#include "cases/time_step.hpp"
+#include "runs/collision_sweep.hpp"
+#include "runs/interrupt.hpp"
+#include "runs/progress.hpp"
+#include "runs/records.hpp"
+#include "runs/run_store.hpp"
+#include "runs/task_pool.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+namespace {
+
+json lawJson(const ContactLaw& law) {
+  json options;
+  for (const LawOption& option : lawOptions())
+    options[std::string(option.name)] = option.values[option.get(law)];
+  options.update({{"kn", law.kn}, {"gn", law.gn}, {"kt", law.kt}, {"gt", law.gt}, {"mu", law.mu}});
+  if (law.normal == NormalLaw::rigid) options.update({{"e_n", law.en}, {"e_t0", law.et0}});
+  return options;
+}
+
+/// The oracle on a grid four times finer than the sweep's, for a smooth line.
+json fineOracle(const Case& setup) {
+  json line = json::array();
+  const auto& psi = setup.collision.psi;
+  for (std::size_t k = 0; k < psi.size(); ++k) {
+    const int parts = k + 1 < psi.size() ? 4 : 1;
+    for (int part = 0; part < parts; ++part) {
+      const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
+      const CollisionStart start{psi[k] + (next - psi[k]) * part / parts,
+                                 setup.collision.vn.front()};
+      const OracleCurve one = oracleCurve(setup, {start});
+      if (!one.ends.front()) return json::array();
+      line.push_back({{"psi_i", start.psi},
+                      {"v_n", start.vn},
+                      {"e_n", one.ends.front()->en},
+                      {"psi_f", one.ends.front()->psi}});
+    }
+  }
+  return line;
+}
+
+struct Sweep {
+  const Case* setup;
+  std::vector<CollisionStart> starts;
+  OracleCurve oracle;
+  std::vector<double> steps;
+};
+
+/// All sweeps of one engine in one worker. Failures end up in the curve that failed; the worker is
+/// started again for the next one.
+void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const RunStore& store,
+               const std::function<void(double)>& progress, std::vector<json>& curves) {
+  std::unique_ptr<Engine> engine;
+  std::size_t total = 0, done = 0;
+  for (const Sweep& sweep : sweeps) total += sweep.steps.size();
+  for (const Sweep& sweep : sweeps) {
+    json list = json::array();
+    for (const double dt : sweep.steps) {
+      throwIfInterrupted();
+      try {
+        if (!engine)
+          engine = startEngine(entry, store.scratch(entry.name), sweep.setup->run.timeout);
+        list.push_back(runSweep(*engine, entry, *sweep.setup, dt, sweep.starts, sweep.oracle));
+      } catch (const Interrupted&) {
+        throw;
+      } catch (const std::exception& error) {
+        const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
+        list.push_back({{"engine", entry.name},
+                        {"dt", dt},
+                        {"steps_per_contact", nullptr},
+                        {"status", refused ? "refused" : "failed"},
+                        {"reason", error.what()},
+                        {"realised", nullptr},
+                        {"points", json::array()},
+                        {"score",
+                         {{"max_error", nullptr},
+                          {"rms_error", nullptr},
+                          {"e_n_error", nullptr},
+                          {"verdict", "not judged"},
+                          {"limit", nullptr}}}});
+        if (!refused) engine.reset();
+      }
+      progress(static_cast<double>(++done) / static_cast<double>(total));
+    }
+    curves.push_back(std::move(list));
+  }
+}
+
+json variantJson(const Sweep& sweep) {
+  const Case& setup = *sweep.setup;
+  const CollidingPair pair = collidingPair(setup);
+  const double reducedMass = pair.mass[0] * pair.mass[1] / (pair.mass[0] + pair.mass[1]);
+  const bool linear = setup.law.normal == NormalLaw::linear;
+  json variant = {
+      {"variant", setup.variant.empty() ? setup.name : setup.variant},
+      {"law", lawJson(setup.law)},
+      {"e_n_closed", linear ? restitutionOfLinearLaw(setup.law, reducedMass) : setup.law.en},
+      {"sticking", {{"e_t0", linear ? json(nullptr) : json(setup.law.et0)}}},
+      {"sliding_constant",
+       setup.law.mu > 0.0 ? json(slidingConstant(setup.law, pair)) : json(nullptr)},
+      {"oracle", fineOracle(setup)},
+      {"oracle_reason", sweep.oracle.reason},
+      {"curves", json::array()}};
+  return variant;
+}
+
+}  // namespace
+
+json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
+  const auto started = std::chrono::steady_clock::now();
+  const RunStore store(command.out, /*resume=*/false);
+  Progress progress(command.quiet);
+  std::vector<EngineEntry> engines = selectEngines(command.engines);
+  if (variants.front().run.mirrors)
+    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  for (const EngineEntry& entry : engines)
+    if (entry.missing && !entry.missing().empty())
+      startEngine(entry, {}, 1.0);  // throws, saying why
+
+  std::vector<Sweep> sweeps;
+  for (const Case& setup : variants) {
+    throwIfInterrupted();
+    Sweep sweep{&setup, sweepStarts(setup), {}, collisionTimeSteps(setup)};
+    sweep.oracle = oracleCurve(setup, sweep.starts);
+    sweeps.push_back(std::move(sweep));
+  }
+
+  std::vector<std::vector<json>> curves(engines.size());
+  std::vector<Task> tasks;
+  progress.begin("collisions", std::vector<double>(engines.size(), 1.0));
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    // Workers in another language start slowly, so they go first.
+    tasks.push_back({engines[e].command ? 2.0 : 1.0, [&, e] {
+                       runEngine(
+                           engines[e], sweeps, store,
+                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e]);
+                       progress.finish(e, engines[e].name + ": done");
+                     }});
+  }
+  runTasks(tasks, command.jobs);
+
+  json results = resultsHead("collide", variants.front(), command.commandLine);
+  results["case"]["variant"] = "";
+  results["variants"] = json::array();
+  results["orders"] = json::array();
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    json variant = variantJson(sweeps[s]);
+    for (std::size_t e = 0; e < engines.size(); ++e) {
+      std::vector<const json*> list;
+      for (const json& curve : curves[e][s]) list.push_back(&curve);
+      if (auto order = convergenceOrder(list)) {
+        (*order)["variant"] = variant["variant"];
+        results["orders"].push_back(*order);
+      }
+      for (const json& curve : curves[e][s]) variant["curves"].push_back(curve);
+    }
+    results["variants"].push_back(std::move(variant));
+  }
+  results["engines"] = json::array();
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    std::string status = "ran", reason, version;
+    for (const json& list : curves[e])
+      for (const json& curve : list) {
+        if (curve["status"] == "failed" || (curve["status"] == "refused" && reason.empty())) {
+          status = curve["status"];
+          reason = curve["reason"];
+        }
+        if (curve["realised"].is_object()) version = curve["realised"]["version"];
+      }
+    results["engines"].push_back({{"name", engines[e].name},
+                                  {"summary", engines[e].summary},
+                                  {"version", version},
+                                  {"mirrors", engines[e].mirrors},
+                                  {"status", status},
+                                  {"reason", reason}});
+  }
+  results["elapsed_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return results;
+}
+
+}  // namespace crossgrain

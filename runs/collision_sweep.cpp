@@ -1,0 +1,155 @@
+#include "runs/collision_sweep.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_fit.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/worker/json.hpp"
+#include "cases/time_step.hpp"
+#include "runs/records.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+std::vector<CollisionStart> sweepStarts(const Case& setup) {
+  std::vector<CollisionStart> starts;
+  for (const double vn : setup.collision.vn)
+    for (const double psi : setup.collision.psi) starts.push_back({psi, vn});
+  return starts;
+}
+
+CollidingPair collidingPair(const Case& setup) {
+  const Collision& c = setup.collision;
+  CollidingPair pair{};
+  for (const int side : {0, 1}) {
+    pair.radius[side] = c.radius[side];
+    pair.mass[side] = c.mass[side];
+    pair.inertia[side] = c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
+  }
+  return pair;
+}
+
+OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
+  OracleCurve curve;
+  for (const CollisionStart& start : starts) {
+    try {
+      curve.ends.emplace_back(oracleOutcome(setup.law, collidingPair(setup), start));
+    } catch (const std::exception& none) {
+      curve.ends.emplace_back();
+      curve.reason = none.what();
+    }
+  }
+  return curve;
+}
+
+namespace {
+
+/// Long enough for every collision of the scene to be over: contacts last about t_c, a rigid
+/// engine's a few of its own steps.
+double sweepEnd(const Case& setup, double dt, double engineStep) {
+  const double contact = setup.law.normal == NormalLaw::linear
+                             ? contactTime(setup.law, lightestReducedMass(setup))
+                             : 0.0;
+  return dt + 2.5 * contact + 20.0 * engineStep;
+}
+
+struct Errors {
+  double largest = 0.0, squares = 0.0, largestEn = 0.0;
+  int count = 0;
+};
+
+/// Errors in units of the oracle curve's range, so that no part of the curve is favoured.
+json scoreJson(const Case& setup, const Errors& errors, double range, int missing) {
+  const auto margin = setup.collision.margins.find("psi_f");
+  json score = {{"max_error", nullptr},
+                {"rms_error", nullptr},
+                {"e_n_error", nullptr},
+                {"verdict", "not judged"},
+                {"limit", nullptr}};
+  if (errors.count == 0 || range <= 0.0) return score;
+  score["max_error"] = errors.largest / range;
+  score["rms_error"] = std::sqrt(errors.squares / errors.count) / range;
+  score["e_n_error"] = errors.largestEn;
+  if (margin == setup.collision.margins.end()) return score;
+  const double limit =
+      margin->second.relative ? margin->second.value : margin->second.value / range;
+  score["limit"] = limit;
+  const bool held = missing == 0 && errors.largest / range <= limit;
+  score["verdict"] = held ? "held" : "fell short";
+  return score;
+}
+
+}  // namespace
+
+json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+              const std::vector<CollisionStart>& starts, const OracleCurve& oracle) {
+  const Scene scene = collisionScene(setup, starts, dt);
+  const Realised realised = loadScene(engine, entry, setup, scene);
+  engine.advance(sweepEnd(setup, dt, realised.dt));
+  const Snapshot after = engine.snapshot(ContactReport::none);
+
+  json points = json::array();
+  Errors errors;
+  int missing = 0;
+  double low = INFINITY, high = -INFINITY;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto end = collisionEnd(scene, after, k, starts[k]);
+    const auto& reference = oracle.ends[k];
+    points.push_back({{"psi_i", starts[k].psi},
+                      {"v_n", starts[k].vn},
+                      {"e_n", end ? json(end->en) : json(nullptr)},
+                      {"psi_f", end ? json(end->psi) : json(nullptr)},
+                      {"e_n_reference", reference ? json(reference->en) : json(nullptr)},
+                      {"psi_f_reference", reference ? json(reference->psi) : json(nullptr)},
+                      {"status", end ? "parted" : "not parted"}});
+    if (!end) ++missing;
+    if (!reference) continue;
+    low = std::min(low, reference->psi);
+    high = std::max(high, reference->psi);
+    if (!end) continue;
+    const double error = std::abs(end->psi - reference->psi);
+    errors.largest = std::max(errors.largest, error);
+    errors.squares += error * error;
+    errors.largestEn = std::max(errors.largestEn, std::abs(end->en - reference->en));
+    ++errors.count;
+  }
+  const double contact = setup.law.normal == NormalLaw::linear
+                             ? contactTime(setup.law, lightestReducedMass(setup))
+                             : 0.0;
+  return {{"engine", entry.name},
+          {"dt", realised.dt},
+          {"steps_per_contact", contact > 0.0 ? json(contact / realised.dt) : json(nullptr)},
+          {"status", missing == 0 ? "finished" : "incomplete"},
+          {"reason", missing == 0 ? "" : fmt::format("{} pairs did not part", missing)},
+          {"realised", toJson(realised)},
+          {"stats", statsJson(engine.stats())},
+          {"points", points},
+          {"score", scoreJson(setup, errors, high - low, missing)}};
+}
+
+std::optional<json> convergenceOrder(const std::vector<const json*>& curves) {
+  std::vector<double> logStep, logError;
+  json errorAt = json::object();
+  for (const json* curve : curves) {
+    const json& error = (*curve)["score"]["rms_error"];
+    if (!error.is_number() || error.get<double>() <= 0.0) continue;
+    const double dt = (*curve)["dt"];
+    const double log = std::log(dt);
+    if (std::ranges::find(logStep, log) != logStep.end()) continue;
+    logStep.push_back(log);
+    logError.push_back(std::log(error.get<double>()));
+    errorAt[fmt::format("{:.4g}", dt)] = error;
+  }
+  if (logStep.size() < 2) return std::nullopt;
+  double intercept = 0.0, slope = 0.0, var00 = 0.0, var01 = 0.0, var11 = 0.0, squares = 0.0;
+  gsl_fit_linear(logStep.data(), 1, logError.data(), 1, logStep.size(), &intercept, &slope, &var00,
+                 &var01, &var11, &squares);
+  json order = {{"engine", (*curves.front())["engine"]}, {"order", slope}, {"error_at", errorAt}};
+  order["stderr"] = logStep.size() > 2 ? json(std::sqrt(var11)) : json(nullptr);
+  return order;
+}
+
+}  // namespace crossgrain

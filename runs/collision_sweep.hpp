@@ -1,0 +1,35 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/collision_oracle.hpp"
+#include "runs/engine_access.hpp"
+
+namespace crossgrain {
+
+/// Every collision of a case's sweep: all Ψ_i at each v_n.
+std::vector<CollisionStart> sweepStarts(const Case& setup);
+
+/// The two disks of the case.
+CollidingPair collidingPair(const Case& setup);
+
+/// What the oracle says of each start; absent where the law has no limit of small steps.
+struct OracleCurve {
+  std::vector<std::optional<CollisionEnd>> ends;
+  std::string reason;  ///< why there is none
+};
+OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
+
+/// One engine on one sweep: an entry of results.json's "curves".
+/// @throws EngineFailure, UnsupportedScene, BadInput
+nlohmann::json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle);
+
+/// The order of convergence p of a curve's rms error ∝ dt^p, from two or more time steps:
+/// an entry of results.json's "orders". @param curves  of one engine and one variant
+std::optional<nlohmann::json> convergenceOrder(const std::vector<const nlohmann::json*>& curves);
+
+}  // namespace crossgrain

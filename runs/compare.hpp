@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "cases/case.hpp"
+#include "runs/options.hpp"
+
+namespace crossgrain {
+
+/// Prepares the case's packings, runs every engine on each of them, side by side where `jobs`
+/// allows, averages, and holds the engines against each other. Every finished run is kept in
+/// out/runs at once; a failed one ends by itself and is reported.
+/// @return results.json, kind "compare"
+/// @throws BadInput, UnsupportedScene (an engine named cannot run the case), Interrupted
+nlohmann::json compareEngines(const Case& setup, const RunCommand& command);
+
+}  // namespace crossgrain

@@ -1,0 +1,121 @@
+#include "runs/couette_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "adapters/worker/json.hpp"
+#include "averaging/global.hpp"
+#include "averaging/profiles.hpp"
+#include "cases/couette.hpp"
+#include "runs/couette_summary.hpp"
+#include "runs/interrupt.hpp"
+#include "runs/picture.hpp"
+#include "runs/records.hpp"
+#include "runs/snapshot_file.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+Rings ringsOf(const Case& setup) {
+  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, setup.averaging.rings,
+               setup.cell.height, 2.0 * setup.particles.smallRadius);
+}
+
+double rotationTime(const Case& setup) {
+  return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
+}
+
+namespace {
+
+/// Numbers of the whole cell over time.
+class Series {
+ public:
+  Series(const Case& setup, const Scene& scene) : setup_(setup), scene_(scene) {}
+
+  void add(const Snapshot& now) {
+    const GlobalNumbers numbers = globalNumbers(scene_, now);
+    rows_["t_s"].push_back(now.positionTime);
+    rows_["wheel_torque"].push_back(toJson(drivingTorque(scene_, now, wheelName)));
+    rows_["outer_pressure"].push_back(
+        toJson(radialPressure(scene_, now, ringName, setup_.cell.outerRadius, setup_.cell.height)));
+    rows_["kinetic_energy"].push_back(numbers.kineticEnergy);
+    rows_["coordination"].push_back(toJson(numbers.coordination));
+    rows_["max_overlap"].push_back(toJson(numbers.maxOverlap));
+    rows_["mean_overlap"].push_back(toJson(numbers.meanOverlap));
+    rows_["sliding_fraction"].push_back(toJson(numbers.slidingFraction));
+  }
+
+  const json& rows() const { return rows_; }
+
+ private:
+  const Case& setup_;
+  const Scene& scene_;
+  json rows_;
+};
+
+}  // namespace
+
+json runCouette(const CouetteRun& run, const std::function<void(double)>& progress) {
+  const Case& setup = *run.setup;
+  const Scene scene = couetteScene(setup, *run.packing, run.dt);
+  LoadedEngine loaded = loadEngine(run.entry, setup, scene, run.scratch);
+  Engine& engine = *loaded.engine;
+  const ContactReport report =
+      loaded.can.accumulatedContacts ? ContactReport::accumulated : ContactReport::instant;
+
+  const double rotation = rotationTime(setup);
+  const double settled = setup.averaging.settleRotations * rotation;
+  const int samples =
+      std::max(1, static_cast<int>(std::lround(setup.averaging.snapshotsPerRotation *
+                                               setup.averaging.rotations)));
+  const double interval = setup.averaging.rotations * rotation / samples;
+  const double end = settled + samples * interval;
+  const auto advanceTo = [&](double t) {
+    throwIfInterrupted();
+    engine.advance(t);
+    progress(t / end);
+  };
+
+  const int settleSlices = static_cast<int>(std::ceil(settled / interval));
+  for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
+  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
+
+  std::vector<WeightMethod> methods;
+  for (const std::string& name : setup.averaging.methods) methods.push_back(weightMethod(name));
+  ProfileAccumulator profiles(ringsOf(setup), methods, scene);
+  Series series(setup, scene);
+  SnapshotFile kept(run.snapshots, scene, samples, setup.run.keepSnapshots);
+  json picture;
+  const double pictureTime = std::min(0.5 * rotation, end);
+  for (int k = 1; k <= samples; ++k) {
+    advanceTo(settled + k * interval);
+    const Snapshot now = engine.snapshot(report);
+    profiles.add(now);
+    series.add(now);
+    kept.offer(now, k);
+    if (run.packingIndex == 0 && picture.is_null() && now.positionTime >= pictureTime - interval)
+      picture = pictureOf(scene, now, now.positionTime / rotation);
+  }
+  kept.close();
+
+  const std::vector<Profile> averaged = profiles.profiles();
+  json result = {{"engine", run.entry.name},
+                 {"packing", run.packingIndex},
+                 {"status", "finished"},
+                 {"reason", ""},
+                 {"realised", toJson(loaded.realised)},
+                 {"stats", statsJson(engine.stats())},
+                 {"series", series.rows()},
+                 {"picture", picture}};
+  result["profiles"] = json::array();
+  for (const Profile& profile : averaged) result["profiles"].push_back(toJson(profile));
+  result["head"] = headNumbers(setup, averaged, series.rows(), loaded.realised.dt);
+  result["fits"] = couetteFits(setup, averaged);
+  result["checks"] = couetteChecks(setup, averaged, series.rows());
+  return result;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,184 @@
+#include "runs/couette_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "averaging/fits.hpp"
+#include "averaging/statistics.hpp"
+#include "cases/time_step.hpp"
+#include "runs/couette_run.hpp"
+#include "runs/records.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+namespace {
+
+const Profile* find(const std::vector<Profile>& profiles, std::string_view field) {
+  const auto found = std::ranges::find(profiles, field, &Profile::field);
+  return found == profiles.end() ? nullptr : &*found;
+}
+
+std::optional<double> ringMean(const std::vector<Profile>& profiles, std::string_view field,
+                               std::size_t ring) {
+  const Profile* profile = find(profiles, field);
+  return profile && ring < profile->mean.size() ? profile->mean[ring] : std::nullopt;
+}
+
+std::vector<double> present(const json& list) {
+  std::vector<double> values;
+  for (const json& value : list)
+    if (value.is_number()) values.push_back(value.get<double>());
+  return values;
+}
+
+std::optional<double> meanOf(const json& list) {
+  const std::vector<double> values = present(list);
+  if (values.empty()) return std::nullopt;
+  return estimateMean(values).mean;
+}
+
+std::optional<double> largestOf(const json& list) {
+  const std::vector<double> values = present(list);
+  if (values.empty()) return std::nullopt;
+  return *std::ranges::max_element(values);
+}
+
+std::optional<double> times(const std::optional<double>& value, double factor) {
+  if (!value) return std::nullopt;
+  return *value * factor;
+}
+
+/// p = (σ_rr + σ_φφ)/2 of a ring [N/m²]; absent where it is not positive.
+std::optional<double> pressure(const std::vector<Profile>& profiles, std::size_t ring) {
+  const auto rr = ringMean(profiles, "stress_rr", ring);
+  const auto pp = ringMean(profiles, "stress_pp", ring);
+  if (!rr || !pp || *rr + *pp <= 0.0) return std::nullopt;
+  return 0.5 * (*rr + *pp);
+}
+
+/// I = γ̇ d √(ρ_p/p) in the innermost two rings, with γ̇ = |∂v_φ/∂r − v_φ/r| (GDR MiDi 2004).
+std::optional<double> inertialNumber(const Case& setup, const std::vector<Profile>& profiles) {
+  const Rings rings = ringsOf(setup);
+  const auto inner = ringMean(profiles, "azimuthal_velocity", 0);
+  const auto outer = ringMean(profiles, "azimuthal_velocity", 1);
+  const auto p = pressure(profiles, 0);
+  if (!inner || !outer || !p) return std::nullopt;
+  const double gradient = (*outer - *inner) / (rings.centre(1) - rings.centre(0));
+  const double rotation = 0.5 * (*inner + *outer) / rings.edge(1);
+  const Particles& disks = setup.particles;
+  const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
+  const double density = disks.smallMass / (area * setup.cell.height);
+  return std::abs(gradient - rotation) * rings.diameter() * std::sqrt(density / *p);
+}
+
+json number(const std::string& name, const std::optional<double>& value) {
+  return {{"name", name}, {"value", toJson(value)}, {"unit", "-"}};
+}
+
+}  // namespace
+
+json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const json& series,
+                 double dt) {
+  const double diameter = 2.0 * setup.particles.smallRadius;
+  std::optional<double> stiffness, stressRatio, stepShare;
+  // k_n against the force p d h that the pressure sends through a disk, per overlap d.
+  if (const auto p = pressure(profiles, 0)) stiffness = setup.law.kn / (*p * setup.cell.height);
+  const auto rr = ringMean(profiles, "stress_rr", 0);
+  const auto rp = ringMean(profiles, "stress_rp", 0);
+  if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
+  if (setup.law.normal == NormalLaw::linear && !setup.particles.file)
+    stepShare = dt / contactTime(setup.law, lightestReducedMass(setup));
+  return {number("inertial_number", inertialNumber(setup, profiles)),
+          number("kn_over_p", stiffness),
+          number("mean_overlap_over_d", times(meanOf(series["mean_overlap"]), 1.0 / diameter)),
+          number("max_overlap_over_d", times(largestOf(series["max_overlap"]), 1.0 / diameter)),
+          number("sliding_fraction", meanOf(series["sliding_fraction"])),
+          number("coordination", meanOf(series["coordination"])),
+          number("stress_ratio_wheel", stressRatio),
+          number("dt_over_tc", stepShare)};
+}
+
+json couetteFits(const Case& setup, const std::vector<Profile>& profiles) {
+  const Rings rings = ringsOf(setup);
+  json fits = json::array();
+  if (const Profile* shear = find(profiles, "stress_rp")) {
+    // The outermost rings hold few contacts of each kind; the walls' rings feel ordering.
+    std::vector<FitPoint> points = pointsOverRadius(rings, *shear);
+    if (points.size() > 4) points = {points.begin() + 1, points.end() - 1};
+    fits.push_back(fitJson(fitPowerLaw(points), "p", "stress_rp_exponent",
+                           "exponent p of σ_rφ ∝ r^p", "-", -2.0));
+  }
+  if (const Profile* velocity = find(profiles, "azimuthal_velocity")) {
+    const double wheel = setup.cell.omega * setup.cell.innerRadius;
+    const Fit fit = fitVelocityDecay(pointsOverRTilde(rings, *velocity, 1.0 / wheel));
+    fits.push_back(fitJson(fit, "A", "velocity_amplitude", "A of v_φ/(ΩR_i) = A exp(−r̃/B)", "-",
+                           std::nullopt));
+    fits.push_back(fitJson(fit, "B", "velocity_decay", "decay length B of v_φ", "d", std::nullopt));
+  }
+  if (const Profile* volume = find(profiles, "volume_fraction")) {
+    const Fit fit = fitDilation(pointsOverRTilde(rings, *volume));
+    fits.push_back(
+        fitJson(fit, "nu0", "volume_fraction_outside", "ν₀ of ν = ν₀ − B exp(−C r̃)", "-", {}));
+    fits.push_back(fitJson(fit, "B", "dilation", "dilation B at the wheel", "-", {}));
+    fits.push_back(
+        fitJson(fit, "C", "dilation_decay", "C, inverse width of the dilated zone", "1/d", {}));
+  }
+  if (const Profile* spin = find(profiles, "spin")) {
+    const double scale = spinScale(rings, setup.cell.omega);
+    fits.push_back({{"name", "spin_ring_1"},
+                    {"label", "spin S d/(ΩD) in ring 1 (< 0: counter-rotates)"},
+                    {"unit", "-"},
+                    {"value", toJson(times(spin->mean[0], scale))},
+                    {"stderr", toJson(times(spin->standardError[0], std::abs(scale)))},
+                    {"reason", spin->mean[0] ? "" : "no disks in ring 1"},
+                    {"expected", nullptr}});
+  }
+  return fits;
+}
+
+json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, const json& series) {
+  const Rings rings = ringsOf(setup);
+  json checks = json::array();
+  const Profile* shear = find(profiles, "stress_pr");
+  const std::vector<double> torque = present(series["wheel_torque"]);
+  if (shear && !torque.empty()) {
+    const MeanEstimate wheel = estimateMean(torque);
+    std::vector<std::optional<double>> carried, error;
+    for (int ring = 0; ring < rings.count(); ++ring) {
+      const auto k = static_cast<std::size_t>(ring);
+      const double r = rings.centre(ring);
+      const double factor = 2.0 * std::numbers::pi * r * r * rings.height();
+      const auto dynamic = ringMean(profiles, "dynamic_stress_rp", k);
+      carried.push_back(shear->mean[k]
+                            ? std::optional((*shear->mean[k] + dynamic.value_or(0.0)) * factor)
+                            : std::nullopt);
+      error.push_back(times(shear->standardError[k], factor));
+    }
+    checks.push_back({{"name", "torque_balance"},
+                      {"label",
+                       "torque carried at each ring, (σ_φr + dynamic)·2πr²h, against the "
+                       "wheel's [N m]"},
+                      {"value", toJson(carried)},
+                      {"reference", std::vector<double>(carried.size(), wheel.mean)},
+                      {"reference_stderr", toJson(wheel.standardError)},
+                      {"stderr", toJson(error)}});
+  }
+  const Profile* radial = find(profiles, "stress_rr");
+  const std::vector<double> outer = present(series["outer_pressure"]);
+  if (radial && !outer.empty()) {
+    const MeanEstimate wall = estimateMean(outer);
+    checks.push_back(
+        {{"name", "wall_pressure"},
+         {"label", "σ_rr in the outermost ring against the pressure on the ring [N/m²]"},
+         {"value", {toJson(radial->mean.back())}},
+         {"reference", {wall.mean}},
+         {"reference_stderr", toJson(wall.standardError)},
+         {"stderr", {toJson(radial->standardError.back())}}});
+  }
+  return checks;
+}
+
+}  // namespace crossgrain

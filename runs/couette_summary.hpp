@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "averaging/profiles.hpp"
+#include "cases/case.hpp"
+
+namespace crossgrain {
+
+/// The dimensionless numbers that say what kind of flow a run was, as results.json's "head":
+/// inertial number, k_n/p, overlaps/d, sliding fraction, stress ratio at the wheel, dt/t_c,
+/// coordination.
+nlohmann::json headNumbers(const Case& setup, const std::vector<Profile>& profiles,
+                           const nlohmann::json& series, double dt);
+
+/// Fits of one run's profiles and what theory or the thesis expects of them, as "fits".
+nlohmann::json couetteFits(const Case& setup, const std::vector<Profile>& profiles);
+
+/// What must hold in a steady state, ring by ring, as "checks": the torque carried at every ring is
+/// the wheel's, σ_rr in the outermost ring is the pressure on the ring.
+nlohmann::json couetteChecks(const Case& setup, const std::vector<Profile>& profiles,
+                             const nlohmann::json& series);
+
+}  // namespace crossgrain

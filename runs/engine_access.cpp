@@ -1,0 +1,130 @@
+#include "runs/engine_access.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "adapters/suitability.hpp"
+#include "adapters/worker/worker_engine.hpp"
+#include "cases/bad_input.hpp"
+#include "cases/nearest.hpp"
+
+namespace crossgrain {
+namespace {
+
+std::string typeName(const SettingValue& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, bool>) return "true or false";
+        if constexpr (std::is_same_v<T, double>) return "a number";
+        return "a string";
+      },
+      value);
+}
+
+std::vector<std::string> knownEngines() {
+  std::vector<std::string> names;
+  for (const EngineEntry& entry : engineRegistry()) names.push_back(entry.name);
+  return names;
+}
+
+std::filesystem::path ownProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+}  // namespace
+
+std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
+  std::vector<EngineEntry> engines;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const EngineEntry& entry : engineRegistry())
+        if (entry.mirrors.empty()) engines.push_back(entry);
+      continue;
+    }
+    const EngineEntry* entry = findEngine(name);
+    if (!entry)
+      throw BadInput(fmt::format("--engines: there is no engine '{}'{}", name,
+                                 suggestion(name, knownEngines())));
+    if (std::ranges::find(engines, name, &EngineEntry::name) != engines.end())
+      throw BadInput(fmt::format("--engines: '{}' is named twice", name));
+    engines.push_back(*entry);
+  }
+  return engines;
+}
+
+std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
+  std::vector<EngineEntry> mirrors;
+  for (const EngineEntry& entry : engineRegistry()) {
+    const bool peerRuns =
+        std::ranges::find(engines, entry.mirrors, &EngineEntry::name) != engines.end();
+    const bool runsAlready =
+        std::ranges::find(engines, entry.name, &EngineEntry::name) != engines.end();
+    if (peerRuns && !runsAlready) mirrors.push_back(entry);
+  }
+  return mirrors;
+}
+
+std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                    double timeout) {
+  if (entry.missing)
+    if (const std::string why = entry.missing(); !why.empty())
+      throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+  const std::vector<std::string> argv =
+      entry.command ? entry.command()
+                    : std::vector<std::string>{ownProgram().string(), "__serve", entry.name};
+  return std::make_unique<WorkerEngine>(entry.name, argv, scratch, timeout);
+}
+
+Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
+  const auto section = setup.engines.find(engine);
+  if (section == setup.engines.end()) return {};
+  const std::string where = fmt::format("{}: [engines.{}]", setup.file.string(), engine);
+  for (const auto& [name, value] : section->second) {
+    const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
+    if (spec == can.settings.end()) {
+      std::vector<std::string> known;
+      for (const SettingSpec& each : can.settings) known.push_back(each.name);
+      throw BadInput(
+          fmt::format("{} there is no setting '{}'{}", where, name, suggestion(name, known)));
+    }
+    if (value.index() != spec->defaultValue.index())
+      throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
+                                 typeName(spec->defaultValue), typeName(value)));
+    if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
+      if (std::ranges::find(spec->choices, *text) == spec->choices.end())
+        throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
+                                   fmt::join(spec->choices, ", ")));
+  }
+  return section->second;
+}
+
+Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  try {
+    const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
+    Realised realised = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
+    realised.engine = entry.name;
+    realised.version = can.version;
+    realised.deviations.insert(realised.deviations.begin(), adapted.deviations.begin(),
+                               adapted.deviations.end());
+    return realised;
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
+  }
+}
+
+LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
+                        const std::filesystem::path& scratch) {
+  LoadedEngine loaded;
+  loaded.engine = startEngine(entry, scratch, setup.run.timeout);
+  loaded.can = loaded.engine->capabilities();
+  loaded.realised = loadScene(*loaded.engine, entry, setup, scene);
+  return loaded;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace crossgrain {
+
+/// The user pressed Ctrl-C (or sent SIGTERM); what was finished is on disk.
+struct Interrupted : std::runtime_error {
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+/// From now on SIGINT and SIGTERM only set a flag; a second SIGINT ends the program at once.
+void catchInterrupts();
+
+bool interrupted();
+
+/// @throws Interrupted if the flag is set
+void throwIfInterrupted();
+
+}  // namespace crossgrain

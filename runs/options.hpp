@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace crossgrain {
+
+/// What every command that runs engines is told on its command line.
+struct RunCommand {
+  std::vector<std::string> engines;  ///< names, "all" allowed
+  std::filesystem::path out;
+  int jobs = 1;         ///< engines side by side
+  bool resume = false;  ///< take up what an earlier run of the same in `out` finished
+  bool quiet = false;
+  std::string commandLine;  ///< for the report
+};
+
+}  // namespace crossgrain

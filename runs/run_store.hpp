@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace crossgrain {
+
+/// Finished runs in an output folder, one file each, so that nothing computed is ever lost.
+class RunStore {
+ public:
+  /// Makes the folder. @param resume  keep what is there, else start afresh
+  /// @throws std::runtime_error naming the folder if it cannot be written to
+  RunStore(std::filesystem::path out, bool resume);
+
+  /// The finished run of that name, if it was made with the same key (everything it depends on).
+  std::optional<nlohmann::json> find(const std::string& name, const std::string& key) const;
+  void keep(const std::string& name, const std::string& key, const nlohmann::json& run) const;
+
+  std::filesystem::path scratch(const std::string& name) const;
+  std::filesystem::path snapshots(const std::string& name) const;
+
+ private:
+  std::filesystem::path file(const std::string& name) const;
+
+  std::filesystem::path out_;
+};
+
+}  // namespace crossgrain

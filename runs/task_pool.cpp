@@ -1,0 +1,34 @@
+#include "runs/task_pool.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <thread>
+
+#include "runs/interrupt.hpp"
+
+namespace crossgrain {
+
+void runTasks(const std::vector<Task>& tasks, int jobs) {
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return tasks[k].weight; });
+
+  std::atomic<std::size_t> next = 0;
+  const auto takeTasks = [&] {
+    for (std::size_t k = next++; k < order.size() && !interrupted(); k = next++) {
+      try {
+        tasks[order[k]].work();
+      } catch (const Interrupted&) {
+        return;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int j = 0; j < jobs; ++j) threads.emplace_back(takeTasks);
+  }
+  throwIfInterrupted();
+}
+
+}  // namespace crossgrain

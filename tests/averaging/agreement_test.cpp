@@ -1,0 +1,206 @@
+#include "averaging/agreement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace crossgrain {
+namespace {
+
+constexpr double confidence = 0.95;
+
+/// One ring whose paired differences are those given.
+PairedSample differing(const std::vector<double>& differences, double margin) {
+  PairedSample sample;
+  sample.margin = margin;
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    const double packing = 10.0 * static_cast<double>(k);  // packings differ far more than engines
+    sample.reference.emplace_back(packing);
+    sample.other.emplace_back(packing + differences[k]);
+  }
+  return sample;
+}
+
+PairedComparison compareOne(const PairedSample& sample) {
+  return comparePaired(std::vector{sample}, confidence)[0].value();
+}
+
+/// A family of rings under the null or not: each packing has its own level, each engine its noise.
+std::vector<PairedSample> randomFamily(std::mt19937_64& generator, int rings, int packings,
+                                       double shift, double margin) {
+  std::normal_distribution<double> normal;
+  std::vector<PairedSample> family(static_cast<std::size_t>(rings));
+  for (PairedSample& sample : family) {
+    sample.margin = margin;
+    for (int p = 0; p < packings; ++p) {
+      const double level = 10.0 * normal(generator);
+      sample.reference.emplace_back(level + normal(generator));
+      sample.other.emplace_back(level + shift + normal(generator));
+    }
+  }
+  return family;
+}
+
+/// Share of families with at least one ring of that verdict.
+double familyRate(Verdict verdict, double shift, double margin, int repeats) {
+  std::mt19937_64 generator(14);
+  int hits = 0;
+  for (int k = 0; k < repeats; ++k) {
+    const auto result = comparePaired(randomFamily(generator, 20, 4, shift, margin), confidence);
+    bool any = false;
+    for (const auto& ring : result) any = any || ring->verdict == verdict;
+    hits += any;
+  }
+  return static_cast<double>(hits) / repeats;
+}
+
+TEST(EnsembleMean, MeanAndErrorByHand) {
+  const std::vector<std::optional<double>> means = {1.0, 3.0, std::nullopt, 5.0};
+  const EnsembleMean ensemble = ensembleMean(means).value();
+  EXPECT_EQ(ensemble.packings, 3);
+  EXPECT_DOUBLE_EQ(ensemble.mean, 3.0);
+  EXPECT_DOUBLE_EQ(ensemble.standardError.value(), 2.0 / std::sqrt(3.0));  // sd = 2
+  EXPECT_FALSE(ensembleMean(std::vector<std::optional<double>>{7.0})->standardError);
+  EXPECT_FALSE(ensembleMean(std::vector<std::optional<double>>{std::nullopt}));
+}
+
+TEST(ComparePaired, IntervalByHand) {
+  // Differences 1, 2, 3, 4: mean 2.5, sd √(5/3), t_3(0.95) = 2.353 (table).
+  const PairedComparison c = compareOne(differing({1.0, 2.0, 3.0, 4.0}, 10.0));
+  const double error = std::sqrt(5.0 / 3.0) / 2.0;
+  EXPECT_DOUBLE_EQ(c.difference, 2.5);
+  EXPECT_NEAR(c.standardError.value(), error, 1e-12);
+  EXPECT_NEAR(c.high.value() - 2.5, 2.353 * error, 5e-4);
+  EXPECT_NEAR(2.5 - c.low.value(), 2.353 * error, 5e-4);
+  EXPECT_EQ(c.verdict, Verdict::agree);
+  EXPECT_FALSE(c.morePackings);
+}
+
+TEST(ComparePaired, TheThreeVerdicts) {
+  EXPECT_EQ(compareOne(differing({0.1, -0.1, 0.05, -0.05}, 1.0)).verdict, Verdict::agree);
+  EXPECT_EQ(compareOne(differing({5.1, 4.9, 5.05, 4.95}, 1.0)).verdict, Verdict::disagree);
+  EXPECT_EQ(compareOne(differing({2.0, -2.0, 1.0, -1.0}, 1.0)).verdict, Verdict::undecided);
+}
+
+TEST(ComparePaired, AMarginIsNotJumpedByAHair) {
+  // 1.2 ± 0.4 is on the wrong side of 1.0 but not significantly so.
+  const PairedComparison c = compareOne(differing({0.4, 0.8, 1.6, 2.0}, 1.0));
+  EXPECT_EQ(c.verdict, Verdict::undecided);
+  EXPECT_GT(c.pDisagree.value(), 0.05);
+}
+
+TEST(ComparePaired, FewerThanFourPackingsDecideNothing) {
+  const PairedComparison same = compareOne(differing({0.0, 0.0, 0.0}, 1.0));
+  EXPECT_EQ(same.verdict, Verdict::undecided);
+  EXPECT_EQ(same.morePackings, 1);
+  const PairedComparison far = compareOne(differing({9.0, 9.1, 9.2}, 1.0));
+  EXPECT_EQ(far.verdict, Verdict::undecided);
+  EXPECT_FALSE(far.pDisagree);
+  EXPECT_EQ(compareOne(differing({0.0}, 1.0)).morePackings, 3);
+}
+
+TEST(ComparePaired, AnEngineAgreesWithItself) {
+  EXPECT_EQ(compareOne(differing({0.0, 0.0, 0.0, 0.0}, 0.0)).verdict, Verdict::agree);
+}
+
+TEST(ComparePaired, AbsentValues) {
+  PairedSample sample = differing({0.0, 0.0, 0.0, 0.0, 0.0}, 1.0);
+  sample.other[2] = std::nullopt;
+  EXPECT_EQ(compareOne(sample).packings, 4);
+  for (auto& value : sample.other) value = std::nullopt;
+  EXPECT_EQ(compareOne(sample).verdict, Verdict::undecided);
+  EXPECT_EQ(compareOne(sample).packings, 0);
+  for (auto& value : sample.reference) value = std::nullopt;
+  EXPECT_FALSE(comparePaired(std::vector{sample}, confidence)[0]);
+  sample = differing({0.0, 0.0, 0.0, 0.0}, 1.0);
+  sample.reference.pop_back();
+  EXPECT_THROW(comparePaired(std::vector{sample}, confidence), std::invalid_argument);
+}
+
+TEST(ComparePaired, MorePackingsWouldBeEnough) {
+  // Scatter stays, packings are added: the verdict comes at the number named, not one before it.
+  const std::vector<double> four = {1.0, -1.0, 1.0, -1.0};
+  const double margin = 0.7;
+  const PairedComparison now = compareOne(differing(four, margin));
+  ASSERT_EQ(now.verdict, Verdict::undecided);
+  const int wanted = 4 + now.morePackings.value();
+  const auto decides = [&](int packings) {
+    // sd of `four` is √(4/3); n values ±c with the same sd.
+    std::vector<double> differences;
+    const double n = packings;
+    const double c = std::sqrt(4.0 / 3.0 * (n - 1.0) / n);
+    for (int k = 0; k < packings; ++k) differences.push_back(k % 2 == 0 ? c : -c);
+    return compareOne(differing(differences, margin)).verdict == Verdict::agree;
+  };
+  const int even = wanted + wanted % 2;  // ± pairs need an even number
+  EXPECT_TRUE(decides(even));
+  EXPECT_FALSE(decides(even - 2));
+}
+
+TEST(ComparePaired, HolmByHand) {
+  // Same differences but for one ring: m = 3 tests. The smallest p is tripled, the next doubled.
+  const PairedSample far = differing({9.9, 10.1, 10.2, 9.8}, 1.0);
+  const PairedSample near = differing({1.5, 3.5, 2.5, 4.5}, 1.0);
+  const PairedSample same = differing({0.3, -0.3, 0.2, -0.2}, 1.0);
+  const auto family = comparePaired(std::vector{same, near, far}, confidence);
+  EXPECT_NEAR(*family[2]->pDisagree / *compareOne(far).pDisagree, 3.0, 1e-9);
+  EXPECT_NEAR(*family[1]->pDisagree / *compareOne(near).pDisagree, 2.0, 1e-9);
+  EXPECT_LE(*family[0]->pDisagree, 1.0);
+  // near alone is significant (p < 0.05), in the family it is not.
+  EXPECT_EQ(compareOne(near).verdict, Verdict::disagree);
+  EXPECT_EQ(family[1]->verdict, Verdict::undecided);
+  EXPECT_EQ(family[2]->verdict, Verdict::disagree);
+}
+
+TEST(ComparePaired, FalseAlarmsAreHeldToAlpha) {
+  // 20 rings × 4 packings of equal engines. Margin 0 is the hardest null: any disagree is false.
+  // α = 5 %, binomial sd of 4000 families 0.34 %: three of them on top.
+  const double rate = familyRate(Verdict::disagree, 0.0, 0.0, 4000);
+  RecordProperty("false_alarms", std::to_string(rate));
+  EXPECT_LE(rate, 0.05 + 3.0 * 0.0034);
+  EXPECT_GE(rate, 0.03);  // and the procedure is not idle
+  // A true difference right at the margin must not raise it.
+  EXPECT_LE(familyRate(Verdict::disagree, 1.0, 1.0, 4000), 0.05 + 3.0 * 0.0034);
+  EXPECT_LE(familyRate(Verdict::disagree, 0.0, 0.5, 4000), 0.05);
+}
+
+TEST(ComparePaired, FalseAgreementIsHeldToAlphaPerRing) {
+  // A true difference at the margin, where agreeing is wrong: at most 5 % of the rings.
+  std::mt19937_64 generator(15);
+  int agreeing = 0;
+  constexpr int repeats = 1000;
+  for (int k = 0; k < repeats; ++k)
+    for (const auto& ring : comparePaired(randomFamily(generator, 20, 4, 3.0, 3.0), confidence))
+      agreeing += ring->verdict == Verdict::agree;
+  EXPECT_LE(agreeing / (20.0 * repeats), 0.05 + 3.0 * std::sqrt(0.05 * 0.95 / (20.0 * repeats)));
+}
+
+TEST(ComparePaired, LargeDifferencesAreFound) {
+  EXPECT_GT(familyRate(Verdict::disagree, 30.0, 1.0, 500), 0.99);
+}
+
+TEST(FieldVerdict, FollowsItsRings) {
+  const auto ring = [](Verdict verdict, std::optional<int> more = {}) {
+    PairedComparison c;
+    c.verdict = verdict;
+    c.morePackings = more;
+    return std::optional(c);
+  };
+  const auto agree = ring(Verdict::agree);
+  const auto disagree = ring(Verdict::disagree);
+  const auto five = ring(Verdict::undecided, 5), two = ring(Verdict::undecided, 2);
+  const auto unknown = ring(Verdict::undecided);
+  using Rings = std::vector<std::optional<PairedComparison>>;
+  EXPECT_EQ(fieldVerdict(Rings{agree, std::nullopt, agree}).verdict, Verdict::agree);
+  EXPECT_EQ(fieldVerdict(Rings{agree, disagree, five}).verdict, Verdict::disagree);
+  EXPECT_EQ(fieldVerdict(Rings{two, agree, five}).verdict, Verdict::undecided);
+  EXPECT_EQ(fieldVerdict(Rings{two, agree, five}).morePackings, 5);
+  EXPECT_FALSE(fieldVerdict(Rings{two, unknown}).morePackings);
+  EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).verdict, Verdict::undecided);
+  EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).compared, 0);
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,248 @@
+#include "averaging/fields.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "averaging/moments.hpp"
+#include "tests/averaging/scenes.hpp"
+
+namespace crossgrain {
+namespace {
+
+using test::Instant;
+
+constexpr double pi = std::numbers::pi;
+
+/// Two rings 1–2 m and 2–3 m of height 0.5 m.
+Rings twoRings() {
+  return {1.0, 3.0, 2, 0.5, 0.2};
+}
+
+double valueOf(const char* field, const Rings& rings, const std::vector<Moments>& moments,
+               int ring) {
+  const auto value = evaluate(fieldSpec(field), moments[rings.slot(ring)], rings.volume(ring));
+  EXPECT_TRUE(value.has_value()) << field;
+  return value ? value->value : 0.0;
+}
+
+/// Disk 0 in ring 0 and disk 1 in ring 1, on the x axis, pushing on each other with 5 N; disk 1
+/// also pushes disk 0 along −y with 2 N. Radii differ: each disk has its own branch.
+Instant touchingPair() {
+  Instant pair;
+  pair.addDisk({1.6, 0.0}, 0.3, 2.0, {0.25, -1.5}, 3.0);
+  pair.addDisk({2.4, 0.0}, 0.2, 1.0, {-0.5, 4.0}, -7.0);
+  pair.addContact(0, 1, {-1.0, 0.0}, 5.0, 2.0);  // z × n = (0, −1): force on 0 is (−5, −2)
+  return pair;
+}
+
+TEST(Fields, StressOfATouchingPairIsForceTimesBranchOverVolume) {
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, touchingPair());
+  const double v0 = pi * (4.0 - 1.0) * 0.5;
+  const double v1 = pi * (9.0 - 4.0) * 0.5;
+  // Disk 0: f = (−5, −2), l = (0.3, 0). Disk 1: f = (5, 2), l = (−0.2, 0). −f⊗l is positive in
+  // both.
+  EXPECT_NEAR(valueOf("stress_rr", rings, moments, 0), 5.0 * 0.3 / v0, 1e-15);
+  EXPECT_NEAR(valueOf("stress_rr", rings, moments, 1), 5.0 * 0.2 / v1, 1e-15);
+  EXPECT_NEAR(valueOf("stress_pr", rings, moments, 0), 2.0 * 0.3 / v0, 1e-15);
+  EXPECT_NEAR(valueOf("stress_pr", rings, moments, 1), 2.0 * 0.2 / v1, 1e-15);
+  EXPECT_NEAR(valueOf("stress_rp", rings, moments, 0), 0.0, 1e-15);  // no branch along φ
+  EXPECT_NEAR(valueOf("stress_pp", rings, moments, 0), 0.0, 1e-15);
+}
+
+TEST(Fields, MotionOfATouchingPair) {
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, touchingPair());
+  const double v0 = pi * 3.0 * 0.5;
+  EXPECT_NEAR(valueOf("volume_fraction", rings, moments, 0), 0.09 / 3.0, 1e-15);
+  EXPECT_NEAR(valueOf("density", rings, moments, 0), 2.0 / v0, 1e-15);
+  EXPECT_NEAR(valueOf("radial_velocity", rings, moments, 0), 0.25, 1e-15);
+  EXPECT_NEAR(valueOf("azimuthal_velocity", rings, moments, 0), -1.5, 1e-15);
+  EXPECT_NEAR(valueOf("spin", rings, moments, 1), -7.0, 1e-14);
+  EXPECT_NEAR(valueOf("dynamic_stress_rr", rings, moments, 0), 2.0 * 0.25 * 0.25 / v0, 1e-15);
+  EXPECT_NEAR(valueOf("dynamic_stress_pp", rings, moments, 0), 2.0 * 1.5 * 1.5 / v0, 1e-15);
+  EXPECT_NEAR(valueOf("dynamic_stress_rp", rings, moments, 0), 2.0 * 0.25 * -1.5 / v0, 1e-15);
+}
+
+TEST(Fields, FabricOfATouchingPair) {
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, touchingPair());
+  EXPECT_NEAR(valueOf("fabric_rr", rings, moments, 0), 0.03, 1e-15);  // ν n_r n_r, one contact
+  EXPECT_NEAR(valueOf("fabric_pp", rings, moments, 0), 0.0, 1e-15);
+  EXPECT_NEAR(valueOf("fabric_trace", rings, moments, 0), 0.03, 1e-15);
+  EXPECT_NEAR(valueOf("fabric_deviator", rings, moments, 0), 0.03, 1e-15);
+  EXPECT_NEAR(valueOf("coordination", rings, moments, 0), 1.0, 1e-15);
+}
+
+TEST(Fields, DirectionsAreTakenAtEachDisksOwnAngle) {
+  // The pair turned by 90°: the same profiles.
+  Instant pair;
+  pair.addDisk({0.0, 1.6}, 0.3, 2.0, {1.5, 0.25}, 3.0);
+  pair.addDisk({0.0, 2.4}, 0.2, 1.0, {-4.0, -0.5}, -7.0);
+  pair.addContact(0, 1, {0.0, -1.0}, 5.0, 2.0);
+  const Rings rings = twoRings();
+  const auto turned = test::momentsOf(rings, pair);
+  const auto straight = test::momentsOf(rings, touchingPair());
+  for (std::size_t slot = 0; slot < rings.slots(); ++slot)
+    for (std::size_t q = 0; q < momentCount; ++q)
+      EXPECT_NEAR(turned[slot][q], straight[slot][q], 1e-14);
+}
+
+TEST(Fields, ATurningWheelGivesPositiveShearStress) {
+  // A wall disk at the wheel drags a disk outside it along +y = +φ (Ω > 0).
+  Instant cell;
+  cell.addDisk({1.5, 0.0}, 0.2);
+  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.2, 0.0)}, {0.1}, {}, {}});
+  cell.snapshot.wallPosition = {Vec2(1.2, 0.0)};
+  cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);  // force on the disk (5, 2)
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, cell);
+  const double volume = pi * 3.0 * 0.5;
+  // The force runs from the disk's centre over the contact to the wall disk's: 0.2 m + 0.1 m.
+  EXPECT_NEAR(valueOf("stress_pr", rings, moments, 0), 2.0 * 0.3 / volume, 1e-15);
+  EXPECT_NEAR(valueOf("stress_rr", rings, moments, 0), 5.0 * 0.3 / volume, 1e-15);
+  EXPECT_NEAR(valueOf("coordination", rings, moments, 0), 1.0, 1e-15);
+}
+
+TEST(Fields, StressOfAWallDiskOnTheEdgeStaysInTheCell) {
+  // A wall disk on R_i = 1 m: half of it lies inside the wheel, but all its contacts are outside.
+  Instant cell;
+  cell.addDisk({1.3, 0.0}, 0.2);
+  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.0, 0.0)}, {0.1}, {}, {}});
+  cell.snapshot.wallPosition = {Vec2(1.0, 0.0)};
+  cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, cell);
+  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::stressRR), 5.0 * 0.3, 1e-15);
+  EXPECT_EQ(at(moments[rings.slot(rings.insideBin())], Moment::stressRR), 0.0);
+}
+
+TEST(Fields, NothingIsLostWithTheOverflowBins) {
+  const Instant instant = test::randomInstant(3, 2900);
+  const Rings rings = test::thesisRings();
+  double area = 0.0;
+  double mass = 0.0;
+  for (std::size_t p = 0; p < instant.scene.disks.size(); ++p) {
+    area += pi * std::pow(instant.scene.disks.radius[p], 2);
+    mass += instant.scene.disks.mass[p];
+  }
+  for (const auto method :
+       {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre}) {
+    double sum = 0.0;
+    double massSum = 0.0;
+    double overflow = 0.0;
+    const auto moments = test::momentsOf(rings, instant, method);
+    for (const Moments& bin : moments) {
+      sum += at(bin, Moment::volume) / rings.height();
+      massSum += at(bin, Moment::mass);
+    }
+    for (const int bin : {rings.insideBin(), rings.outsideBin()})
+      overflow += at(moments[rings.slot(bin)], Moment::volume) / rings.height();
+    EXPECT_NEAR(sum / area, 1.0, 1e-12);
+    EXPECT_NEAR(massSum / mass, 1.0, 1e-12);
+    EXPECT_GT(overflow, 0.01 * area);  // the scene does reach beyond both walls
+    double rebuilt = overflow;         // Σ ν·(ring area) + overflow
+    for (int ring = 0; ring < rings.count(); ++ring)
+      rebuilt +=
+          valueOf("volume_fraction", rings, moments, ring) * rings.volume(ring) / rings.height();
+    EXPECT_NEAR(rebuilt / area, 1.0, 1e-12);
+  }
+}
+
+TEST(Fields, FabricTraceIsVolumeFractionTimesCoordination) {
+  // Lätzel 2003, section 7.2.2; with volume weights an identity.
+  const Instant instant = test::randomInstant(4, 2900);
+  const Rings rings = test::thesisRings();
+  const auto moments = test::momentsOf(rings, instant);
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    const double trace = valueOf("fabric_trace", rings, moments, ring);
+    const double product = valueOf("volume_fraction", rings, moments, ring) *
+                           valueOf("coordination", rings, moments, ring);
+    EXPECT_NEAR(trace, product, 1e-13 * product);
+    // The two invariants give the eigenvalues: F_max F_min is the determinant.
+    const double deviator = valueOf("fabric_deviator", rings, moments, ring);
+    const double determinant =
+        valueOf("fabric_rr", rings, moments, ring) * valueOf("fabric_pp", rings, moments, ring) -
+        std::pow(valueOf("fabric_rp", rings, moments, ring), 2);
+    EXPECT_NEAR((trace * trace - deviator * deviator) / 4.0, determinant, 1e-13 * trace * trace);
+  }
+}
+
+TEST(Fields, WallDisksCountOnlyWhenAskedFor) {
+  Instant instant;
+  instant.addDisk({1.5, 0.0}, 0.1);
+  instant.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(0.0, 1.5)}, {0.2}, {}, {}});
+  instant.snapshot.wallPosition = {Vec2(0.0, 1.5)};
+  const Rings rings = twoRings();
+  const auto without = test::momentsOf(rings, instant);
+  const auto with = test::momentsOf(rings, instant, WeightMethod::slicing, true);
+  EXPECT_NEAR(valueOf("volume_fraction", rings, without, 0), 0.01 / 3.0, 1e-15);
+  EXPECT_NEAR(valueOf("volume_fraction", rings, with, 0), 0.05 / 3.0, 1e-15);
+  EXPECT_NEAR(valueOf("azimuthal_velocity", rings, with, 0), 0.0, 1e-15);
+}
+
+TEST(Fields, AnEmptyRingHasAVolumeFractionAndNothingElse) {
+  Instant instant;
+  instant.addDisk({1.5, 0.0}, 0.1);
+  const Rings rings = twoRings();
+  const auto moments = test::momentsOf(rings, instant);
+  for (const FieldSpec& field : fieldTable()) {
+    const auto value = evaluate(field, moments[rings.slot(1)], rings.volume(1));
+    const bool filling = field.name == "volume_fraction" || field.name == "density";
+    EXPECT_EQ(value.has_value(), filling) << field.name;
+    if (value) {
+      EXPECT_EQ(value->value, 0.0);
+    }
+  }
+}
+
+TEST(Fields, GradientsMatchFiniteDifferences) {
+  const Rings rings = test::thesisRings();
+  const Moments moments = test::momentsOf(rings, test::randomInstant(5, 500))[rings.slot(7)];
+  for (const FieldSpec& field : fieldTable()) {
+    const auto here = evaluate(field, moments, rings.volume(7));
+    ASSERT_TRUE(here) << field.name;
+    for (const Moment q : field.moments) {
+      const double step = 1e-6 * at(moments, Moment::volume);
+      Moments up = moments, down = moments;
+      at(up, q) += step;
+      at(down, q) -= step;
+      const double slope = (evaluate(field, up, rings.volume(7))->value -
+                            evaluate(field, down, rings.volume(7))->value) /
+                           (2.0 * step);
+      // Central differences: relative truncation 1e-12 and rounding 1e-10 in these units.
+      EXPECT_NEAR(at(here->gradient, q), slope, 1e-6 * std::abs(slope) + 1e-9) << field.name;
+    }
+  }
+}
+
+TEST(Fields, NamesAreTheContractOfTheCsv) {
+  const std::vector<std::string_view> names = {"volume_fraction",   "azimuthal_velocity",
+                                               "radial_velocity",   "spin",
+                                               "stress_rr",         "stress_pp",
+                                               "stress_rp",         "stress_pr",
+                                               "dynamic_stress_rr", "dynamic_stress_pp",
+                                               "dynamic_stress_rp", "fabric_trace",
+                                               "fabric_deviator",   "fabric_rr",
+                                               "fabric_pp",         "fabric_rp",
+                                               "coordination",      "density"};
+  ASSERT_EQ(fieldTable().size(), names.size());
+  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(fieldTable()[k].name, names[k]);
+  EXPECT_THROW(fieldSpec("viscosity"), std::invalid_argument);
+}
+
+TEST(Fields, ASnapshotOfAnotherSceneIsRefused) {
+  Instant instant = touchingPair();
+  const Rings rings = twoRings();
+  instant.snapshot.contacts->j[0] = 2;
+  EXPECT_THROW(test::momentsOf(rings, instant), std::invalid_argument);
+  instant = touchingPair();
+  instant.snapshot.velocity.pop_back();
+  EXPECT_THROW(test::momentsOf(rings, instant), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,98 @@
+#include "averaging/global.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/averaging/scenes.hpp"
+
+namespace crossgrain {
+namespace {
+
+using test::Instant;
+
+constexpr double pi = std::numbers::pi;
+
+/// Two disks side by side between a wheel (wall disk 2) and a ring (wall disks 3 and 4, plane 5).
+Instant cell() {
+  Instant instant;
+  instant.addDisk({1.5, 0.0}, 0.25, 2.0, {3.0, 4.0}, 2.0);
+  instant.addDisk({2.0, 0.0}, 0.25, 1.0, {0.0, 1.0}, 0.0);
+  instant.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.15, 0.0)}, {0.1}, {}, {}});
+  instant.scene.bodies.push_back({"ring",
+                                  Vec2::Zero(),
+                                  {Vec2(2.35, 0.0), Vec2(-2.35, 0.0)},
+                                  {0.1, 0.1},
+                                  {Plane{Vec2(0.0, -3.0), Vec2(0.0, 1.0)}},
+                                  {}});
+  instant.snapshot.wallPosition = {Vec2(1.15, 0.0), Vec2(2.35, 0.0), Vec2(-2.35, 0.0)};
+  instant.snapshot.bodies.resize(2);
+  instant.snapshot.bodies[0].torque = -0.6;
+  instant.addContact(0, 1, {-1.0, 0.0}, 7.0, 0.0);
+  instant.addContact(0, 2, {1.0, 0.0}, 9.0, 0.0);
+  instant.addContact(1, 3, {-1.0, 0.0}, 5.0, 1.0);
+  return instant;
+}
+
+TEST(GlobalNumbers, ByHand) {
+  Instant instant = cell();
+  instant.snapshot.contacts->overlap = {1e-7, 4e-7, 1e-7};
+  const GlobalNumbers numbers = globalNumbers(instant.scene, instant.snapshot);
+  // ½·2·25 + ½·(½·2·0.25²)·4 + ½·1·1
+  EXPECT_NEAR(numbers.kineticEnergy, 25.0 + 0.125 + 0.5, 1e-14);
+  EXPECT_EQ(numbers.coordination, 2.0);  // four ends on two disks
+  EXPECT_EQ(numbers.maxOverlap, 4e-7);
+  EXPECT_NEAR(numbers.meanOverlap.value(), 2e-7, 1e-20);
+  EXPECT_FALSE(numbers.slidingFraction);
+  instant.snapshot.contacts->sliding = {0, 1, 0};
+  EXPECT_NEAR(globalNumbers(instant.scene, instant.snapshot).slidingFraction.value(), 1.0 / 3.0,
+              1e-15);
+}
+
+TEST(GlobalNumbers, WithoutDataAreAbsent) {
+  Instant instant = cell();
+  instant.snapshot.contacts = Contacts{};
+  EXPECT_EQ(globalNumbers(instant.scene, instant.snapshot).coordination, 0.0);
+  EXPECT_FALSE(globalNumbers(instant.scene, instant.snapshot).maxOverlap);
+  instant.snapshot.contacts.reset();
+  instant.snapshot.spin.reset();
+  const GlobalNumbers numbers = globalNumbers(instant.scene, instant.snapshot);
+  EXPECT_FALSE(numbers.coordination);
+  EXPECT_NEAR(numbers.kineticEnergy, 25.5, 1e-14);
+  instant.snapshot.velocity.pop_back();
+  EXPECT_THROW(globalNumbers(instant.scene, instant.snapshot), std::invalid_argument);
+}
+
+TEST(RadialPressure, CountsContactByContact) {
+  Instant instant = cell();
+  const auto pressure = [&](const char* body, double radius) {
+    return radialPressure(instant.scene, instant.snapshot, body, radius, 0.5);
+  };
+  EXPECT_NEAR(pressure("ring", 2.35).value(), 5.0 / (2.0 * pi * 2.35 * 0.5), 1e-14);
+  EXPECT_NEAR(pressure("wheel", 1.15).value(), -9.0 / (2.0 * pi * 1.15 * 0.5), 1e-14);  // inward
+
+  // A third disk pushes the far side with the same force: net force 0, pressure doubled. Its id
+  // shifts the walls' ids by one.
+  instant.addDisk({-2.0, 0.0}, 0.25);
+  for (auto& j : instant.snapshot.contacts->j) j += j >= 2 ? 1 : 0;
+  instant.addContact(2, 5, {1.0, 0.0}, 5.0, 0.0);
+  EXPECT_NEAR(pressure("ring", 2.35).value(), 10.0 / (2.0 * pi * 2.35 * 0.5), 1e-14);
+  // And one that presses on the ring's plane (id 6) from above.
+  instant.addContact(2, 6, {0.0, 1.0}, 3.0, 0.0);
+  instant.snapshot.position[2] = {0.0, -2.75};
+  EXPECT_NEAR(pressure("ring", 2.35).value(),
+              (5.0 + 3.0 + 5.0 * 0.25 / std::hypot(0.25, 2.75)) / (2.0 * pi * 2.35 * 0.5), 1e-14);
+  instant.snapshot.contacts.reset();
+  EXPECT_FALSE(pressure("ring", 2.35));
+  EXPECT_THROW(pressure("lid", 1.0), std::invalid_argument);
+}
+
+TEST(DrivingTorque, IsWhatTheWheelDoesToTheDisks) {
+  const Instant instant = cell();
+  EXPECT_EQ(drivingTorque(instant.scene, instant.snapshot, "wheel"), 0.6);
+  EXPECT_FALSE(drivingTorque(instant.scene, instant.snapshot, "ring"));
+}
+
+}  // namespace
+}  // namespace crossgrain

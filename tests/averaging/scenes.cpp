@@ -1,0 +1,81 @@
+#include "tests/averaging/scenes.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace crossgrain::test {
+
+Rings thesisRings(int count) {
+  return {0.1032, 0.2524, count, 0.006, 0.0074};
+}
+
+Instant::Instant() {
+  scene.name = "instant";
+  snapshot.spin.emplace();
+  snapshot.contacts.emplace();
+}
+
+void Instant::addDisk(const Vec2& position, double radius, double mass, const Vec2& velocity,
+                      double spin) {
+  scene.disks.radius.push_back(radius);
+  scene.disks.mass.push_back(mass);
+  scene.disks.inertia.push_back(0.5 * mass * radius * radius);
+  scene.disks.position.push_back(position);
+  scene.disks.velocity.push_back(velocity);
+  scene.disks.spin.push_back(spin);
+  snapshot.position.push_back(position);
+  snapshot.velocity.push_back(velocity);
+  snapshot.spin->push_back(spin);
+}
+
+void Instant::addContact(std::int32_t i, std::int32_t j, const Vec2& normal, double normalForce,
+                         double tangentialForce) {
+  snapshot.contacts->i.push_back(i);
+  snapshot.contacts->j.push_back(j);
+  snapshot.contacts->normal.push_back(normal);
+  snapshot.contacts->overlap.push_back(1e-7);
+  snapshot.contacts->normalForce.push_back(normalForce);
+  snapshot.contacts->tangentialForce.push_back(tangentialForce);
+}
+
+Instant randomInstant(std::uint64_t seed, int disks) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  Instant instant;
+  for (int p = 0; p < disks; ++p) {
+    const double r = 0.095 + 0.165 * unit(generator);
+    const double angle = 2.0 * std::numbers::pi * unit(generator);
+    const bool large = unit(generator) < 0.15;
+    instant.addDisk(r * Vec2(std::cos(angle), std::sin(angle)), large ? 0.004495 : 0.0037,
+                    large ? 0.490e-3 : 0.275e-3, 0.1 * Vec2(normal(generator), normal(generator)),
+                    normal(generator));
+  }
+  WallBody body;
+  body.name = "wheel";
+  body.diskPosition = {Vec2(0.1032, 0.0), Vec2(-0.1032, 0.0)};
+  body.diskRadius = {0.00125, 0.00125};
+  instant.scene.bodies.push_back(body);
+  instant.snapshot.bodies.emplace_back();
+  instant.snapshot.wallPosition = body.diskPosition;
+  std::uniform_int_distribution<std::int32_t> anyDisk(0, disks - 1);
+  for (int c = 0; c < disks; ++c) {
+    const std::int32_t i = anyDisk(generator);
+    const std::int32_t j = c % 10 == 0 ? disks + c / 10 % 2 : anyDisk(generator);
+    const double angle = 2.0 * std::numbers::pi * unit(generator);
+    if (i != j)
+      instant.addContact(std::min(i, j), std::max(i, j), Vec2(std::cos(angle), std::sin(angle)),
+                         1e-4 * unit(generator), 4e-5 * normal(generator));
+  }
+  return instant;
+}
+
+std::vector<Moments> momentsOf(const Rings& rings, const Instant& instant, WeightMethod method,
+                               bool countWallDisks) {
+  std::vector<std::vector<Moments>> sums;
+  MomentSums(rings, instant.scene, countWallDisks).compute(instant.snapshot, {method}, sums);
+  return sums[0];
+}
+
+}  // namespace crossgrain::test

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+#include "averaging/moments.hpp"
+#include "averaging/rings.hpp"
+#include "averaging/weights.hpp"
+
+namespace crossgrain::test {
+
+/// The thesis' cell: R_i, R_o, h and d in metres, 20 rings.
+Rings thesisRings(int count = 20);
+
+/// A scene and one instant of it, grown disk by disk and contact by contact.
+struct Instant {
+  Scene scene;
+  Snapshot snapshot;
+
+  Instant();
+  void addDisk(const Vec2& position, double radius, double mass = 1.0,
+               const Vec2& velocity = Vec2::Zero(), double spin = 0.0);
+  /// normal from j to i, as in Contacts
+  void addContact(std::int32_t i, std::int32_t j, const Vec2& normal, double normalForce,
+                  double tangentialForce);
+};
+
+/// Seeded disks all over the thesis' cell and beyond both walls, with random velocities, spins and
+/// contacts (disk with disk, disk with a wall body of two wall disks). No mechanics: only sums.
+Instant randomInstant(std::uint64_t seed, int disks);
+
+/// The moments under one method.
+std::vector<Moments> momentsOf(const Rings& rings, const Instant& instant,
+                               WeightMethod method = WeightMethod::slicing,
+                               bool countWallDisks = false);
+
+}  // namespace crossgrain::test

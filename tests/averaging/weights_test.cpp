@@ -1,0 +1,233 @@
+#include "averaging/weights.hpp"
+
+#include <gsl/gsl_integration.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "averaging/rings.hpp"
+#include "tests/averaging/scenes.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Disk {
+  double r, a;
+};
+
+/// 2ρ·θ(ρ): the length of the circle of radius ρ about the origin that lies in the disk.
+double arcLength(double rho, void* data) {
+  const auto& [r, a] = *static_cast<const Disk*>(data);
+  if (rho <= a - r) return 2.0 * pi * rho;
+  return 2.0 * rho *
+         std::acos(std::clamp((r * r + rho * rho - a * a) / (2.0 * r * rho), -1.0, 1.0));
+}
+
+/// Independent route to commonArea: adaptive quadrature of arc lengths.
+double areaByQuadrature(double r, double a, double R) {
+  Disk disk{r, a};
+  gsl_function f{arcLength, &disk};
+  gsl_integration_workspace* work = gsl_integration_workspace_alloc(2000);
+  double area = 0.0;
+  double whole = std::max(0.0, std::min(a - r, R));  // circles entirely inside the disk
+  area += pi * whole * whole;
+  const double from = std::max(std::abs(r - a), whole);
+  const double to = std::min(R, r + a);
+  if (to > from) {
+    double part = 0.0;
+    double error = 0.0;
+    gsl_integration_qags(&f, from, to, 1e-16, 1e-11, 2000, work, &part, &error);
+    area += part;
+  }
+  gsl_integration_workspace_free(work);
+  return area;
+}
+
+double sumOf(const BinWeights& weights) {
+  return std::accumulate(weights.fraction.begin(), weights.fraction.end(), 0.0);
+}
+
+/// The fraction in one bin, 0 if the weights do not reach it.
+double fractionIn(const BinWeights& weights, int bin) {
+  const int k = bin - weights.first;
+  const bool reached = k >= 0 && k < static_cast<int>(weights.fraction.size());
+  return reached ? weights.fraction[static_cast<std::size_t>(k)] : 0.0;
+}
+
+TEST(Rings, EdgesVolumesAndCoordinate) {
+  const Rings rings(0.1, 0.3, 4, 0.5, 0.02);
+  EXPECT_EQ(rings.count(), 4);
+  EXPECT_DOUBLE_EQ(rings.edge(0), 0.1);
+  EXPECT_DOUBLE_EQ(rings.edge(4), 0.3);
+  EXPECT_DOUBLE_EQ(rings.centre(1), 0.175);
+  EXPECT_DOUBLE_EQ(rings.rTilde(1), 3.75);
+  // 2π r Δr h, the thesis' form, is the same number.
+  EXPECT_NEAR(rings.volume(1), 2.0 * pi * 0.175 * 0.05 * 0.5, 1e-16);
+  double whole = 0.0;
+  for (int k = 0; k < 4; ++k) whole += rings.volume(k);
+  EXPECT_NEAR(whole, pi * (0.09 - 0.01) * 0.5, 1e-15);
+}
+
+TEST(Rings, BinsAreHalfOpenAndOverflowIsKept) {
+  const Rings rings = test::thesisRings(150);
+  EXPECT_EQ(rings.binOf(0.0), rings.insideBin());
+  EXPECT_EQ(rings.binOf(0.3), rings.outsideBin());
+  EXPECT_EQ(rings.binOf(rings.outerRadius()), rings.outsideBin());
+  for (int k = 0; k < rings.count(); ++k) {
+    EXPECT_EQ(rings.binOf(rings.edge(k)), k);
+    EXPECT_EQ(rings.binOf(std::nextafter(rings.edge(k), 0.0)), k - 1);
+  }
+}
+
+TEST(Rings, RefusesWhatIsNoRing) {
+  EXPECT_THROW(Rings(0.2, 0.1, 5, 1.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(Rings(0.1, 0.2, 0, 1.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(Rings(0.1, 0.2, 5, 0.0, 1.0), std::invalid_argument);
+}
+
+TEST(Weights, NamesGoBothWays) {
+  for (const char* name : {"slicing", "straight_cut", "centre"})
+    EXPECT_EQ(toString(weightMethod(name)), name);
+  EXPECT_THROW(weightMethod("slices"), std::invalid_argument);
+}
+
+TEST(CommonArea, MatchesQuadratureOfArcLengths) {
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int k = 0; k < 2000; ++k) {
+    const double a = 0.001 + 0.01 * unit(generator);
+    const double r = k % 4 == 0 ? a * unit(generator) : 0.3 * unit(generator);
+    const double R = std::max(1e-6, r + 1.2 * a * (2.0 * unit(generator) - 1.0));
+    // 1e-10 of the disk: the quadrature is asked for 1e-11.
+    EXPECT_NEAR(commonArea(r, a, R), areaByQuadrature(r, a, R), 1e-10 * pi * a * a)
+        << "r " << r << " a " << a << " R " << R;
+  }
+}
+
+TEST(CommonArea, LimitsAreExact) {
+  EXPECT_EQ(commonArea(0.2, 0.01, 0.19), 0.0);                           // outer tangency
+  EXPECT_DOUBLE_EQ(commonArea(0.2, 0.01, 0.25), pi * 0.01 * 0.01);       // disk within
+  EXPECT_DOUBLE_EQ(commonArea(0.001, 0.01, 0.005), pi * 0.005 * 0.005);  // circle within the disk
+  EXPECT_DOUBLE_EQ(commonArea(0.0, 0.01, 0.004), pi * 0.004 * 0.004);    // concentric
+  // Two unit circles whose centres are one radius apart: 2π/3 − √3/2.
+  EXPECT_NEAR(commonArea(1.0, 1.0, 1.0), 2.0 * pi / 3.0 - std::sqrt(3.0) / 2.0, 1e-15);
+}
+
+TEST(CommonArea, KeepsItsRelativeAccuracyNearTangency) {
+  // A lens of depth t ≪ a, R between circles of radii a and R: (4/3) t^{3/2} √(2aR/(a + R)) to
+  // leading order; the next term is of relative order t/a = 1e-7 here.
+  const double a = 0.00390625, R = 0.25, t = std::ldexp(1.0, -31);
+  const double lens = 4.0 / 3.0 * std::pow(t, 1.5) * std::sqrt(2.0 * a * R / (a + R));
+  EXPECT_NEAR(commonArea(R + a - t, a, R) / lens, 1.0, 1e-6);
+}
+
+TEST(CommonArea, RisesWithTheRadius) {
+  const double r = 0.15, a = 0.0037;
+  double before = 0.0;
+  for (int k = 0; k <= 10000; ++k) {
+    const double now = commonArea(r, a, r - a + 2.0 * a * k / 10000);
+    EXPECT_GE(now, before - 1e-15 * a * a);
+    before = now;
+  }
+}
+
+TEST(Weights, AddUpToOneForEveryMethod) {
+  std::mt19937_64 generator(2);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  BinWeights weights;
+  for (const int count : {1, 20, 150}) {
+    const Rings rings = test::thesisRings(count);
+    for (int k = 0; k < 3000; ++k) {
+      const double r = 0.3 * unit(generator);
+      const double a = 0.06 * unit(generator) + 1e-6;
+      for (const auto method :
+           {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre}) {
+        binWeights(rings, method, r, a, weights);
+        EXPECT_NEAR(sumOf(weights), 1.0, 1e-14);
+        EXPECT_GE(weights.first, rings.insideBin());
+        EXPECT_LE(weights.first + static_cast<int>(weights.fraction.size()) - 1,
+                  rings.outsideBin());
+        for (const double w : weights.fraction) EXPECT_GE(w, 0.0);
+      }
+    }
+  }
+}
+
+TEST(Weights, DiskCutByThreeRings) {
+  const Rings rings(0.1, 0.2, 10, 0.006, 0.0074);
+  BinWeights weights;
+  binWeights(rings, WeightMethod::slicing, 0.145, 0.012, weights);  // covers 0.133 … 0.157
+  ASSERT_EQ(weights.first, 3);
+  ASSERT_EQ(weights.fraction.size(), 3u);
+  const double disk = pi * 0.012 * 0.012;
+  const double upTo14 = areaByQuadrature(0.145, 0.012, 0.14);
+  const double upTo15 = areaByQuadrature(0.145, 0.012, 0.15);
+  EXPECT_NEAR(weights.fraction[0], upTo14 / disk, 1e-10);
+  EXPECT_NEAR(weights.fraction[1], (upTo15 - upTo14) / disk, 1e-10);
+  EXPECT_NEAR(weights.fraction[2], 1.0 - upTo15 / disk, 1e-10);
+}
+
+TEST(Weights, RingsInsideOneDisk) {
+  // The disk reaches over the origin: the wheel's hole and the first rings lie inside it whole.
+  const Rings rings(0.01, 0.05, 4, 0.006, 0.0074);
+  BinWeights weights;
+  binWeights(rings, WeightMethod::slicing, 0.005, 0.04, weights);
+  const double disk = 0.04 * 0.04;
+  EXPECT_NEAR(fractionIn(weights, -1), 0.01 * 0.01 / disk, 1e-15);
+  EXPECT_NEAR(fractionIn(weights, 0), (0.02 * 0.02 - 0.01 * 0.01) / disk, 1e-15);
+  EXPECT_NEAR(fractionIn(weights, 1), (0.03 * 0.03 - 0.02 * 0.02) / disk, 1e-15);
+  EXPECT_NEAR(sumOf(weights), 1.0, 1e-15);
+}
+
+TEST(Weights, HalfADiskOnTheWallLiesOutside) {
+  // Centre on R_i: a straight edge would halve it, the curved one leaves a little more outside R_i.
+  const Rings rings = test::thesisRings();
+  BinWeights weights;
+  binWeights(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125, weights);
+  EXPECT_NEAR(fractionIn(weights, -1), 0.5, 1e-13);
+  binWeights(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125, weights);
+  // The arc bends away from its tangent at the centre by y²/2R; over −a … a that is a³/3R of πa².
+  const double cap = 0.00125 / (3.0 * pi * rings.innerRadius());
+  EXPECT_NEAR(0.5 - fractionIn(weights, -1), cap, 0.02 * cap);
+}
+
+TEST(Weights, StraightCutIsTheFormulaOfTheThesis) {
+  // Lätzel 2003, Eq. 5.4, for a disk that reaches over both edges of ring 5.
+  const Rings rings = test::thesisRings(40);
+  const double r = rings.centre(5) + 0.0004, a = 0.004495;
+  const double phiInner = std::acos((r - rings.edge(5)) / a);
+  const double phiOuter = std::acos((rings.edge(6) - r) / a);
+  const double slice = pi - phiInner + std::sin(phiInner) * std::cos(phiInner) - phiOuter +
+                       std::sin(phiOuter) * std::cos(phiOuter);
+  BinWeights weights;
+  binWeights(rings, WeightMethod::straightCut, r, a, weights);
+  EXPECT_NEAR(fractionIn(weights, 5), slice / pi, 1e-14);
+}
+
+TEST(Weights, StraightCutIsWithinOnePerCentInTheThesisCell) {
+  // Lätzel 2003, section 5.2: "well below one per-cent in all situations considered here".
+  const Rings rings = test::thesisRings(20);
+  BinWeights exact, straight;
+  double worst = 0.0;
+  for (const double a : {0.0037, 0.004495})
+    for (int k = 0; k <= 4000; ++k) {
+      const double r = rings.innerRadius() + a +
+                       (rings.outerRadius() - rings.innerRadius() - 2.0 * a) * k / 4000;
+      binWeights(rings, WeightMethod::slicing, r, a, exact);
+      binWeights(rings, WeightMethod::straightCut, r, a, straight);
+      for (int bin = -1; bin <= rings.count(); ++bin)
+        worst = std::max(worst, std::abs(fractionIn(exact, bin) - fractionIn(straight, bin)));
+    }
+  RecordProperty("worst_fraction", std::to_string(worst));
+  EXPECT_LT(worst, 0.01);
+  EXPECT_GT(worst, 0.001);  // the two methods do differ
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/box2d/scenes.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+constexpr double approach = 0.1;  // [m/s], far above the default impact_speed
+
+// Walton; Luding 1998: Ψ_f = max(−e_t0 Ψ_i, Ψ_i − 3(1 + e_n)µ).
+double hardSphere(double psi, double en, double et0, double mu) {
+  return std::max(-et0 * psi, psi - 3.0 * (1.0 + en) * mu);
+}
+
+Scene onePair(const ContactLaw& law, double vn, double psi, double gap = 1.3e-4) {
+  Scene scene;
+  scene.law = law;
+  addPair(scene, Vec2::Zero(), vn, psi, gap);
+  return scene;
+}
+
+TEST(Box2dImpulse, FollowsTheHardSphereLaw) {
+  constexpr double en = 0.3, mu = 0.44;
+  const auto engine = makeBox2dImpulse();
+  for (const double et0 : {0.0, 0.5}) {
+    double lowest = 0.0, highest = 0.0, error = 0.0;
+    for (double psi = 0.0; psi <= 4.0; psi += 0.125) {
+      const Scene scene = onePair(rigidLaw(en, et0, mu), approach, psi);
+      const Outcome got = outcome(runTo(*engine, scene, 0.02), 0, approach);
+      const double wanted = hardSphere(psi, en, et0, mu);
+      EXPECT_NEAR(got.en, en, 1e-3);
+      lowest = std::min(lowest, wanted);
+      highest = std::max(highest, wanted);
+      error = std::max(error, std::abs(got.psiF - wanted));
+    }
+    // The solver acts at the contact point, half the overlap of the first step inside the radius.
+    EXPECT_LT(error, 0.01 * (highest - lowest)) << "et0 " << et0;
+  }
+}
+
+TEST(Box2dImpulse, SweepInOneSceneEqualsSinglePairs) {
+  const ContactLaw law = rigidLaw(0.3, 0.5, 0.44);
+  const auto engine = makeBox2dImpulse();
+  Scene sweep;
+  sweep.law = law;
+  for (int k = 0; k < 40; ++k)
+    addPair(sweep, Vec2(0.03 * (k % 8), 0.02 * (k / 8)), approach, 0.1 * k, 1.3e-4);
+  const Snapshot all = runTo(*engine, sweep, 0.02);
+  for (int k = 0; k < 40; ++k) {
+    const Scene scene = onePair(law, approach, 0.1 * k);
+    const Outcome alone = outcome(runTo(*engine, scene, 0.02), 0, approach);
+    const Outcome together = outcome(all, static_cast<std::size_t>(2 * k), approach);
+    // float32 positions of up to 0.2 m are rounded otherwise than those at the origin.
+    EXPECT_NEAR(together.en, alone.en, 1e-4);
+    EXPECT_NEAR(together.psiF, alone.psiF, 2e-3);
+  }
+}
+
+TEST(Box2dImpulse, RestitutionOfUnequalMassesAndOfWalls) {
+  constexpr double en = 0.6;
+  const auto engine = makeBox2dImpulse();
+
+  Scene unequal;
+  unequal.law = rigidLaw(en, 0.0, 0.0);
+  addDisk(unequal, smallRadius, smallMass, Vec2(0, 0), Vec2(approach, 0));
+  addDisk(unequal, largeRadius, largeMass, Vec2(smallRadius + largeRadius + 1e-4, 0), Vec2(0, 0));
+  Snapshot after = runTo(*engine, unequal, 0.02);
+  EXPECT_NEAR((after.velocity[1].x() - after.velocity[0].x()) / approach, en, 1e-3);
+  EXPECT_NEAR(smallMass * after.velocity[0].x() + largeMass * after.velocity[1].x(),
+              smallMass * approach, 1e-6 * smallMass * approach);  // float32
+  EXPECT_FALSE(after.spin);
+
+  for (const bool plane : {false, true}) {
+    Scene wall;
+    wall.law = rigidLaw(en, 0.0, 0.44);
+    addDisk(wall, smallRadius, smallMass, Vec2(0, 0), Vec2(approach, 0));
+    wall.bodies = {plane ? floorPlane(Vec2(smallRadius + 1e-4, 0), -Vec2::UnitX())
+                         : wallDisk(Vec2(smallRadius + 1.35e-3, 0), 1.25e-3)};
+    after = runTo(*engine, wall, 0.02);
+    EXPECT_NEAR(-after.velocity[0].x() / approach, en, 1e-3) << "plane " << plane;
+  }
+}
+
+TEST(Box2dImpulse, SoftLawRunsWithItsOwnRestitution) {
+  const auto engine = makeBox2dImpulse();
+  for (const auto& [tension, en] : {std::pair{Tension::allow, 0.2223}, {Tension::cut, 0.3408}}) {
+    Scene scene = onePair(thesisLaw(), approach, 0.5);
+    scene.law.conventions.tension = tension;
+    const Realised realised = engine->load(scene, {});
+    ASSERT_EQ(realised.pairs.size(), 1u);
+    EXPECT_NEAR(realised.pairs[0].en, en, 1e-4);
+    EXPECT_NEAR(realised.pairs[0].et0, 0.11, 0.02);
+    EXPECT_EQ(realised.deviations.at(0).name, "normal");
+    engine->advance(0.02);
+    const Outcome got = outcome(engine->snapshot(ContactReport::none), 0, approach);
+    EXPECT_NEAR(got.en, en, 1e-3);
+    EXPECT_NEAR(got.psiF, -0.5 * realised.pairs[0].et0, 5e-3);
+  }
+}
+
+TEST(Box2dImpulse, SlowContactsGetNoTangentialRestitution) {
+  const auto engine = makeBox2dImpulse();
+  const double slow = 0.004;
+  const Scene scene = onePair(rigidLaw(0.3, 0.5, 0.44), slow, 0.5, 2e-6);
+  const Outcome byDefault = outcome(runTo(*engine, scene, 0.02), 0, slow);
+  EXPECT_NEAR(byDefault.psiF, 0.0, 2e-3);
+  EXPECT_EQ(engine->stats().counters.at("impacts"), 0.0);
+  const Settings always = {{"impact_speed", 0.0}};
+  EXPECT_NEAR(outcome(runTo(*engine, scene, 0.02, always), 0, slow).psiF, -0.25, 2e-3);
+  EXPECT_EQ(engine->stats().counters.at("impacts"), 1.0);
+}
+
+// Force times interval is what the wall gave the disk, and likewise for the torque.
+TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
+  Scene scene;
+  scene.law = rigidLaw(0.6, 0.4, 0.44);
+  addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(approach, 0.03), 5.0);
+  scene.bodies = {wallDisk(Vec2(smallRadius + 1.35e-3, 1e-3), 1.25e-3)};
+  const auto engine = makeBox2dImpulse();
+  engine->load(scene, {});
+  EXPECT_FALSE(engine->snapshot(ContactReport::instant).contacts);  // nothing has acted yet
+  EXPECT_FALSE(engine->snapshot(ContactReport::none).bodies[0].force);
+
+  const Snapshot before = engine->snapshot(ContactReport::none);
+  engine->advance(0.01);
+  const Snapshot after = engine->snapshot(ContactReport::accumulated);
+  EXPECT_DOUBLE_EQ(after.contactInterval, 0.01);
+  ASSERT_EQ(after.contacts->size(), 1u);
+  EXPECT_EQ(after.contacts->i[0], 0);
+  EXPECT_EQ(after.contacts->j[0], 1);
+  const Vec2 gained = smallMass * (after.velocity[0] - before.velocity[0]);
+  EXPECT_NEAR((gained + 0.01 * *after.bodies[0].force).norm(), 0.0, 1e-5 * gained.norm());
+
+  const Vec2 centre = scene.bodies[0].centre;
+  const auto angular = [&](const Snapshot& at) {
+    return smallMass * cross(at.position[0] - centre, at.velocity[0]) +
+           scene.disks.inertia[0] * (*at.spin)[0];
+  };
+  const double gainedAngular = angular(after) - angular(before);
+  // 1e-3: the position solver moves the disk without an impulse.
+  EXPECT_NEAR(gainedAngular, -0.01 * *after.bodies[0].torque, 1e-3 * std::abs(gainedAngular));
+
+  // The pair's own forces: n has turned since, by less than a hundredth.
+  const Vec2 n = after.contacts->normal[0];
+  const Vec2 onDisk = 0.01 * (after.contacts->normalForce[0] * n +
+                              after.contacts->tangentialForce[0] * perpendicular(n));
+  EXPECT_NEAR((onDisk - gained).norm(), 0.0, 0.05 * gained.norm());
+
+  EXPECT_EQ(engine->snapshot(ContactReport::accumulated).contactInterval, 0.0);
+  engine->advance(0.02);
+  EXPECT_EQ(engine->snapshot(ContactReport::accumulated).contacts->size(), 0u);
+}
+
+TEST(Box2dImpulse, RefusesWhatItCannotDo) {
+  const auto engine = makeBox2dImpulse();
+  Scene scene = onePair(thesisLaw(), approach, 0.5);
+  scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  EXPECT_THROW(engine->load(scene, {}), UnsupportedScene);
+  EXPECT_THROW(engine->load(onePair(thesisLaw(), approach, 0.5), {{"impct_speed", 0.1}}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace crossgrain::test

@@ -1,0 +1,62 @@
+#include "cases/collision_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/cases/thesis_pair.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
+  Case setup = test::smallPairCase();
+  setup.collision.radius[1] = 2.0 * test::radius;
+  setup.collision.mass[1] = 8.0 * test::mass;
+  const Scene scene = collisionScene(setup, {{0.5, 0.1}, {3.0, 0.2}}, 1e-4);
+  ASSERT_EQ(scene.disks.size(), 4u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double vn = k == 0 ? 0.1 : 0.2, psi = k == 0 ? 0.5 : 3.0;
+    const std::size_t i = 2 * k, j = i + 1;
+    const Vec2 apart = scene.disks.position[i] - scene.disks.position[j];
+    const Vec2 velocity = scene.disks.velocity[i] - scene.disks.velocity[j];
+    const double reach = 3.0 * test::radius;
+    EXPECT_NEAR(apart.norm(), reach + 0.5 * 1e-4 * vn, 1e-15);  // touch half a step after the start
+    EXPECT_NEAR(velocity.dot(apart.normalized()), -vn, 1e-15);
+    const double slip = -(scene.disks.radius[i] * scene.disks.spin[i] +
+                          scene.disks.radius[j] * scene.disks.spin[j]);
+    EXPECT_NEAR(slip, psi * vn, 1e-14);
+    const Vec2 momentum = scene.disks.mass[i] * scene.disks.velocity[i] +
+                          scene.disks.mass[j] * scene.disks.velocity[j];
+    EXPECT_NEAR(momentum.norm(), 0.0, 1e-18);
+  }
+}
+
+TEST(CollisionScene, TheEndIsTakenAtSeparationWithThatInstantsNormal) {
+  // Disks of radius 1 that parted at (2, 0) with velocity (0.3, 0.4) and spin −0.5 each, 10 s ago.
+  Case setup = test::smallPairCase();
+  setup.collision.radius[0] = setup.collision.radius[1] = 1.0;
+  const CollisionStart start{1.0, 0.5};
+  const Scene scene = collisionScene(setup, {start}, 1e-4);
+  Snapshot after;
+  after.position = {Vec2(2.0 + 3.0, 4.0), Vec2(0.0, 0.0)};
+  after.velocity = {Vec2(0.3, 0.4), Vec2(0.0, 0.0)};
+  after.spin = {{-0.5, -0.5}};
+  const auto end = collisionEnd(scene, after, 0, start);
+  ASSERT_TRUE(end);
+  EXPECT_NEAR(end->en, 0.3 / 0.5, 1e-12);
+  EXPECT_NEAR(end->psi, (0.4 + 1.0) / 0.5, 1e-12);
+}
+
+TEST(CollisionScene, APairThatStillTouchesHasNoEnd) {
+  const CollisionStart start{1.0, 0.5};
+  const Scene scene = collisionScene(test::smallPairCase(), {start}, 1e-4);
+  Snapshot after;
+  after.position = {Vec2(1.9 * test::radius, 0.0), Vec2(0.0, 0.0)};
+  after.velocity = {Vec2(0.1, 0.0), Vec2(0.0, 0.0)};
+  EXPECT_FALSE(collisionEnd(scene, after, 0, start));
+  after.position[0].x() = 2.1 * test::radius;
+  after.velocity[0].x() = -0.1;  // still approaching
+  EXPECT_FALSE(collisionEnd(scene, after, 0, start));
+}
+
+}  // namespace

@@ -1,0 +1,120 @@
+#include "cases/couette.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "adapters/grain.hpp"
+#include "cases/bad_input.hpp"
+#include "cases/preparation.hpp"
+#include "tests/cases/thesis_pair.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Case quickCell() {
+  Case setup;
+  setup.name = "cell";
+  setup.file = "cell.toml";
+  setup.law = test::thesisLaw();
+  setup.cell = {0.03, 0.075, 1.25e-3, 2.5e-3, 6e-3, 1.0};
+  setup.particles.small = 190;
+  setup.particles.large = 30;
+  setup.particles.smallRadius = 3.7e-3;
+  setup.particles.largeRadius = 4.495e-3;
+  setup.particles.smallMass = 0.275e-3;
+  setup.particles.largeMass = 0.49e-3;
+  setup.preparation.shrinkTime = 0.1;
+  setup.preparation.rotations = 0.01;
+  return setup;
+}
+
+TEST(Couette, WallsHoldAsManyDisksAsFitAtTheSpacing) {
+  Cell cell = quickCell().cell;
+  cell.innerRadius = 0.1032;
+  cell.outerRadius = 0.2524;
+  EXPECT_EQ(wallRing("wheel", cell, cell.innerRadius, 0.0).diskRadius.size(), 259u);
+  EXPECT_EQ(wallRing("ring", cell, cell.outerRadius, 0.0).diskRadius.size(), 634u);
+}
+
+TEST(Couette, PreparationFillsTheCell) {
+  const Case setup = quickCell();
+  const auto engine = makeGrain();
+  double last = 0.0;
+  const Packing packing = preparePacking(setup, 0, 4e-5, *engine, [&](double f) { last = f; });
+  EXPECT_EQ(last, 1.0);
+  ASSERT_EQ(packing.disks.size(), 220u);
+  EXPECT_EQ(std::ranges::count(packing.disks.radius, 4.495e-3), 30);
+  for (const Vec2& position : packing.disks.position) {
+    EXPECT_GT(position.norm(), setup.cell.innerRadius);
+    EXPECT_LT(position.norm(), setup.cell.outerRadius);
+  }
+  // Ω·(shrink time + 0.01 rotations), to the steps that make up that time.
+  EXPECT_NEAR(packing.wheelAngle, 0.1 + 0.01 * 2.0 * std::numbers::pi, 4e-5);
+  EXPECT_NO_THROW(checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "here"));
+}
+
+TEST(Couette, PackingsDifferBySeedAndRepeatByIt) {
+  const Case setup = quickCell();
+  const auto engine = makeGrain();
+  const auto nothing = [](double) {};
+  const Packing one = preparePacking(setup, 0, 4e-5, *engine, nothing);
+  const Packing again = preparePacking(setup, 0, 4e-5, *engine, nothing);
+  const Packing other = preparePacking(setup, 1, 4e-5, *engine, nothing);
+  EXPECT_EQ(one.disks.position, again.disks.position);
+  EXPECT_EQ(one.disks.spin, again.disks.spin);
+  EXPECT_EQ(one.hash, again.hash);
+  EXPECT_NE(one.disks.position, other.disks.position);
+  EXPECT_NE(one.hash, other.hash);
+}
+
+TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
+  const Case setup = quickCell();
+  const std::string hash = packingHash(setup, 0, 4e-5);
+  const auto changed = [&](auto change) {
+    Case other = setup;
+    change(other);
+    return packingHash(other, 0, 4e-5);
+  };
+  EXPECT_NE(hash, packingHash(setup, 0, 3e-5));
+  EXPECT_NE(hash, changed([](Case& c) { c.law.kn += 1.0; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.law.conventions.leverArm = LeverArm::contactPoint; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.bottom = BottomPlate{}; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.cell.omega = 0.5; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.preparation.seed = 9; }));
+  // What comes after the preparation does not matter to it.
+  EXPECT_EQ(hash, changed([](Case& c) { c.averaging.rings = 40; }));
+}
+
+TEST(Couette, ALatticeThatDoesNotFitIsBadInput) {
+  Case setup = quickCell();
+  setup.preparation.dilation = 1.0;
+  const auto engine = makeGrain();
+  EXPECT_THROW(preparePacking(setup, 0, 4e-5, *engine, [](double) {}), BadInput);
+}
+
+TEST(Couette, ABadStartNamesTheDisks) {
+  const Case setup = quickCell();
+  Packing packing;
+  packing.disks = diskKinds(setup.particles);
+  for (std::size_t i = 0; i < packing.disks.size(); ++i)
+    packing.disks.position[i] = Vec2(0.05 + 0.01 * static_cast<double>(i), 0.0);
+  packing.disks.position[7] = packing.disks.position[3] + Vec2(1e-3, 0.0);
+  const auto message = [&] {
+    try {
+      checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "my.h5");
+    } catch (const BadInput& bad) {
+      return std::string(bad.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(
+      message(),
+      "my.h5: disks 3 and 7 overlap by 0.0064 m at the start, more than particles.max_overlap = "
+      "0.05 of the small radius allows (0.000185 m)");
+  packing.disks.position[7] = packing.disks.position[3];
+  EXPECT_EQ(message(), "my.h5: disks 3 and 7 have the same centre");
+}
+
+}  // namespace

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "cases/loader.hpp"
+
+namespace crossgrain {
+
+/// A folder of its own for one test, and the current one while the test runs, so that messages name
+/// files as they were written.
+class InFolder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    before_ = std::filesystem::current_path();
+    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              ("crossgrain-" + std::to_string(::getpid()) + "-" + info->name());
+    std::filesystem::create_directories(folder_);
+    std::filesystem::current_path(folder_);
+  }
+  void TearDown() override {
+    std::filesystem::current_path(before_);
+    std::filesystem::remove_all(folder_);
+  }
+  static void write(const std::filesystem::path& file, const std::string& text) {
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  }
+
+ private:
+  std::filesystem::path before_, folder_;
+};
+
+/// A couette case with nothing left out that must be there, and nothing else.
+inline const std::string soundCase = R"([case]
+kind = "couette"
+[law]
+kn = 352.1
+gn = 0.19
+mu = 0.44
+kt = 267.1
+gt = 0.15
+tangential = "spring_dashpot"
+[cell]
+inner_radius = 0.03
+outer_radius = 0.075
+wall_radius = 0.00125
+wall_spacing = 0.0025
+height = 0.006
+omega = 1.0
+[particles]
+small = 210
+large = 34
+small_radius = 0.0037
+large_radius = 0.004495
+small_mass = 0.275e-3
+large_mass = 0.490e-3
+)";
+
+/// A collision of a soft law, likewise.
+inline const std::string soundCollision = R"([case]
+kind = "collision"
+[law]
+kn = 352.1
+gn = 0.19
+mu = 0.44
+tangential = "coulomb"
+[collision]
+psi = [0.0, 1.0]
+vn = 0.01
+radius = 0.0037
+mass = 0.275e-3
+)";
+
+/// The text with one line (counted from 1) replaced.
+inline std::string withLine(const std::string& text, int number, const std::string& line) {
+  std::size_t from = 0;
+  for (int k = 1; k < number; ++k) from = text.find('\n', from) + 1;
+  return text.substr(0, from) + line + text.substr(text.find('\n', from));
+}
+
+/// The message that loading the file ends in; empty if it loads.
+inline std::string messageOf(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides = {}) {
+  try {
+    loadCase(file, overrides);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace crossgrain

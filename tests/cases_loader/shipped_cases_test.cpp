@@ -1,0 +1,155 @@
+// The case files that come with the program, against numbers of thesis-facts and table 3.2.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "adapters/law_options.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "cases/volume_fraction.hpp"
+
+namespace crossgrain {
+namespace {
+
+const std::filesystem::path folder = CROSSGRAIN_CASES;
+
+std::vector<Case> shipped(const std::string& name) {
+  return loadCase(folder / name);
+}
+
+TEST(ShippedCases, AllLoadAndAreNamedAsTheirFiles) {
+  int count = 0;
+  for (const char* const part : {"couette", "collision"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder / part)) {
+      if (entry.path().extension() != ".toml") continue;
+      for (const Case& c : loadCase(entry.path())) EXPECT_EQ(c.name, entry.path().stem());
+      ++count;
+    }
+  EXPECT_GE(count, 6);
+}
+
+TEST(ShippedCases, TheThesisCellHasItsVolumeFraction) {
+  const Case c = shipped("couette/nu-0.804.toml").front();
+  EXPECT_EQ(c.particles.small + c.particles.large, 2921);
+  EXPECT_NEAR(volumeFraction(c), 0.8041, 0.00005);  // facts 1.1, four digits
+  EXPECT_EQ(timeStep(c), 4e-5);
+  EXPECT_NEAR(contactTime(c.law, lightestReducedMass(c)), 2.18e-3, 0.005e-3);
+  EXPECT_EQ(c.averaging.rings, 20);
+  EXPECT_EQ(c.averaging.margins.size(), 7u);
+}
+
+TEST(ShippedCases, TheWallsHaveTheNumbersOfDisksThatTheFactsGive) {
+  const auto wallDisks = [](const Cell& cell, double radius) {
+    return static_cast<int>(2.0 * std::numbers::pi * radius / cell.wallSpacing);
+  };
+  const Cell tight = shipped("couette/nu-0.804.toml").front().cell;
+  EXPECT_EQ(wallDisks(tight, tight.innerRadius), 259);
+  EXPECT_EQ(wallDisks(tight, tight.outerRadius), 634);
+  const Cell wide = shipped("couette/nu-0.804-spacing-7mm.toml").front().cell;
+  EXPECT_NEAR(wallDisks(wide, wide.innerRadius), 93, 1);  // facts: 93 + 227, rounded
+  EXPECT_NEAR(wallDisks(wide, wide.outerRadius), 227, 1);
+}
+
+TEST(ShippedCases, VariationsOfTheThesisCellDifferInOneThing) {
+  const Case reference = shipped("couette/nu-0.804.toml").front();
+  const Case slow = shipped("couette/nu-0.804-slow.toml").front();
+  EXPECT_EQ(slow.cell.omega, 0.1);
+  EXPECT_EQ(slow.cell.wallSpacing, reference.cell.wallSpacing);
+  EXPECT_NEAR(slow.averaging.margins.at("azimuthal_velocity").value,
+              reference.averaging.margins.at("azimuthal_velocity").value * 0.1, 1e-12);
+  const Case wide = shipped("couette/nu-0.804-spacing-7mm.toml").front();
+  EXPECT_EQ(wide.cell.wallSpacing, 0.007);
+  EXPECT_EQ(wide.cell.omega, reference.cell.omega);
+}
+
+TEST(ShippedCases, TheQuickCellIsTheSamePhysicsInASmallerCell) {
+  const Case c = shipped("couette/quick.toml").front();
+  const Case reference = shipped("couette/nu-0.804.toml").front();
+  EXPECT_EQ(c.particles.small, 210);
+  EXPECT_EQ(c.particles.large, 34);
+  EXPECT_NEAR(volumeFraction(c), 0.754, 0.0005);  // facts, section 6
+  EXPECT_EQ(timeStep(c), 4e-5);
+  EXPECT_EQ(c.preparation.packings, 4);
+  EXPECT_EQ(c.cell.omega, 1.0);
+  EXPECT_EQ(std::get<double>(c.engines.at("box2d-impulse").at("dt")), 5e-4);
+  for (const LawOption& option : lawOptions())
+    EXPECT_EQ(option.get(c.law), option.get(reference.law)) << option.name;
+  EXPECT_EQ(c.law.kn, 352.1);
+  EXPECT_EQ(c.law.gn, 0.19);
+  EXPECT_EQ(c.law.mu, 0.44);
+  EXPECT_EQ(c.law.kt, 267.1);
+  EXPECT_EQ(c.law.gt, 0.15);
+  ASSERT_TRUE(c.bottom);
+  EXPECT_EQ(c.bottom->mu, 2e-5);
+  EXPECT_EQ(c.bottom->tauM, 1e-4);
+}
+
+TEST(ShippedCases, VelocityMarginsAreFivePercentOfTheRim) {
+  for (const char* const name :
+       {"couette/quick.toml", "couette/nu-0.804.toml", "couette/nu-0.804-slow.toml"}) {
+    const Case c = shipped(name).front();
+    const double rim = c.cell.omega * c.cell.innerRadius;
+    EXPECT_NEAR(c.averaging.margins.at("azimuthal_velocity").value / rim, 0.05, 0.0005) << name;
+    // 0.02 Ω D/d with D = 2 R_i, d = 7.4 mm, written with two digits
+    const double spin = 0.02 * c.cell.omega * 2.0 * c.cell.innerRadius / 0.0074;
+    EXPECT_NEAR(c.averaging.margins.at("spin").value / spin, 1.0, 0.02) << name;
+  }
+}
+
+TEST(ShippedCases, Figure43HasFourLawsWithAndWithoutTension) {
+  const auto cases = shipped("collision/figure-4-3.toml");
+  ASSERT_EQ(cases.size(), 8u);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Case& c = cases[k];
+    ASSERT_EQ(c.collision.psi.size(), 41u);
+    EXPECT_EQ(c.collision.psi.front(), 0.0);
+    EXPECT_DOUBLE_EQ(c.collision.psi[5], 0.5);
+    EXPECT_EQ(c.collision.psi.back(), 4.0);
+    EXPECT_EQ(c.variant, lawOptionValue(c.law, "tangential") +
+                             (c.law.conventions.tension == Tension::cut ? "-cut" : "-tension"));
+    EXPECT_NEAR(collisionTimeSteps(c)[0], 2.18e-3 / 50, 0.1e-6);
+    EXPECT_NEAR(collisionTimeSteps(c)[1], 2.18e-3 / 1000, 0.005e-6);
+  }
+  EXPECT_EQ(cases[0].law.tangential, TangentialLaw::coulomb);
+  EXPECT_EQ(cases[7].law.tangential, TangentialLaw::springDashpot);
+}
+
+TEST(ShippedCases, TheHardSphereHasTwoTangentialRestitutions) {
+  const auto cases = shipped("collision/hard-sphere.toml");
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].law.et0, 0.0);
+  EXPECT_EQ(cases[1].law.et0, 0.5);
+  for (const Case& c : cases) {
+    EXPECT_EQ(c.law.normal, NormalLaw::rigid);
+    EXPECT_EQ(c.law.tangential, TangentialLaw::coulomb);
+    EXPECT_EQ(c.law.en, 0.9);
+    EXPECT_EQ(collisionTimeSteps(c), std::vector<double>{5e-4});
+  }
+}
+
+TEST(ShippedCases, TheLawFileAloneIsNotACase) {
+  EXPECT_THROW(shipped("laws/thesis.toml"), BadInput);
+}
+
+/// Lätzel 2003, table 3.2: 17 rows that 3.70 mm without wall disks meets to 0.00075 (facts 1.1).
+TEST(VolumeFraction, MeetsTheTableOfTheThesis) {
+  struct Row {
+    double nu;
+    int small, large;
+  };
+  constexpr Row rows[] = {{0.789, 2462, 404}, {0.791, 2469, 405}, {0.793, 2476, 406},
+                          {0.796, 2483, 407}, {0.798, 2490, 408}, {0.800, 2498, 409},
+                          {0.800, 2511, 400}, {0.802, 2520, 399}, {0.804, 2511, 410},
+                          {0.805, 2524, 404}, {0.807, 2518, 412}, {0.807, 2545, 394},
+                          {0.809, 2525, 414}, {0.810, 2538, 407}, {0.811, 2555, 399},
+                          {0.819, 2560, 418}, {0.828, 2588, 422}};
+  Case c = shipped("couette/nu-0.804.toml").front();
+  for (const Row& row : rows) {
+    c.particles.small = row.small;
+    c.particles.large = row.large;
+    EXPECT_NEAR(volumeFraction(c), row.nu, 0.00075) << row.small << " + " << row.large;
+  }
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,88 @@
+#include "cases/time_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/nearest.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// Lätzel 2003, table 4.1.
+ContactLaw thesisLaw() {
+  ContactLaw law;
+  law.kn = 352.1;
+  law.gn = 0.19;
+  return law;
+}
+
+constexpr double smallMass = 0.275e-3;
+
+TEST(ContactTime, OfTwoSmallThesisDisksIs2180Microseconds) {
+  EXPECT_NEAR(contactTime(thesisLaw(), smallMass / 2), 2.18e-3, 0.005e-3);  // as printed: 3 digits
+}
+
+TEST(ContactTime, AgreesWithTheRestitutionThatTheThesisPrints) {
+  // e_n = exp(−η t_c), an independent number: 0.2223 (section 4.1)
+  const double eta = 0.19 / smallMass;
+  EXPECT_NEAR(std::exp(-eta * contactTime(thesisLaw(), smallMass / 2)), 0.2223, 0.00005);
+}
+
+TEST(ContactTime, UndampedIsHalfAPeriodOfTheOscillator) {
+  ContactLaw law = thesisLaw();
+  law.gn = 0.0;
+  EXPECT_DOUBLE_EQ(contactTime(law, 2.0), std::numbers::pi * std::sqrt(2.0 / 352.1));
+}
+
+TEST(ContactTime, DoesNotExistForRigidAndOverdampedLaws) {
+  ContactLaw law = thesisLaw();
+  law.normal = NormalLaw::rigid;
+  EXPECT_THROW(contactTime(law, smallMass / 2), std::invalid_argument);
+  law = thesisLaw();
+  law.gn = 2.0 * std::sqrt(law.kn * smallMass / 2) * 1.0001;  // just above critical
+  EXPECT_THROW(contactTime(law, smallMass / 2), std::invalid_argument);
+}
+
+TEST(TimeStep, IsGivenOrAFractionOfTheLightestPairsContact) {
+  Case c;
+  c.law = thesisLaw();
+  c.particles.small = 10;
+  c.particles.large = 5;
+  c.particles.smallMass = smallMass;
+  c.particles.largeMass = 0.490e-3;
+  EXPECT_NEAR(timeStep(c), 43.5e-6, 0.05e-6);  // t_c/50, rounded to 44 µs in the thesis' digest
+  c.particles.small = 0;                       // √(m_l/m_s) longer, up to the damping's share
+  EXPECT_GT(timeStep(c), 55e-6);
+  c.run.dt = 4e-5;
+  EXPECT_EQ(timeStep(c), 4e-5);
+}
+
+TEST(TimeStep, OfACollisionIsOnePerSweep) {
+  Case c;
+  c.kind = CaseKind::collision;
+  c.law = thesisLaw();
+  c.collision.mass[0] = c.collision.mass[1] = smallMass;
+  c.collision.stepsPerContact = {50, 1000};
+  const auto steps = collisionTimeSteps(c);
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_DOUBLE_EQ(steps[0], 20.0 * steps[1]);
+  EXPECT_EQ(timeStep(c), steps[0]);
+}
+
+TEST(Nearest, CountsInsertionsDeletionsReplacementsAndSwaps) {
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3u);  // the textbook pair
+  EXPECT_EQ(editDistance("", "abc"), 3u);
+  EXPECT_EQ(editDistance("tensoin", "tension"), 1u);
+}
+
+TEST(Nearest, IsNoneIfAllAreFar) {
+  const std::vector<std::string> names = {"small_radius", "large_radius", "mu"};
+  EXPECT_EQ(nearest("smal_radius", names), "small_radius");
+  EXPECT_EQ(nearest("xyzzy", names), std::nullopt);
+  EXPECT_EQ(suggestion("xyzzy", names), " (there are: small_radius, large_radius, mu)");
+}
+
+}  // namespace
+}  // namespace crossgrain

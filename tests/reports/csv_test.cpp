@@ -1,0 +1,88 @@
+#include "reports/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+/// A comparison small enough to write its tables down by hand.
+Json tiny() {
+  return Json::parse(R"({
+    "kind": "compare",
+    "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
+    "runs": [
+      {"engine": "one", "packing": 0,
+       "profiles": [{"method": "slicing", "field": "spin", "unit": "rad/s",
+                     "mean": [0.1, null], "stderr": [1e-30, null], "n_eff": [12.5, null]}],
+       "series": {"t_s": [0.0, 0.25], "wheel_torque": [null, 2e-3], "kinetic_energy": [1, 2],
+                  "zz_extra": [7, 8]}},
+      {"engine": "a,\"b\"", "packing": 1, "profiles": [], "series": {}}],
+    "ensemble": [
+      {"engine": "one", "profiles": [{"method": "slicing", "field": "spin", "unit": "rad/s",
+                                      "mean": [0.30000000000000004, 2]}]}],
+    "agreement": [
+      {"a": "one", "b": "two", "field": "spin", "verdict": "undecided",
+       "rings": [{"ring": 0, "difference": -0.5, "stderr": 0.1, "low": -0.7, "high": -0.3,
+                  "margin": 0.56, "verdict": "agree"},
+                 {"ring": 1, "difference": 0.25, "stderr": null, "low": null, "high": null,
+                  "margin": 0.56, "verdict": "undecided"}]}]})");
+}
+
+TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
+  EXPECT_EQ(profilesCsv(tiny()),
+            "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit\n"
+            "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s\n"
+            "one,0,slicing,spin,2,0.2,1.5,,,,rad/s\n"
+            "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s\n"
+            "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s\n");
+}
+
+TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
+  EXPECT_EQ(seriesCsv(tiny()),
+            "engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,"
+            "max_overlap,sliding_fraction,zz_extra\n"
+            "one,0,0,,,1,,,,7\n"
+            "one,0,0.25,0.002,,2,,,,8\n");
+}
+
+TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
+  EXPECT_EQ(agreementCsv(tiny()),
+            "a,b,field,ring,difference,stderr,low,high,margin,verdict\n"
+            "one,two,spin,all,,,,,,undecided\n"
+            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree\n"
+            "one,two,spin,2,0.25,,,,0.56,undecided\n");
+}
+
+TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
+  const Json results = Json::parse(R"({
+    "case": {"name": "walton"},
+    "variants": [{"variant": "soft, cut", "curves": [
+      {"engine": "one", "dt": 2e-5, "status": "finished", "points": [
+        {"psi_i": 0.5, "v_n": 1e-4, "e_n": 0.25, "psi_f": -0.125, "e_n_reference": 0.5,
+         "psi_f_reference": null, "status": "ok"}]},
+      {"engine": "two", "dt": null, "status": "failed", "points": []}]}]})");
+  EXPECT_EQ(collisionsCsv(results),
+            "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status\n"
+            "one,walton,\"soft, cut\",0.5,0.0001,0.25,-0.125,0.5,,2e-05,ok\n"
+            "two,walton,\"soft, cut\",,,,,,,,failed\n");
+}
+
+TEST(Csv, QuotesCommasAndQuotesInNames) {
+  Json results = tiny();
+  results["runs"][0]["engine"] = "a,\"b\"";
+  EXPECT_NE(profilesCsv(results).find("\n\"a,\"\"b\"\"\",0,slicing"), std::string::npos);
+}
+
+TEST(Csv, EveryRunRingAndFieldOfTheSampleHasARow) {
+  const Json results = sample::compareResults(2, 10);
+  const std::string table = profilesCsv(results);
+  // 4 engines × 2 packings − 1 failed run, and 4 ensembles; 7 fields, 20 rings; one header.
+  EXPECT_EQ(std::ranges::count(table, '\n'), (4 * 2 - 1 + 4) * 7 * 20 + 1);
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

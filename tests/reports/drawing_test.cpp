@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "reports/engines.hpp"
+#include "reports/figures.hpp"
+#include "reports/files.hpp"
+#include "reports/gnuplot.hpp"
+#include "reports/pictures.hpp"
+#include "reports/strokes.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+const Figure& figureNamed(const std::vector<Figure>& figures, const std::string& name) {
+  for (const Figure& figure : figures)
+    if (figure.name == name) return figure;
+  throw std::runtime_error("no figure " + name);
+}
+
+TEST(Styles, AnEngineKeepsItsColourAndAMirrorSharesItsPeers) {
+  const Json results = sample::compareResults(1, 10);
+  const auto engines = engineResults(results);
+  ASSERT_EQ(engines.size(), 5u);
+  EXPECT_EQ(engines[3].mirrors, engines[1].name);
+  EXPECT_EQ(engines[3].style.colour, engines[1].style.colour);
+  EXPECT_TRUE(engines[3].style.dashed);
+  EXPECT_NE(engines[3].style.pointType, engines[1].style.pointType);
+  EXPECT_NE(engines[0].style.colour, engines[1].style.colour);
+  EXPECT_NE(engines[0].style.colour, engines[2].style.colour);
+  EXPECT_NE(engines[4].style.colour, engines[2].style.colour);
+}
+
+/// v_φ/(ΩR_i) and S d/(ΩD), D = 2R_i: Lätzel (2003), chapter 6. With Ω = 1 /s, R_i = 0.1 m,
+/// d = 0.01 m these are 10 v_φ and S/20.
+TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
+  const Json results = Json::parse(R"({
+    "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
+    "cell": {"inner_radius": 0.1, "outer_radius": 0.2, "diameter": 0.01, "omega": 1.0},
+    "rings": {"r": [0.105, 0.2], "r_tilde": [0.5, 10]},
+    "runs": [{"engine": "e", "packing": 0, "status": "finished", "profiles": [
+      {"field": "azimuthal_velocity", "mean": [0.05, -1e-9], "stderr": [0.001, null]},
+      {"field": "spin", "mean": [-2, null], "stderr": [0.2, null]}]}]})");
+  const auto figures = compareFigures(results);
+  const auto& velocity = figureNamed(figures, "profile_azimuthal_velocity").panels[0].curves[0];
+  ASSERT_EQ(velocity.points.size(), 2u);
+  EXPECT_DOUBLE_EQ(velocity.points[0].x, 0.5);
+  EXPECT_DOUBLE_EQ(velocity.points[0].y, 0.5);
+  EXPECT_DOUBLE_EQ(velocity.points[0].error.value(), 0.01);
+  EXPECT_FALSE(velocity.points[1].error.has_value());
+  const auto& spin = figureNamed(figures, "profile_spin").panels[0].curves[0];
+  ASSERT_EQ(spin.points.size(), 1u);
+  EXPECT_DOUBLE_EQ(spin.points[0].y, -0.1);
+  EXPECT_DOUBLE_EQ(spin.points[0].error.value(), 0.01);
+}
+
+TEST(Profiles, SayWhatTheirBarsAre) {
+  const Json several = sample::compareResults(4, 10), single = sample::compareResults(1, 10),
+             two = sample::compareResults(2, 10);
+  EXPECT_EQ(barsInWords(engineResults(several)),
+            "Bars: ± one standard error of the mean over packings.");
+  EXPECT_NE(barsInWords(engineResults(single)).find("conditional on its one packing"),
+            std::string::npos);
+  // One of two runs of the second engine failed: its bars are those of the other.
+  EXPECT_NE(barsInWords(engineResults(two))
+                .find("over packings; for yade: ± one standard error "
+                      "within the run"),
+            std::string::npos);
+}
+
+TEST(Figures, AWideSpreadOfPositiveValuesTakesALogAxis) {
+  Panel panel;
+  panel.curves = {{"a", {}, Draw::lines, {{0, 4, {}}, {1, 5, {}}}, 1.0},
+                  {"b", {}, Draw::lines, {{0, 39, {}}}, 1.0}};
+  chooseLogY(panel);
+  EXPECT_FALSE(panel.logY);
+  panel.curves[1].points[0].y = 40;
+  chooseLogY(panel);
+  EXPECT_TRUE(panel.logY);
+  panel.curves[0].points[0].y = -1;
+  chooseLogY(panel);
+  EXPECT_FALSE(panel.logY);
+}
+
+TEST(Scripts, LogAxesDropWhatIsNotPositiveAndClipBars) {
+  const TemporaryFolder folder;
+  Figure figure;
+  figure.name = "log";
+  Panel panel;
+  panel.logY = true;
+  panel.curves.push_back(
+      {"c", {}, Draw::linesAndPoints, {{1, 100, 200}, {2, -3, 1}, {3, 1, {}}}, 1.0});
+  figure.panels.push_back(panel);
+  EXPECT_EQ(writeFigure(figure, folder.path()), "log.gp");
+  // The axis goes down to 1: 100 ± 200 is drawn from there.
+  EXPECT_EQ(readFile(folder.path() / "log.dat").value(), "# x y low high\n1 100 1 300\n3 1 ? ?\n");
+}
+
+TEST(Scripts, NamesOfCurvesRunNothing) {
+  const TemporaryFolder folder;
+  Figure figure;
+  figure.name = "odd";
+  Panel panel;
+  panel.curves.push_back({sample::awkward, {}, Draw::points, {{1, 1, {}}, {2, 2, {}}}, 1.0});
+  figure.panels.push_back(panel);
+  runGnuplot({writeFigure(figure, folder.path())}, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "pwned"));
+  const std::string svg = readFile(folder.path() / "odd.svg").value();
+  EXPECT_NE(svg.find("`touch pwned` {x 'y' _z"), std::string::npos);
+}
+
+TEST(Gnuplot, FailureIsOneLineWithItsLastWord) {
+  const TemporaryFolder folder;
+  writeFile(folder.path() / "bad.gp", "plot 'there_is_no_such_file.dat'\n");
+  try {
+    runGnuplot({"bad.gp"}, folder.path());
+    FAIL() << "no error";
+  } catch (const GnuplotError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_TRUE(message.starts_with("gnuplot failed in " + folder.path().string())) << message;
+    EXPECT_NE(message.find("\"bad.gp\" line 1: No data in plot"), std::string::npos) << message;
+  }
+}
+
+/// A window of ±1 on 100 px: (0.5, 0.5) lies at x = 75, and 25 from the top.
+TEST(Strokes, SvgPutsYUpward) {
+  const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}, {-1, -1, 1, 1}}}}};
+  const std::string svg = toSvg(drawing, 100, "a < b");
+  EXPECT_NE(svg.find("<path stroke=\"#ff0000\" stroke-width=\"10\" d=\"M75 25h0M0 100L100 0\"/>"),
+            std::string::npos)
+      << svg;
+  EXPECT_NE(svg.find("<title>a &lt; b</title>"), std::string::npos);
+}
+
+/// The same window on 75 points (100 px at 96 per inch), y upward as PDF has it.
+TEST(Strokes, PdfHasTheSameStrokesAndAValidTable) {
+  const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}}}}};
+  const std::string pdf = toPdf(drawing, 100);
+  EXPECT_NE(pdf.find("1.000 0.000 0.000 RG 7.5 w\n56.25 56.25 m 56.25 56.25 l\nS\n"),
+            std::string::npos)
+      << pdf;
+  const std::size_t table = pdf.find("xref\n0 5\n");
+  ASSERT_NE(table, std::string::npos);
+  EXPECT_NE(pdf.find("startxref\n" + std::to_string(table) + "\n%%EOF"), std::string::npos);
+  for (int object = 1; object <= 4; ++object) {
+    const std::string line = pdf.substr(table + 9 + 20 * static_cast<std::size_t>(object), 20);
+    const auto offset = static_cast<std::size_t>(std::strtoul(line.c_str(), nullptr, 10));
+    EXPECT_TRUE(pdf.substr(offset).starts_with(std::to_string(object) + " 0 obj\n")) << line;
+  }
+}
+
+TEST(Pictures, ForcesShareOneScaleAndWidth) {
+  Json results = sample::compareResults(1, 200);
+  const auto widest = widestForce(results);
+  ASSERT_TRUE(widest.has_value());
+  const auto pictures = comparePictures(results);
+  ASSERT_EQ(pictures.size(), 8u);  // origins and forces of four engines that ran
+  EXPECT_EQ(pictures[0].name, "origins_1_grain");
+  EXPECT_EQ(pictures[7].name, "forces_4_grain_yade");
+  // Twice the forces, twice the scale: the same lines.
+  for (Json& run : results["runs"])
+    for (Json& force : run["picture"]["contact_force"]) force = 2.0 * force.get<double>();
+  EXPECT_DOUBLE_EQ(widestForce(results).value(), 2.0 * *widest);
+  EXPECT_EQ(toSvg(comparePictures(results)[4].drawing, 100, ""),
+            toSvg(pictures[4].drawing, 100, ""));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

@@ -1,0 +1,70 @@
+#include "reports/numbers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reports/base64.hpp"
+#include "reports/labels.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+TEST(Numbers, ThreeSignificantDigits) {
+  EXPECT_EQ(readable(0.0), "0");
+  EXPECT_EQ(readable(0.0123456), "0.0123");
+  EXPECT_EQ(readable(-12.3456), "−12.3");
+  EXPECT_EQ(readable(9.996), "10.0");
+  EXPECT_EQ(readable(1234.4), "1234");
+  EXPECT_EQ(readable(123456.0), "123\u202f456");
+  EXPECT_EQ(readable(1.2345e-5), "1.23×10⁻⁵");
+  EXPECT_EQ(readable(9.999e-5), "1.00×10⁻⁴");
+  EXPECT_EQ(readable(-2.5e12), "−2.50×10¹²");
+  EXPECT_EQ(readable(std::nullopt), "–");
+}
+
+TEST(Numbers, ErrorsHaveTwoDigitsAndTheValueStopsWithThem) {
+  EXPECT_EQ(readable(0.24178, 0.0131), "0.242\u00a0±\u00a00.013");
+  EXPECT_EQ(readable(1487.0, 61.0), "1487\u00a0±\u00a061");
+  EXPECT_EQ(readable(1.234e-5, 4.8e-7), "(1.234\u00a0±\u00a00.048)×10⁻⁵");
+  EXPECT_EQ(readable(0.5, std::nullopt), "0.500");
+  EXPECT_EQ(readable(std::nullopt, 0.5), "–");
+  EXPECT_EQ(readableDifference(0.24178, 0.0131), "+0.242\u00a0±\u00a00.013");
+  EXPECT_EQ(readableDifference(-0.24178, 0.0131), "−0.242\u00a0±\u00a00.013");
+}
+
+TEST(Numbers, SettingsKeepTheirDigits) {
+  EXPECT_EQ(readableSetting(352.1), "352.1");
+  EXPECT_EQ(readableSetting(4e-5), "4×10⁻⁵");
+  EXPECT_EQ(readableSetting(0.25), "0.25");
+}
+
+TEST(Numbers, PackingsBeyondAnyBudgetAreNotCounted) {
+  EXPECT_EQ(morePackings(1), "1 more packing");
+  EXPECT_EQ(morePackings(100), "100 more packings");
+  EXPECT_EQ(morePackings(5471), "more than 100 more packings");
+}
+
+TEST(Numbers, Durations) {
+  EXPECT_EQ(readableDuration(12.34), "12.3 s");
+  EXPECT_EQ(readableDuration(59.99), "1 min 00 s");
+  EXPECT_EQ(readableDuration(754.2), "12 min 34 s");
+  EXPECT_EQ(readableDuration(3720.0), "1 h 02 min");
+}
+
+TEST(Base64, ExamplesOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Labels, KnownFieldsHaveSymbolsAndOthersAreEscaped) {
+  EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ<sub>rφ</sub>");
+  EXPECT_EQ(fieldLabel("my_<field>"), "my &lt;field&gt;");
+  EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");
+  EXPECT_EQ(mathHtml("σ_φr·2πr²h"), "σ<sub>φr</sub>·2πr²h");
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

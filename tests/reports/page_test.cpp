@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "reports/files.hpp"
+#include "reports/report.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// One folder of results with its report, made once for all tests of a kind.
+struct Written {
+  explicit Written(const json& results) {
+    writeReport(results, folder.path());
+    page = reports::readFile(folder.path() / "report.html").value();
+  }
+  TemporaryFolder folder;
+  std::string page;
+};
+
+const Written& compared() {
+  static const Written written(sample::compareResults(4, 300));
+  return written;
+}
+
+const Written& single() {
+  static const Written written(sample::compareResults(1, 100));
+  return written;
+}
+
+const Written& collided() {
+  static const Written written(sample::collideResults());
+  return written;
+}
+
+bool has(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
+
+/// The page without its embedded images, whose base64 may spell anything.
+std::string withoutImages(std::string page) {
+  for (std::size_t at; (at = page.find("src=\"data:")) != std::string::npos;)
+    page.erase(at, page.find('"', at + 5) + 1 - at);
+  return page;
+}
+
+const char* const awkwardAsHtml =
+    "odd &lt;b&gt;&quot;name&quot;&lt;/b&gt; &amp; `touch pwned` {x &apos;y&apos; _z";
+
+TEST(Pages, AreSelfContainedAndWellFilled) {
+  for (const Written* written : {&compared(), &single(), &collided()}) {
+    const std::string page = withoutImages(written->page);
+    EXPECT_FALSE(has(page, "{{")) << page.substr(page.find("{{"), 80);
+    EXPECT_FALSE(has(page, "}}")) << page.substr(page.find("}}") - 80, 80);
+    for (const char* outside : {"http:", "https:", "src=", "<link", "<script", "@import", "url("})
+      EXPECT_FALSE(has(page, outside)) << outside;
+    for (const char* notANumber : {"nan", "NaN", "-inf", "null"})
+      EXPECT_FALSE(has(page, std::string(">") + notANumber)) << notANumber;
+    EXPECT_TRUE(has(page, "</html>"));
+  }
+}
+
+TEST(Pages, EscapeWhatUsersWrote) {
+  for (const Written* written : {&compared(), &collided()}) {
+    EXPECT_TRUE(has(written->page, awkwardAsHtml));
+    EXPECT_FALSE(has(written->page, "<b>\"name\""));
+    EXPECT_TRUE(has(written->page, "# a &lt; b &amp; c"));
+    EXPECT_FALSE(fs::exists(written->folder.path() / "plots" / "pwned"));
+  }
+}
+
+TEST(Pages, NameEveryEngine) {
+  for (const char* engine : {"grain", "yade", "box2d-impulse", "grain~yade"})
+    EXPECT_TRUE(has(compared().page, std::string("</span>") + engine + "</th>")) << engine;
+  for (const char* engine : {"grain", "yade", "box2d-impulse"})
+    EXPECT_TRUE(has(collided().page, std::string("</span>") + engine + "</th>")) << engine;
+}
+
+TEST(ComparePage, ShowsFailedAndRefusedRunsWithTheirReasons) {
+  EXPECT_TRUE(has(compared().page,
+                  "<tr><th>yade</th><td>1</td><td>failed</td><td class=\"why\">worker died at t = "
+                  "0.31 s (signal 11) &lt;oops&gt;</td></tr>"));
+  EXPECT_TRUE(has(compared().page, std::string("<tr><th>") + awkwardAsHtml +
+                                       "</th><td>all</td><td>refused</td><td class=\"why\">it "
+                                       "lacks &quot;bottom_friction&quot; &amp; &lt;more&gt;"));
+}
+
+TEST(ComparePage, CountsVerdictsInWords) {
+  // The sample's second engine is within all margins, its third outside some in every field.
+  EXPECT_TRUE(
+      has(compared().page,
+          "Of 14 comparisons with grain, field by field: 7 agree, 7 disagree, 0 undecided."));
+  EXPECT_TRUE(has(compared().page, "yade against grain: 7 of 7 fields agree."));
+  EXPECT_TRUE(has(compared().page, "yade: 1 of 4 runs did not finish."));
+  EXPECT_TRUE(has(single().page, "0 agree, 0 disagree, 14 undecided."));
+  EXPECT_TRUE(has(single().page, "needs about 3 more packings"));
+  EXPECT_TRUE(has(single().page, "Fewer than 4 packings"));
+  EXPECT_FALSE(has(compared().page, "Fewer than 4 packings:"));
+}
+
+TEST(ComparePage, VerdictsAreWordsAndSymbolsNotColoursAlone) {
+  EXPECT_TRUE(has(compared().page, "✓ agree</b>"));
+  EXPECT_TRUE(has(compared().page, "✗ disagree</b>"));
+  EXPECT_TRUE(has(single().page, "? undecided</b>"));
+}
+
+TEST(ComparePage, CostIsSummedOverFinishedRuns) {
+  // 7.85 s at dt = 4e-5 s are 196 250 steps a run; 4 runs of the first engine, 3 of the second.
+  EXPECT_TRUE(has(compared().page, ">785\u202f000<"));
+  EXPECT_TRUE(has(compared().page, ">588\u202f750<"));
+  // 1.1e-4 s of wall time a step.
+  EXPECT_TRUE(has(compared().page, "<th>wall time per step</th><td class=\"n words\">110</td>"));
+}
+
+TEST(ComparePage, ChecksOfOneNumberAreATable) {
+  EXPECT_TRUE(has(compared().page,
+                  "<td class=\"why\">σ<sub>rr</sub> at the ring &lt;outside&gt;</td>"
+                  "<th>grain</th><td class=\"n\">41.5\u00a0±\u00a01.2</td>"
+                  "<td class=\"n\">40.25\u00a0±\u00a00.50</td>"));
+  EXPECT_FALSE(fs::exists(compared().folder.path() / "plots" / "check_2.svg"));
+}
+
+TEST(ComparePage, TellsEffectsThatAreLeftOutOrExtra) {
+  EXPECT_TRUE(has(compared().page, "<td class=\"disagree\">✗ not simulated</td>"));
+  EXPECT_TRUE(has(compared().page, "<td class=\"disagree\">+ though not called for</td>"));
+}
+
+TEST(ComparePage, BarsOfOnePackingAreLabelledConditional) {
+  EXPECT_TRUE(has(single().page, "conditional on its one packing"));
+  EXPECT_FALSE(has(compared().page, "conditional on its one packing"));
+}
+
+TEST(CollidePage, ScoresHeldAndFellShort) {
+  EXPECT_TRUE(has(collided().page, "10 of 14 judged sweeps held to the oracle"));
+  EXPECT_TRUE(has(collided().page, "<td class=\"agree why\"><b>✓ held</b></td>"));
+  EXPECT_TRUE(has(collided().page, "<td class=\"disagree why\"><b>✗ fell short</b></td>"));
+  EXPECT_TRUE(has(collided().page,
+                  "<td class=\"undecided why\"><b>– not judged</b><br><small>worker hung &lt;120 "
+                  "s&gt;</small></td>"));
+}
+
+TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {
+  const fs::path plots = compared().folder.path() / "plots";
+  for (const char* name :
+       {"overview", "profile_volume_fraction", "profile_azimuthal_velocity",
+        "profile_azimuthal_velocity_log", "profile_spin", "profile_stress_rr", "profile_stress_pp",
+        "profile_stress_rp", "profile_fabric_trace", "check_1", "series_wheel_torque",
+        "series_outer_pressure", "series_coordination"})
+    for (const char* kind : {".svg", ".pdf", ".gp", ".dat"}) {
+      const auto content = reports::readFile(plots / (std::string(name) + kind));
+      ASSERT_TRUE(content.has_value()) << name << kind;
+      EXPECT_GT(content->size(), 300u) << name << kind;
+      const bool data = std::string(kind) == ".dat";
+      EXPECT_TRUE(!data || !has(*content, "nan")) << name;
+    }
+  for (const char* name : {"collision_1.svg", "collision_2.pdf"})
+    EXPECT_GT(fs::file_size(collided().folder.path() / "plots" / name), 1000u) << name;
+  for (const char* name : {"origins_1_grain.svg", "origins_1_grain.pdf", "forces_2_yade.svg"})
+    EXPECT_GT(fs::file_size(plots / name), 1000u) << name;
+  EXPECT_FALSE(fs::exists(plots / "gnuplot.log")) << "gnuplot had something to say";
+}
+
+TEST(Report, IsTheSameWhenRebuilt) {
+  const fs::path dir = collided().folder.path();
+  const TemporaryFolder again;
+  writeReport(readResults(dir), again.path());
+  for (const char* file : {"results.json", "collisions.csv", "report.html"})
+    EXPECT_EQ(reports::readFile(again.path() / file), reports::readFile(dir / file)) << file;
+}
+
+TEST(Report, StandsResultsWithAlmostNothingInThem) {
+  const TemporaryFolder folder;
+  for (const char* kind : {"compare", "collide"})
+    EXPECT_NO_THROW(
+        writeReport({{"schema", "crossgrain-results-1"}, {"kind", kind}}, folder.path()))
+        << kind;
+  json broken = sample::compareResults(2, 10);
+  broken["runs"][0]["profiles"][0]["mean"] = "not a list";
+  broken["runs"][0]["picture"]["x"] = nullptr;
+  broken["cell"]["omega"] = 0.0;
+  broken["engines"][1] = 7;
+  EXPECT_NO_THROW(writeReport(broken, folder.path()));
+}
+
+/// Sets PATH for its lifetime.
+class PathIs {
+ public:
+  explicit PathIs(const char* path) : old_(std::getenv("PATH")) { ::setenv("PATH", path, 1); }
+  ~PathIs() { ::setenv("PATH", old_.c_str(), 1); }
+
+ private:
+  std::string old_;
+};
+
+TEST(Report, WithoutGnuplotEverythingElseIsThereAndOneLineSaysSo) {
+  const TemporaryFolder folder;
+  const PathIs nowhere("/nonexistent");
+  std::string message;
+  try {
+    writeReport(sample::compareResults(1, 50), folder.path());
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  EXPECT_TRUE(message.starts_with("gnuplot cannot be started (No such file or directory)"));
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  const std::string page = reports::readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "<p class=\"warning\">gnuplot cannot be started"));
+  EXPECT_TRUE(fs::exists(folder.path() / "results.json"));
+  EXPECT_TRUE(fs::exists(folder.path() / "profiles.csv"));
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,15 @@
+// Writes made-up reports to look at: crossgrain_sample_reports DIR
+#include <cstdio>
+#include <filesystem>
+
+#include "reports/report.hpp"
+#include "tests/reports/sample_results.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::filesystem::path dir = argv[1];
+  crossgrain::writeReport(crossgrain::sample::compareResults(4, 2921), dir / "compare");
+  crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
+  crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
+  std::printf("%s\n", dir.c_str());
+}

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+/// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
+/// its pages: nothing in them was simulated.
+namespace crossgrain::sample {
+
+/// Three engines, a mirror, one engine that refused and one run that failed, text that HTML and
+/// gnuplot must not take literally, and absent numbers here and there.
+nlohmann::json compareResults(int packings, int disks);
+
+/// Two laws, several time steps, a sweep without points.
+nlohmann::json collideResults();
+
+/// What users may put into a name or reason.
+inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";
+
+}  // namespace crossgrain::sample

@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "adapters/law_options.hpp"
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "engines/grain/law.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Scene oneDisk() {
+  Scene scene;
+  scene.disks.radius = {1.0};
+  scene.disks.mass = {1.0};
+  scene.disks.inertia = {0.5};
+  scene.disks.position = {Vec2::Zero()};
+  scene.disks.velocity = {Vec2::Zero()};
+  scene.disks.spin = {0.0};
+  scene.law.kn = 100.0;
+  scene.law.gn = 1.0;
+  scene.law.kt = 50.0;
+  scene.law.gt = 1.0;
+  scene.law.mu = 0.5;
+  scene.dt = 1e-3;
+  return scene;
+}
+
+TEST(Effects, AreDerivedFromTheScene) {
+  Scene scene = oneDisk();
+  EXPECT_EQ(effectsOf(scene),
+            (Effects{Effect::normalDamping, Effect::friction, Effect::tangentialSpring,
+                     Effect::tangentialDamping, Effect::rotation}));
+  scene.law.tangential = TangentialLaw::none;
+  EXPECT_EQ(effectsOf(scene), Effects{Effect::normalDamping});
+  scene.bottom = BottomPlate{2e-5, 1.0, 1.0, 1e-4, 9.81, true};
+  scene.gravity = {0.0, -9.81};
+  WallBody body;
+  body.motion.kind = Motion::Kind::rotating;
+  scene.bodies.push_back(body);
+  // Without friction nothing spins, so nothing brakes spins either.
+  EXPECT_EQ(effectsOf(scene), (Effects{Effect::normalDamping, Effect::bottomFriction,
+                                       Effect::gravity, Effect::movingWalls}));
+}
+
+TEST(Suitability, ARefusalNamesTheFirstThingAndHowToAllowIt) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.effects[Effect::friction] = Support::never;
+  can.lawOptions["tension"] = {"cut"};
+  try {
+    adaptScene(can, oneDisk(), {});
+    FAIL() << "no refusal";
+  } catch (const UnsupportedScene& refusal) {
+    EXPECT_STREQ(
+        refusal.what(),
+        "has no friction; list \"friction\" under [run] may_differ to run it all the same");
+  }
+  const Adapted adapted = adaptScene(can, oneDisk(), {"friction", "tension"});
+  EXPECT_EQ(adapted.deviations.size(), 2u);
+  EXPECT_FALSE(effectsOf(adapted.scene).contains(Effect::friction));
+}
+
+TEST(Suitability, AnEffectThatAnEngineCannotDoWithoutIsAMismatchToo) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.effects[Effect::gravity] = Support::always;
+  const auto found = mismatches(can, oneDisk());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].reason, "cannot do without gravity");
+}
+
+TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
+  ContactLaw law = oneDisk().law;
+  EXPECT_TRUE(mattersTo(law, "lever_arm"));
+  law.tangential = TangentialLaw::none;
+  EXPECT_FALSE(mattersTo(law, "lever_arm"));
+  EXPECT_FALSE(mattersTo(law, "dashpot"));
+  EXPECT_TRUE(mattersTo(law, "tension"));
+  law.gn = 0.0;
+  EXPECT_FALSE(mattersTo(law, "tension"));
+}
+
+TEST(LawOptions, UnknownNamesAndValuesAreSaid) {
+  ContactLaw law;
+  setLawOption(law, "lever_arm", "contact_point");
+  EXPECT_EQ(law.conventions.leverArm, LeverArm::contactPoint);
+  EXPECT_THROW(setLawOption(law, "lever", "radius"), std::invalid_argument);
+  try {
+    setLawOption(law, "tension", "maybe");
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "tension cannot be 'maybe' (it is one of: allow, cut)");
+  }
+}
+
+// The adapter of the in-house engine casts between these enums.
+template <typename A, typename B>
+bool same(A a, B b) {
+  return static_cast<int>(a) == static_cast<int>(b);
+}
+
+TEST(LawOptions, TheInHouseEngineListsValuesInTheSameOrder) {
+  EXPECT_TRUE(same(TangentialLaw::coulomb, grain::Tangential::coulomb));
+  EXPECT_TRUE(same(TangentialLaw::viscous, grain::Tangential::viscous));
+  EXPECT_TRUE(same(TangentialLaw::spring, grain::Tangential::spring));
+  EXPECT_TRUE(same(TangentialLaw::springDashpot, grain::Tangential::springDashpot));
+  EXPECT_TRUE(same(CoulombBound::magnitude, grain::Bound::magnitude));
+  EXPECT_TRUE(same(CoulombBound::signedForce, grain::Bound::signedForce));
+  EXPECT_TRUE(same(DampingVelocity::predicted, grain::Damping::predicted));
+  EXPECT_TRUE(same(DampingVelocity::implicit, grain::Damping::implicit));
+  EXPECT_TRUE(same(SpringUpdate::before, grain::Stretch::before));
+  EXPECT_TRUE(same(SpringUpdate::midpoint, grain::Stretch::midpoint));
+  EXPECT_TRUE(same(LeverArm::contactPoint, grain::Lever::contactPoint));
+  EXPECT_TRUE(same(LeverArm::overlapMiddle, grain::Lever::overlapMiddle));
+  EXPECT_TRUE(same(Integrator::velocityVerlet, grain::Integrator::velocityVerlet));
+  EXPECT_TRUE(same(Integrator::semiImplicitEuler, grain::Integrator::semiImplicitEuler));
+}
+
+TEST(Motion, AnOscillatingBodyIsWhereItsVelocityTakesIt) {
+  Motion motion;
+  motion.kind = Motion::Kind::oscillating;
+  motion.amplitude = {0.5, 0.0};
+  motion.frequency = 3.0;
+  const double t = 0.4, h = 1e-6;
+  const BodyState now = stateAt(motion, Vec2(1.0, 2.0), t);
+  EXPECT_DOUBLE_EQ(now.centre.x(), 1.0 + 0.5 * std::sin(1.2));
+  const double slope = (stateAt(motion, {1.0, 2.0}, t + h).centre.x() -
+                        stateAt(motion, {1.0, 2.0}, t - h).centre.x()) /
+                       (2.0 * h);
+  EXPECT_NEAR(now.velocity.x(), slope, 1e-9);  // h² f'''/6 and rounding/h
+}
+
+TEST(Registry, MirrorsNameTheirPeer) {
+  for (const EngineEntry& entry : engineRegistry()) {
+    EXPECT_TRUE(entry.make || entry.command) << entry.name;
+    if (entry.mirrors.empty()) continue;
+    EXPECT_NE(findEngine(entry.mirrors), nullptr) << entry.name;
+  }
+  EXPECT_EQ(findEngine("no such engine"), nullptr);
+}
+
+}  // namespace

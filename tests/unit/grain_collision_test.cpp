@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "tests/unit/grain_scenes.hpp"
+
+namespace {
+
+using namespace grain;
+using namespace test;
+using grain::Setup;
+
+/// e_n of the pair, with v_n taken where the overlap passes zero: carried there from the last step
+/// in contact by the motion's own Taylor series. The dashpot's force sets in and ends with a jump,
+/// so a step that straddles one end is off by up to η dt, whatever the scheme: contacts here begin
+/// midway between two steps, and end where they end.
+double restitution(Setup setup, double v) {
+  const double reduced = 0.5 * mass, kn = setup.law.kn, gn = setup.law.gn;
+  Simulation simulation(std::move(setup));
+  double overlap = 0.0, velocity = 0.0, force = 0.0;
+  do {
+    simulation.step();
+    if (simulation.contacts().empty()) continue;
+    overlap = simulation.contacts()[0].overlap;
+    force = simulation.contacts()[0].normalForce;
+    velocity = simulation.velocityX(0) - simulation.velocityX(1);
+  } while (simulation.steps() < 2 || !simulation.contacts().empty());
+  const double acceleration = force / reduced;
+  const double jerk = force == 0.0 ? 0.0 : (-kn * velocity - gn * acceleration) / reduced;
+  double left = overlap / velocity;  // δ = v τ + a τ²/2, by iteration
+  for (int k = 0; k < 20; ++k) left = overlap / (velocity + 0.5 * acceleration * left);
+  return (velocity + acceleration * left + 0.5 * jerk * left * left) / v;
+}
+
+/// Lätzel (2003), section 4.1: exp(−η π/ω) with tension, exp(−(η/ω)(π − atan2(2ηω, ω² − η²)))
+/// without.
+double closedForm(bool cut) {
+  const double reduced = 0.5 * mass, eta = 0.19 / (2.0 * reduced);
+  const double omega = std::sqrt(352.1 / reduced - eta * eta);
+  const double end = cut ? M_PI - std::atan2(2.0 * eta * omega, omega * omega - eta * eta) : M_PI;
+  return std::exp(-eta / omega * end);
+}
+
+TEST(GrainCollision, ClosedFormsAreThoseOfTheThesisDisks) {
+  EXPECT_NEAR(closedForm(false), 0.2223, 5e-5);
+  EXPECT_NEAR(closedForm(true), 0.3408, 5e-5);
+}
+
+struct Scheme {
+  Integrator integrator;
+  Damping damping;
+  double tolerance;
+};
+
+class NormalRestitution : public testing::TestWithParam<std::tuple<Scheme, bool>> {};
+
+TEST_P(NormalRestitution, IsTheClosedFormAtTwoThousandStepsPerContact) {
+  const auto& [scheme, cut] = GetParam();
+  auto setup = collidingPair(0.1, 0.0, 0.0, contactTime() / 2000.0);
+  setup.law.tangential = Tangential::none;
+  setup.law.cutTension = cut;
+  setup.law.damping = scheme.damping;
+  setup.integrator = scheme.integrator;
+  EXPECT_NEAR(restitution(std::move(setup), 0.1), closedForm(cut), scheme.tolerance);
+}
+
+// 2e-6 for second order, ω² dt² = 2.5e-6 of which schemes show a fraction; 2e-3 for first order,
+// whose error is of the order of η dt = 0.75e-3.
+INSTANTIATE_TEST_SUITE_P(
+    Schemes, NormalRestitution,
+    testing::Combine(testing::Values(Scheme{Integrator::positionVerlet, Damping::predicted, 2e-6},
+                                     Scheme{Integrator::positionVerlet, Damping::implicit, 2e-6},
+                                     Scheme{Integrator::velocityVerlet, Damping::predicted, 2e-6},
+                                     Scheme{Integrator::velocityVerlet, Damping::implicit, 2e-6},
+                                     Scheme{Integrator::positionVerlet, Damping::lagged, 2e-3},
+                                     Scheme{Integrator::velocityVerlet, Damping::lagged, 2e-3},
+                                     Scheme{Integrator::semiImplicitEuler, Damping::lagged, 2e-3}),
+                     testing::Bool()));
+
+TEST(GrainCollision, ErrorFallsWithTheSquareOfTheStep) {
+  const auto error = [](double steps) {
+    auto setup = collidingPair(0.1, 0.0, 0.0, contactTime() / steps);
+    setup.law.tangential = Tangential::none;
+    return std::abs(restitution(std::move(setup), 0.1) - closedForm(false));
+  };
+  // 4 for second order; the interpolation at the end leaves a rest that depends on the phase.
+  EXPECT_GT(error(500.0) / error(1000.0), 3.0);
+  EXPECT_LT(error(500.0) / error(1000.0), 5.0);
+}
+
+TEST(GrainCollision, RestitutionOfALinearLawDoesNotDependOnTheSpeed) {
+  const double slow = restitution(collidingPair(1e-4, 0.0, 0.0, contactTime() / 200.0), 1e-4);
+  const double fast = restitution(collidingPair(1e-1, 0.0, 0.0, contactTime() / 200.0), 1e-1);
+  EXPECT_NEAR(slow, fast, 1e-9);  // rounding of positions against overlaps of 1e-7 m
+}
+
+TEST(GrainCollision, TensionOfTheNormalForceIsAllowedOrCut) {
+  Law law = thesisLaw();
+  const ContactMotion parting{1e-7, 0.05, 0.0, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(normalForce(law, parting), 352.1e-7 - 0.19 * 0.05);
+  law.cutTension = true;
+  EXPECT_EQ(normalForce(law, parting), 0.0);
+}
+
+TEST(GrainCollision, CoulombBoundHasThreeReadings) {
+  Law law = thesisLaw();
+  EXPECT_DOUBLE_EQ(coulombBound(law, 2.0), 0.88);
+  EXPECT_EQ(coulombBound(law, -2.0), 0.0);
+  law.bound = Bound::magnitude;
+  EXPECT_DOUBLE_EQ(coulombBound(law, -2.0), 0.88);
+  law.bound = Bound::signedForce;
+  EXPECT_DOUBLE_EQ(coulombBound(law, -2.0), -0.88);
+}
+
+TEST(GrainCollision, TangentialLawsByHand) {
+  Law law = thesisLaw();
+  law.gn = 0.0;  // f_n = 352.1 · 1e-4 = 0.03521 N, bound 0.0154924 N
+  const ContactMotion slow{1e-4, 0.0, 0.01, 0.0, 0.0};
+  const ContactMotion fast{1e-4, 0.0, 1.0, 0.0, 0.0};
+  const double bound = 0.44 * 0.03521, dt = 1e-6;
+  double spring = 0.0;
+
+  law.tangential = Tangential::coulomb;
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, dt).tangential, -bound);
+  law.tangential = Tangential::viscous;
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, dt).tangential, -0.15 * 0.01);
+  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, dt).tangential, -bound);
+  EXPECT_EQ(spring, 0.0);
+
+  law.tangential = Tangential::spring;
+  spring = 2e-5;
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, dt).tangential, -267.1 * 2e-5);
+  EXPECT_DOUBLE_EQ(spring, 2e-5 + 0.01 * 1e-6);  // stretched after the force
+  spring = 1e-4;                                 // 0.02671 N, beyond the bound
+  const ContactForce slipping = contactForce(law, slow, spring, dt);
+  EXPECT_TRUE(slipping.sliding);
+  EXPECT_DOUBLE_EQ(slipping.tangential, -bound);
+  EXPECT_DOUBLE_EQ(spring, bound / 267.1);
+
+  law.tangential = Tangential::springDashpot;
+  spring = 2e-5;
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring, dt).tangential, -267.1 * 2e-5 - 0.15 * 0.01);
+  law.resetSpringOnly = true;
+  spring = 2e-5;
+  contactForce(law, fast, spring, dt);
+  EXPECT_NEAR(-267.1 * spring - 0.15 * 1.0, -bound, 1e-16);  // together they carry the bound
+  law.dashpotOutsideBound = true;
+  spring = 2e-5;  // within the bound by itself, so the dashpot comes on top of it
+  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring, dt).tangential, -267.1 * 2e-5 - 0.15 * 1.0);
+}
+
+}  // namespace

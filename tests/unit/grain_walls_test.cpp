@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/grain_scenes.hpp"
+
+namespace {
+
+using namespace grain;
+using namespace test;
+
+Wall fixedFloor() {
+  Wall floor;
+  floor.planes = {{0.0, 0.0, 0.0, 1.0}};
+  floor.motion = [](double) { return WallState{}; };
+  return floor;
+}
+
+TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.dt = 4e-5;
+  setup.gravityY = -9.81;
+  const double sink = mass * 9.81 / 352.1;  // k_n δ = m g
+  addDisk(setup.disks, 0.0, radius - sink, 0.0, 0.0, 0.0);
+  setup.walls.push_back(fixedFloor());
+  Simulation simulation(std::move(setup));
+  for (int step = 0; step < 10000; ++step) simulation.step();
+  EXPECT_NEAR(simulation.y()[0], radius - sink, 1e-15);
+  EXPECT_NEAR(simulation.wallLoad(0).fy, -mass * 9.81, 1e-12);
+  ASSERT_EQ(simulation.contacts().size(), 1u);
+  EXPECT_EQ(simulation.contacts()[0].j, 1);  // planes come after all disks
+  EXPECT_NEAR(simulation.contacts()[0].overlap, sink, 1e-15);
+}
+
+TEST(GrainWalls, ASlidingDiskRollsInTheEndAtTwoThirdsOfItsSpeed) {
+  // Friction acts at the contact only, so L about it is kept: m v a = m v' a + ½ m a² ω', v' = −ω'
+  // a.
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.dt = 2e-5;
+  setup.gravityY = -9.81;
+  addDisk(setup.disks, 0.0, radius - mass * 9.81 / 352.1, 0.3, 0.0, 0.0);
+  setup.walls.push_back(fixedFloor());
+  Simulation simulation(std::move(setup));
+  for (int step = 0; step < 20000; ++step) simulation.step();
+  EXPECT_NEAR(simulation.velocityX(0), 0.2, 1e-4);  // the sunk contact: δ/a = 2e-3 of the arm
+  EXPECT_NEAR(simulation.spin(0), -0.2 / radius, 1e-4 / radius);
+}
+
+TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
+  Wall wheel;
+  const double rim = 0.03;
+  wheel.diskX = {rim};
+  wheel.diskY = {0.0};
+  wheel.diskRadius = {1.25e-3};
+  const double omega = 2.0;
+  wheel.motion = [&](double t) {
+    WallState now;
+    now.angle = omega * t;
+    now.spin = omega;
+    return now;
+  };
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.law.lever = Lever::contactPoint;
+  setup.dt = 4e-5;
+  addDisk(setup.disks, rim + radius + 1.25e-3 - 1e-5, 0.0, 0.0, 0.0, 0.0);
+  setup.walls.push_back(wheel);
+  Simulation simulation(std::move(setup));
+  simulation.step();
+  const double angle = omega * simulation.time();
+  EXPECT_NEAR(simulation.x()[1], rim * std::cos(angle), 1e-17);
+  EXPECT_NEAR(simulation.y()[1], rim * std::sin(angle), 1e-17);
+
+  ASSERT_EQ(simulation.contacts().size(), 1u);
+  const Contact& c = simulation.contacts()[0];
+  const double fx = c.normalForce * c.nx - c.tangentialForce * c.ny;
+  const double fy = c.normalForce * c.ny + c.tangentialForce * c.nx;
+  EXPECT_GT(c.tangentialForce, 0.0);  // the wheel drags the disk along +y
+  const WallLoad load = simulation.wallLoad(0);
+  EXPECT_DOUBLE_EQ(load.fx, -fx);
+  EXPECT_DOUBLE_EQ(load.fy, -fy);
+  // About the centre the pair's forces act at one point, with the contact point as arm.
+  const double lever = radius - c.overlap * 1.25e-3 / (radius + 1.25e-3);
+  const double px = simulation.x()[0] - lever * c.nx;
+  const double py = simulation.y()[0] - lever * c.ny;
+  EXPECT_NEAR(load.torque, -(px * fy - py * fx), 1e-15 * std::abs(fx));
+}
+
+TEST(GrainWalls, AShrinkingRingMovesItsDisksInward) {
+  Wall ring;
+  ring.diskX = {0.0};
+  ring.diskY = {-0.1};
+  ring.diskRadius = {1e-3};
+  ring.motion = [](double t) {
+    WallState now;
+    now.radialShift = -0.05 * t;
+    now.radialVelocity = -0.05;
+    return now;
+  };
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.dt = 1e-3;
+  addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
+  setup.walls.push_back(ring);
+  Simulation simulation(std::move(setup));
+  for (int step = 0; step < 100; ++step) simulation.step();
+  EXPECT_NEAR(simulation.y()[1], -0.095, 1e-15);
+}
+
+TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
+  // v = v₀ − µ g t once the plate's spring has slipped: 0.0103 m/s takes 53 s with µ = 2e-5. Here
+  // µ = 0.02 and 53 ms.
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.bottom = Bottom{0.02, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.dt = 1e-5;
+  addDisk(setup.disks, 0.0, 0.0, 0.0103, 0.0, 0.0);
+  Simulation simulation(std::move(setup));
+  const double stop = 0.0103 / (0.02 * 9.81);
+  while (simulation.time() < 0.5 * stop) simulation.step();
+  EXPECT_NEAR(simulation.velocityX(0), 0.5 * 0.0103, 1e-3 * 0.0103);
+  while (simulation.time() < 3.0 * stop) simulation.step();
+  EXPECT_NEAR(simulation.velocityX(0), 0.0, 0.01 * 0.0103);  // caught by the spring, swinging out
+}
+
+TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {
+  const Bottom plate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  double springX = 0.0, springY = 0.0;
+  const BottomForce left = bottomForce(plate, mass, radius, 0.0, 0.0, 3.0, springX, springY, 1e-5);
+  const BottomForce right =
+      bottomForce(plate, mass, radius, 0.0, 0.0, -3.0, springX, springY, 1e-5);
+  EXPECT_LT(left.torque, 0.0);
+  EXPECT_DOUBLE_EQ(left.torque, -right.torque);
+  // γ_b ω a = 1.7e-3 N is far beyond the bound µ_b m g, so the torque is µ_b m g (2/3) a.
+  EXPECT_DOUBLE_EQ(left.torque, -2e-5 * mass * 9.81 * (2.0 / 3.0) * radius);
+}
+
+}  // namespace

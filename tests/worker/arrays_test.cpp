@@ -1,0 +1,101 @@
+#include "adapters/worker/arrays.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace crossgrain {
+namespace {
+
+class ArrayFile : public ::testing::Test {
+ protected:
+  std::filesystem::path file_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bin");
+  ~ArrayFile() override { std::filesystem::remove(file_); }
+
+  std::string failureOf(const nlohmann::json& list) const {
+    try {
+      ArrayReader reader(file_, list);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+};
+
+TEST_F(ArrayFile, KeepsEveryBit) {
+  const std::vector<double> numbers = {-0.0, 5e-324, 0.1, 1e308};
+  const std::vector<std::int32_t> ids = {-2147483647 - 1, 7};
+  const std::vector<std::uint8_t> flags = {0, 1, 255};
+  const std::vector<Vec2> vectors = {{0.1, 0.2}, {-1.0 / 3.0, 4.0}};
+  ArrayWriter writer;
+  writer.add("flags", flags);
+  writer.add("numbers", numbers);
+  writer.add("ids", ids);
+  writer.add("vectors", vectors);
+  writer.add("nothing", std::vector<double>{});
+  const ArrayReader reader(file_, writer.write(file_));
+
+  const std::vector<double> readNumbers = reader.f64("numbers", 4);
+  EXPECT_EQ(std::memcmp(readNumbers.data(), numbers.data(), 32), 0);
+  EXPECT_EQ(reader.i32("ids", 2), ids);
+  EXPECT_EQ(reader.u8("flags", 3), flags);
+  EXPECT_EQ(reader.vec2("vectors", 2), vectors);
+  EXPECT_TRUE(reader.f64("nothing", 0).empty());
+  EXPECT_FALSE(reader.has("other"));
+}
+
+TEST_F(ArrayFile, IsLittleEndianRawAndAligned) {
+  ArrayWriter writer;
+  writer.add("flag", std::vector<std::uint8_t>{7});
+  writer.add("id", std::vector<std::int32_t>{0x01020304});
+  const nlohmann::json list = writer.write(file_);
+  EXPECT_EQ(list[1],
+            nlohmann::json({{"name", "id"}, {"type", "i32"}, {"count", 1}, {"offset", 8}}));
+  std::ifstream in(file_, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_EQ(bytes, std::string("\7\0\0\0\0\0\0\0\4\3\2\1", 12));
+}
+
+TEST_F(ArrayFile, RefusesWhatDoesNotFit) {
+  std::ofstream(file_) << "0123456789";  // 10 bytes
+  const auto entry = [](const char* type, auto count, auto offset) {
+    return nlohmann::json{{{"name", "x"}, {"type", type}, {"count", count}, {"offset", offset}}};
+  };
+  EXPECT_EQ(failureOf(entry("u8", 10, 0)), "");
+  const std::string name = file_.filename().string();
+  EXPECT_EQ(failureOf(entry("f64", 2, 0)),
+            name + " is too short: x needs 2 × 8 bytes from byte 0, the file has 10 bytes");
+  EXPECT_NE(failureOf(entry("u8", 1, 11)), "");
+  // 2^61 × 8 bytes overflow a 64-bit product to zero.
+  EXPECT_NE(failureOf(entry("f64", std::uint64_t{1} << 61, 0)), "");
+  EXPECT_EQ(failureOf(entry("u8", -1, 0)), name + ": count of x is -1, not a whole number ≥ 0");
+  EXPECT_EQ(failureOf(entry("f32", 1, 0)),
+            name + ": x has the type 'f32' (it is one of: f64, i32, u8)");
+}
+
+TEST_F(ArrayFile, RefusesNanInfinityAndWrongCounts) {
+  ArrayWriter writer;
+  writer.add("x", std::vector<double>{1.0, std::numeric_limits<double>::infinity()});
+  writer.add("v", std::vector<Vec2>{{1.0, 2.0}});
+  const ArrayReader reader(file_, writer.write(file_));
+  const std::string name = file_.filename().string();
+  const auto failure = [](auto read) {
+    try {
+      read();
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(failure([&] { reader.f64("x", 2); }), name + ": x[1] is inf");
+  EXPECT_EQ(failure([&] { reader.vec2("v", 2); }), name + ": v is 2 × f64, expected 4 × f64");
+  EXPECT_EQ(failure([&] { reader.i32("x", 2); }), name + ": x is 2 × f64, expected 2 × i32");
+  EXPECT_EQ(failure([&] { reader.f64("y", 2); }), name + " has no array 'y'");
+}
+
+}  // namespace
+}  // namespace crossgrain

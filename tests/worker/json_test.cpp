@@ -1,0 +1,153 @@
+#include "adapters/worker/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "adapters/law_options.hpp"
+#include "tests/worker/toy_engine.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// A trip through text and a file, as between two processes.
+template <typename Value, typename Read>
+auto roundTrip(const Value& value, Read&& read) {
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bin");
+  ArrayWriter writer;
+  const std::string text = toJson(value, writer).dump();
+  const std::string list = writer.write(file).dump();
+  const ArrayReader reader(file, nlohmann::json::parse(list));
+  std::filesystem::remove(file);
+  return read(nlohmann::json::parse(text), reader);
+}
+
+template <typename Value>
+void expectSameBits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  if (a.empty()) return;  // memcmp wants no null
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)), 0);
+}
+
+TEST(WorkerJson, SceneKeepsEveryBit) {
+  const Scene scene = test::toyScene();
+  const Scene back = roundTrip(scene, sceneFromJson);
+  EXPECT_EQ(back.name, scene.name);
+  expectSameBits(back.disks.radius, scene.disks.radius);
+  expectSameBits(back.disks.mass, scene.disks.mass);
+  expectSameBits(back.disks.inertia, scene.disks.inertia);
+  expectSameBits(back.disks.position, scene.disks.position);
+  expectSameBits(back.disks.velocity, scene.disks.velocity);
+  expectSameBits(back.disks.spin, scene.disks.spin);
+  ASSERT_EQ(back.bodies.size(), scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const WallBody &x = back.bodies[b], &y = scene.bodies[b];
+    EXPECT_EQ(x.name, y.name);
+    EXPECT_EQ(x.centre, y.centre);
+    expectSameBits(x.diskPosition, y.diskPosition);
+    expectSameBits(x.diskRadius, y.diskRadius);
+    ASSERT_EQ(x.planes.size(), y.planes.size());
+    for (std::size_t p = 0; p < y.planes.size(); ++p) {
+      EXPECT_EQ(x.planes[p].point, y.planes[p].point);
+      EXPECT_EQ(x.planes[p].normal, y.planes[p].normal);
+    }
+    EXPECT_EQ(x.motion.kind, y.motion.kind);
+    EXPECT_EQ(x.motion.angularVelocity, y.motion.angularVelocity);
+    EXPECT_EQ(x.motion.velocity, y.motion.velocity);
+    EXPECT_EQ(x.motion.amplitude, y.motion.amplitude);
+    EXPECT_EQ(x.motion.frequency, y.motion.frequency);
+    EXPECT_EQ(x.motion.radialVelocity, y.motion.radialVelocity);
+    EXPECT_EQ(x.motion.radialEnd, y.motion.radialEnd);
+  }
+  EXPECT_EQ(back.law.kn, scene.law.kn);
+  EXPECT_EQ(back.law.mu, scene.law.mu);
+  for (const LawOption& option : lawOptions())
+    EXPECT_EQ(option.get(back.law), option.get(scene.law)) << option.name;
+  ASSERT_TRUE(back.bottom);
+  EXPECT_EQ(back.bottom->kb, scene.bottom->kb);
+  EXPECT_EQ(back.bottom->tauM, scene.bottom->tauM);
+  EXPECT_EQ(back.bottom->spin, scene.bottom->spin);
+  EXPECT_EQ(back.gravity, scene.gravity);
+  EXPECT_EQ(back.dt, scene.dt);
+}
+
+TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
+  const Scene scene = test::toyScene();
+  test::ToyEngine engine;
+  engine.load(scene, {});
+  engine.advance(1.0 / 3.0);
+  const auto read = [&](const nlohmann::json& json, const ArrayReader& arrays) {
+    return snapshotFromJson(json, arrays, scene);
+  };
+  const Snapshot full = engine.snapshot(ContactReport::instant);
+  const Snapshot back = roundTrip(full, read);
+  EXPECT_EQ(back.positionTime, full.positionTime);
+  EXPECT_EQ(back.velocityTime, full.velocityTime);
+  EXPECT_EQ(back.contactTime, full.contactTime);
+  expectSameBits(back.position, full.position);
+  expectSameBits(back.velocity, full.velocity);
+  expectSameBits(*back.spin, *full.spin);
+  expectSameBits(back.wallPosition, full.wallPosition);
+  EXPECT_EQ(back.bodies[0].force, full.bodies[0].force);
+  EXPECT_FALSE(back.bodies[0].torque);
+  EXPECT_FALSE(back.bodies[1].force);
+  EXPECT_EQ(back.bodies[1].torque, full.bodies[1].torque);
+  EXPECT_EQ(back.bodies[0].angle, full.bodies[0].angle);
+  EXPECT_EQ(back.contacts->i, full.contacts->i);
+  EXPECT_EQ(back.contacts->j, full.contacts->j);
+  expectSameBits(back.contacts->normal, full.contacts->normal);
+  expectSameBits(back.contacts->overlap, full.contacts->overlap);
+  expectSameBits(back.contacts->normalForce, full.contacts->normalForce);
+  expectSameBits(back.contacts->tangentialForce, full.contacts->tangentialForce);
+  EXPECT_EQ(back.contacts->sliding, full.contacts->sliding);
+  EXPECT_EQ(back.energies->elastic, full.energies->elastic);
+
+  Snapshot bare = engine.snapshot(ContactReport::none);
+  bare.spin.reset();
+  const Snapshot bareBack = roundTrip(bare, read);
+  EXPECT_FALSE(bareBack.contacts);
+  EXPECT_FALSE(bareBack.spin);
+  EXPECT_FALSE(bareBack.energies);
+}
+
+TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
+  test::ToyEngine engine;
+  const Capabilities can = engine.capabilities();
+  const Capabilities back = capabilitiesFromJson(nlohmann::json::parse(toJson(can).dump()));
+  EXPECT_EQ(back.version, can.version);
+  EXPECT_EQ(back.effects, can.effects);
+  EXPECT_EQ(back.lawOptions, can.lawOptions);
+  EXPECT_EQ(back.slidingFlags, true);
+  EXPECT_EQ(back.warmHandover, false);
+  ASSERT_EQ(back.settings.size(), 2u);
+  EXPECT_EQ(back.settings[0].defaultValue, SettingValue(1.0));
+  EXPECT_EQ(back.settings[1].defaultValue, SettingValue(std::string("fast")));
+  EXPECT_EQ(back.settings[1].choices, can.settings[1].choices);
+
+  const Settings settings = {{"a", true}, {"b", 0.1}, {"c", std::string("x")}};
+  EXPECT_EQ(settingsFromJson(nlohmann::json::parse(toJson(settings).dump())), settings);
+
+  const Realised realised = engine.load(test::toyScene(), {});
+  const Realised again = realisedFromJson(nlohmann::json::parse(toJson(realised).dump()));
+  EXPECT_EQ(again.effects, realised.effects);
+  EXPECT_EQ(again.dt, realised.dt);
+  ASSERT_EQ(again.pairs.size(), 1u);
+  EXPECT_EQ(again.pairs[0].pair, "a – b");
+  EXPECT_EQ(again.pairs[0].et0, 0.6);
+  ASSERT_EQ(again.deviations.size(), 1u);
+  EXPECT_EQ(again.deviations[0].value, 1e-300);
+
+  const Stats stats = statsFromJson(nlohmann::json::parse(toJson(engine.stats()).dump()));
+  EXPECT_EQ(stats.wallSeconds, 1.0 / 3.0);
+  EXPECT_EQ(stats.counters.at("rebuilds"), 5.0);
+
+  for (const auto report :
+       {ContactReport::none, ContactReport::instant, ContactReport::accumulated})
+    EXPECT_EQ(contactReportFromJson(toJson(report)), report);
+  EXPECT_THROW(contactReportFromJson("always"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace crossgrain

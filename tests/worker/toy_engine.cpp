@@ -1,0 +1,159 @@
+#include "tests/worker/toy_engine.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "adapters/worker/json.hpp"
+#include "adapters/worker/serve.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+/// A worker that needs nothing of this project but its JSON: it promises more than it writes.
+int shortFileWorker() {
+  std::FILE* requests = ::fdopen(3, "r");
+  char* line = nullptr;
+  std::size_t size = 0;
+  while (::getline(&line, &size, requests) > 0) {
+    const auto request = nlohmann::json::parse(line);
+    nlohmann::json reply = {{"ok", true},
+                            {"protocol", protocolVersion},
+                            {"capabilities", toJson(ToyEngine().capabilities())},
+                            {"realised", toJson(Realised{})}};
+    if (request.at("request") == "snapshot") {
+      ArrayWriter arrays;
+      reply["snapshot"] = toJson(Snapshot{}, arrays);
+      std::FILE* file = std::fopen(request.at("file").get<std::string>().c_str(), "w");
+      std::fputs("8 bytes.", file);
+      std::fclose(file);
+      reply["arrays"] = {{{"name", "position"}, {"type", "f64"}, {"count", 4}, {"offset", 0}}};
+    }
+    const std::string text = reply.dump() + "\n";
+    if (::write(4, text.data(), text.size()) < 0) break;
+  }
+  std::free(line);
+  return 0;
+}
+
+void sayGarbage() {
+  const std::string text = "Welcome to the engine!\n";
+  if (::write(4, text.data(), text.size()) < 0) std::abort();
+}
+
+}  // namespace
+
+Capabilities ToyEngine::capabilities() const {
+  Capabilities can;
+  can.version = "1.0 \"quoted\" µ";
+  can.effects[Effect::rotation] = Support::optional;
+  can.effects[Effect::friction] = Support::never;
+  can.lawOptions["tension"] = {"allow", "cut"};
+  can.precision = "double";
+  can.slidingFlags = true;
+  can.settings.push_back({"threads", 1.0, "", "how many", {}});
+  can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});
+  return can;
+}
+
+Realised ToyEngine::load(const Scene& scene, const Settings& settings) {
+  if (settings.contains("refuse")) throw UnsupportedScene("has no such thing");
+  if (settings.contains("throw")) throw std::runtime_error("could not allocate");
+  scene_ = scene;
+  steps_ = 0;
+  Realised realised;
+  realised.engine = "toy";
+  realised.dt = scene.dt;
+  realised.effects = effectsOf(scene);
+  realised.pairs.push_back({"a – b", scene.law.kn, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
+  realised.deviations.push_back({"rounding", 1e-300, "m", "a sentence"});
+  return realised;
+}
+
+double ToyEngine::advance(double t) {
+  if (mischief_ == "exit") std::exit(3);
+  if (mischief_ == "die") {
+    std::fputs("first line\n\nassertion failed: mass > 0\n", stderr);
+    std::raise(SIGABRT);
+  }
+  if (mischief_ == "hang") {
+    std::fputs("hanging\n", stderr);
+    ::pause();
+  }
+  if (mischief_ == "garbage") sayGarbage();
+  if (mischief_ == "print") std::puts("{\"ok\":false} printed, not said");
+  if (mischief_ == "offspring" && ::fork() == 0) ::pause();
+  steps_ = static_cast<std::uint64_t>(std::llround(t / scene_.dt));
+  return static_cast<double>(steps_) * scene_.dt;
+}
+
+Snapshot ToyEngine::snapshot(ContactReport contacts) {
+  const double t = static_cast<double>(steps_) * scene_.dt;
+  Snapshot snapshot;
+  snapshot.positionTime = t;
+  snapshot.velocityTime = t - scene_.dt / 2;
+  snapshot.contactTime = t - scene_.dt;
+  for (std::size_t k = 0; k < scene_.disks.size(); ++k)
+    snapshot.position.push_back(scene_.disks.position[k] + t * scene_.disks.velocity[k]);
+  snapshot.velocity = scene_.disks.velocity;
+  snapshot.spin = scene_.disks.spin;
+  for (const WallBody& body : scene_.bodies) {
+    const BodyState now = stateAt(body.motion, body.centre, t);
+    for (const Vec2& reference : body.diskPosition)
+      snapshot.wallPosition.push_back(memberPosition(now, body.centre, reference));
+    snapshot.bodies.push_back({now.centre, now.angle, now.velocity, now.angularVelocity, {}, {}});
+  }
+  snapshot.bodies[0].force = Vec2(std::sin(t), std::cos(t));
+  snapshot.bodies[1].torque = std::tan(t);
+  if (contacts != ContactReport::none) {
+    const Vec2 normal = (snapshot.position[0] - snapshot.position[1]).normalized();
+    snapshot.contacts = Contacts{{0}, {1}, {normal}, {std::exp(t)}, {t / 3}, {-t / 7}, {1}};
+    snapshot.energies = Energies{t / 9, t / 11};
+  }
+  if (mischief_ == "nan") snapshot.velocity[1].x() = std::numeric_limits<double>::quiet_NaN();
+  if (mischief_ == "few") snapshot.position.pop_back();
+  if (mischief_ == "ids") snapshot.contacts->j[0] = 99;
+  return snapshot;
+}
+
+Stats ToyEngine::stats() const {
+  return {steps_, 2 * steps_, 1.0 / 3.0, 1.0 / 7.0, {{"rebuilds", 5.0}}};
+}
+
+Scene toyScene() {
+  Scene scene;
+  scene.name = "toy";
+  scene.disks.radius = {1.0 / 3.0, 0.1};
+  scene.disks.mass = {std::exp(1.0), 5e-324};
+  scene.disks.inertia = {std::sqrt(2.0), 1e300};
+  scene.disks.position = {{0.1, -0.0}, {std::acos(-1.0), 2.0 / 7.0}};
+  scene.disks.velocity = {{1e-17, 1.0}, {-1.0 / 3.0, 1e-7}};
+  scene.disks.spin = {0.1 + 0.2, -1.0};
+  WallBody wheel{"wheel", {0.1, 0.2}, {{1.0 / 3.0, 0.2}, {0.1, 0.7}}, {0.01, 0.02}, {}, {}};
+  wheel.motion.kind = Motion::Kind::rotating;
+  wheel.motion.angularVelocity = 0.1;
+  WallBody floor{"floor", {0, 0}, {}, {}, {{{0.0, -1.0 / 3.0}, {0.6, 0.8}}}, {}};
+  floor.motion = {Motion::Kind::oscillating, 0.0, {0.3, 0.1}, {0.7, 1e-9}, 2.0 / 3.0, -0.1, 4.7};
+  scene.bodies = {wheel, floor};
+  scene.law.tangential = TangentialLaw::spring;
+  scene.law.kn = 352.1;
+  scene.law.mu = 1.0 / 3.0;
+  scene.law.conventions.tension = Tension::cut;
+  scene.law.conventions.integrator = Integrator::semiImplicitEuler;
+  scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, false};
+  scene.gravity = {0.0, -9.81};
+  scene.dt = 4e-5;
+  return scene;
+}
+
+int toyWorker(const std::string& mischief) {
+  if (mischief == "short") return shortFileWorker();
+  ToyEngine engine(mischief);
+  return serve(engine);
+}
+
+}  // namespace crossgrain::test

@@ -1,0 +1,218 @@
+#include "adapters/worker/worker_engine.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "tests/worker/toy_engine.hpp"
+
+namespace crossgrain {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+std::vector<std::string> toyCommand(const std::string& mischief) {
+  return {std::filesystem::read_symlink("/proc/self/exe").string(), "--worker", mischief};
+}
+
+class Worker : public ::testing::Test {
+ protected:
+  std::filesystem::path scratch_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("crossgrain-") +
+       ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  ~Worker() override { std::filesystem::remove_all(scratch_); }
+
+  std::unique_ptr<WorkerEngine> start(const std::string& mischief, double timeout = 20.0) {
+    return std::make_unique<WorkerEngine>("toy", toyCommand(mischief), scratch_, timeout);
+  }
+
+  template <typename Failure = EngineFailure, typename Action>
+  static std::string failureOf(Action&& action) {
+    try {
+      action();
+    } catch (const Failure& error) {
+      return error.what();
+    }
+    return "no failure";
+  }
+
+  /// What becomes of advance() to 0.5 s.
+  std::string advanceFailure(const std::string& mischief, double timeout = 20.0) {
+    const auto engine = start(mischief, timeout);
+    engine->load(test::toyScene(), {});
+    const std::string failure = failureOf([&] { engine->advance(0.5); });
+    EXPECT_EQ(failureOf([&] { engine->advance(0.6); }), failure);
+    EXPECT_EQ(engine->pid(), -1);
+    return failure;
+  }
+
+  std::string snapshotFailure(const std::string& mischief) {
+    const auto engine = start(mischief);
+    engine->load(test::toyScene(), {});
+    return failureOf([&] { engine->snapshot(ContactReport::instant); });
+  }
+};
+
+TEST_F(Worker, RunsAsTheEngineItselfDoesBitForBit) {
+  const auto worker = start("");
+  test::ToyEngine direct;
+  EXPECT_EQ(worker->capabilities().version, direct.capabilities().version);
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_EQ(worker->load(test::toyScene(), {}).dt, direct.load(test::toyScene(), {}).dt);
+    for (const double t : {0.1, 1.0 / 3.0}) {
+      EXPECT_EQ(worker->advance(t), direct.advance(t));
+      const Snapshot a = worker->snapshot(ContactReport::instant);
+      const Snapshot b = direct.snapshot(ContactReport::instant);
+      EXPECT_EQ(a.position, b.position);
+      EXPECT_EQ(a.velocity, b.velocity);
+      EXPECT_EQ(a.wallPosition, b.wallPosition);
+      EXPECT_EQ(a.contacts->normal, b.contacts->normal);
+      EXPECT_EQ(a.contacts->overlap, b.contacts->overlap);
+      EXPECT_EQ(a.bodies[0].force, b.bodies[0].force);
+    }
+    EXPECT_EQ(worker->stats().steps, direct.stats().steps);
+  }
+  const auto left = std::filesystem::directory_iterator(scratch_);
+  EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "only the log stays in the scratch folder";
+}
+
+TEST_F(Worker, PassesRefusalsOnAndLivesOn) {
+  const auto worker = start("");
+  EXPECT_EQ(failureOf<UnsupportedScene>([&] {
+              worker->load(test::toyScene(), {{"refuse", true}});
+            }),
+            "has no such thing");
+  EXPECT_EQ(failureOf([&] {
+              worker->load(test::toyScene(), {{"throw", true}});
+            }),
+            "toy, toy at t = 0 s: could not allocate");
+  worker->load(test::toyScene(), {});
+  EXPECT_NEAR(worker->advance(0.5), 0.5, 1e-12);
+}
+
+TEST_F(Worker, SaysHowItEnded) {
+  EXPECT_EQ(advanceFailure("exit"),
+            "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s)");
+  EXPECT_EQ(advanceFailure("die"),
+            "toy, toy at t = 0 s: ended (signal 6 (Aborted)) during advance(t = 0.5 s);"
+            " the end of its log: first line | assertion failed: mass > 0");
+}
+
+TEST_F(Worker, IsKilledWhenItHangs) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(advanceFailure("hang", 1.0),
+            "toy, toy at t = 0 s: no answer within 1 s to advance(t = 0.5 s)");
+  const Seconds took = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(took.count(), 1.0);
+  EXPECT_LT(took.count(), 5.0);
+}
+
+TEST_F(Worker, IsDistrusted) {
+  EXPECT_EQ(advanceFailure("garbage"),
+            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) is not a JSON object: 'Welcome "
+            "to the engine!'");
+  EXPECT_EQ(snapshotFailure("short"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is too short: "
+            "position needs 4 × 8 bytes from byte 0, the file has 8 bytes");
+  EXPECT_EQ(snapshotFailure("nan"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin: velocity[2] is "
+            "nan");
+  EXPECT_EQ(snapshotFailure("few"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin: position is 2 × "
+            "f64, expected 4 × f64");
+  EXPECT_EQ(snapshotFailure("ids"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: contact 0 is of 0 and 99, "
+            "not of 0 ≤ i < j < 5");
+}
+
+TEST_F(Worker, MayPrintWhatItLikes) {
+  {
+    const auto worker = start("print");
+    worker->load(test::toyScene(), {});
+    EXPECT_NEAR(worker->advance(0.5), 0.5, 1e-12);
+  }
+  std::ifstream log(scratch_ / "toy.log");
+  std::string line;
+  std::getline(log, line);
+  EXPECT_EQ(line, "{\"ok\":false} printed, not said");
+}
+
+TEST_F(Worker, ThatCannotBeStartedSaysWhy) {
+  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {"/no/such/program"}, scratch_, 1.0); }),
+            "toy: cannot start /no/such/program: No such file or directory");
+  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {"true"}, scratch_, 5.0); }),
+            "toy: ended (exit status 0) during hello");
+}
+
+TEST_F(Worker, LeavesNoChild) {
+  { const auto worker = start(""); }
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+TEST_F(Worker, LeavesNoGrandchild) {
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // orphans come to this process
+  {
+    const auto worker = start("offspring");
+    worker->load(test::toyScene(), {});
+    worker->advance(0.5);
+  }
+  int status = 0;
+  ASSERT_GT(::waitpid(-1, &status, 0), 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+TEST_F(Worker, DiesWithItsParent) {
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  int channel[2];
+  ASSERT_EQ(::pipe(channel), 0);
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    const auto worker = start("hang");
+    worker->load(test::toyScene(), {});
+    const pid_t pid = worker->pid();
+    if (::write(channel[1], &pid, sizeof pid) != sizeof pid) ::_exit(1);
+    worker->advance(0.5);
+    ::_exit(0);
+  }
+  pid_t worker = -1;
+  ASSERT_EQ(::read(channel[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+  // Once it hangs it no longer sees its requests end: only the kernel can stop it.
+  std::string line;
+  while (line != "hanging") {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::ifstream log(scratch_ / "toy.log");
+    std::getline(log, line);
+  }
+  ::kill(parent, SIGKILL);
+  ASSERT_EQ(::waitpid(parent, nullptr, 0), parent);
+  int status = 0;
+  ASSERT_EQ(::waitpid(worker, &status, 0), worker);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  ::close(channel[0]);
+  ::close(channel[1]);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+TEST_F(Worker, EndsWithItsRequestsThoughASiblingLives) {
+  std::filesystem::create_directories(scratch_);
+  ChildProcess first(toyCommand(""), scratch_ / "first.log");
+  ChildProcess second(toyCommand(""), scratch_ / "second.log");
+  first.closeInput();  // unless the second inherited our end, the first now reads its end
+  EXPECT_TRUE(first.waitForExit(std::chrono::seconds(5)));
+  EXPECT_EQ(first.exitText(), "exit status 0");
+}
+
+}  // namespace
+}  // namespace crossgrain

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "adapters/worker/worker_engine.hpp"
+#include "adapters/yade.hpp"
+
+namespace crossgrain::test {
+
+// Lätzel 2003, tables 3.1 and 4.1.
+inline constexpr double small = 3.7e-3, large = 4.495e-3, wall = 1.25e-3;
+inline constexpr double smallMass = 0.275e-3, largeMass = 0.490e-3;
+
+inline Scene emptyScene() {
+  Scene scene;
+  scene.name = "yade test";
+  scene.law.kn = 352.1;
+  scene.law.gn = 0.19;
+  scene.law.kt = 267.1;
+  scene.law.gt = 0.15;
+  scene.law.mu = 0.44;
+  scene.dt = 4e-5;
+  return scene;
+}
+
+inline void addDisk(Scene& scene, double radius, double mass, Vec2 position, Vec2 velocity,
+                    double spin = 0.0) {
+  scene.disks.radius.push_back(radius);
+  scene.disks.mass.push_back(mass);
+  scene.disks.inertia.push_back(0.5 * mass * radius * radius);
+  scene.disks.position.push_back(position);
+  scene.disks.velocity.push_back(velocity);
+  scene.disks.spin.push_back(spin);
+}
+
+inline WallBody ringBody(const std::string& name, Vec2 centre, double radius, int count,
+                         Motion motion) {
+  WallBody body;
+  body.name = name;
+  body.centre = centre;
+  body.motion = motion;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    body.diskPosition.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
+    body.diskRadius.push_back(wall);
+  }
+  return body;
+}
+
+inline Motion rotating(double omega) {
+  Motion motion;
+  motion.kind = Motion::Kind::rotating;
+  motion.angularVelocity = omega;
+  return motion;
+}
+
+/// Disks pressed together by gravity onto a turning wheel and a floor that shakes.
+inline Scene crowdedScene() {
+  Scene scene = emptyScene();
+  scene.gravity = {-1.0, -9.81};
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 5; ++column) {
+      const bool big = (row + column) % 3 == 0;
+      addDisk(scene, big ? large : small, big ? largeMass : smallMass,
+              {8.3e-3 * column + 2e-3 * row, 0.0165 + 8.1e-3 * row},
+              {0.02 * row, 0.03 - 0.01 * column}, 5.0 - column);
+    }
+  scene.bodies.push_back(ringBody("wheel", {0.017, 0.001}, 0.01, 24, rotating(2.0)));
+  WallBody floor;
+  floor.name = "floor";
+  floor.planes = {{{0.0, 0.005}, {0.0, 1.0}}, {{-0.006, 0.0}, {1.0, 0.0}}};
+  floor.motion.kind = Motion::Kind::oscillating;
+  floor.motion.amplitude = {1e-4, 2e-4};
+  floor.motion.frequency = 300.0;
+  scene.bodies.push_back(floor);
+  return scene;
+}
+
+class YadeWorker : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (yadeMissing().empty()) engine_ = startYade("yade");
+  }
+  static void TearDownTestSuite() { engine_.reset(); }
+  void SetUp() override {
+    if (!engine_) GTEST_SKIP() << yadeMissing();
+  }
+
+  static std::filesystem::path scratch() {
+    return std::filesystem::path(::testing::TempDir()) / "crossgrain-yade";
+  }
+  static std::unique_ptr<WorkerEngine> startYade(const std::string& name) {
+    return std::make_unique<WorkerEngine>(name, yadeCommand(), scratch() / name, 120.0);
+  }
+
+  static inline std::unique_ptr<WorkerEngine> engine_;
+};
+
+}  // namespace crossgrain::test
