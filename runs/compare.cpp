@@ -18,6 +18,7 @@
 #include "runs/records.hpp"
 #include "runs/run_store.hpp"
 #include "runs/task_pool.hpp"
+#include "runs/velocity_notes.hpp"
 
 namespace crossgrain {
 
@@ -266,6 +267,7 @@ json Comparison::results() const {
   results["runs"] = runs_;
   results["ensemble"] = ensembleOf(results["runs"], names);
   results["agreement"] = agreementOf(setup_, results["runs"], pairs());
+  results["notes"] = velocityNotes(results);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
   results["elapsed_s"] = elapsed.count();
   return results;

@@ -63,8 +63,10 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   const Scene scene = couetteScene(setup, *run.packing, run.dt);
   LoadedEngine loaded = loadEngine(run.entry, setup, scene, run.scratch);
   Engine& engine = *loaded.engine;
+  // Forces of one instant belong to the positions beside them; those summed over an interval do not
+  // where the wheel's disks moved on meanwhile.
   const ContactReport report =
-      loaded.can.accumulatedContacts ? ContactReport::accumulated : ContactReport::instant;
+      loaded.can.instantContacts ? ContactReport::instant : ContactReport::accumulated;
 
   const double rotation = rotationTime(setup);
   const double settled = setup.averaging.settleRotations * rotation;
@@ -112,7 +114,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
                  {"picture", picture}};
   result["profiles"] = json::array();
   for (const Profile& profile : averaged) result["profiles"].push_back(toJson(profile));
-  result["head"] = headNumbers(setup, averaged, series.rows(), loaded.realised.dt);
+  result["head"] = headNumbers(setup, averaged, series.rows(), loaded.realised);
   result["fits"] = couetteFits(setup, averaged);
   result["checks"] = couetteChecks(setup, averaged, series.rows());
   return result;

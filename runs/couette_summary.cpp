@@ -81,16 +81,19 @@ json number(const std::string& name, const std::optional<double>& value) {
 }  // namespace
 
 json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const json& series,
-                 double dt) {
+                 const Realised& realised) {
   const double diameter = 2.0 * setup.particles.smallRadius;
   std::optional<double> stiffness, stressRatio, stepShare;
-  // k_n against the force p d h that the pressure sends through a disk, per overlap d.
-  if (const auto p = pressure(profiles, 0)) stiffness = setup.law.kn / (*p * setup.cell.height);
+  // The engine's own k_n against the force p d h that the pressure sends through a disk, per
+  // overlap d.
+  const double kn = realised.pairs.empty() ? 0.0 : realised.pairs.front().kn;
+  if (const auto p = pressure(profiles, 0); p && kn > 0.0)
+    stiffness = kn / (*p * setup.cell.height);
   const auto rr = ringMean(profiles, "stress_rr", 0);
   const auto rp = ringMean(profiles, "stress_rp", 0);
   if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
   if (setup.law.normal == NormalLaw::linear && !setup.particles.file)
-    stepShare = dt / contactTime(setup.law, lightestReducedMass(setup));
+    stepShare = realised.dt / contactTime(setup.law, lightestReducedMass(setup));
   return {number("inertial_number", inertialNumber(setup, profiles)),
           number("kn_over_p", stiffness),
           number("mean_overlap_over_d", times(meanOf(series["mean_overlap"]), 1.0 / diameter)),

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "adapters/engine.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/case.hpp"
 
@@ -12,7 +13,7 @@ namespace crossgrain {
 /// inertial number, k_n/p, overlaps/d, sliding fraction, stress ratio at the wheel, dt/t_c,
 /// coordination.
 nlohmann::json headNumbers(const Case& setup, const std::vector<Profile>& profiles,
-                           const nlohmann::json& series, double dt);
+                           const nlohmann::json& series, const Realised& realised);
 
 /// Fits of one run's profiles and what theory or the thesis expects of them, as "fits".
 nlohmann::json couetteFits(const Case& setup, const std::vector<Profile>& profiles);
