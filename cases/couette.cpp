@@ -56,7 +56,28 @@ Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   return scene;
 }
 
-void checkStart(const Scene& scene, const Particles& particles, const std::string& where) {
+namespace {
+
+/// "disk 3", "wall disk 12": as the user knows it.
+std::string nameOf(std::size_t id, std::size_t disks) {
+  return id < disks ? fmt::format("disk {}", id) : fmt::format("wall disk {}", id - disks);
+}
+
+void checkInCell(const Disks& disks, const Cell& cell, const std::string& where) {
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double r = disks.position[i].norm();
+    if (r <= cell.innerRadius || r >= cell.outerRadius)
+      throw BadInput(
+          fmt::format("{}: disk {} at r = {:.4g} m is not between the walls at {:g} m and "
+                      "{:g} m",
+                      where, i, r, cell.innerRadius, cell.outerRadius));
+  }
+}
+
+}  // namespace
+
+void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
+                const Cell* cell) {
   std::vector<Vec2> position = scene.disks.position;
   std::vector<double> radius = scene.disks.radius;
   for (const WallBody& body : scene.bodies) {
@@ -66,28 +87,32 @@ void checkStart(const Scene& scene, const Particles& particles, const std::strin
   for (std::size_t i = 0; i < position.size(); ++i)
     if (!position[i].allFinite())
       throw BadInput(fmt::format("{}: the position of disk {} is not finite", where, i));
+  if (cell) checkInCell(scene.disks, *cell, where);
 
   // Sweep over x: only disks whose extents in x overlap are held against each other.
   std::vector<std::size_t> order(position.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](std::size_t i) { return position[i].x() - radius[i]; });
   const double limit = particles.maxOverlap * particles.smallRadius;
+  const std::size_t disks = scene.disks.size();
   for (std::size_t a = 0; a < order.size(); ++a) {
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       const std::size_t i = std::min(order[a], order[b]);
       const std::size_t j = std::max(order[a], order[b]);
       const double right = position[order[a]].x() + radius[order[a]];
       if (position[order[b]].x() - radius[order[b]] > right) break;
-      if (i >= scene.disks.size()) continue;  // disks of a wall may overlap each other
+      if (i >= disks) continue;  // disks of a wall may overlap each other
       const double distance = (position[i] - position[j]).norm();
       const double overlap = radius[i] + radius[j] - distance;
       if (distance == 0.0)
-        throw BadInput(fmt::format("{}: disks {} and {} have the same centre", where, i, j));
+        throw BadInput(fmt::format("{}: {} and {} have the same centre", where, nameOf(i, disks),
+                                   nameOf(j, disks)));
       if (overlap > limit)
-        throw BadInput(
-            fmt::format("{}: disks {} and {} overlap by {:.3g} m at the start, more than "
-                        "particles.max_overlap = {:g} of the small radius allows ({:.3g} m)",
-                        where, i, j, overlap, particles.maxOverlap, limit));
+        throw BadInput(fmt::format(
+            "{}: {} and {} overlap by {:.3g} m at the start, more than particles.max_overlap = "
+            "{:g} "
+            "of the small radius allows ({:.3g} m)",
+            where, nameOf(i, disks), nameOf(j, disks), overlap, particles.maxOverlap, limit));
     }
   }
 }

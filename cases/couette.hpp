@@ -22,7 +22,9 @@ Disks diskKinds(const Particles& particles);
 
 /// A start that an engine cannot be blamed for: no two disks overlap by more than
 /// max_overlap · small radius, no two centres coincide, all are finite.
-/// @throws BadInput naming the two disks and their overlap
-void checkStart(const Scene& scene, const Particles& particles, const std::string& where);
+/// Where `cell` is given, they also lie between its walls.
+/// @throws BadInput naming the disks
+void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
+                const Cell* cell = nullptr);
 
 }  // namespace crossgrain

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cases/files.hpp"
+
 namespace crossgrain {
 namespace {
 
@@ -24,6 +26,13 @@ class Handle {
  private:
   hid_t id_;
 };
+
+/// Throws after clearing HDF5's own record of the error, of which it keeps one per thread: left
+/// there, it upsets the library's clean-up when the program ends.
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  H5Eclear2(H5E_DEFAULT);
+  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+}
 
 std::unique_lock<std::mutex> lockLibrary() {
   std::unique_lock lock(libraryMutex);
@@ -47,23 +56,32 @@ Hdf5File::~Hdf5File() {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& file) {
   auto lock = lockLibrary();
-  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+  constexpr std::size_t growth = 1 << 20;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_fapl_core(access, growth, /*backing_store=*/false);
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (id < 0) fail(file, "cannot be made in memory");
   return {id, file, std::move(lock)};
+}
+
+void Hdf5File::save() {
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "its end");
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (size <= 0 || H5Fget_file_image(file_, image.data(), image.size()) != size)
+    fail(name_, "cannot be put together in memory");
+  writeFile(name_, image);
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   auto lock = lockLibrary();
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id < 0)
-    throw std::runtime_error(fmt::format("{}: cannot be read as an HDF5 file", file.string()));
+  if (id < 0) fail(file, "cannot be read as an HDF5 file");
   return {id, file, std::move(lock)};
 }
 
 void Hdf5File::check(herr_t status, const std::string& what) const {
-  if (status < 0)
-    throw std::runtime_error(
-        fmt::format("{}: writing {} failed (is the disk full?)", name_.string(), what));
+  if (status < 0) fail(name_, fmt::format("{} cannot be put into it", what));
 }
 
 void Hdf5File::writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,
@@ -108,9 +126,12 @@ std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const
   if (H5Lexists(file_, path.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
   const Handle space(H5Dget_space(set));
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  constexpr hssize_t most = 1'000'000'000;  // a damaged file may claim any size
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count < 0 || count > most) fail(name_, path + " is damaged");
+  std::vector<double> values(static_cast<std::size_t>(count));
   if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw std::runtime_error(fmt::format("{}: {} cannot be read", name_.string(), path));
+    fail(name_, path + " cannot be read");
   return values;
 }
 

@@ -10,12 +10,13 @@
 
 namespace crossgrain {
 
-/// An HDF5 file of arrays of doubles and 32-bit integers, with attributes.
-/// Debian's HDF5 is not thread-safe: one open file holds a lock on the whole library, so open late
-/// and close early.
+/// An HDF5 file of arrays of doubles and 32-bit integers, with attributes. A new file is built in
+/// memory and written in one go by save(), so that a full disk leaves no half file.
+/// HDF5 is used from one thread at a time: an open file holds a lock on the whole library, so open
+/// late and close early.
 class Hdf5File {
  public:
-  /// Creates or replaces `file`. @throws std::runtime_error naming the file
+  /// A new file in memory, to be saved as `file`.
   static Hdf5File create(const std::filesystem::path& file);
   /// @throws std::runtime_error if it is missing or not HDF5
   static Hdf5File open(const std::filesystem::path& file);
@@ -31,6 +32,9 @@ class Hdf5File {
   void write(const std::string& path, const std::vector<std::int32_t>& values);
   void writeAttribute(const std::string& name, double value);
   void writeAttribute(const std::string& name, const std::string& value);
+
+  /// Writes what create() began. @throws OutputError
+  void save();
 
   /// The whole array, row by row; absent if the file has none of that name.
   std::optional<std::vector<double>> read(const std::string& path) const;

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
+#include <cmath>
 
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
+#include "cases/files.hpp"
 #include "cases/hdf5_file.hpp"
 
 namespace crossgrain {
@@ -54,26 +55,23 @@ std::string packingHash(const Case& setup, int index, double dt) {
 }
 
 void writePacking(const Packing& packing, const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::filesystem::create_directories(file.parent_path(), ignored);
-  // Written aside and renamed, so that a run killed half way leaves no half packing behind.
-  const std::filesystem::path aside = fmt::format("{}.{}", file.string(), ::getpid());
-  {
-    Hdf5File out = Hdf5File::create(aside);
-    const Disks& disks = packing.disks;
-    out.write("radius", disks.radius);
-    out.write("mass", disks.mass);
-    out.write("inertia", disks.inertia);
-    out.write("position", disks.position.front().data(), disks.size(), 2);
-    out.write("velocity", disks.velocity.front().data(), disks.size(), 2);
-    out.write("spin", disks.spin);
-    out.writeAttribute("wheel_angle", packing.wheelAngle);
-    out.writeAttribute("hash", packing.hash);
-  }
-  std::filesystem::rename(aside, file);
+  makeDirectory(file.parent_path());
+  Hdf5File out = Hdf5File::create(file);
+  const Disks& disks = packing.disks;
+  out.write("radius", disks.radius);
+  out.write("mass", disks.mass);
+  out.write("inertia", disks.inertia);
+  out.write("position", disks.position.front().data(), disks.size(), 2);
+  out.write("velocity", disks.velocity.front().data(), disks.size(), 2);
+  out.write("spin", disks.spin);
+  out.writeAttribute("wheel_angle", packing.wheelAngle);
+  out.writeAttribute("hash", packing.hash);
+  out.save();
 }
 
-Packing readPacking(const std::filesystem::path& file, const Case& setup) {
+namespace {
+
+Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
   const auto bad = [&](const std::string& what) {
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
@@ -90,6 +88,9 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup) {
     if (values && values->size() != columns * count)
       throw bad(fmt::format("{} has {} values for {} disks; {} are needed", name, values->size(),
                             count, columns * count));
+    for (std::size_t k = 0; values && k < values->size(); ++k)
+      if (!std::isfinite((*values)[k]))
+        throw bad(fmt::format("{} of disk {} is not finite", name, k / columns));
     return values;
   };
 
@@ -119,6 +120,18 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup) {
   packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
   packing.hash = in.readTextAttribute("hash").value_or("file");
   return packing;
+}
+
+}  // namespace
+
+Packing readPacking(const std::filesystem::path& file, const Case& setup) {
+  try {
+    return readPackingFile(file, setup);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::exception& error) {  // what HDF5 makes of a damaged file
+    throw BadInput(error.what());
+  }
 }
 
 }  // namespace crossgrain

@@ -130,7 +130,8 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
                   const std::function<void(double)>& progress) {
   if (setup.particles.file) {
     Packing packing = readPacking(*setup.particles.file, setup);
-    checkStart(couetteScene(setup, packing, dt), setup.particles, setup.particles.file->string());
+    checkStart(couetteScene(setup, packing, dt), setup.particles, setup.particles.file->string(),
+               &setup.cell);
     return packing;
   }
   const std::filesystem::path file = packingCacheFile(packingHash(setup, index, dt));

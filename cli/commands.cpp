@@ -75,20 +75,18 @@ json peerRows(const json& results) {
 Case onlyCase(const CommandLine& line, CaseKind kind, const char* command) {
   if (line.inputs.size() != 1)
     throw BadInput(fmt::format("{} takes one case file, not {}", command, line.inputs.size()));
-  std::vector<std::string> overrides = line.overrides;
-  if (line.quick)
-    for (const char* change :
-         {"preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
-          "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"})
-      overrides.insert(overrides.begin(), change);
-  std::vector<Case> cases = loadCase(line.inputs.front(), overrides);
+  const fs::path& file = line.inputs.front();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
   if (cases.front().kind != kind)
-    throw BadInput(fmt::format("{}: {} cannot run a case of this kind",
-                               line.inputs.front().string(), command));
+    throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
   if (cases.size() > 1)
-    throw BadInput(
-        fmt::format("{}: {} takes a case without variants", line.inputs.front().string(), command));
-  return cases.front();
+    throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
+  if (!line.quick) return cases.front();
+  std::vector<std::string> overrides = {
+      "preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
+      "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
+  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
+  return loadCase(file, overrides).front();
 }
 
 }  // namespace
@@ -130,49 +128,60 @@ int listEngines(const CommandLine& line) {
   return exitHeld;
 }
 
+namespace {
+
+/// The scene of a case as far as `check` needs it: all disks are there, but not yet in their
+/// places.
+Scene unplacedScene(const Case& setup) {
+  if (setup.kind == CaseKind::collision)
+    return collisionScene(setup, sweepStarts(setup), collisionTimeSteps(setup).front());
+  Packing unplaced;
+  unplaced.disks = diskKinds(setup.particles);
+  return couetteScene(setup, unplaced, timeStep(setup));
+}
+
+void printSuitability(const EngineEntry& entry, const Case& setup, const Scene& scene,
+                      const fs::path& scratch) {
+  const auto engine = startEngine(entry, scratch, setup.run.timeout);
+  const Capabilities can = engine->capabilities();
+  settingsFor(setup, entry.name, can);
+  const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
+  fmt::print("  {:<16} can run it\n", entry.name);
+  for (const Deviation& deviation : adapted.deviations)
+    fmt::print("    differs: {}\n", deviation.note);
+}
+
+}  // namespace
+
 int checkCase(const CommandLine& line) {
   if (line.inputs.size() != 1) throw BadInput("check takes one case file");
   const ScratchFolder scratch;
   bool allCan = true;
   for (const Case& setup : loadCase(line.inputs.front(), line.overrides)) {
-    const std::string name = setup.variant.empty() ? setup.name : setup.variant;
-    Scene scene;
-    double end = 0.0;
-    if (setup.kind == CaseKind::collision) {
-      const double dt = collisionTimeSteps(setup).front();
-      scene = collisionScene(setup, sweepStarts(setup), dt);
-    } else {
-      // The packing need not be prepared for this: disks on their lattice are as many.
-      Case dilute = setup;
-      dilute.preparation.shrinkTime = 1e-3;
-      dilute.preparation.rotations = 0.0;
-      const double dt = timeStep(setup);
-      Packing lattice;
-      lattice.disks = diskKinds(setup.particles);
-      scene = couetteScene(setup, lattice, dt);
-      end = (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
-    }
-    fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n", name, scene.disks.size(),
+    checkEngineSections(setup);
+    const Scene scene = unplacedScene(setup);
+    fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n",
+               setup.variant.empty() ? setup.name : setup.variant, scene.disks.size(),
                scene.wallDiskCount(), scene.dt);
     std::vector<std::string> called;
     for (const Effect effect : effectsOf(scene)) called.push_back(toString(effect));
     fmt::print("  effects called for: {}\n", fmt::join(called, ", "));
+    if (setup.kind == CaseKind::couette) {
+      const double end =
+          (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
+      fmt::print("  per packing: {:.0f} steps of the case's dt\n", end / scene.dt);
+    }
     for (const EngineEntry& entry : selectEngines(line.run.engines)) {
       try {
-        const auto engine = startEngine(entry, scratch.path, setup.run.timeout);
-        const Capabilities can = engine->capabilities();
-        settingsFor(setup, entry.name, can);
-        const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
-        fmt::print("  {:<16} can run it", entry.name);
-        if (end > 0.0) fmt::print(" ({:.0f} steps of the case's dt per packing)", end / scene.dt);
-        fmt::print("\n");
-        for (const Deviation& deviation : adapted.deviations)
-          fmt::print("    differs: {}\n", deviation.note);
+        printSuitability(entry, setup, scene, scratch.path);
       } catch (const UnsupportedScene& refusal) {
         allCan = false;
         fmt::print("  {:<16} cannot: {}\n", entry.name, refusal.what());
       }
     }
+    for (const EngineEntry& entry : engineRegistry())
+      if (entry.missing && !entry.missing().empty() && !isNamed(line.run.engines, entry))
+        fmt::print("  {:<16} not available: {}\n", entry.name, entry.missing());
   }
   return allCan ? exitHeld : exitFellShort;
 }
@@ -219,16 +228,19 @@ int collideFile(const fs::path& file, const fs::path& out, const CommandLine& li
 
   int failed = 0, fellShort = 0;
   std::map<std::string, std::string> reasons;
+  std::map<std::string, int> refused;
   for (const json& variant : results["variants"])
     for (const json& curve : variant["curves"]) {
-      const std::string status = curve["status"];
-      if (status == "failed" || status == "refused") {
-        failed += status == "failed";
-        reasons.emplace(curve["engine"], curve["reason"]);
-      }
+      const std::string engine = curve["engine"];
+      failed += curve["status"] == "failed";
+      if (curve["status"] == "failed") reasons.emplace(engine, curve["reason"]);
+      refused[engine] += curve["status"] == "refused";
       fellShort += curve["score"]["verdict"] == "fell short";
     }
   for (const auto& [engine, reason] : reasons) fmt::print(stderr, "crossgrain: {}\n", reason);
+  for (const auto& [engine, count] : refused)
+    if (count > 0 && !line.json)
+      fmt::print("{} does not have the law of {} sweeps; the report says why\n", engine, count);
   if (line.json)
     fmt::print("{}\n", (out / "results.json").string());
   else

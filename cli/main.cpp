@@ -3,11 +3,13 @@
 #include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
 #include "adapters/engine.hpp"
 #include "cases/bad_input.hpp"
+#include "cases/nearest.hpp"
 #include "cli/commands.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/version.hpp"
@@ -15,27 +17,32 @@
 namespace crossgrain {
 namespace {
 
-void addEngines(CLI::App& command, CommandLine& line) {
-  command
+CLI::Option* addEngines(CLI::App& command, CommandLine& line) {
+  return command
       .add_option("--engines", line.run.engines,
-                  "engines by name, or all; the first is the reference")
+                  "engines by name, separated by commas, or all; the first is the reference")
       ->delimiter(',')
-      ->required();
+      ->allow_extra_args(false);
 }
 
-void addRun(CLI::App& command, CommandLine& line, std::uint64_t& seed) {
-  addEngines(command, line);
-  command.add_option("--out", line.run.out, "folder for results")->required();
-  command.add_option("--set", line.overrides,
-                     "key=value: changes the case, e.g. averaging.rings=40");
-  command.add_option("--seed", seed, "preparation.seed of the case");
+void addOverrides(CLI::App& command, CommandLine& line) {
+  command
+      .add_option("--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40")
+      ->allow_extra_args(false);
+}
+
+/// What all commands that run engines have.
+void addRun(CLI::App& command, CommandLine& line) {
+  addEngines(command, line)->required();
+  addOverrides(command, line);
+  command.add_option("--out", line.run.out, "folder for results: new, or of an earlier run")
+      ->required()
+      ->check([](const std::string& out) { return out.empty() ? "is empty" : ""; });
+  constexpr int mostJobs = 4096;
   command.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
-      ->check(CLI::PositiveNumber);
-  command.add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
-  command.add_flag("--quick", line.quick, "a short version, to see that everything works");
-  command.add_flag("--strict", line.strict, "undecided verdicts count as falling short");
+      ->check(CLI::Range(1, mostJobs));
   command.add_flag("--quiet", line.run.quiet, "no progress");
-  command.add_flag("--json", line.json, "print results.json's path only, for scripts");
+  command.add_flag("--json", line.json, "print the path of results.json only, for scripts");
 }
 
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what,
@@ -50,7 +57,7 @@ int run(int argc, char** argv) {
   line.run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   line.run.commandLine =
       fmt::format("crossgrain {}", fmt::join(std::vector<std::string>(argv + 1, argv + argc), " "));
-  std::uint64_t seed = 0;
+  std::int64_t seed = 0;
   std::string served;
 
   CLI::App app{
@@ -66,25 +73,29 @@ int run(int argc, char** argv) {
                                  "crossgrain engines");
   engines->add_flag("--json", line.json, "as JSON");
 
-  CLI::App* check = addCommand(app, "check", "who can run a case, deviations, predicted time",
+  CLI::App* check = addCommand(app, "check", "who can run a case, and where engines differ from it",
                                "crossgrain check cases/couette/quick.toml --engines all");
   check->add_option("case", line.inputs, "case file")->required();
-  check->add_option("--engines", line.run.engines, "engines by name, or all")
-      ->delimiter(',')
-      ->default_val("all");
-  check->add_option("--set", line.overrides, "key=value: changes the case");
+  addEngines(*check, line)->default_val("all");
+  addOverrides(*check, line);
 
   CLI::App* collisions = addCommand(
       app, "collide", "two-particle sweeps against the oracle",
       "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out");
   collisions->add_option("case", line.inputs, "case file or folder of case files")->required();
-  addRun(*collisions, line, seed);
+  addRun(*collisions, line);
 
   CLI::App* comparison =
       addCommand(app, "compare", "run, average, cross-check",
                  "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out");
   comparison->add_option("case", line.inputs, "case file")->required();
-  addRun(*comparison, line, seed);
+  addRun(*comparison, line);
+  comparison->add_option("--seed", seed, "preparation.seed of the case")
+      ->check(CLI::NonNegativeNumber);
+  comparison->add_flag("--resume", line.run.resume,
+                       "take up what an earlier run in --out finished");
+  comparison->add_flag("--quick", line.quick, "a short version, to see that everything works");
+  comparison->add_flag("--strict", line.strict, "undecided verdicts count as falling short");
 
   CLI::App* report =
       addCommand(app, "report", "rebuild reports from results.json", "crossgrain report out");
@@ -95,6 +106,11 @@ int run(int argc, char** argv) {
   serve->group("");
   serve->add_option("engine", served)->required();
 
+  // CLI11 would only say that some subcommand is required.
+  const std::vector<std::string> names = {"engines", "check", "collide", "compare", "report"};
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
+    throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -102,9 +118,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw BadInput(fmt::format("{}; see crossgrain --help", error.what()));
   }
-  for (CLI::App* command : {collisions, comparison})
-    if (command->parsed() && command->count("--seed") > 0)
-      line.overrides.push_back(fmt::format("preparation.seed={}", seed));
+  if (comparison->count("--seed") > 0)
+    line.overrides.push_back(fmt::format("preparation.seed={}", seed));
 
   if (engines->parsed()) return listEngines(line);
   if (check->parsed()) return checkCase(line);
@@ -117,14 +132,13 @@ int run(int argc, char** argv) {
 /// Every way to end, as one line on standard error and the status that goes with it.
 int runAndExplain(int argc, char** argv) {
   const auto explain = [](const std::exception& error, int status) {
-    fmt::print(stderr, "crossgrain: {}\n", error.what());
+    fmt::print(stderr, "crossgrain: {}\n", BadInput(error.what()).what());  // in one line
     return status;
   };
   try {
     return run(argc, argv);
   } catch (const Interrupted& error) {
-    fmt::print(stderr, "crossgrain: interrupted; --resume takes up the runs that are finished\n");
-    return exitInterrupted;
+    return explain(error, exitInterrupted);
   } catch (const BadInput& error) {
     return explain(error, exitBadInput);
   } catch (const UnsupportedScene& error) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 #include "reports/gnuplot.hpp"
 
 namespace crossgrain::reports {

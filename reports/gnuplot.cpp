@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 
 extern char** environ;
 

@@ -5,8 +5,8 @@
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
+#include "cases/files.hpp"
 #include "reports/base64.hpp"
-#include "reports/files.hpp"
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
 #include "reports/templates.hpp"

@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
+#include "cases/files.hpp"
 #include "reports/engines.hpp"
-#include "reports/files.hpp"
 
 namespace crossgrain::reports {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cases/files.hpp"
 #include "reports/csv.hpp"
 #include "reports/figures.hpp"
-#include "reports/files.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/json_view.hpp"
 #include "reports/pages.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "adapters/law_options.hpp"
+#include "cases/bad_input.hpp"
 #include "cases/time_step.hpp"
 #include "runs/collision_sweep.hpp"
 #include "runs/interrupt.hpp"
@@ -58,10 +59,11 @@ struct Sweep {
   std::vector<double> steps;
 };
 
-/// All sweeps of one engine in one worker. Failures end up in the curve that failed; the worker is
-/// started again for the next one.
+/// All sweeps of one engine in one worker. Bad input ends them, with a word in `badInput`. Failures
+/// end up in the curve that failed; the worker is started again for the next one.
 void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const RunStore& store,
-               const std::function<void(double)>& progress, std::vector<json>& curves) {
+               const std::function<void(double)>& progress, std::vector<json>& curves,
+               std::string& badInput) {
   std::unique_ptr<Engine> engine;
   std::size_t total = 0, done = 0;
   for (const Sweep& sweep : sweeps) total += sweep.steps.size();
@@ -75,6 +77,9 @@ void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const
         list.push_back(runSweep(*engine, entry, *sweep.setup, dt, sweep.starts, sweep.oracle));
       } catch (const Interrupted&) {
         throw;
+      } catch (const BadInput& bad) {
+        badInput = bad.what();
+        return;
       } catch (const std::exception& error) {
         const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
         list.push_back({{"engine", entry.name},
@@ -96,6 +101,17 @@ void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const
     }
     curves.push_back(std::move(list));
   }
+}
+
+/// An engine that can run no variant at all was asked for in vain.
+void throwIfAllRefused(const std::vector<json>& curves) {
+  std::string reason;
+  for (const json& list : curves)
+    for (const json& curve : list) {
+      if (curve["status"] != "refused") return;
+      reason = curve["reason"];
+    }
+  throw UnsupportedScene(reason);
 }
 
 json variantJson(const Sweep& sweep) {
@@ -120,14 +136,15 @@ json variantJson(const Sweep& sweep) {
 
 json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
   const auto started = std::chrono::steady_clock::now();
-  const RunStore store(command.out, /*resume=*/false);
-  Progress progress(command.quiet);
+  checkEngineSections(variants.front());
   std::vector<EngineEntry> engines = selectEngines(command.engines);
   if (variants.front().run.mirrors)
     for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
+  const RunStore store(command.out, /*resume=*/false);
+  Progress progress(command.quiet);
 
   std::vector<Sweep> sweeps;
   for (const Case& setup : variants) {
@@ -138,6 +155,7 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   }
 
   std::vector<std::vector<json>> curves(engines.size());
+  std::vector<std::string> badInputs(engines.size());
   std::vector<Task> tasks;
   progress.begin("collisions", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
@@ -145,11 +163,16 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
     tasks.push_back({engines[e].command ? 2.0 : 1.0, [&, e] {
                        runEngine(
                            engines[e], sweeps, store,
-                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e]);
+                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e],
+                           badInputs[e]);
                        progress.finish(e, engines[e].name + ": done");
                      }});
   }
   runTasks(tasks, command.jobs);
+  for (const std::string& bad : badInputs)
+    if (!bad.empty()) throw BadInput(bad);
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    if (isNamed(command.engines, engines[e])) throwIfAllRefused(curves[e]);
 
   json results = resultsHead("collide", variants.front(), command.commandLine);
   results["case"]["variant"] = "";
@@ -170,11 +193,12 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   }
   results["engines"] = json::array();
   for (std::size_t e = 0; e < engines.size(); ++e) {
+    // Refusing some variants is no failure; the curves say which.
     std::string status = "ran", reason, version;
     for (const json& list : curves[e])
       for (const json& curve : list) {
-        if (curve["status"] == "failed" || (curve["status"] == "refused" && reason.empty())) {
-          status = curve["status"];
+        if (curve["status"] == "failed") {
+          status = "failed";
           reason = curve["reason"];
         }
         if (curve["realised"].is_object()) version = curve["realised"]["version"];

@@ -8,6 +8,7 @@
 
 #include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
+#include "cases/files.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
@@ -31,10 +32,11 @@ class Comparison {
  public:
   Comparison(const Case& setup, const RunCommand& command);
 
+  /// Asks every engine, before anything is computed, whether it can run the case.
+  void askEngines();
   void preparePackings();
-  /// Loads the first packing in every engine and times some steps: refusals come before any run,
-  /// and the longest runs can start first.
-  void tryEngines();
+  /// Times some steps of every engine on the first packing, so that the longest runs start first.
+  void timeEngines();
   void run();
   json results() const;
 
@@ -49,29 +51,63 @@ class Comparison {
 
   const Case& setup_;
   const RunCommand& command_;
+  std::vector<EngineEntry> engines_;  ///< those named, then their mirrors
+  double dt_;
   RunStore store_;
   Progress progress_;
-  double dt_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  std::vector<EngineEntry> engines_;  ///< those named, then their mirrors
-  std::vector<double> predicted_;     ///< seconds of one run, per engine
+  std::vector<double> predicted_;  ///< seconds of one run, per engine
   std::vector<std::string> versions_, refusals_;
   std::vector<Packing> packings_;
   std::vector<json> runs_;  ///< engine by engine, packing by packing
   std::mutex mutex_;
+  std::string outputError_;  ///< the first file that could not be written
 };
+
+/// The engines named and, if the case wants them, their mirrors.
+std::vector<EngineEntry> enginesFor(const Case& setup, const RunCommand& command) {
+  checkEngineSections(setup);
+  std::vector<EngineEntry> engines = selectEngines(command.engines);
+  if (setup.run.mirrors)
+    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  return engines;
+}
+
+double stepOf(const Case& setup) {
+  if (setup.run.dt || !setup.particles.file) return timeStep(setup);
+  throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+}
 
 Comparison::Comparison(const Case& setup, const RunCommand& command)
     : setup_(setup),
       command_(command),
+      engines_(enginesFor(setup, command)),
+      dt_(stepOf(setup)),
       store_(command.out, command.resume),
       progress_(command.quiet),
-      dt_(setup.run.dt || !setup.particles.file ? timeStep(setup) : 0.0),
-      engines_(selectEngines(command.engines)) {
-  if (dt_ <= 0.0)
-    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
-  if (setup.run.mirrors)
-    for (const EngineEntry& mirror : mirrorsOf(engines_)) engines_.push_back(mirror);
+      predicted_(engines_.size(), 1.0),
+      versions_(engines_.size()),
+      refusals_(engines_.size()) {}
+
+void Comparison::askEngines() {
+  Packing unplaced;
+  unplaced.disks = diskKinds(setup_.particles);
+  const Scene scene = couetteScene(setup_, unplaced, dt_);
+  for (std::size_t e = 0; e < engines_.size(); ++e) {
+    throwIfInterrupted();
+    const EngineEntry& entry = engines_[e];
+    try {
+      const auto engine =
+          startEngine(entry, store_.scratch("ask-" + entry.name), setup_.run.timeout);
+      const Capabilities can = engine->capabilities();
+      versions_[e] = can.version;
+      checkSuitable(can, entry, setup_, scene);
+    } catch (const UnsupportedScene& refusal) {
+      // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
+      if (isNamed(command_.engines, entry)) throw;
+      refusals_[e] = refusal.what();
+    }
+  }
 }
 
 void Comparison::preparePackings() {
@@ -104,28 +140,23 @@ void Comparison::preparePackings() {
     if (!failure.empty()) throw BadInput(failure);
 }
 
-void Comparison::tryEngines() {
+void Comparison::timeEngines() {
   constexpr int steps = 40;
   const double end =
       (setup_.averaging.settleRotations + setup_.averaging.rotations) * rotationTime(setup_);
   const Scene scene = couetteScene(setup_, packings_.front(), dt_);
-  const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
-  for (const EngineEntry& entry : engines_) {
+  for (std::size_t e = 0; e < engines_.size(); ++e) {
     throwIfInterrupted();
-    predicted_.push_back(0.0);
-    versions_.emplace_back();
-    refusals_.emplace_back();
+    if (!refusals_[e].empty()) continue;
     try {
       const LoadedEngine loaded =
-          loadEngine(entry, setup_, scene, store_.scratch("try-" + entry.name));
-      versions_.back() = loaded.can.version;
+          loadEngine(engines_[e], setup_, scene, store_.scratch("time-" + engines_[e].name));
       const double dt = loaded.realised.dt;
       loaded.engine->advance(steps * dt);
-      predicted_.back() = loaded.engine->stats().wallSeconds / steps * end / dt;
+      predicted_[e] = loaded.engine->stats().wallSeconds / steps * end / dt;
     } catch (const UnsupportedScene& refusal) {
-      // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
-      if (!all && entry.mirrors.empty()) throw;
-      refusals_.back() = refusal.what();
+      if (isNamed(command_.engines, engines_[e])) throw;
+      refusals_[e] = refusal.what();
     } catch (const EngineFailure& failure) {
       progress_.say(failure.what());  // its runs will tell, one by one
     }
@@ -165,9 +196,12 @@ void Comparison::runOne(std::size_t engine, int packing, std::size_t task) {
                      fmt::format("{}: {:.1f} s", label, result["stats"]["wall_s"].get<double>()));
   } catch (const Interrupted&) {
     throw;
+  } catch (const OutputError& error) {
+    const std::scoped_lock lock(mutex_);
+    if (outputError_.empty()) outputError_ = error.what();
   } catch (const std::exception& error) {
     result["status"] = "failed";
-    result["reason"] = error.what();
+    result["reason"] = fmt::format("packing {}: {}", packing, error.what());
     progress_.finish(task, fmt::format("{}: failed: {}", label, error.what()));
   }
 }
@@ -186,6 +220,7 @@ void Comparison::run() {
   runs_.resize(tasks.size());
   progress_.begin("running engines", weights);
   runTasks(tasks, command_.jobs);
+  if (!outputError_.empty()) throw OutputError(outputError_);
 }
 
 /// All pairs of the engines named, in the order in which they were named; each mirror between the
@@ -277,9 +312,14 @@ json Comparison::results() const {
 
 json compareEngines(const Case& setup, const RunCommand& command) {
   Comparison comparison(setup, command);
-  comparison.preparePackings();
-  comparison.tryEngines();
-  comparison.run();
+  try {
+    comparison.askEngines();
+    comparison.preparePackings();
+    comparison.timeEngines();
+    comparison.run();
+  } catch (const Interrupted&) {
+    throw Interrupted("interrupted; the same command with --resume takes up what is finished");
+  }
   return comparison.results();
 }
 

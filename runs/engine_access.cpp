@@ -41,7 +41,8 @@ std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name == "all") {
       for (const EngineEntry& entry : engineRegistry())
-        if (entry.mirrors.empty()) engines.push_back(entry);
+        if (entry.mirrors.empty() && (!entry.missing || entry.missing().empty()))
+          engines.push_back(entry);
       continue;
     }
     const EngineEntry* entry = findEngine(name);
@@ -53,6 +54,17 @@ std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
     engines.push_back(*entry);
   }
   return engines;
+}
+
+bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry) {
+  return std::ranges::find(names, entry.name) != names.end();
+}
+
+void checkEngineSections(const Case& setup) {
+  for (const auto& [name, settings] : setup.engines)
+    if (!findEngine(name))
+      throw BadInput(fmt::format("{}: [engines.{}]: there is no such engine{}", setup.file.string(),
+                                 name, suggestion(name, knownEngines())));
 }
 
 std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
@@ -101,10 +113,31 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
   return section->second;
 }
 
+namespace {
+
+/// Does `work`, and says engine and case where it is refused.
+template <typename Work>
+auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
+  try {
+    return work();
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
+  }
+}
+
+}  // namespace
+
+void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  settingsFor(setup, entry.name, can);
+  namingRefusals(entry, setup, [&] { return adaptScene(can, scene, setup.run.mayDiffer); });
+}
+
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
   const Capabilities can = engine.capabilities();
-  try {
+  return namingRefusals(entry, setup, [&] {
     const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
     Realised realised = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
     realised.engine = entry.name;
@@ -112,10 +145,7 @@ Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
     realised.deviations.insert(realised.deviations.begin(), adapted.deviations.begin(),
                                adapted.deviations.end());
     return realised;
-  } catch (const UnsupportedScene& refusal) {
-    throw UnsupportedScene(
-        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
-  }
+  });
 }
 
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,

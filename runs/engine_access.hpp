@@ -10,10 +10,16 @@
 
 namespace crossgrain {
 
-/// Engines by the names given on the command line, in that order; "all" is every engine that is not
-/// a mirror.
+/// Engines by the names given on the command line, in that order; "all" is every installed engine
+/// that is not a mirror.
 /// @throws BadInput naming the unknown engine and the nearest known one, or one named twice
 std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names);
+
+/// Whether the user asked for this engine by its own name, so that a refusal is theirs to resolve.
+bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry);
+
+/// @throws BadInput for a section [engines.NAME] of an engine that does not exist
+void checkEngineSections(const Case& setup);
 
 /// The mirrors in the registry whose peer is among `engines`.
 std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines);
@@ -25,6 +31,11 @@ std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesys
 /// The settings of one engine in a case. @throws BadInput for one that the engine does not have, or
 /// of another type or choice, naming the nearest
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can);
+
+/// Whether an engine can run the scene with the settings and liberties of the case.
+/// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a setting
+void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene);
 
 /// An engine that has loaded a scene.
 struct LoadedEngine {

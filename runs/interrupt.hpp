@@ -1,12 +1,13 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace crossgrain {
 
 /// The user pressed Ctrl-C (or sent SIGTERM); what was finished is on disk.
 struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted") {}
+  explicit Interrupted(const std::string& what = "interrupted") : std::runtime_error(what) {}
 };
 
 /// From now on SIGINT and SIGTERM only set a flag; a second SIGINT ends the program at once.

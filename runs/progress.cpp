@@ -25,6 +25,7 @@ void Progress::begin(const std::string& stage, std::vector<double> weights) {
   stage_ = stage;
   weights_ = std::move(weights);
   fractions_.assign(weights_.size(), 0.0);
+  finished_ = 0;
   running_.assign(weights_.size(), {});
   started_ = drawn_ = Clock::now();
   if (!quiet_ && !terminal_) fmt::print(stderr, "{}: {} to do\n", stage_, weights_.size());
@@ -41,10 +42,10 @@ void Progress::finish(std::size_t index, const std::string& line) {
   const std::scoped_lock lock(mutex_);
   fractions_[index] = 1.0;
   running_[index].clear();
+  ++finished_;
   if (quiet_) return;
   erase();
-  const auto done = std::ranges::count(fractions_, 1.0);
-  fmt::print(stderr, "[{}/{}] {}\n", done, fractions_.size(), line);
+  fmt::print(stderr, "[{}/{}] {}\n", finished_, fractions_.size(), line);
   drawn_ = {};
   draw();
 }

@@ -35,6 +35,7 @@ class Progress {
   std::mutex mutex_;
   std::string stage_;
   std::vector<double> weights_, fractions_;
+  std::size_t finished_ = 0;
   std::vector<std::string> running_;
   std::chrono::steady_clock::time_point started_, drawn_;
   bool lineOpen_ = false;

@@ -1,6 +1,9 @@
 #include "runs/run_store.hpp"
 
-#include "reports/files.hpp"
+#include <fmt/format.h>
+
+#include "cases/bad_input.hpp"
+#include "cases/files.hpp"
 #include "reports/schema.hpp"
 
 namespace crossgrain {
@@ -10,16 +13,22 @@ using nlohmann::json;
 
 RunStore::RunStore(fs::path out, bool resume) : out_(std::move(out)) {
   std::error_code ignored;
+  const fs::path marker = out_ / ".crossgrain";
+  if (fs::exists(out_, ignored) && !fs::is_empty(out_, ignored) && !fs::exists(marker, ignored) &&
+      fs::is_directory(out_, ignored))
+    throw BadInput(
+        fmt::format("--out {}: the folder is not empty and not of an earlier run; take a "
+                    "new one",
+                    out_.string()));
+  makeDirectory(out_);
+  writeFile(marker, "Made by crossgrain; a new run replaces runs/, scratch/ and snapshots/.\n");
   if (!resume) fs::remove_all(out_ / "runs", ignored);
   fs::remove_all(out_ / "scratch", ignored);
-  for (const char* folder : {"runs", "scratch", "snapshots"}) reports::makeDirectory(out_ / folder);
-  // Found out now rather than after the first run.
-  reports::writeFile(out_ / "runs" / ".writable", "");
-  fs::remove(out_ / "runs" / ".writable", ignored);
+  for (const char* folder : {"runs", "scratch", "snapshots"}) makeDirectory(out_ / folder);
 }
 
 std::optional<json> RunStore::find(const std::string& name, const std::string& key) const {
-  const auto text = reports::readFile(file(name));
+  const auto text = readFile(file(name));
   if (!text) return std::nullopt;
   const json stored = json::parse(*text, nullptr, /*allow_exceptions=*/false);
   if (!stored.is_object() || stored.value("key", "") != key) return std::nullopt;
@@ -27,7 +36,7 @@ std::optional<json> RunStore::find(const std::string& name, const std::string& k
 }
 
 void RunStore::keep(const std::string& name, const std::string& key, const json& run) const {
-  reports::writeFile(file(name), reports::toText({{"key", key}, {"run", run}}));
+  writeFile(file(name), reports::toText({{"key", key}, {"run", run}}));
 }
 
 fs::path RunStore::scratch(const std::string& name) const {

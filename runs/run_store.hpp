@@ -11,7 +11,8 @@ namespace crossgrain {
 class RunStore {
  public:
   /// Makes the folder. @param resume  keep what is there, else start afresh
-  /// @throws std::runtime_error naming the folder if it cannot be written to
+  /// @throws OutputError if it cannot be written to
+  /// @throws BadInput if it is not empty and not of an earlier run: nobody's files are deleted
   RunStore(std::filesystem::path out, bool resume);
 
   /// The finished run of that name, if it was made with the same key (everything it depends on).

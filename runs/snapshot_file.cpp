@@ -52,6 +52,7 @@ void SnapshotFile::close() {
     writeVectors(out, group + "/wall_position", now.wallPosition);
     if (now.contacts) writeContacts(out, group + "/contacts", *now.contacts);
   }
+  out.save();
 }
 
 }  // namespace crossgrain

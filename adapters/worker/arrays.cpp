@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace crossgrain {
 namespace {
@@ -55,7 +57,9 @@ nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
   out.write(reinterpret_cast<const char*>(bytes_.data()),
             static_cast<std::streamsize>(bytes_.size()));
   out.close();
-  if (!out) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
+  if (!out)
+    throw std::runtime_error(
+        fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));
   return list_;
 }
 

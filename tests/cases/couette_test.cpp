@@ -111,10 +111,10 @@ TEST(Couette, ABadStartNamesTheDisks) {
   };
   EXPECT_EQ(
       message(),
-      "my.h5: disks 3 and 7 overlap by 0.0064 m at the start, more than particles.max_overlap = "
-      "0.05 of the small radius allows (0.000185 m)");
+      "my.h5: disk 3 and disk 7 overlap by 0.0064 m at the start, more than particles.max_overlap "
+      "= 0.2 of the small radius allows (0.00074 m)");
   packing.disks.position[7] = packing.disks.position[3];
-  EXPECT_EQ(message(), "my.h5: disks 3 and 7 have the same centre");
+  EXPECT_EQ(message(), "my.h5: disk 3 and disk 7 have the same centre");
 }
 
 }  // namespace

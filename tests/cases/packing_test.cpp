@@ -53,6 +53,7 @@ TEST(Packing, AUsersFileNeedsRadiiAndPositionsOnly) {
     const std::vector<double> position = {0.0, 0.0, 5.0, 0.0};
     out.write("radius", std::vector<double>{1.0, 2.0});
     out.write("position", position.data(), 2, 2);
+    out.save();
   }
   const Packing packing = readPacking(file("user.h5"), kinds());
   EXPECT_EQ(packing.disks.mass, (std::vector<double>{3.0, 7.0}));  // by kind, from the case
@@ -66,6 +67,7 @@ TEST(Packing, BadFilesAreBadInput) {
     Hdf5File out = Hdf5File::create(file("short.h5"));
     out.write("radius", std::vector<double>{1.0, 2.0});
     out.write("position", std::vector<double>{0.0, 0.0});
+    out.save();
   }
   try {
     readPacking(file("short.h5"), kinds());
@@ -75,7 +77,7 @@ TEST(Packing, BadFilesAreBadInput) {
               std::string::npos);
   }
   std::ofstream(file("text.h5")) << "not HDF5";
-  EXPECT_THROW(readPacking(file("text.h5"), kinds()), std::runtime_error);
+  EXPECT_THROW(readPacking(file("text.h5"), kinds()), BadInput);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "reports/engines.hpp"
 #include "reports/figures.hpp"
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/pictures.hpp"
 #include "reports/strokes.hpp"

@@ -1,4 +1,4 @@
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

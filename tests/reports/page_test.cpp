@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -18,7 +18,7 @@ using nlohmann::json;
 struct Written {
   explicit Written(const json& results) {
     writeReport(results, folder.path());
-    page = reports::readFile(folder.path() / "report.html").value();
+    page = readFile(folder.path() / "report.html").value();
   }
   TemporaryFolder folder;
   std::string page;
@@ -153,7 +153,7 @@ TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {
         "profile_stress_rp", "profile_fabric_trace", "check_1", "series_wheel_torque",
         "series_outer_pressure", "series_coordination"})
     for (const char* kind : {".svg", ".pdf", ".gp", ".dat"}) {
-      const auto content = reports::readFile(plots / (std::string(name) + kind));
+      const auto content = readFile(plots / (std::string(name) + kind));
       ASSERT_TRUE(content.has_value()) << name << kind;
       EXPECT_GT(content->size(), 300u) << name << kind;
       const bool data = std::string(kind) == ".dat";
@@ -171,7 +171,7 @@ TEST(Report, IsTheSameWhenRebuilt) {
   const TemporaryFolder again;
   writeReport(readResults(dir), again.path());
   for (const char* file : {"results.json", "collisions.csv", "report.html"})
-    EXPECT_EQ(reports::readFile(again.path() / file), reports::readFile(dir / file)) << file;
+    EXPECT_EQ(readFile(again.path() / file), readFile(dir / file)) << file;
 }
 
 TEST(Report, StandsResultsWithAlmostNothingInThem) {
@@ -209,7 +209,7 @@ TEST(Report, WithoutGnuplotEverythingElseIsThereAndOneLineSaysSo) {
   }
   EXPECT_TRUE(message.starts_with("gnuplot cannot be started (No such file or directory)"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
-  const std::string page = reports::readFile(folder.path() / "report.html").value();
+  const std::string page = readFile(folder.path() / "report.html").value();
   EXPECT_TRUE(has(page, "<p class=\"warning\">gnuplot cannot be started"));
   EXPECT_TRUE(fs::exists(folder.path() / "results.json"));
   EXPECT_TRUE(fs::exists(folder.path() / "profiles.csv"));

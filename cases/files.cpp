@@ -1,4 +1,4 @@
-#include "reports/files.hpp"
+#include "cases/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,16 +7,15 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <system_error>
 
-namespace crossgrain::reports {
+namespace crossgrain {
 
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(),
-                                       std::generic_category().message(error)));
+  throw OutputError(fmt::format("{}: cannot be written: {}", path.string(),
+                                std::generic_category().message(error)));
 }
 
 /// @returns 0 or the errno of what went wrong
@@ -57,4 +56,4 @@ std::optional<std::string> readFile(const std::filesystem::path& file) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-}  // namespace crossgrain::reports
+}  // namespace crossgrain

@@ -1,0 +1,183 @@
+"""Commands that run nothing: engines, check, report, and the help of all."""
+
+import json
+import re
+import unittest
+
+from harness import (
+    BAD_INPUT,
+    COLLISION,
+    COUETTE,
+    FELL_SHORT,
+    HELD,
+    SystemTest,
+    settings,
+)
+
+EFFECTS = {
+    "normal_damping",
+    "friction",
+    "tangential_spring",
+    "tangential_damping",
+    "rotation",
+    "bottom_friction",
+    "bottom_spin_friction",
+    "gravity",
+    "moving_walls",
+}
+
+
+class Help(SystemTest):
+    def commands(self):
+        done = self.run_program("--help")
+        self.assert_status(done, HELD)
+        section = done.stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
+        return re.findall(r"(?m)^  (\S+) +\S", section)
+
+    def test_lists_the_commands_and_exit_statuses(self):
+        expected = {"engines", "check", "collide", "compare", "report"}
+        self.assertLessEqual(expected, set(self.commands()))
+        self.assertIn("Exit status: 0 ", self.run_program("--help").stdout)
+
+    def test_every_command_has_an_example(self):
+        for command in self.commands():
+            with self.subTest(command):
+                done = self.run_program(command, "--help")
+                self.assert_status(done, HELD)
+                self.assertEqual("", done.stderr)
+                self.assertRegex(done.stdout, rf"Example:\n  crossgrain {command}\b")
+
+    def test_internal_commands_are_not_listed(self):
+        self.assertNotIn("__serve", self.run_program("--help").stdout)
+
+    def test_version(self):
+        done = self.run_program("--version")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+\n$")
+
+
+class Engines(SystemTest):
+    def test_json(self):
+        done = self.run_program("engines", "--json")
+        self.assert_status(done, HELD)
+        engines = {engine["name"]: engine for engine in json.loads(done.stdout)}
+        self.assertLessEqual({"grain", "yade", "box2d-impulse", "box2d-penalty"}, set(engines))
+        self.assertEqual("yade", engines["grain-as-yade"]["mirrors"])
+        for name, engine in engines.items():
+            with self.subTest(name):
+                self.assertEqual(1, ("capabilities" in engine) + ("missing" in engine))
+                if "missing" in engine:
+                    continue
+                can = engine["capabilities"]
+                self.assertEqual(EFFECTS, set(can["effects"]))
+                self.assertLessEqual(set(can["effects"].values()), {"optional", "always", "never"})
+                for setting in can["settings"]:
+                    self.assertLessEqual({"name", "unit", "default", "doc"}, set(setting))
+
+        def effects(name):
+            return engines[name]["capabilities"]["effects"]
+
+        self.assertEqual({"optional"}, set(effects("grain").values()))
+        self.assertEqual("never", effects("box2d-impulse")["bottom_friction"])
+
+    def test_text(self):
+        done = self.run_program("engines")
+        self.assert_status(done, HELD)
+        for engine in ("grain", "yade", "box2d-impulse", "box2d-penalty"):
+            self.assertRegex(done.stdout, rf"(?m)^{engine} ")
+        for effect in EFFECTS:
+            self.assertRegex(done.stdout, rf"(?m)^  {effect} +(yes|always|no)$")
+
+
+class Check(SystemTest):
+    def check(self, case, *arguments, engines="grain,box2d-impulse,box2d-penalty"):
+        return self.run_program("check", case, "--engines", engines, *arguments)
+
+    def test_couette(self):
+        done = self.check(COUETTE)
+        self.assert_status(done, HELD)
+        # 244 disks; rings of ⌊2π·30/2.5⌋ = 75 and ⌊2π·75/2.5⌋ = 188 wall disks.
+        self.assertIn("quick: 244 disks, 263 wall disks, dt 4e-05 s", done.stdout)
+        # 1.25 rotations of 2π s in steps of 4e-5 s.
+        self.assertRegex(done.stdout, r"per packing: 196350 steps[\s\S]*grain +can run it")
+        self.assertRegex(done.stdout, r"differs: has \w+")
+
+    def test_collision_with_variants(self):
+        done = self.check(COLLISION)
+        self.assert_status(done, HELD)
+        for law in ("coulomb", "viscous", "spring", "spring_dashpot"):
+            for tension in ("tension", "cut"):
+                self.assertRegex(done.stdout, rf"(?m)^{law}-{tension}: ")
+
+    def test_refusal(self):
+        done = self.check(COUETTE, *settings(run__may_differ=["rounding"]))
+        self.assert_status(done, FELL_SHORT)
+        self.assertRegex(done.stdout, r"(?m)^ *grain +can run it")
+        self.assertRegex(done.stdout, r"(?m)^ *box2d-impulse +cannot: .*may_differ")
+
+    def test_runs_nothing(self):
+        self.assert_status(self.check(COUETTE), HELD)
+        self.assertEqual([], list(self.folder.iterdir()))
+
+    def test_unknown_engine(self):
+        done = self.check(COUETTE, engines="grian")
+        self.assert_status(done, BAD_INPUT)
+        self.assert_one_error(done, BAD_INPUT, "'grian'", "did you mean grain?")
+
+
+class Report(SystemTest):
+    def rebuild_gives(self, *tables):
+        """`report` makes the same files again from results.json alone."""
+        names = ["results.json", *tables]
+        before = {name: (self.out / name).read_bytes() for name in names}
+        for name in [*tables, "report.html"]:
+            (self.out / name).unlink()
+        done = self.run_program("report", self.out)
+        self.assert_status(done, HELD)
+        self.assertIn(str(self.out / "report.html"), done.stdout)
+        self.assertEqual(before, {name: (self.out / name).read_bytes() for name in names})
+        self.assertGreater((self.out / "report.html").stat().st_size, 1000)
+
+    def test_of_compare(self):
+        done = self.compare(
+            "--quiet", *settings(averaging__rotations=0.02), engines="grain,box2d-penalty"
+        )
+        self.assert_status(done, HELD, FELL_SHORT)
+        self.rebuild_gives("profiles.csv", "series.csv", "agreement.csv")
+
+    def test_of_collide(self):
+        done = self.run_program(
+            "collide", COLLISION, "--engines", "grain", "--out", self.out, "--quiet",
+            *settings(collision__steps_per_contact=50, collision__psi=[0.5, 2.0]),
+        )  # fmt: skip
+        self.assert_status(done, HELD, FELL_SHORT)
+        self.rebuild_gives("collisions.csv")
+
+    def test_folder_without_results(self):
+        self.assert_one_line(
+            self.run_program("report", self.folder), BAD_INPUT, str(self.folder), "results.json"
+        )
+
+    def test_missing_folder(self):
+        self.assert_one_line(self.run_program("report", self.folder / "gone"), BAD_INPUT, "gone")
+
+    def test_results_that_are_none(self):
+        for name, text, told in (
+            ("not JSON", "{", "JSON"),
+            ("another schema", '{"schema": "other-1", "kind": "compare"}', '"other-1"'),
+            ("no object", "[1, 2]", "schema"),
+            ("another kind", '{"schema": "crossgrain-results-1", "kind": "guess"}', '"guess"'),
+        ):
+            with self.subTest(name):
+                self.write("results.json", text)
+                done = self.run_program("report", self.folder)
+                self.assert_one_line(done, BAD_INPUT, "results.json", told)
+
+    def test_all_folders_are_looked_at_before_any_is_rebuilt(self):
+        self.write("results.json", '{"schema": "crossgrain-results-1", "kind": "compare"}')
+        done = self.run_program("report", self.folder, self.folder / "gone")
+        self.assert_one_line(done, BAD_INPUT, "gone")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,233 @@
+"""A worker dies or hangs, the user interrupts, or crossgrain itself is killed: what was finished stays,
+nothing is left running, and --resume goes on from there."""
+
+import html
+import os
+import re
+import signal
+import time
+import unittest
+
+from harness import (
+    COLLISION,
+    ENGINE_FAILED,
+    FELL_SHORT,
+    HELD,
+    INTERRUPTED,
+    SystemTest,
+    read_proc,
+    settings,
+    wait_for,
+)
+
+SLOW = "box2d-penalty"
+BOTH = f"grain,{SLOW}"
+
+
+class FailureTest(SystemTest):
+    def resume(self, *arguments):
+        return self.compare("--resume", *arguments, engines=BOTH)
+
+    def assert_resumes(self, finished, *arguments):
+        """--resume completes all four runs without touching those that were finished."""
+        done = self.resume(*arguments)
+        self.assert_status(done, HELD, FELL_SHORT)
+        self.assertEqual([], done.error_lines())
+        now = self.finished_runs()
+        self.assertEqual(4, len(now))
+        self.assertEqual(finished, {name: now[name] for name in finished})
+        self.assertEqual(
+            len(finished), done.stderr.count("finished in an earlier run"), str(done)
+        )
+        self.assertEqual({"finished"}, {run["status"] for run in self.results()["runs"]})
+
+    def assert_others_finished(self):
+        """One of the slow engine's runs failed, the other three are on disk. Returns them."""
+        finished = self.finished_runs()
+        self.assertEqual(3, len(finished), finished)
+        self.assertLessEqual({"grain-p0", "grain-p1"}, set(finished))
+        return finished
+
+    def assert_report_tells(self, line):
+        """report.html shows the failure with its reason."""
+        reason = line.removeprefix("crossgrain: ")
+        page = html.unescape((self.out / "report.html").read_text(encoding="utf-8"))
+        self.assertIn(reason, page)
+        failed = [run for run in self.results()["runs"] if run["status"] == "failed"]
+        self.assertEqual([(SLOW, reason)], [(run["engine"], run["reason"]) for run in failed])
+
+    def assert_nothing_runs(self, running, seconds=3):
+        wait_for(lambda: not running.processes(), seconds, "all processes to end")
+
+
+class WorkerDies(FailureTest):
+    def test_killed_half_way(self):
+        running = self.start_compare(engines=BOTH)
+        os.kill(running.worker_at_work(SLOW), signal.SIGKILL)
+        done = self.check_no_crash(running.end())
+        line = self.assert_one_error(done, ENGINE_FAILED, SLOW, "quick at t = ", "signal 9")
+        self.assertGreater(float(re.search(r"at t = (\S+) s", line)[1]), 0.0)
+        finished = self.assert_others_finished()
+        self.assert_report_tells(line)
+        self.assert_nothing_runs(running)
+        self.assert_resumes(finished)
+
+    def test_killed_before_any_step(self):
+        """Whatever the worker was doing when it died, it is one line."""
+        running = self.start_compare(engines=BOTH)
+        os.kill(running.worker_at_work(SLOW, cpu_seconds=0.0), signal.SIGKILL)
+        done = self.check_no_crash(running.end())
+        line = self.assert_one_error(done, ENGINE_FAILED, SLOW, "signal 9")
+        self.assert_others_finished()
+        self.assert_report_tells(line)
+
+    def test_hangs(self):
+        running = self.start_compare("--set", "run.timeout=2", engines=BOTH)
+        os.kill(running.worker_at_work(SLOW), signal.SIGSTOP)
+        stopped = time.monotonic()
+        done = self.check_no_crash(running.end())
+        self.assertLess(time.monotonic() - stopped, 10)
+        line = self.assert_one_error(
+            done, ENGINE_FAILED, SLOW, "quick at t = ", "no answer within 2 s"
+        )
+        finished = self.assert_others_finished()
+        self.assert_report_tells(line)
+        self.assert_nothing_runs(running)
+        self.assert_resumes(finished, "--set", "run.timeout=2")
+
+
+class CollideWorkerDies(FailureTest):
+    def collide(self):
+        running = self.start(
+            "collide", COLLISION, "--engines", BOTH, "--out", self.out,
+            *settings(
+                run__mirrors="false",
+                collision__psi="{ from = 0.0, to = 4.0, count = 100 }",
+                collision__steps_per_contact=1000,
+            ),
+        )  # fmt: skip
+        return running, running.worker_at_work(SLOW, stage="collisions:")
+
+    def test_killed(self):
+        running, worker = self.collide()
+        os.kill(worker, signal.SIGKILL)
+        done = self.check_no_crash(running.end())
+        line = self.assert_one_error(done, ENGINE_FAILED, SLOW, "figure-4-3", "signal 9")
+        curves = [c for variant in self.results()["variants"] for c in variant["curves"]]
+        failed = [curve for curve in curves if curve["status"] == "failed"]
+        # Of 2 engines × 8 variants one sweep failed; a new worker takes the next one.
+        self.assertEqual(16, len(curves))
+        self.assertEqual([SLOW], [curve["engine"] for curve in failed])
+        page = html.unescape((self.out / "report.html").read_text(encoding="utf-8"))
+        self.assertIn(line.removeprefix("crossgrain: "), page)
+
+    def test_interrupted(self):
+        running, _ = self.collide()
+        os.kill(running.process.pid, signal.SIGINT)
+        done = self.check_no_crash(running.end(10))
+        self.assert_one_error(done, INTERRUPTED, "interrupted")
+        self.assertNotIn("--resume", done.stderr, "collide keeps no runs that it could take up")
+        self.assert_nothing_runs(running)
+
+
+class UserInterrupts(FailureTest):
+    def interrupted(self, signal_number):
+        """Interrupted when one engine's runs are finished and the other's are under way."""
+        slow = [*settings(averaging__rotations=0.3), "--jobs=2"]
+        # Slow runs start first; one of them is held up for as long as grain's runs take.
+        running = self.start_compare(*slow, engines=BOTH)
+        held = running.worker_at_work(SLOW)
+        os.kill(held, signal.SIGSTOP)
+        wait_for(
+            lambda: {"grain-p0", "grain-p1"} <= set(self.finished_runs()), 60, "runs to finish"
+        )
+        os.kill(held, signal.SIGCONT)
+        finished = self.finished_runs()
+        os.kill(running.process.pid, signal_number)
+        sent = time.monotonic()
+        done = self.check_no_crash(running.end())
+        self.assertLess(time.monotonic() - sent, 5)
+        self.assert_one_error(done, INTERRUPTED, "interrupted", "--resume")
+        self.assertEqual(finished, self.finished_runs())
+        self.assert_nothing_runs(running)
+        return finished, slow
+
+    def test_interrupt(self):
+        finished, arguments = self.interrupted(signal.SIGINT)
+        self.assert_resumes(finished, *arguments)
+
+    def test_terminate(self):
+        self.interrupted(signal.SIGTERM)
+
+    def test_interrupt_while_packings_are_prepared(self):
+        running = self.start_compare(
+            *settings(preparation__rotations=3.0, preparation__seed=77), engines=BOTH,
+            env={"CROSSGRAIN_CACHE": str(self.folder / "cache")},
+        )  # fmt: skip
+        wait_for(lambda: "preparing packings" in running.stderr(), 30, "the preparation to begin")
+        os.kill(running.process.pid, signal.SIGINT)
+        done = self.check_no_crash(running.end(10))
+        self.assert_one_error(done, INTERRUPTED, "interrupted")
+        self.assert_nothing_runs(running)
+
+    def test_interrupt_at_once(self):
+        """Ctrl-C at any moment of the first half second."""
+        for delay in (0.0, 0.02, 0.1, 0.5):
+            with self.subTest(delay=delay):
+                running = self.start_compare(*settings(averaging__rotations=0.5), engines=BOTH)
+                # Before main() has begun the kernel's default is to end the program.
+                caught = re.compile(rb"SigCgt:\s*[0-9a-f]*[2367abef]\n")  # SIGINT is bit 1
+                pid = running.process.pid
+                wait_for(lambda: caught.search(read_proc(pid, "status")), 10, "main() to begin")
+                time.sleep(delay)
+                os.kill(pid, signal.SIGINT)
+                done = self.check_no_crash(running.end(10))
+                self.assert_one_error(done, INTERRUPTED, "interrupted")
+                self.assert_nothing_runs(running)
+
+
+class Resume(FailureTest):
+    def test_another_case_is_run_afresh(self):
+        short = settings(averaging__rotations=0.02)
+        self.assert_status(self.compare(*short), HELD)
+        before = self.finished_runs()
+        done = self.compare("--resume", *short, "--set", "averaging.rings=5")
+        self.assert_status(done, HELD)
+        self.assertNotIn("earlier run", done.stderr)
+        now = self.finished_runs()
+        self.assertEqual(set(before), set(now))
+        for name, changed in before.items():
+            self.assertGreater(now[name], changed)
+
+    def test_damaged_run_file_is_run_again(self):
+        short = settings(averaging__rotations=0.02)
+        self.assert_status(self.compare(*short), HELD)
+        damaged = self.out / "runs/grain-p0.json"
+        profiles = (self.out / "profiles.csv").read_bytes()
+        os.truncate(damaged, damaged.stat().st_size // 2)
+        done = self.compare("--resume", *short)
+        self.assert_status(done, HELD)
+        self.assertEqual(1, done.stderr.count("finished in an earlier run"), str(done))
+        self.assertEqual(profiles, (self.out / "profiles.csv").read_bytes())
+
+
+class CrossgrainDies(FailureTest):
+    def test_no_worker_outlives_it(self):
+        running = self.start_compare(engines=BOTH)
+        running.worker_at_work(SLOW)
+        self.assertGreater(len(running.processes()), 0)
+        running.process.kill()
+        running.process.wait()
+        self.assert_nothing_runs(running, 3)
+
+    def test_resume_after_that(self):
+        running = self.start_compare("--jobs=1", engines=BOTH)
+        wait_for(self.finished_runs, 60, "a run to finish")
+        running.worker_at_work(SLOW, cpu_seconds=0.05)
+        running.process.kill()
+        running.process.wait()
+        self.assert_resumes(self.finished_runs())
+
+
+if __name__ == "__main__":
+    unittest.main()

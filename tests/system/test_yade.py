@@ -1,0 +1,81 @@
+"""An engine that is a program of its own, in another language: YADE, where it is installed."""
+
+import os
+import shutil
+import signal
+import unittest
+
+from harness import COLLISION, FELL_SHORT, HELD, INTERRUPTED, SystemTest, settings, wait_for
+
+
+@unittest.skipUnless(shutil.which("yade"), "yade is not installed (Debian: package yade)")
+class Yade(SystemTest):
+    def test_compare(self):
+        short = settings(
+            run__mirrors="true",
+            preparation__packings=1,
+            averaging__settle_rotations=0.0,
+            averaging__rotations=0.01,
+            averaging__snapshots_per_rotation=400,
+        )
+        done = self.compare(*short, engines="grain,yade")
+        self.assert_status(done, HELD)
+        results = self.results()
+        self.assertEqual(
+            {("grain", "finished"), ("yade", "finished"), ("grain-as-yade", "finished")},
+            {(run["engine"], run["status"]) for run in results["runs"]},
+        )
+        self.assertEqual(
+            {"peer", "mirror_model", "mirror_implementation"},
+            {row["kind"] for row in results["agreement"]},
+        )
+        runs = {run["engine"]: run for run in results["runs"]}
+        # The case allows these; they are noted with the figures of the engine that makes use of it.
+        noted = {deviation["name"] for deviation in runs["yade"]["realised"]["deviations"]}
+        self.assertLessEqual({"tension", "bottom_friction"}, noted)
+        # The first steps of one packing: the mirror does what YADE does.
+        first = {name: run["series"]["kinetic_energy"][0] for name, run in runs.items()}
+        self.assertAlmostEqual(1.0, first["yade"] / first["grain-as-yade"], delta=0.02)
+
+    def test_collide(self):
+        done = self.run_program(
+            "collide", COLLISION, "--engines", "yade", "--out", self.out, "--quiet",
+            *settings(
+                law__tangential="spring_dashpot",
+                collision__psi=[0.5, 2.0],
+                collision__steps_per_contact=1000,
+            ),
+        )  # fmt: skip
+        self.assert_status(done, HELD, FELL_SHORT)  # its dashpot is outside the Coulomb test
+        self.assertEqual("", done.stderr)
+        for variant in self.results()["variants"]:
+            if not variant["variant"].endswith("-cut"):  # YADE always cuts tension
+                continue
+            curves = {curve["engine"]: curve["points"] for curve in variant["curves"]}
+            self.assertEqual(2, len(curves["yade"]))
+            for point, mirrored in zip(curves["yade"], curves["grain-as-yade"], strict=True):
+                self.assertAlmostEqual(0.3408, point["e_n"], delta=0.002)
+                self.assertAlmostEqual(mirrored["psi_f"], point["psi_f"], delta=1e-6)
+
+    def at_work(self):
+        running = self.start_compare(*settings(averaging__rotations=0.5), engines="yade")
+        wait_for(lambda: "running engines" in running.stderr(), 60, "the runs to begin")
+        wait_for(lambda: len(running.processes()) >= 2, 60, "YADE to start")
+        return running
+
+    def test_interrupt(self):
+        running = self.at_work()
+        os.kill(running.process.pid, signal.SIGINT)
+        done = self.check_no_crash(running.end(30))
+        self.assert_one_error(done, INTERRUPTED, "interrupted")
+        wait_for(lambda: not running.processes(), 3, "YADE to end")
+
+    def test_crossgrain_killed(self):
+        running = self.at_work()
+        running.process.kill()
+        running.process.wait()
+        wait_for(lambda: not running.processes(), 3, "YADE to end")
+
+
+if __name__ == "__main__":
+    unittest.main()
