@@ -85,21 +85,53 @@ std::vector<Numbers> fieldByRing(const std::vector<const json*>& runs, const jso
   return rings;
 }
 
-double marginIn(const Margin& margin, const Numbers& reference) {
-  if (!margin.relative) return margin.value;
+/// One ring as it is put to the test. A relative margin is one on the ratio of the two engines:
+/// where every packing has a positive value it is tested on logarithms, whose paired differences
+/// scatter far less than those of the values, for a packing that is stiffer for one engine is so
+/// for all.
+struct TestedRing {
+  PairedSample sample;
+  bool logarithmic = false;
+  double reference = 0.0;  ///< mean over packings, in the field's unit
+};
+
+TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numbers& other) {
   const auto mean = ensembleMean(reference);
-  return mean ? margin.value * std::abs(mean->mean) : 0.0;
+  TestedRing ring;
+  ring.reference = mean ? std::abs(mean->mean) : 0.0;
+  ring.sample = {reference, other, margin.relative ? margin.value * ring.reference : margin.value};
+  const auto positive = [](const std::optional<double>& value) { return !value || *value > 0.0; };
+  ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, positive) &&
+                     std::ranges::all_of(other, positive);
+  if (!ring.logarithmic) return ring;
+  for (auto* values : {&ring.sample.reference, &ring.sample.other})
+    for (auto& value : *values)
+      if (value) value = std::log(*value);
+  ring.sample.margin = std::log1p(margin.value);
+  return ring;
 }
 
-json ringJson(std::size_t ring, const PairedComparison& result, double margin) {
-  return {{"ring", ring},
-          {"difference", result.difference},
-          {"stderr", toJson(result.standardError)},
-          {"low", toJson(result.low)},
-          {"high", toJson(result.high)},
-          {"margin", margin},
-          {"packings", result.packings},
-          {"verdict", toString(result.verdict)}};
+/// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
+json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison& found,
+              const Margin& margin) {
+  const auto inUnit = [&](double value) {
+    return ring.logarithmic ? ring.reference * std::expm1(value) : value;
+  };
+  const auto bound = [&](const std::optional<double>& value) {
+    return value ? json(inUnit(*value)) : json(nullptr);
+  };
+  json error = toJson(found.standardError);
+  if (ring.logarithmic && found.standardError)
+    error = ring.reference * std::exp(found.difference) * *found.standardError;
+  return {{"ring", index},
+          {"difference", inUnit(found.difference)},
+          {"stderr", error},
+          {"low", bound(found.low)},
+          {"high", bound(found.high)},
+          {"margin", margin.relative ? margin.value * ring.reference : margin.value},
+          {"scale", ring.logarithmic ? "logarithmic" : "linear"},
+          {"packings", found.packings},
+          {"verdict", toString(found.verdict)}};
 }
 
 json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair) {
@@ -117,16 +149,18 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
     std::size_t first, rings;
   };
   std::vector<Field> fields;
-  std::vector<PairedSample> family;
+  std::vector<TestedRing> tested;
   for (const auto& [name, margin] : setup.averaging.margins) {
     const auto ours = fieldByRing(reference, method, name, packings);
     const auto theirs = fieldByRing(other, method, name, packings);
     const std::size_t rings = std::min(ours.size(), theirs.size());
     if (rings == 0) continue;
-    fields.push_back({name, &margin, family.size(), rings});
+    fields.push_back({name, &margin, tested.size(), rings});
     for (std::size_t ring = 0; ring < rings; ++ring)
-      family.push_back({ours[ring], theirs[ring], marginIn(margin, ours[ring])});
+      tested.push_back(testedRing(margin, ours[ring], theirs[ring]));
   }
+  std::vector<PairedSample> family;
+  for (const TestedRing& ring : tested) family.push_back(ring.sample);
   const auto results = comparePaired(family, setup.averaging.confidence);
 
   json table = json::array();
@@ -136,7 +170,7 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
     json rows = json::array();
     for (std::size_t ring = 0; ring < field.rings; ++ring)
       if (rings[ring])
-        rows.push_back(ringJson(ring, *rings[ring], family[field.first + ring].margin));
+        rows.push_back(ringJson(ring, tested[field.first + ring], *rings[ring], *field.margin));
     table.push_back(
         {{"a", pair.reference},
          {"b", pair.other},

@@ -1,0 +1,121 @@
+#include "runs/couette_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "averaging/rings.hpp"
+#include "runs/couette_run.hpp"
+#include "runs/velocity_notes.hpp"
+
+namespace {
+
+using namespace crossgrain;
+using nlohmann::json;
+
+Case cell() {
+  Case setup;
+  setup.cell = {0.03, 0.075, 1.25e-3, 2.5e-3, 6e-3, 1.0};
+  setup.particles.smallRadius = 3.7e-3;
+  setup.particles.smallMass = setup.particles.largeMass = 0.275e-3;
+  setup.averaging.rings = 6;
+  setup.law.kn = 352.1;
+  return setup;
+}
+
+Profile profile(const std::string& field, const std::function<double(double r)>& value) {
+  const Rings rings = ringsOf(cell());
+  Profile p;
+  p.method = "slicing";
+  p.field = field;
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    p.mean.emplace_back(value(rings.centre(ring)));
+    p.standardError.emplace_back(0.01 * std::abs(value(rings.centre(ring))));
+  }
+  return p;
+}
+
+TEST(CouetteSummary, TorqueBalanceOfAnExactStressFieldIsOne) {
+  // σ_φr = T/(2π r² h) carries the torque T through every ring.
+  const double torque = 0.003, h = 6e-3;
+  const std::vector<Profile> profiles = {profile(
+      "stress_pr", [&](double r) { return torque / (2.0 * std::numbers::pi * r * r * h); })};
+  json series;
+  series["wheel_torque"] = std::vector<double>(50, torque);
+  series["outer_pressure"] = json::array();
+  const json checks = couetteChecks(cell(), profiles, series);
+  ASSERT_EQ(checks.size(), 1u);
+  for (std::size_t ring = 0; ring < 6; ++ring) {
+    EXPECT_NEAR(checks[0]["value"][ring].get<double>(), torque, 1e-15);
+    EXPECT_NEAR(checks[0]["reference"][ring].get<double>(), torque, 1e-15);
+  }
+}
+
+TEST(CouetteSummary, ExponentOfAnExactPowerLawIsFound) {
+  const std::vector<Profile> profiles = {
+      profile("stress_rp", [](double r) { return 1e-2 / (r * r); })};
+  const json fits = couetteFits(cell(), profiles);
+  ASSERT_EQ(fits[0]["name"], "stress_rp_exponent");
+  EXPECT_NEAR(fits[0]["value"].get<double>(), -2.0, 1e-6);
+  EXPECT_EQ(fits[0]["expected"], -2.0);
+}
+
+TEST(CouetteSummary, HeadNumbersAreThoseOfTheEnginesOwnStiffness) {
+  const std::vector<Profile> profiles = {profile("stress_rr", [](double) { return 200.0; }),
+                                         profile("stress_pp", [](double) { return 200.0; }),
+                                         profile("stress_rp", [](double) { return 50.0; })};
+  json series;
+  for (const char* name : {"mean_overlap", "max_overlap", "sliding_fraction", "coordination"})
+    series[name] = {1e-5, 3e-5};
+  Realised realised;
+  realised.dt = 1e-5;
+  realised.pairs.push_back({"pair", 1000.0, 0, 0, 0, 0, 0, 0});
+  std::map<std::string, json> head;
+  for (const json& row : headNumbers(cell(), profiles, series, realised))
+    head[row["name"]] = row["value"];
+  EXPECT_DOUBLE_EQ(head["kn_over_p"].get<double>(), 1000.0 / (200.0 * 6e-3));
+  EXPECT_DOUBLE_EQ(head["stress_ratio_wheel"].get<double>(), 0.25);
+  EXPECT_DOUBLE_EQ(head["max_overlap_over_d"].get<double>(), 3e-5 / 7.4e-3);
+  realised.pairs[0].kn = 0.0;  // an engine without springs has no such number
+  for (const json& row : headNumbers(cell(), profiles, series, realised))
+    head[row["name"]] = row["value"];
+  EXPECT_TRUE(head["kn_over_p"].is_null());
+}
+
+json velocityRun(const std::string& engine, int packing, double velocity) {
+  return {{"engine", engine},
+          {"packing", packing},
+          {"status", "finished"},
+          {"profiles",
+           {{{"field", "azimuthal_velocity"},
+             {"method", "slicing"},
+             {"mean", {velocity, velocity, velocity}}}}}};
+}
+
+TEST(VelocityNotes, SayWhetherTheMirrorExplainsADifference) {
+  json results;
+  results["averaging"]["method"] = "slicing";
+  results["engines"] = {{{"name", "ours"}, {"mirrors", ""}},
+                        {{"name", "peer"}, {"mirrors", ""}},
+                        {{"name", "mirror"}, {"mirrors", "peer"}}};
+  results["runs"] = json::array();
+  for (const int packing : {0, 1, 2, 3}) {
+    const double scatter = 1e-4 * packing;
+    results["runs"].push_back(velocityRun("ours", packing, 1.0 + scatter));
+    results["runs"].push_back(velocityRun("peer", packing, 1.4 - scatter));
+    results["runs"].push_back(velocityRun("mirror", packing, 1.39 + 2.0 * scatter));
+  }
+  json notes = velocityNotes(results);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].get<std::string>().find("the model makes the difference"), std::string::npos);
+
+  for (json& run : results["runs"])
+    if (run["engine"] == "mirror")
+      run["profiles"][0]["mean"] = {1.0, 1.0, 1.0};  // the mirror stays with the reference
+  notes = velocityNotes(results);
+  EXPECT_NE(notes[0].get<std::string>().find("is not what makes the difference"),
+            std::string::npos);
+}
+
+}  // namespace
