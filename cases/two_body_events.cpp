@@ -1,0 +1,141 @@
+#include "cases/two_body_problem.hpp"
+
+/// When a phase ends, and which one comes next.
+namespace crossgrain {
+
+namespace {
+
+double sign(double value) {
+  return (value > 0.0) - (value < 0.0);
+}
+
+}  // namespace
+
+/// d v_t/dt per f_t [1/kg].
+double TwoBodyProblem::compliance(const Kinematics& k) const {
+  return inverseMass_ + k.leverI * k.leverI / pair_.inertia[0] +
+         k.leverJ * k.leverJ / pair_.inertia[1];
+}
+
+/// The f_t that makes dv_t/dt = 0. Without f_t, dv_t/dt = −θ' v_n − l_i' ω_i − l_j' ω_j, where θ'
+/// is the rate at which the normal turns and l' = leverShare · v_n.
+double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
+  const double drift = -k.turning * k.normalVelocity -
+                       k.normalVelocity * (leverShare(1) * s.spinI + leverShare(0) * s.spinJ);
+  return -drift / compliance(k);
+}
+
+/// d bound/dt, from df_n/dt = −k_n v_n − γ_n dv_n/dt and dv_n/dt = a·n + θ'² |x|.
+double TwoBodyProblem::boundRate(const State& s, const Kinematics& k) const {
+  const State rate = derivative(s);
+  const double sideways = k.turning * k.distance;
+  const double acceleration = rate.vx * k.nx + rate.vy * k.ny + k.turning * sideways;
+  return bound(-law_.kn * k.normalVelocity - law_.gn * acceleration);
+}
+
+/// ξ that the law leaves behind while it slips.
+double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
+  const double force = bound(normalForce(k)) * phase_.side;
+  const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
+  return -(springOnly ? force + law_.gt * k.tangentialVelocity : force) / law_.kt;
+}
+
+/// > 0 as long as the step after a slipping one slips again, in the limit of small steps: the force
+/// tested with the spring just reset exceeds the bound at once, or, where it equals the bound,
+/// grows faster than the bound. A law that stretches its spring only after a sticking step
+/// (SpringUpdate::after) does not see v_t in the step after a slip: it slips on while the bound
+/// falls, also against a v_t that would relax the spring, and where the bound rises it sticks and
+/// slips in turn, one stretch for two steps of the bound.
+double TwoBodyProblem::slipGuard(const State& s, const Kinematics& k) const {
+  const bool outside = law_.conventions.dashpot == Dashpot::outside;
+  const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
+  const double damping = law_.gt * k.tangentialVelocity * phase_.side;
+  if (law_.gt > 0.0 && outside == springOnly) return outside ? damping : -damping;
+
+  double testedRate = -law_.kt * k.tangentialVelocity * phase_.side;
+  if (law_.conventions.springUpdate == SpringUpdate::after)
+    testedRate = std::max(0.5 * testedRate, 0.0);
+  if (!outside) {
+    const double sticking = bound(normalForce(k)) * phase_.side;
+    testedRate -= law_.gt * compliance(k) * (sticking - holdingForce(s, k)) * phase_.side;
+  }
+  return testedRate - boundRate(s, k);
+}
+
+double TwoBodyProblem::tangentialGuard(const State& s) const {
+  const Kinematics k = kinematics(s);
+  const double limit = bound(normalForce(k));
+  switch (phase_.tangential) {
+    case Phase::Tangential::none:
+      return 1.0;
+    case Phase::Tangential::damped:
+      return limit - law_.gt * std::abs(k.tangentialVelocity);
+    case Phase::Tangential::stick:
+      return limit - std::abs(testedForce(k, s.spring));
+    case Phase::Tangential::hold:
+      return limit - std::abs(holdingForce(s, k));
+    case Phase::Tangential::slip:
+      break;
+  }
+  const double opposing = -phase_.side * k.tangentialVelocity;
+  if (law_.tangential == TangentialLaw::coulomb || limit < 0.0) return opposing;
+  if (law_.tangential == TangentialLaw::viscous) return law_.gt * opposing - limit;
+  return slipGuard(s, k);
+}
+
+/// The phase lasts while this is > 0.
+double TwoBodyProblem::firstGuard(const State& s) const {
+  const Kinematics k = kinematics(s);
+  double guard = std::min(k.overlap, tangentialGuard(s));
+  if (law_.gn > 0.0) guard = std::min(guard, phase_.compressive ? trialNormal(k) : -trialNormal(k));
+  return guard;
+}
+
+/// The phase that holds right after `s`, an event or the start; resets the spring where the law
+/// does.
+void TwoBodyProblem::choosePhase(State& s) {
+  const Kinematics k = kinematics(s);
+  phase_.compressive = law_.gn == 0.0 || trialNormal(k) > 0.0;
+  const bool tension = !phase_.compressive;
+  const bool noBound = tension && (law_.conventions.tension == Tension::cut ||
+                                   law_.conventions.coulombBound == CoulombBound::compression);
+  if (law_.tangential == TangentialLaw::none || noBound) {
+    phase_.tangential = Phase::Tangential::none;
+    return;
+  }
+
+  const double slip = k.tangentialVelocity;
+  const double limit = bound(normalForce(k));
+  const bool still =
+      std::abs(slip) < 1e-13 * (std::abs(k.normalVelocity) + k.leverI * std::abs(s.spinI));
+  if (law_.tangential == TangentialLaw::coulomb && still) {
+    const double hold = holdingForce(s, k);
+    const bool holds = std::abs(hold) <= limit;
+    phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;
+    phase_.side = sign(hold);
+  } else if (law_.tangential == TangentialLaw::viscous && law_.gt * std::abs(slip) <= limit) {
+    phase_.tangential = Phase::Tangential::damped;
+  } else if (law_.tangential == TangentialLaw::coulomb ||
+             law_.tangential == TangentialLaw::viscous || limit < 0.0) {
+    phase_.tangential = Phase::Tangential::slip;
+    phase_.side = -sign(slip);
+  } else {
+    chooseSpringPhase(s, k);
+  }
+}
+
+void TwoBodyProblem::chooseSpringPhase(State& s, const Kinematics& k) {
+  const double limit = bound(normalForce(k));
+  if (phase_.tangential == Phase::Tangential::slip) s.spring = slippedSpring(k);
+  phase_.tangential = Phase::Tangential::stick;
+  const double tested = testedForce(k, s.spring);
+  if (std::abs(tested) < limit) return;
+  phase_.tangential = Phase::Tangential::slip;
+  phase_.side = sign(tested);
+  if (slipGuard(s, k) > 0.0) return;
+  // One step slips, the next sticks again with the spring reset.
+  s.spring = slippedSpring(k);
+  phase_.tangential = Phase::Tangential::stick;
+}
+
+}  // namespace crossgrain

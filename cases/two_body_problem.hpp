@@ -1,0 +1,89 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "adapters/contact_law.hpp"
+#include "cases/collision_oracle.hpp"
+
+namespace crossgrain {
+
+/// Relative position and velocity of i against j, both spins, tangential spring.
+struct State {
+  double x, y, vx, vy, spinI, spinJ, spring;
+};
+constexpr std::size_t dimension = 7;
+static_assert(sizeof(State) == dimension * sizeof(double));
+
+/// Between two events the right-hand side is smooth; a phase says which branch of the law holds.
+struct Phase {
+  enum class Tangential {
+    none,    ///< no tangential force
+    damped,  ///< f_t = −γ_t v_t
+    stick,   ///< f_t = −k_t ξ − γ_t v_t
+    slip,    ///< f_t = bound · side
+    hold     ///< Coulomb's law at v_t = 0: the force that keeps it there
+  } tangential = Tangential::none;
+  double side = 0.0;        ///< sign of f_t while it slips
+  bool compressive = true;  ///< k_n δ − γ_n v_n > 0
+};
+
+struct Kinematics {
+  double distance, nx, ny, overlap;
+  double normalVelocity, tangentialVelocity;
+  double turning;  ///< rate at which the normal turns [rad/s]
+  double leverI, leverJ;
+};
+
+/// The planar collision of two disks in continuous time, one phase after another.
+class TwoBodyProblem {
+ public:
+  TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair);
+  CollisionEnd solve(const CollisionStart& start);
+
+ private:
+  // The law
+  Kinematics kinematics(const State& s) const;
+  double trialNormal(const Kinematics& k) const {
+    return law_.kn * k.overlap - law_.gn * k.normalVelocity;
+  }
+  /// The share of the overlap that a disk's lever arm is short of its radius; `other` is its
+  /// partner.
+  double leverShare(int other) const {
+    switch (law_.conventions.leverArm) {
+      case LeverArm::radius:
+        return 0.0;
+      case LeverArm::contactPoint:
+        return pair_.radius[other] / reach_;
+      case LeverArm::overlapMiddle:
+        break;
+    }
+    return 0.5;
+  }
+  double normalForce(const Kinematics& k) const;
+  double bound(double normal) const;
+  double testedForce(const Kinematics& k, double spring) const;
+  double tangentialForce(const State& s, const Kinematics& k) const;
+  State derivative(const State& s) const;
+
+  // Events
+  double compliance(const Kinematics& k) const;
+  double holdingForce(const State& s, const Kinematics& k) const;
+  double boundRate(const State& s, const Kinematics& k) const;
+  double slippedSpring(const Kinematics& k) const;
+  double slipGuard(const State& s, const Kinematics& k) const;
+  double tangentialGuard(const State& s) const;
+  double firstGuard(const State& s) const;
+  void choosePhase(State& s);
+  void chooseSpringPhase(State& s, const Kinematics& k);
+
+  static int rightHandSide(double t, const double y[], double dydt[], void* self);
+
+  ContactLaw law_;
+  CollidingPair pair_;
+  double reach_, inverseMass_;
+  Phase phase_;
+};
+
+}  // namespace crossgrain
