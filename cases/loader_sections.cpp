@@ -152,6 +152,7 @@ void readRun(Reader& in, RunOptions& run) {
   in.take("dt");
   in.read("steps_per_contact", run.stepsPerContact, atLeast(2.0));
   in.read("handover", run.handover, handovers);
+  if (run.handover == "warm") in.fail("handover", "not yet supported; \"cold\" is");
   in.read("may_differ", run.mayDiffer, deviationNames());
   in.read("timeout", run.timeout, positive("s"));
   in.read("mirrors", run.mirrors);

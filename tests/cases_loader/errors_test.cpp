@@ -124,6 +124,8 @@ TEST_F(LoaderErrors, UnknownNamesSuggestTheNearest) {
        "coulomb, viscous, spring, spring_dashpot)"},
       {plus("[averaging]\nmethod = \"slices\"\n"),
        "case.toml:25:10: averaging.method = \"slices\": unknown name (did you mean slicing?)"},
+      {plus("[run]\nhandover = \"warm\"\n"),
+       "case.toml:25:12: run.handover = \"warm\": not yet supported; \"cold\" is"},
       {plus("[run]\nhandover = \"hot\"\n"),
        "case.toml:25:12: run.handover = \"hot\": unknown name (there are: cold, warm)"},
       {plus("[run]\nmay_differ = [\"tensoin\"]\n"),
