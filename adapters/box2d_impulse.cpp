@@ -124,6 +124,9 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   realised.precision = "float";
   realised.integrator = "semi_implicit_euler with sequential impulses";
   realised.effects = effectsOf(scene);
+  // A soft law's springs and dashpots are folded into e_n and e_t0: they are not simulated.
+  realised.effects.erase(Effect::tangentialSpring);
+  realised.effects.erase(Effect::tangentialDamping);
   realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double reducedMass) {
     pair.mu = friction(law_);
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);

@@ -97,6 +97,11 @@ class GrainEngine : public Engine {
     can.slidingFlags = true;
     can.settings = {
         {"dt", 0.0, "s", "time step; 0: the case's", {}},
+        {"stiffness",
+         stiffness_,
+         "-",
+         "times the case's k_n and k_t, at the same restitution; dt shrinks by its root",
+         {}},
         {"skin", 0.0, "m", "of the Verlet list; 0: a fifth of the smallest radius", {}}};
     return can;
   }

@@ -61,9 +61,16 @@ struct Errors {
   int count = 0;
 };
 
-/// Errors in units of the oracle curve's range, so that no part of the curve is favoured.
-json scoreJson(const Case& setup, const Errors& errors, double range, int missing) {
-  const auto margin = setup.collision.margins.find("psi_f");
+/// A margin as a limit for errors given in units of `unit`.
+std::optional<double> limitOf(const Case& setup, const char* name, double unit) {
+  const auto margin = setup.collision.margins.find(name);
+  if (margin == setup.collision.margins.end()) return std::nullopt;
+  return margin->second.relative ? margin->second.value : margin->second.value / unit;
+}
+
+/// Errors of Ψ_f in units of the oracle curve's range, so that no part of the curve is favoured; of
+/// e_n as they are. A curve holds where both stay within the case's margins.
+json scoreJson(const Case& setup, const Errors& errors, double range, double en, int missing) {
   json score = {{"max_error", nullptr},
                 {"rms_error", nullptr},
                 {"e_n_error", nullptr},
@@ -73,11 +80,12 @@ json scoreJson(const Case& setup, const Errors& errors, double range, int missin
   score["max_error"] = errors.largest / range;
   score["rms_error"] = std::sqrt(errors.squares / errors.count) / range;
   score["e_n_error"] = errors.largestEn;
-  if (margin == setup.collision.margins.end()) return score;
-  const double limit =
-      margin->second.relative ? margin->second.value : margin->second.value / range;
-  score["limit"] = limit;
-  const bool held = missing == 0 && errors.largest / range <= limit;
+  const auto limit = limitOf(setup, "psi_f", range);
+  const auto limitEn = limitOf(setup, "e_n", en);
+  if (!limit && !limitEn) return score;
+  score["limit"] = toJson(limit);
+  const bool held = missing == 0 && (!limit || errors.largest / range <= *limit) &&
+                    (!limitEn || errors.largestEn / en <= *limitEn);
   score["verdict"] = held ? "held" : "fell short";
   return score;
 }
@@ -94,7 +102,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
   json points = json::array();
   Errors errors;
   int missing = 0;
-  double low = INFINITY, high = -INFINITY;
+  double low = INFINITY, high = -INFINITY, largestEn = 0.0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto end = collisionEnd(scene, after, k, starts[k]);
     const auto& reference = oracle.ends[k];
@@ -109,6 +117,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
     if (!reference) continue;
     low = std::min(low, reference->psi);
     high = std::max(high, reference->psi);
+    largestEn = std::max(largestEn, reference->en);
     if (!end) continue;
     const double error = std::abs(end->psi - reference->psi);
     errors.largest = std::max(errors.largest, error);
@@ -127,7 +136,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
           {"realised", toJson(realised)},
           {"stats", statsJson(engine.stats())},
           {"points", points},
-          {"score", scoreJson(setup, errors, high - low, missing)}};
+          {"score", scoreJson(setup, errors, high - low, largestEn, missing)}};
 }
 
 std::optional<json> convergenceOrder(const std::vector<const json*>& curves) {

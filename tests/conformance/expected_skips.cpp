@@ -1,0 +1,23 @@
+#include "tests/conformance/expected_skips.hpp"
+
+#include <array>
+
+namespace crossgrain::conformance {
+
+std::span<const ExpectedSkip> expectedSkips() {
+  static constexpr std::array table = {
+      ExpectedSkip{"yade", "BottomPlateBrakesADisk", "has no bottom_friction"},
+      ExpectedSkip{"box2d-impulse", "BottomPlateBrakesADisk", "has no bottom_friction"},
+      ExpectedSkip{"box2d-impulse", "ShrinkingWallPushes", "has rigid walls only"},
+      ExpectedSkip{"box2d-impulse", "ShrinkingWallStops", "has rigid walls only"},
+      ExpectedSkip{"box2d-impulse", "SlidingFlagsMarkTheBound", "has no sliding flags"},
+      ExpectedSkip{"box2d-penalty", "ShrinkingWallPushes", "has rigid walls only"},
+      ExpectedSkip{"box2d-penalty", "ShrinkingWallStops", "has rigid walls only"},
+      ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughACollision",
+                   "its peer has another normal law"},
+      ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughAHeap", "its peer has another normal law"},
+  };
+  return table;
+}
+
+}  // namespace crossgrain::conformance

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+
+#include <fstream>
+#include <string_view>
+
+#include "adapters/worker/serve.hpp"
+#include "tests/conformance/conformance.hpp"
+#include "tests/conformance/names.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+/// Writes one ctest entry for each engine, since a worker takes seconds to start, and one for what
+/// concerns none.
+int writeTests(const std::string& program, const std::string& file) {
+  std::ofstream out(file);
+  const auto write = [&](const std::string& name, const std::string& filter) {
+    out << fmt::format("add_test([[conformance.{}]] [[{}]] [[--gtest_filter={}]])\n", name, program,
+                       filter)
+        << fmt::format("set_tests_properties([[conformance.{}]] PROPERTIES TIMEOUT 300)\n", name);
+  };
+  for (const EngineEntry& entry : engineRegistry()) write(entry.name, "*/" + testName(entry.name));
+  write("expected-skips", "ExpectedSkips.*");
+  out.close();
+  return out ? 0 : 1;
+}
+
+/// What `crossgrain __serve NAME` does: this program is also the worker that it tests.
+int serveEngine(const std::string& name) {
+  const EngineEntry* entry = findEngine(name);
+  return entry && entry->make ? serve(*entry->make()) : 2;
+}
+
+class EndOfWorkers : public testing::Environment {
+ public:
+  void TearDown() override { endWorkers(); }
+};
+
+}  // namespace
+}  // namespace crossgrain::conformance
+
+int main(int argc, char** argv) {
+  using namespace crossgrain::conformance;
+  gsl_set_error_handler_off();  // as in cli/main.cpp
+  if (argc == 3 && std::string_view(argv[1]) == "__serve") return serveEngine(argv[2]);
+  if (argc == 3 && std::string_view(argv[1]) == "--write-tests")
+    return writeTests(argv[0], argv[2]);
+  testing::InitGoogleTest(&argc, argv);
+  testing::AddGlobalTestEnvironment(new EndOfWorkers);
+  return RUN_ALL_TESTS();
+}

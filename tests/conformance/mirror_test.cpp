@@ -1,0 +1,98 @@
+// A mirror is the in-house engine set to a peer's conventions, and has to follow that peer: where
+// it does not, one of the two is wrong about what the peer does.
+#include <algorithm>
+
+#include "tests/conformance/conformance.hpp"
+#include "tests/conformance/names.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+class MirrorConformance : public Conformance {
+ protected:
+  void SetUp() override {
+    Conformance::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    const EngineEntry* peer = findEngine(entry_->mirrors);
+    ASSERT_TRUE(peer) << "there is no engine '" << entry_->mirrors << "'";
+    if (peer->missing)
+      if (const std::string why = peer->missing(); !why.empty()) GTEST_SKIP() << why;
+    peer_ = startWorker(*peer);
+    canPeer_ = peer_->capabilities();
+    const auto normal = canPeer_.lawOptions.find("normal");
+    if (normal != canPeer_.lawOptions.end() &&
+        std::ranges::find(normal->second, "linear") == normal->second.end())
+      GTEST_SKIP() << "its peer has another normal law";
+  }
+
+  /// Both run the scene, each with its own conventions, at the peer's time step.
+  /// @returns why one of them cannot
+  std::optional<std::string> refusedByEither(Scene scene) {
+    scene.law = followed(canPeer_, scene.law);
+    try {
+      scene.dt = peer_->load(scene, {}).dt;
+    } catch (const UnsupportedScene& refusal) {
+      return refusal.what();
+    }
+    scene.law = followed(can_, scene.law);
+    if (const auto why = refused(scene)) return why;
+    EXPECT_EQ(realised_.dt, scene.dt);
+    return std::nullopt;
+  }
+
+  double allowed() const { return canPeer_.precision == "float" ? 1e-5 : 1e-6; }
+
+  std::unique_ptr<Engine> peer_;
+  Capabilities canPeer_;
+};
+
+constexpr const char* turns = "roundings, and springs that turn to first or to higher order";
+
+TEST_P(MirrorConformance, FollowsItsPeerThroughACollision) {
+  Encounter pair = crookedEncounter();
+  for (const double obliqueness : {0.5, -1.0}) {
+    pair.obliqueness = obliqueness;
+    if (const auto why = refusedByEither(encounterScene(pair, fullLaw(), 50.0)))
+      GTEST_SKIP() << *why;
+    peer_->advance(Encounter::end);
+    const Snapshot theirs = peer_->snapshot(ContactReport::none);
+    const Snapshot ours = at(Encounter::end);
+    const double unit = allowed() * Encounter::speed;
+    for (const int i : {0, 1}) {
+      EXPECT_TRUE(close(ours.velocity[i], theirs.velocity[i], {unit, 0.0, turns}));
+      EXPECT_TRUE(
+          close(spinsOf(scene_, ours)[i], spinsOf(scene_, theirs)[i], {unit / radius, 0.0, turns}));
+    }
+  }
+}
+
+/// Gravity and a moving wall act from the first step on. Only positions are compared: the two may
+/// show velocities of different times.
+TEST_P(MirrorConformance, FollowsItsPeerThroughAHeap) {
+  Scene scene = busyScene(fullLaw());
+  if (const auto why = refusedByEither(scene)) GTEST_SKIP() << *why;
+  for (const double t : {0.01 * busyEnd, 0.1 * busyEnd, 0.5 * busyEnd}) {
+    peer_->advance(t);
+    const Snapshot theirs = peer_->snapshot(ContactReport::none);
+    const Snapshot ours = at(t);
+    ASSERT_EQ(ours.positionTime, theirs.positionTime);
+    for (std::size_t i = 0; i < ours.position.size(); ++i) {
+      EXPECT_TRUE(close(ours.position[i], theirs.position[i], {allowed() * radius, 0.0, turns}))
+          << "disk " << i << " at t = " << t << " s";
+    }
+  }
+}
+
+std::vector<std::string> mirrors() {
+  std::vector<std::string> names;
+  for (const EngineEntry& entry : engineRegistry())
+    if (!entry.mirrors.empty()) names.push_back(entry.name);
+  return names;
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(MirrorConformance);
+INSTANTIATE_TEST_SUITE_P(Mirrors, MirrorConformance, testing::ValuesIn(mirrors()),
+                         [](const auto& one) { return testName(one.param); });
+
+}  // namespace
+}  // namespace crossgrain::conformance

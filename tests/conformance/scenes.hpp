@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/scene.hpp"
+
+namespace crossgrain::conformance {
+
+/// Disks of Lätzel 2003, Table 3.1, the small radius as cases use it.
+inline constexpr double radius = 3.70e-3;  ///< [m]
+inline constexpr double mass = 0.275e-3;   ///< [kg]
+
+/// Lätzel 2003, Table 4.1; its rigid side, for engines that have only that, restores e_n = 0.8 and
+/// e_t0 = 0.3.
+ContactLaw fullLaw();
+
+/// The law without anything that could turn a disk.
+ContactLaw frictionless(ContactLaw law);
+
+/// A scene without disks; its time step resolves the contact of two small disks by `steps`.
+Scene emptyScene(const ContactLaw& law, double steps);
+
+/// A solid disk, J = ½ m a².
+void addDisk(Scene& scene, double a, double m, const Vec2& position, const Vec2& velocity,
+             double spin = 0.0);
+
+/// A body of wall disks of the small radius.
+WallBody wallOf(const std::string& name, const Vec2& centre, const std::vector<Vec2>& disks,
+                const Motion& motion = {});
+
+WallBody planeWall(const Vec2& point, const Vec2& normal);
+
+/// Two disks that meet. Disk 0 comes from the right at `speed` relative to disk 1; the line of
+/// centres makes the angle `obliqueness` with the path when they touch. Their centre of mass starts
+/// at the origin and moves at `drift`.
+struct Encounter {
+  double radii[2] = {radius, radius};
+  double masses[2] = {mass, mass};
+  double obliqueness = 0.0;  ///< [rad]
+  double spins[2] = {0.0, 0.0};
+  Vec2 drift = Vec2::Zero();
+
+  static constexpr double speed = 0.1;   ///< [m/s]
+  static constexpr double gap = 1.3e-4;  ///< flown through before they touch [m]
+  static constexpr double end = 0.01;    ///< by then every pair used here has parted [s]
+
+  double reducedMass() const { return masses[0] * masses[1] / (masses[0] + masses[1]); }
+};
+
+/// An oblique impact of unequal disks that drift and spin: no symmetry hides a wrong sign.
+Encounter crookedEncounter();
+
+/// @param steps  time steps in one contact of the linear law
+Scene encounterScene(const Encounter& pair, const ContactLaw& law, double steps);
+
+/// Disks that are heaped on a turning wheel between posts: many contacts of all kinds but planes.
+/// There are some at busyEnd.
+Scene busyScene(const ContactLaw& law);
+inline constexpr double busyEnd = 0.02;  ///< [s]
+
+}  // namespace crossgrain::conformance
