@@ -110,8 +110,7 @@ std::string instantOf(const Engines& engines) {
   return "at one instant";
 }
 
-void addPictures(Json& view, const Json& results, const Engines& engines,
-                 const Illustrations& shown) {
+void addPictures(Json& view, const Engines& engines, const Illustrations& shown) {
   view["origins"] = pictureViews(shown, Picture::Shows::origins);
   view["hasPictures"] = !view["origins"].empty();
   view["originsNote"] = fmt::format(
@@ -121,10 +120,9 @@ void addPictures(Json& view, const Json& results, const Engines& engines,
       instantOf(engines));
   view["forces"] = pictureViews(shown, Picture::Shows::forces);
   view["hasForces"] = !view["forces"].empty();
-  view["forcesNote"] = fmt::format(
+  view["forcesNote"] =
       "The contact forces at the same instant: lines between the centres, width and darkness "
-      "proportional to the normal force; the widest stands for {} N and more, in every picture.",
-      readable(widestForce(results)));
+      "proportional to the normal force, each picture on its own scale.";
 }
 
 void addFigures(Json& view, const Engines& engines, const Illustrations& shown) {
@@ -153,7 +151,7 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   view["averages"] = averagesInWords(results);
   addFitsAndNumberChecks(view, engines);
   addFigures(view, engines, shown);
-  addPictures(view, results, engines, shown);
+  addPictures(view, engines, shown);
   addDetails(view, results, realised);
   view["packings"] = packingRows(results);
   view["files"] =

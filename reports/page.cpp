@@ -115,7 +115,7 @@ Json pictureViews(const Illustrations& shown, Picture::Shows shows) {
   for (const Picture& picture : shown.pictures)
     if (picture.shows == shows)
       if (Json view = imageView(shown, picture.name, picture.title,
-                                mustache::html_escape(picture.engine) + ".");
+                                mustache::html_escape(picture.engine) + ". " + picture.scale);
           !view.is_null())
         views.push_back(std::move(view));
   return views;

@@ -10,6 +10,7 @@
 
 #include "cases/files.hpp"
 #include "reports/engines.hpp"
+#include "reports/numbers.hpp"
 
 namespace crossgrain::reports {
 
@@ -160,11 +161,10 @@ std::string fileWord(const std::string& name) {
 
 }  // namespace
 
-std::optional<double> widestForce(const Json& results) {
+std::optional<double> widestForce(const Json& picture) {
   std::vector<double> forces;
-  for (const EngineResults& engine : engineResults(results))
-    for (const Json& force : list(firstPicture(engine), "contact_force"))
-      if (const auto value = number(force); value && *value > 0.0) forces.push_back(*value);
+  for (const Json& force : list(picture, "contact_force"))
+    if (const auto value = number(force); value && *value > 0.0) forces.push_back(*value);
   if (forces.empty()) return std::nullopt;
   const auto place = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(forces.size() - 1));
   std::ranges::nth_element(forces, forces.begin() + place);
@@ -172,17 +172,17 @@ std::optional<double> widestForce(const Json& results) {
 }
 
 std::vector<Picture> comparePictures(const Json& results) {
-  const auto widest = widestForce(results);
   std::vector<Picture> origins, forces;
   for (const EngineResults& engine : engineResults(results)) {
     const Json& picture = firstPicture(engine);
     if (list(picture, "x").empty()) continue;
     const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
     origins.push_back({"origins_" + word, engine.name,
-                       engine.name + ": disks coloured by where they started",
+                       engine.name + ": disks coloured by where they started", "",
                        Picture::Shows::origins, originsDrawing(picture, member(results, "cell"))});
-    if (widest && !list(picture, "contact_force").empty())
+    if (const auto widest = widestForce(picture))
       forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
+                        fmt::format("Widest line: {} N and more.", readable(widest)),
                         Picture::Shows::forces, forcesDrawing(picture, *widest)});
   }
   for (Picture& picture : forces) origins.push_back(std::move(picture));

@@ -15,6 +15,7 @@ struct Picture {
   std::string name;  ///< of its files: origins_1_ENGINE, forces_1_ENGINE
   std::string engine;
   std::string title;
+  std::string scale;  ///< what the drawing's scale is, in words; may be empty
   Shows shows = Shows::origins;
   Drawing drawing;
 };
@@ -22,13 +23,14 @@ struct Picture {
 /// Two per engine, of its first run that has a picture:
 /// - origins: disks coloured by where they started, sectors of angle crossed with bands of radius,
 ///   so that shear bends the sectors;
-/// - forces: contacts as lines from centre to centre, width and darkness ∝ f_n on one scale for all
-///   engines (widestForce), disks pale.
+/// - forces: contacts as lines from centre to centre, width and darkness ∝ f_n, disks pale. Each
+///   has its own scale (widestForce): engines' forces may differ by orders of magnitude, and what
+///   is to be compared is how they are laid out.
 std::vector<Picture> comparePictures(const Json& results);
 
-/// The normal force of the widest line [N]: 99 % of all pictures' contacts lie below. Absent
+/// The normal force of the widest line [N]: 99 % of the picture's contacts lie below. Absent
 /// without contacts.
-std::optional<double> widestForce(const Json& results);
+std::optional<double> widestForce(const Json& picture);
 
 /// Writes name.svg and name.pdf.
 void writePicture(const Picture& picture, const std::filesystem::path& dir);
