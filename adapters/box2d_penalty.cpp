@@ -17,6 +17,8 @@ Capabilities Box2dPenalty::capabilities() const {
   can.version = box2dVersion();
   for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
   can.lawOptions = {{"normal", {"linear"}},
+                    {"spring_update", {"after", "before"}},
+                    {"lever_arm", {"radius", "contact_point"}},
                     {"damping_velocity", {"lagged"}},
                     {"integrator", {"semi_implicit_euler"}}};
   can.precision = "double";

@@ -135,6 +135,12 @@ class GrainEngine : public Engine {
     realised.precision = "double";
     realised.integrator = lawOptionValue(law, "integrator");
     realised.effects = effectsOf(own);
+    const LawConventions& how = law.conventions;
+    if (how.integrator == Integrator::semiImplicitEuler &&
+        how.dampingVelocity != DampingVelocity::lagged && mattersTo(law, "damping_velocity"))
+      realised.deviations.push_back({"damping_velocity", 0.0, "",
+                                     "Euler's velocities are those of the positions' own time: "
+                                     "nothing is predicted"});
     if (stiffness != 1.0)
       realised.deviations.push_back(
           {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});

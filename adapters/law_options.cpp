@@ -80,7 +80,8 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
   const bool soft = law.normal == NormalLaw::linear;
   if (name == "normal" || name == "integrator") return true;
   if (name == "tangential") return true;
-  if (name == "tension" || name == "damping_velocity") return soft && law.gn > 0.0;
+  if (name == "tension") return soft && law.gn > 0.0;
+  if (name == "damping_velocity") return soft && (law.gn > 0.0 || law.gt > 0.0);
   if (name == "coulomb_bound")
     return soft && law.tangential != TangentialLaw::none && law.gn > 0.0 &&
            law.conventions.tension == Tension::allow;

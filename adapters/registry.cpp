@@ -51,6 +51,15 @@ const std::vector<EngineEntry>& engineRegistry() {
        {},
        {},
        "yade"},
+      {"grain-as-box2d-penalty",
+       "the in-house engine held to the penalty engine's conventions",
+       [] {
+         return makeGrainMirror(
+             {{"integrator", "semi_implicit_euler"}, {"damping_velocity", "lagged"}});
+       },
+       {},
+       {},
+       "box2d-penalty"},
       // In the quick cell Box2D's solver holds about 20 times the pressure of the soft law.
       {"grain-stiff",
        "the in-house engine with contacts 25 times as stiff, towards rigid ones",

@@ -36,7 +36,7 @@ void removeEffect(Scene& scene, Effect effect) {
       scene.bottom.reset();
       break;
     case Effect::bottomSpinFriction:
-      scene.bottom->spin = false;
+      if (scene.bottom) scene.bottom->spin = false;
       break;
     case Effect::gravity:
       scene.gravity = Vec2::Zero();

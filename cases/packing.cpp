@@ -27,6 +27,19 @@ std::vector<Vec2> asVectors(const std::vector<double>& values) {
 
 }  // namespace
 
+std::string contentHash(const Packing& packing) {
+  std::string bytes;
+  const auto add = [&](const auto& values) {
+    bytes.append(reinterpret_cast<const char*>(values.data()),
+                 values.size() * sizeof(values.front()));
+  };
+  const Disks& disks = packing.disks;
+  for (const auto* values : {&disks.radius, &disks.mass, &disks.inertia, &disks.spin}) add(*values);
+  add(disks.position);
+  add(disks.velocity);
+  return fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
+}
+
 std::uint64_t packingSeed(const Case& setup, int index) {
   return setup.preparation.seed + static_cast<std::uint64_t>(index);
 }
@@ -118,7 +131,7 @@ Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
   }
   disks.inertia = sized("inertia", 1).value_or(inertia);
   packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
-  packing.hash = in.readTextAttribute("hash").value_or("file");
+  packing.hash = in.readTextAttribute("hash").value_or("");
   return packing;
 }
 

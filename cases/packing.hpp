@@ -15,6 +15,7 @@ struct Packing {
   double wheelAngle = 0.0;  ///< by which the wheel's disks have turned since it was built [rad]
   std::string hash;         ///< of all that it was made from
   bool fromCache = false;
+  std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
 
 /// The seed of one packing of a case; packings of one case differ in nothing else.
@@ -22,6 +23,9 @@ std::uint64_t packingSeed(const Case& setup, int index);
 
 /// Fingerprint of everything that a prepared packing depends on.
 std::string packingHash(const Case& setup, int index, double dt);
+
+/// Fingerprint of a packing itself, for one that nobody prepared.
+std::string contentHash(const Packing& packing);
 
 /// HDF5: datasets radius, mass, inertia (N), position, velocity (N × 2), spin (N), SI units, and
 /// the attributes wheel_angle and hash. Velocity, spin, mass and inertia may be absent from a file

@@ -12,6 +12,7 @@
 
 #include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
+#include "cases/files.hpp"
 
 namespace crossgrain {
 namespace {
@@ -72,7 +73,7 @@ void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
 
 /// The cell with its ring at R_prepare, about to shrink.
 Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
-  Scene scene = couetteScene(setup, {disks, 0.0, {}, false}, dt);
+  Scene scene = couetteScene(setup, {disks, 0.0, {}, false, {}}, dt);
   const double start = setup.preparation.dilation * setup.cell.outerRadius;
   WallBody& ring = scene.bodies.back();
   for (Vec2& position : ring.diskPosition) position *= setup.preparation.dilation;
@@ -115,11 +116,15 @@ Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
 std::filesystem::path packingCacheFile(const std::string& hash) {
   namespace fs = std::filesystem;
   fs::path folder;
-  if (const char* own = std::getenv("CROSSGRAIN_CACHE"))
+  const auto variable = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+  };
+  if (const std::string own = variable("CROSSGRAIN_CACHE"); !own.empty())
     folder = own;
-  else if (const char* cache = std::getenv("XDG_CACHE_HOME"))
+  else if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
     folder = fs::path(cache) / "crossgrain";
-  else if (const char* home = std::getenv("HOME"))
+  else if (const std::string home = variable("HOME"); !home.empty())
     folder = fs::path(home) / ".cache" / "crossgrain";
   else
     folder = fs::temp_directory_path() / "crossgrain-cache";
@@ -130,18 +135,27 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
                   const std::function<void(double)>& progress) {
   if (setup.particles.file) {
     Packing packing = readPacking(*setup.particles.file, setup);
+    packing.hash = contentHash(packing);
     checkStart(couetteScene(setup, packing, dt), setup.particles, setup.particles.file->string(),
                &setup.cell);
     return packing;
   }
   const std::filesystem::path file = packingCacheFile(packingHash(setup, index, dt));
   if (std::filesystem::exists(file)) {
-    Packing packing = readPacking(file, setup);
-    packing.fromCache = true;
-    return packing;
+    try {
+      Packing packing = readPacking(file, setup);
+      packing.fromCache = true;
+      return packing;
+    } catch (const BadInput&) {
+      // A damaged file in the cache is prepared anew.
+    }
   }
   Packing packing = preparePacking(setup, index, dt, engine, progress);
-  writePacking(packing, file);
+  try {
+    writePacking(packing, file);
+  } catch (const OutputError& error) {
+    packing.notCached = error.what();  // costs time, not the run
+  }
   return packing;
 }
 

@@ -143,7 +143,7 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
-  const RunStore store(command.out, /*resume=*/false);
+  const RunStore store(command.out);
   Progress progress(command.quiet);
 
   std::vector<Sweep> sweeps;

@@ -4,14 +4,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <mutex>
 
 #include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
 #include "cases/files.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "cases/volume_fraction.hpp"
 #include "runs/agreement_table.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/interrupt.hpp"
@@ -20,6 +18,7 @@
 #include "runs/run_store.hpp"
 #include "runs/task_pool.hpp"
 #include "runs/velocity_notes.hpp"
+#include "runs/version.hpp"
 
 namespace crossgrain {
 
@@ -41,6 +40,8 @@ class Comparison {
   json results() const;
 
  private:
+  /// A file is one packing, however many a case would prepare.
+  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
   std::string runName(const EngineEntry& entry, int packing) const {
     return fmt::format("{}-p{}", entry.name, packing);
   }
@@ -60,8 +61,6 @@ class Comparison {
   std::vector<std::string> versions_, refusals_;
   std::vector<Packing> packings_;
   std::vector<json> runs_;  ///< engine by engine, packing by packing
-  std::mutex mutex_;
-  std::string outputError_;  ///< the first file that could not be written
 };
 
 /// The engines named and, if the case wants them, their mirrors.
@@ -83,7 +82,7 @@ Comparison::Comparison(const Case& setup, const RunCommand& command)
       command_(command),
       engines_(enginesFor(setup, command)),
       dt_(stepOf(setup)),
-      store_(command.out, command.resume),
+      store_(command.out),
       progress_(command.quiet),
       predicted_(engines_.size(), 1.0),
       versions_(engines_.size()),
@@ -106,12 +105,15 @@ void Comparison::askEngines() {
       // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
       if (isNamed(command_.engines, entry)) throw;
       refusals_[e] = refusal.what();
+    } catch (const EngineFailure& failure) {
+      progress_.say(failure.what());  // its runs will tell, one by one
     }
   }
+  if (!command_.resume) store_.startAfresh();
 }
 
 void Comparison::preparePackings() {
-  const int count = setup_.preparation.packings;
+  const int count = packingCount();
   packings_.resize(static_cast<std::size_t>(count));
   std::vector<std::string> failures(packings_.size());
   progress_.begin("preparing packings", std::vector<double>(packings_.size(), 1.0));
@@ -126,8 +128,11 @@ void Comparison::preparePackings() {
                            throwIfInterrupted();
                            progress_.update(at, label, fraction);
                          });
-                         progress_.finish(at, label + (packings_[at].fromCache ? ": from the cache"
-                                                                               : ": prepared"));
+                         std::string line =
+                             label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
+                         if (!packings_[at].notCached.empty())
+                           line += ", not kept for next time: " + packings_[at].notCached;
+                         progress_.finish(at, line);
                        } catch (const Interrupted&) {
                          throw;
                        } catch (const std::exception& error) {
@@ -164,7 +169,7 @@ void Comparison::timeEngines() {
 }
 
 std::string Comparison::runKey(const EngineEntry& entry, int packing) const {
-  return fmt::format("{} | {} | {} | {}", entry.name,
+  return fmt::format("{} | {} | {} | {} | {}", programBuild, entry.name,
                      versions_[static_cast<std::size_t>(&entry - engines_.data())],
                      packings_[static_cast<std::size_t>(packing)].hash, setup_.resolvedToml);
 }
@@ -196,9 +201,8 @@ void Comparison::runOne(std::size_t engine, int packing, std::size_t task) {
                      fmt::format("{}: {:.1f} s", label, result["stats"]["wall_s"].get<double>()));
   } catch (const Interrupted&) {
     throw;
-  } catch (const OutputError& error) {
-    const std::scoped_lock lock(mutex_);
-    if (outputError_.empty()) outputError_ = error.what();
+  } catch (const OutputError&) {
+    throw;  // nothing more can be kept
   } catch (const std::exception& error) {
     result["status"] = "failed";
     result["reason"] = fmt::format("packing {}: {}", packing, error.what());
@@ -211,7 +215,7 @@ void Comparison::run() {
   std::vector<double> weights;
   for (std::size_t e = 0; e < engines_.size(); ++e) {
     if (!refusals_[e].empty()) continue;
-    for (int k = 0; k < setup_.preparation.packings; ++k) {
+    for (int k = 0; k < packingCount(); ++k) {
       const std::size_t task = tasks.size();
       tasks.push_back({predicted_[e], [this, e, k, task] { runOne(e, k, task); }});
       weights.push_back(predicted_[e]);
@@ -220,20 +224,22 @@ void Comparison::run() {
   runs_.resize(tasks.size());
   progress_.begin("running engines", weights);
   runTasks(tasks, command_.jobs);
-  if (!outputError_.empty()) throw OutputError(outputError_);
 }
 
-/// All pairs of the engines named, in the order in which they were named; each mirror between the
-/// reference and its peer.
+/// All pairs of the engines named, in the order in which they were named. A mirror that came along
+/// stands between the in-house engine, which it is but for its conventions, and its peer.
 std::vector<ComparedPair> Comparison::pairs() const {
+  const auto named = [&](const EngineEntry& entry) {
+    return entry.mirrors.empty() || isNamed(command_.engines, entry);
+  };
   std::vector<ComparedPair> pairs;
   for (std::size_t a = 0; a < engines_.size(); ++a)
     for (std::size_t b = a + 1; b < engines_.size(); ++b)
-      if (engines_[a].mirrors.empty() && engines_[b].mirrors.empty())
+      if (named(engines_[a]) && named(engines_[b]))
         pairs.push_back({engines_[a].name, engines_[b].name, "peer"});
   for (const EngineEntry& mirror : engines_) {
-    if (mirror.mirrors.empty()) continue;
-    pairs.push_back({engines_.front().name, mirror.name, "mirror_model"});
+    if (named(mirror)) continue;
+    pairs.push_back({engineRegistry().front().name, mirror.name, "mirror_model"});
     pairs.push_back({mirror.name, mirror.mirrors, "mirror_implementation"});
   }
   return pairs;
@@ -243,6 +249,9 @@ json Comparison::cellJson() const {
   const Cell& cell = setup_.cell;
   const Disks& disks = packings_.front().disks;
   const auto small = std::ranges::count(disks.radius, setup_.particles.smallRadius);
+  double diskArea = 0.0;
+  for (const double a : disks.radius) diskArea += a * a;
+  const double cellArea = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
   return {{"inner_radius", cell.innerRadius},
           {"outer_radius", cell.outerRadius},
           {"wall_radius", cell.wallRadius},
@@ -253,7 +262,7 @@ json Comparison::cellJson() const {
           {"large", static_cast<std::ptrdiff_t>(disks.size()) - small},
           {"small_radius", setup_.particles.smallRadius},
           {"large_radius", setup_.particles.largeRadius},
-          {"volume_fraction", volumeFraction(setup_)},
+          {"volume_fraction", diskArea / cellArea},
           {"diameter", 2.0 * setup_.particles.smallRadius}};
 }
 
@@ -303,6 +312,11 @@ json Comparison::results() const {
   results["ensemble"] = ensembleOf(results["runs"], names);
   results["agreement"] = agreementOf(setup_, results["runs"], pairs());
   results["notes"] = velocityNotes(results);
+  const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
+  for (const EngineEntry& entry : engineRegistry())
+    if (all && entry.missing && !entry.missing().empty())
+      results["notes"].push_back(
+          fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
   results["elapsed_s"] = elapsed.count();
   return results;

@@ -41,7 +41,8 @@ std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name == "all") {
       for (const EngineEntry& entry : engineRegistry())
-        if (entry.mirrors.empty() && (!entry.missing || entry.missing().empty()))
+        if (entry.mirrors.empty() && (!entry.missing || entry.missing().empty()) &&
+            std::ranges::find(engines, entry.name, &EngineEntry::name) == engines.end())
           engines.push_back(entry);
       continue;
     }
@@ -105,6 +106,8 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
     if (value.index() != spec->defaultValue.index())
       throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
                                  typeName(spec->defaultValue), typeName(value)));
+    if (const auto* number = std::get_if<double>(&value); number && !(*number >= 0.0))
+      throw BadInput(fmt::format("{} {} = {:g} must be >= 0", where, name, *number));
     if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
       if (std::ranges::find(spec->choices, *text) == spec->choices.end())
         throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,

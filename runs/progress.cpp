@@ -12,6 +12,16 @@ namespace crossgrain {
 
 using Clock = std::chrono::steady_clock;
 
+namespace {
+
+/// A terminal that has gone must not end a run, so nothing is thrown.
+template <typename... Values>
+void show(fmt::format_string<Values...> text, Values&&... values) {
+  std::fputs(fmt::format(text, std::forward<Values>(values)...).c_str(), stderr);
+}
+
+}  // namespace
+
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
@@ -28,7 +38,7 @@ void Progress::begin(const std::string& stage, std::vector<double> weights) {
   finished_ = 0;
   running_.assign(weights_.size(), {});
   started_ = drawn_ = Clock::now();
-  if (!quiet_ && !terminal_) fmt::print(stderr, "{}: {} to do\n", stage_, weights_.size());
+  if (!quiet_ && !terminal_) show("{}: {} to do\n", stage_, weights_.size());
 }
 
 void Progress::update(std::size_t index, const std::string& label, double fraction) {
@@ -45,7 +55,7 @@ void Progress::finish(std::size_t index, const std::string& line) {
   ++finished_;
   if (quiet_) return;
   erase();
-  fmt::print(stderr, "[{}/{}] {}\n", finished_, fractions_.size(), line);
+  show("[{}/{}] {}\n", finished_, fractions_.size(), line);
   drawn_ = {};
   draw();
 }
@@ -54,7 +64,7 @@ void Progress::say(const std::string& line) {
   const std::scoped_lock lock(mutex_);
   if (quiet_) return;
   erase();
-  fmt::print(stderr, "{}\n", line);
+  show("{}\n", line);
 }
 
 void Progress::draw() {
@@ -73,13 +83,13 @@ void Progress::draw() {
   const std::size_t width = known ? window.ws_col : 80;
   if (line.size() > width) line.resize(width);
   while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0x80u) != 0) line.pop_back();
-  fmt::print(stderr, "\r\033[K{}", line);
+  show("\r\033[K{}", line);
   std::fflush(stderr);
   lineOpen_ = true;
 }
 
 void Progress::erase() {
-  if (lineOpen_) fmt::print(stderr, "\r\033[K");
+  if (lineOpen_) std::fputs("\r\033[K", stderr);
   lineOpen_ = false;
 }
 

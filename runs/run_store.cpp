@@ -11,7 +11,7 @@ namespace crossgrain {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-RunStore::RunStore(fs::path out, bool resume) : out_(std::move(out)) {
+RunStore::RunStore(fs::path out) : out_(std::move(out)) {
   std::error_code ignored;
   const fs::path marker = out_ / ".crossgrain";
   if (fs::exists(out_, ignored) && !fs::is_empty(out_, ignored) && !fs::exists(marker, ignored) &&
@@ -22,16 +22,25 @@ RunStore::RunStore(fs::path out, bool resume) : out_(std::move(out)) {
                     out_.string()));
   makeDirectory(out_);
   writeFile(marker, "Made by crossgrain; a new run replaces runs/, scratch/ and snapshots/.\n");
-  if (!resume) fs::remove_all(out_ / "runs", ignored);
   fs::remove_all(out_ / "scratch", ignored);
   for (const char* folder : {"runs", "scratch", "snapshots"}) makeDirectory(out_ / folder);
+}
+
+void RunStore::startAfresh() const {
+  std::error_code ignored;
+  for (const char* folder : {"runs", "snapshots"}) {
+    fs::remove_all(out_ / folder, ignored);
+    makeDirectory(out_ / folder);
+  }
 }
 
 std::optional<json> RunStore::find(const std::string& name, const std::string& key) const {
   const auto text = readFile(file(name));
   if (!text) return std::nullopt;
   const json stored = json::parse(*text, nullptr, /*allow_exceptions=*/false);
-  if (!stored.is_object() || stored.value("key", "") != key) return std::nullopt;
+  if (!stored.is_object() || !stored.contains("run")) return std::nullopt;
+  if (const auto found = stored.find("key"); found == stored.end() || *found != key)
+    return std::nullopt;
   return stored["run"];
 }
 

@@ -10,10 +10,13 @@ namespace crossgrain {
 /// Finished runs in an output folder, one file each, so that nothing computed is ever lost.
 class RunStore {
  public:
-  /// Makes the folder. @param resume  keep what is there, else start afresh
+  /// Makes the folder; what is there stays.
   /// @throws OutputError if it cannot be written to
   /// @throws BadInput if it is not empty and not of an earlier run: nobody's files are deleted
-  RunStore(std::filesystem::path out, bool resume);
+  explicit RunStore(std::filesystem::path out);
+
+  /// Removes what an earlier run left. Called once it is known that this one can begin.
+  void startAfresh() const;
 
   /// The finished run of that name, if it was made with the same key (everything it depends on).
   std::optional<nlohmann::json> find(const std::string& name, const std::string& key) const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <numeric>
 #include <thread>
 
@@ -15,12 +17,17 @@ void runTasks(const std::vector<Task>& tasks, int jobs) {
   std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return tasks[k].weight; });
 
   std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::exception_ptr first;
   const auto takeTasks = [&] {
-    for (std::size_t k = next++; k < order.size() && !interrupted(); k = next++) {
+    for (std::size_t k = next++; k < order.size() && !interrupted() && !stop; k = next++) {
       try {
         tasks[order[k]].work();
-      } catch (const Interrupted&) {
-        return;
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!first) first = std::current_exception();
+        stop = true;
       }
     }
   };
@@ -29,6 +36,7 @@ void runTasks(const std::vector<Task>& tasks, int jobs) {
     for (int j = 0; j < jobs; ++j) threads.emplace_back(takeTasks);
   }
   throwIfInterrupted();
+  if (first) std::rethrow_exception(first);
 }
 
 }  // namespace crossgrain

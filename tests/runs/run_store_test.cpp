@@ -20,35 +20,35 @@ fs::path freshFolder(const char* name) {
 
 TEST(RunStore, GivesBackOnlyRunsOfTheSameKey) {
   const fs::path out = freshFolder("store");
-  RunStore(out, false).keep("a-p0", "key", {{"value", 0.1}});
-  const RunStore again(out, true);
+  RunStore(out).keep("a-p0", "key", {{"value", 0.1}});
+  const RunStore again(out);
   ASSERT_TRUE(again.find("a-p0", "key"));
   EXPECT_EQ((*again.find("a-p0", "key"))["value"], 0.1);
   EXPECT_FALSE(again.find("a-p0", "another key"));
   EXPECT_FALSE(again.find("a-p1", "key"));
-  const RunStore fresh(out, false);
-  EXPECT_FALSE(fresh.find("a-p0", "key"));
+  again.startAfresh();
+  EXPECT_FALSE(again.find("a-p0", "key"));
 }
 
 TEST(RunStore, NeverTouchesAFolderThatIsNotItsOwn) {
   const fs::path out = freshFolder("foreign");
   fs::create_directories(out / "runs");
   std::ofstream(out / "runs" / "thesis.txt") << "ten years of work";
-  EXPECT_THROW(RunStore(out, false), BadInput);
+  EXPECT_THROW(RunStore{out}, BadInput);
   EXPECT_TRUE(fs::exists(out / "runs" / "thesis.txt"));
 }
 
 TEST(RunStore, ADamagedRunIsRunAgain) {
   const fs::path out = freshFolder("damaged");
-  RunStore(out, false).keep("a-p0", "key", {{"value", 1}});
+  RunStore(out).keep("a-p0", "key", {{"value", 1}});
   std::ofstream(out / "runs" / "a-p0.json") << "{\"key\": \"key\", ";
-  EXPECT_FALSE(RunStore(out, true).find("a-p0", "key"));
+  EXPECT_FALSE(RunStore(out).find("a-p0", "key"));
 }
 
 TEST(RunStore, AFolderThatCannotBeMadeIsAnOutputError) {
   const fs::path file = freshFolder("file");
   std::ofstream(file) << "not a folder";
-  EXPECT_THROW(RunStore(file / "out", false), OutputError);
+  EXPECT_THROW(RunStore(file / "out"), OutputError);
 }
 
 }  // namespace
