@@ -72,6 +72,17 @@ TEST(Suitability, AnEffectThatAnEngineCannotDoWithoutIsAMismatchToo) {
   EXPECT_EQ(found[0].reason, "cannot do without gravity");
 }
 
+TEST(Suitability, BothEffectsOfThePlateCanBeDropped) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.effects[Effect::bottomFriction] = can.effects[Effect::bottomSpinFriction] = Support::never;
+  Scene scene = oneDisk();
+  scene.bottom = BottomPlate{2e-5, 1.0, 1.0, 1e-4, 9.81, true};
+  const Adapted adapted = adaptScene(can, scene, {"bottom_friction", "bottom_spin_friction"});
+  EXPECT_FALSE(adapted.scene.bottom);
+  EXPECT_EQ(adapted.deviations.size(), 2u);
+}
+
 TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
   ContactLaw law = oneDisk().law;
   EXPECT_TRUE(mattersTo(law, "lever_arm"));
