@@ -59,11 +59,10 @@ struct Sweep {
   std::vector<double> steps;
 };
 
-/// All sweeps of one engine in one worker. Bad input ends them, with a word in `badInput`. Failures
-/// end up in the curve that failed; the worker is started again for the next one.
+/// All sweeps of one engine in one worker. Failures end up in the curve that failed; the worker is
+/// started again for the next one. @throws BadInput, Interrupted
 void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const RunStore& store,
-               const std::function<void(double)>& progress, std::vector<json>& curves,
-               std::string& badInput) {
+               const std::function<void(double)>& progress, std::vector<json>& curves) {
   std::unique_ptr<Engine> engine;
   std::size_t total = 0, done = 0;
   for (const Sweep& sweep : sweeps) total += sweep.steps.size();
@@ -81,9 +80,8 @@ void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const
         if (!known) list.push_back(std::move(curve));
       } catch (const Interrupted&) {
         throw;
-      } catch (const BadInput& bad) {
-        badInput = bad.what();
-        return;
+      } catch (const BadInput&) {
+        throw;
       } catch (const std::exception& error) {
         const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
         list.push_back({{"engine", entry.name},
@@ -140,10 +138,7 @@ json variantJson(const Sweep& sweep) {
 
 json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
   const auto started = std::chrono::steady_clock::now();
-  checkEngineSections(variants.front());
-  std::vector<EngineEntry> engines = selectEngines(command.engines);
-  if (variants.front().run.mirrors)
-    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  const std::vector<EngineEntry> engines = enginesFor(variants.front(), command.engines);
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
@@ -159,7 +154,6 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   }
 
   std::vector<std::vector<json>> curves(engines.size());
-  std::vector<std::string> badInputs(engines.size());
   std::vector<Task> tasks;
   progress.begin("collisions", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
@@ -167,14 +161,11 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
     tasks.push_back({engines[e].command ? 2.0 : 1.0, [&, e] {
                        runEngine(
                            engines[e], sweeps, store,
-                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e],
-                           badInputs[e]);
+                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e]);
                        progress.finish(e, engines[e].name + ": done");
                      }});
   }
   runTasks(tasks, command.jobs);
-  for (const std::string& bad : badInputs)
-    if (!bad.empty()) throw BadInput(bad);
   for (std::size_t e = 0; e < engines.size(); ++e)
     if (isNamed(command.engines, engines[e])) throwIfAllRefused(curves[e]);
 

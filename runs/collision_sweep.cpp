@@ -47,12 +47,16 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
 
 namespace {
 
+/// t_c of the case's pair; 0 for rigid disks [s].
+double contactTimeOf(const Case& setup) {
+  return setup.law.normal == NormalLaw::linear ? contactTime(setup.law, lightestReducedMass(setup))
+                                               : 0.0;
+}
+
 /// Long enough for every collision of the scene to be over: contacts last about t_c, a rigid
 /// engine's a few of its own steps.
 double sweepEnd(const Case& setup, double dt, double engineStep) {
-  const double contact = setup.law.normal == NormalLaw::linear
-                             ? contactTime(setup.law, lightestReducedMass(setup))
-                             : 0.0;
+  const double contact = contactTimeOf(setup);
   return dt + 2.5 * contact + 20.0 * engineStep;
 }
 
@@ -125,9 +129,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
     errors.largestEn = std::max(errors.largestEn, std::abs(end->en - reference->en));
     ++errors.count;
   }
-  const double contact = setup.law.normal == NormalLaw::linear
-                             ? contactTime(setup.law, lightestReducedMass(setup))
-                             : 0.0;
+  const double contact = contactTimeOf(setup);
   return {{"engine", entry.name},
           {"dt", realised.dt},
           {"steps_per_contact", contact > 0.0 ? json(contact / realised.dt) : json(nullptr)},

@@ -63,15 +63,6 @@ class Comparison {
   std::vector<json> runs_;  ///< engine by engine, packing by packing
 };
 
-/// The engines named and, if the case wants them, their mirrors.
-std::vector<EngineEntry> enginesFor(const Case& setup, const RunCommand& command) {
-  checkEngineSections(setup);
-  std::vector<EngineEntry> engines = selectEngines(command.engines);
-  if (setup.run.mirrors)
-    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
-  return engines;
-}
-
 double stepOf(const Case& setup) {
   if (setup.run.dt || !setup.particles.file) return timeStep(setup);
   throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
@@ -80,7 +71,7 @@ double stepOf(const Case& setup) {
 Comparison::Comparison(const Case& setup, const RunCommand& command)
     : setup_(setup),
       command_(command),
-      engines_(enginesFor(setup, command)),
+      engines_(enginesFor(setup, command.engines)),
       dt_(stepOf(setup)),
       store_(command.out),
       progress_(command.quiet),

@@ -80,6 +80,14 @@ std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
   return mirrors;
 }
 
+std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names) {
+  checkEngineSections(setup);
+  std::vector<EngineEntry> engines = selectEngines(names);
+  if (setup.run.mirrors)
+    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  return engines;
+}
+
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout) {
   if (entry.missing)

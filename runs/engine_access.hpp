@@ -24,6 +24,10 @@ void checkEngineSections(const Case& setup);
 /// The mirrors in the registry whose peer is among `engines`.
 std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines);
 
+/// The engines named and, if the case wants them, their mirrors. @throws BadInput like
+/// selectEngines() and checkEngineSections()
+std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names);
+
 /// Starts the engine's worker. @throws EngineFailure, BadInput if it is not installed
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
