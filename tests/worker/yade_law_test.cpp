@@ -133,30 +133,38 @@ TEST_F(YadeWorker, ContactForcesAreThoseThatMovedTheDisks) {
   EXPECT_GT(withPlane, 3u);
 }
 
-// The wheel's torque from the contacts' own numbers: each acts at its contact point.
+// The wheel's torque from the contacts' own numbers: each acts at its contact point. Where the
+// packing stands at one instant is chaotic, and now and then nothing touches the wheel: many
+// instants are asked.
 TEST_F(YadeWorker, TorqueOnTheWheelIsThatOfItsContacts) {
   const Scene scene = crowdedScene();
   const std::size_t count = scene.disks.size();
   engine_->load(scene, {});
-  engine_->advance(2499 * scene.dt);
-  const Snapshot then = engine_->snapshot(ContactReport::none);
-  engine_->advance(2500 * scene.dt);
-  const Snapshot now = engine_->snapshot(ContactReport::instant);
-  double torque = 0.0;
-  for (std::size_t c = 0; c < now.contacts->size(); ++c) {
-    const auto i = static_cast<std::size_t>(now.contacts->i[c]);
-    const auto j = static_cast<std::size_t>(now.contacts->j[c]);
-    if (j < count || j >= count + 24) continue;
-    const Vec2 n = now.contacts->normal[c];
-    const Vec2 f =
-        now.contacts->normalForce[c] * n + now.contacts->tangentialForce[c] * perpendicular(n);
-    // The contacts are as old as the earlier positions.
-    const Vec2 point =
-        then.position[i] - (scene.disks.radius[i] - now.contacts->overlap[c] / 2) * n;
-    torque -= cross(point - scene.bodies[0].centre, f);
+  int touched = 0;
+  for (int step = 500; step <= 6000; step += 500) {
+    engine_->advance((step - 1) * scene.dt);
+    const Snapshot then = engine_->snapshot(ContactReport::none);
+    engine_->advance(step * scene.dt);
+    const Snapshot now = engine_->snapshot(ContactReport::instant);
+    double torque = 0.0, terms = 0.0;
+    for (std::size_t c = 0; c < now.contacts->size(); ++c) {
+      const auto i = static_cast<std::size_t>(now.contacts->i[c]);
+      const auto j = static_cast<std::size_t>(now.contacts->j[c]);
+      if (j < count || j >= count + 24) continue;
+      const Vec2 n = now.contacts->normal[c];
+      const Vec2 f =
+          now.contacts->normalForce[c] * n + now.contacts->tangentialForce[c] * perpendicular(n);
+      // The contacts are as old as the earlier positions.
+      const Vec2 point =
+          then.position[i] - (scene.disks.radius[i] - now.contacts->overlap[c] / 2) * n;
+      const double term = cross(point - scene.bodies[0].centre, f);
+      torque -= term;
+      terms += std::abs(term);
+    }
+    touched += terms > 1e-7;
+    EXPECT_NEAR(*now.bodies[0].torque, torque, 1e-9 * terms) << "step " << step;
   }
-  EXPECT_GT(std::abs(torque), 1e-7);
-  EXPECT_NEAR(*now.bodies[0].torque / torque, 1.0, 1e-9);
+  EXPECT_GE(touched, 6);
 }
 
 TEST_F(YadeWorker, SpinsNothingWithoutFriction) {
