@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "adapters/grain.hpp"
 #include "averaging/fits.hpp"
@@ -17,84 +18,119 @@ namespace {
 
 using namespace crossgrain;
 
-/// The quick cell without a bottom plate, half a rotation after half a rotation of preparation.
+/// The quick cell without a bottom plate, six tenths of a rotation after half a one of preparation.
+/// How a small cell flows is chaotic, and stresses in one packing vary by a factor of ten: what is
+/// tested holds at every instant, or of several packings together.
 class ShearedCell : public testing::Test {
  protected:
+  static constexpr int packings = 4, blocks = 12, snapshotsPerBlock = 20;
+
+  struct Block {
+    std::vector<Profile> profiles;
+    double torque;    ///< that drives the wheel [N m]
+    double pressure;  ///< on the outer ring [N/m²]
+  };
+
   static void SetUpTestSuite() {
     setup_ = loadCase(std::filesystem::path(CROSSGRAIN_CASES) / "couette/quick.toml",
                       {"bottom.mu=0.0", "preparation.rotations=0.5", "preparation.seed=3"})
                  .front();
-    const double dt = timeStep(setup_);
-    const auto engine = makeGrain();
-    const Packing packing = preparePacking(setup_, 0, dt, *engine, [](double) {});
-    const Scene scene = couetteScene(setup_, packing, dt);
-    engine->load(scene, {});
-    ProfileAccumulator accumulator(ringsOf(setup_), {WeightMethod::slicing}, scene);
-    const double rotation = rotationTime(setup_);
-    engine->advance(0.1 * rotation);
-    for (int k = 1; k <= 200; ++k) {
-      engine->advance((0.1 + 0.5 * k / 200.0) * rotation);
-      const Snapshot now = engine->snapshot(ContactReport::instant);
-      accumulator.add(now);
-      torque_.push_back(*drivingTorque(scene, now, wheelName));
-      pressure_.push_back(
-          *radialPressure(scene, now, ringName, setup_.cell.outerRadius, setup_.cell.height));
-    }
-    profiles_ = accumulator.profiles();
+    for (int packing = 0; packing < packings; ++packing) shear(packing);
   }
 
-  static const Profile& profile(const std::string& field) {
-    return *std::ranges::find(profiles_, field, &Profile::field);
+  static void shear(int index) {
+    const double dt = timeStep(setup_);
+    const auto engine = makeGrain();
+    const Packing packing = preparePacking(setup_, index, dt, *engine, [](double) {});
+    const Scene scene = couetteScene(setup_, packing, dt);
+    engine->load(scene, {});
+    const double rotation = rotationTime(setup_);
+    int k = 0;
+    for (int block = 0; block < blocks; ++block) {
+      ProfileAccumulator accumulator(ringsOf(setup_), {WeightMethod::slicing}, scene);
+      std::vector<double> torque, pressure;
+      for (int s = 0; s < snapshotsPerBlock; ++s) {
+        engine->advance((0.1 + 0.5 * ++k / (blocks * snapshotsPerBlock)) * rotation);
+        const Snapshot now = engine->snapshot(ContactReport::instant);
+        accumulator.add(now);
+        torque.push_back(*drivingTorque(scene, now, wheelName));
+        pressure.push_back(
+            *radialPressure(scene, now, ringName, setup_.cell.outerRadius, setup_.cell.height));
+      }
+      blocks_.push_back({accumulator.profiles(), meanOf(torque), meanOf(pressure)});
+    }
+  }
+
+  static double meanOf(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+
+  static double valueIn(const Block& block, const std::string& field, int ring) {
+    return *std::ranges::find(block.profiles, field, &Profile::field)
+                ->mean[static_cast<std::size_t>(ring)];
+  }
+
+  /// Mean of a field in a ring over all packings.
+  static double mean(const std::string& field, int ring) {
+    std::vector<double> values;
+    for (const Block& block : blocks_) values.push_back(valueIn(block, field, ring));
+    return meanOf(values);
   }
 
   static inline Case setup_;
-  static inline std::vector<Profile> profiles_;
-  static inline std::vector<double> torque_, pressure_;
+  static inline std::vector<Block> blocks_;
 };
 
 TEST_F(ShearedCell, EveryRingCarriesTheWheelsTorque) {
-  // Steady state, no bottom friction: (σ_φr + m v_r v_φ/V)·2πr²h = T at every ring.
+  // Without bottom friction (σ_φr + m v_r v_φ/V)·2πr²h = T at every ring, but for what spins up the
+  // disks within it: a difference that averages out however much the torque itself varies.
   const Rings rings = ringsOf(setup_);
-  const MeanEstimate wheel = estimateMean(torque_);
-  ASSERT_GT(wheel.mean, 0.0);
+  double wheel = 0.0;
+  for (const Block& block : blocks_) wheel += std::abs(block.torque) / (packings * blocks);
   for (int ring = 0; ring < rings.count(); ++ring) {
-    const auto k = static_cast<std::size_t>(ring);
     const double r = rings.centre(ring);
     const double factor = 2.0 * std::numbers::pi * r * r * rings.height();
-    const double carried =
-        (*profile("stress_pr").mean[k] + *profile("dynamic_stress_rp").mean[k]) * factor;
-    // Three bars of both sides, and 1 % for the width of a ring in which σ falls as r⁻².
-    const double bar =
-        std::hypot(*profile("stress_pr").standardError[k] * factor, *wheel.standardError);
-    EXPECT_NEAR(carried, wheel.mean, 3.0 * bar + 0.01 * wheel.mean) << "ring " << ring + 1;
+    std::vector<double> differences;
+    for (const Block& block : blocks_)
+      differences.push_back(
+          (valueIn(block, "stress_pr", ring) + valueIn(block, "dynamic_stress_rp", ring)) * factor -
+          block.torque);
+    const MeanEstimate difference = estimateMean(differences);
+    // Three bars, and 4 % = (d/r)² at the wheel: σ ∝ r⁻² bends over a ring and over a disk.
+    EXPECT_NEAR(difference.mean, 0.0, 3.0 * *difference.standardError + 0.04 * wheel)
+        << "ring " << ring + 1;
     // Bars so wide that anything fits would prove nothing.
-    EXPECT_LT(bar, 0.25 * wheel.mean) << "ring " << ring + 1;
+    EXPECT_LT(*difference.standardError, 0.15 * wheel) << "ring " << ring + 1;
   }
 }
 
 TEST_F(ShearedCell, RadialStressInTheOutermostRingIsThePressureOnTheWall) {
   // d(r σ_rr)/dr = σ_φφ < σ_rr lets σ_rr fall by some per cent from the ring's middle to the wall.
-  const double wall = estimateMean(pressure_).mean;
-  EXPECT_GT(*profile("stress_rr").mean.back(), wall);
-  EXPECT_LT(*profile("stress_rr").mean.back(), 1.12 * wall);
+  double wall = 0.0;
+  for (const Block& block : blocks_) wall += block.pressure / (packings * blocks);
+  const int outermost = ringsOf(setup_).count() - 1;
+  EXPECT_GT(mean("stress_rr", outermost), wall);
+  EXPECT_LT(mean("stress_rr", outermost), 1.12 * wall);
 }
 
 TEST_F(ShearedCell, ShearsInABandAtTheWheel) {
   const double rim = setup_.cell.omega * setup_.cell.innerRadius;
-  const Profile& velocity = profile("azimuthal_velocity");
-  EXPECT_GT(*velocity.mean[0], 0.15 * rim);
-  EXPECT_LT(*velocity.mean[0], rim);
-  EXPECT_LT(*velocity.mean[2], 0.4 * *velocity.mean[0]);
-  // The first layer rolls backwards on the wheel (claim C8).
-  EXPECT_LT(*profile("spin").mean[0], -3.0 * *profile("spin").standardError[0]);
+  EXPECT_GT(mean("azimuthal_velocity", 0), 0.15 * rim);
+  EXPECT_LT(mean("azimuthal_velocity", 0), rim);
+  EXPECT_LT(mean("azimuthal_velocity", 2), 0.4 * mean("azimuthal_velocity", 0));
+  // The first layer rolls backwards on the wheel (claim C8), at Ω D/d = 8 rad/s at most.
+  EXPECT_LT(mean("spin", 0), -0.5);
 }
 
 TEST_F(ShearedCell, FabricTraceIsVolumeFractionTimesCoordination) {
   // Also of time means, since C is the mean weighted with volume.
-  for (std::size_t k = 0; k < 6; ++k)
-    EXPECT_NEAR(*profile("fabric_trace").mean[k],
-                *profile("volume_fraction").mean[k] * *profile("coordination").mean[k],
-                1e-12 * *profile("fabric_trace").mean[k]);
+  for (const Block& block : blocks_)
+    for (int ring = 0; ring < 6; ++ring) {
+      const double trace = valueIn(block, "fabric_trace", ring);
+      EXPECT_NEAR(trace,
+                  valueIn(block, "volume_fraction", ring) * valueIn(block, "coordination", ring),
+                  1e-12 * trace);
+    }
 }
 
 }  // namespace
