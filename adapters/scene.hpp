@@ -47,6 +47,7 @@ struct Scene {
   ContactLaw law;
   std::optional<BottomPlate> bottom;
   Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
+  bool rotation = true;         ///< false: disks keep the spin that they start with
   double dt = 0.0;              ///< time step [s]
 
   std::size_t wallDiskCount() const;

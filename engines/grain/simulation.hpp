@@ -19,6 +19,8 @@ struct Disks {
   std::size_t size() const { return radius.size(); }
 };
 
+enum class Precision { float64, float32 };
+
 /// Everything a simulation starts from.
 struct Setup {
   Disks disks;
@@ -28,7 +30,10 @@ struct Setup {
   double gravityX = 0.0, gravityY = 0.0;  ///< [m/s²]
   double dt = 0.0;                        ///< [s]
   Integrator integrator = Integrator::positionVerlet;
-  double skin = 0.0;  ///< of the Verlet list [m]; 0: a fifth of the smallest radius
+  double skin = 0.0;     ///< of the Verlet list [m]; 0: a fifth of the smallest radius
+  bool rotation = true;  ///< false: friction without any disk spinning
+  Precision precision = Precision::float64;
+  int threads = 1;
 };
 
 /// One contact of the last force evaluation; the force acts on i, n points from j to i.
@@ -53,6 +58,12 @@ class Simulation {
   explicit Simulation(Setup setup);
 
   void step();
+  void advance(std::uint64_t steps) {
+    for (std::uint64_t k = 0; k < steps; ++k) step();
+  }
+
+  /// Lists the neighbours anew, as the step does when the list is outdated.
+  void findNeighbours();
 
   std::uint64_t steps() const { return steps_; }
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -94,7 +105,6 @@ class Simulation {
   void drift();
   void predictVelocities(double half);
   void moveWalls();
-  void findNeighbours();
   void findPlaneNeighbours();
   void evaluateForces();
   template <bool Friction>

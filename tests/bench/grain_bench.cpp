@@ -1,0 +1,215 @@
+// Time per step of the in-house engine: sizes × effects × precision × threads. README.md says what
+// the figures mean.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "cases/preparation.hpp"
+#include "tests/bench/packings.hpp"
+#include "tests/bench/stream.hpp"
+#include "tests/bench/traffic.hpp"
+
+namespace crossgrain::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using grain::Setup;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One set of effects: the thesis' law, changed.
+struct EffectSet {
+  const char* name;
+  void (*change)(Setup&);
+};
+
+constexpr EffectSet effectSets[] = {
+    {"thesis", [](Setup&) {}},
+    {"no_bottom", [](Setup& s) { s.bottom.reset(); }},
+    {"no_friction", [](Setup& s) { s.law.tangential = grain::Tangential::none; }},
+    {"no_friction_no_bottom",
+     [](Setup& s) {
+       s.law.tangential = grain::Tangential::none;
+       s.bottom.reset();
+     }},
+    {"coulomb", [](Setup& s) { s.law.tangential = grain::Tangential::coulomb; }},
+    {"viscous", [](Setup& s) { s.law.tangential = grain::Tangential::viscous; }},
+    {"cut_tension", [](Setup& s) { s.law.cutTension = true; }},
+    {"no_rotation", [](Setup& s) { s.rotation = false; }},
+};
+
+std::filesystem::path packingFolder;
+
+/// Packings are shared by all benchmarks of one size.
+const Setup& packed(std::size_t disks) {
+  static std::map<std::size_t, Setup> kept;
+  const auto found = kept.find(disks);
+  return found != kept.end() ? found->second
+                             : kept.emplace(disks, packedSetup(disks, packingFolder)).first->second;
+}
+
+struct Variant {
+  std::size_t disks;
+  const EffectSet* effects;
+  grain::Precision precision;
+  int threads;
+
+  Setup setup() const {
+    Setup setup = packed(disks);
+    effects->change(setup);
+    setup.precision = precision;
+    setup.threads = threads;
+    return setup;
+  }
+  std::string name(const char* what) const {
+    return fmt::format("{}/{}/{}/{}/{}", what, disks, effects->name,
+                       precision == grain::Precision::float64 ? "double" : "float", threads);
+  }
+};
+
+/// Sums up time and contacts over steps.
+struct Meter {
+  double seconds = 0.0;
+  std::uint64_t steps = 0, contacts = 0;
+
+  /// Advances and times; absent contacts are none. @returns the time taken [s]
+  double advance(grain::Simulation& simulation, std::uint64_t count) {
+    const std::uint64_t before = simulation.contactEvaluations();
+    const auto start = Clock::now();
+    simulation.advance(count);
+    const double taken = secondsSince(start);
+    seconds += taken;
+    steps += count;
+    contacts += simulation.contactEvaluations() - before;
+    return taken;
+  }
+};
+
+void report(benchmark::State& state, const Meter& quiet, const Setup& setup) {
+  if (quiet.steps == 0) return;
+  const auto disks = static_cast<double>(setup.disks.size());
+  const double step = quiet.seconds / static_cast<double>(quiet.steps);
+  const double contacts = static_cast<double>(quiet.contacts) / static_cast<double>(quiet.steps);
+  const auto pairs = static_cast<double>(listedPairs(setup));
+  const double bytes = stepTraffic(setup).perStep(disks, pairs, contacts);
+  state.counters["us_step"] = 1e6 * step;
+  state.counters["ns_disk"] = 1e9 * step / disks;
+  state.counters["ns_contact"] = 1e9 * step / contacts;
+  state.counters["contacts"] = contacts;
+  state.counters["pairs"] = pairs;
+  state.counters["model_bytes"] = bytes;
+  state.counters["of_stream"] = bytes / step / streamBandwidth(setup.threads);
+}
+
+/// Running on and on. Time counts every step, `us_step` and what follows from it only those of
+/// stretches without a rebuild.
+void step(benchmark::State& state, const Variant& variant) {
+  const Setup setup = variant.setup();
+  grain::Simulation simulation(setup);
+  const std::uint64_t stretch = variant.disks >= 100000 ? 2 : 10;
+  simulation.advance(20);
+  Meter all, quiet;
+  const std::size_t rebuildsBefore = simulation.neighbourRebuilds();
+  for (auto _ : state) {
+    const std::size_t rebuilds = simulation.neighbourRebuilds();
+    Meter meter;
+    state.SetIterationTime(meter.advance(simulation, stretch) / static_cast<double>(stretch));
+    all.steps += meter.steps;
+    if (simulation.neighbourRebuilds() != rebuilds) continue;
+    quiet.seconds += meter.seconds;
+    quiet.steps += meter.steps;
+    quiet.contacts += meter.contacts;
+  }
+  report(state, quiet, setup);
+  state.counters["steps_run"] = static_cast<double>(simulation.steps());  // for count.py
+  state.counters["rebuilds_per_1000"] =
+      1e3 * static_cast<double>(simulation.neighbourRebuilds() - rebuildsBefore) /
+      static_cast<double>(all.steps);
+}
+
+/// The first steps from the packing, again and again, so that sets of effects are compared on the
+/// same list of contacts.
+void sameContacts(benchmark::State& state, const Variant& variant) {
+  const Setup setup = variant.setup();
+  constexpr std::uint64_t stretch = 10;
+  Meter meter;
+  for (auto _ : state) {
+    grain::Simulation simulation(setup);
+    simulation.advance(2);
+    state.SetIterationTime(meter.advance(simulation, stretch) / stretch);
+  }
+  report(state, meter, setup);
+}
+
+void rebuild(benchmark::State& state, const Variant& variant) {
+  const Setup setup = variant.setup();
+  grain::Simulation simulation(setup);
+  simulation.advance(20);
+  double seconds = 0.0;
+  for (auto _ : state) {
+    const auto start = Clock::now();
+    simulation.findNeighbours();
+    const double taken = secondsSince(start);
+    state.SetIterationTime(taken);
+    seconds += taken;
+  }
+  const auto pairs = static_cast<double>(listedPairs(setup));
+  state.counters["pairs"] = pairs;
+  state.counters["ns_disk"] = 1e9 * seconds / static_cast<double>(state.iterations()) /
+                              static_cast<double>(setup.disks.size());
+}
+
+void stream(benchmark::State& state, int threads) {
+  for (auto _ : state) state.SetIterationTime(24.0 * (1 << 24) / streamBandwidth(threads));
+  state.counters["GB_s"] = 1e-9 * streamBandwidth(threads);
+}
+
+void add(const std::string& name, auto&& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Unit(benchmark::kMicrosecond);
+}
+
+void registerAll() {
+  for (const int threads : {1, 2})
+    add(fmt::format("stream/{}", threads), [threads](auto& state) { stream(state, threads); });
+  using enum grain::Precision;
+  for (const std::size_t disks : {1000, 10000, 100000, 1000000}) {
+    for (const auto precision : {float64, float32})
+      for (const int threads : {1, 2}) {
+        for (const EffectSet& effects : effectSets) {
+          const Variant variant{disks, &effects, precision, threads};
+          add(variant.name("step"), [=](auto& state) { step(state, variant); });
+          add(variant.name("same_contacts"), [=](auto& state) { sameContacts(state, variant); });
+        }
+        const Variant thesis{disks, &effectSets[0], precision, threads};
+        add(thesis.name("rebuild"), [=](auto& state) { rebuild(state, thesis); });
+      }
+  }
+}
+
+/// Takes --packings=DIR out of the arguments.
+void readFolder(int& argc, char** argv) {
+  packingFolder = packingCacheFile("").parent_path();
+  constexpr std::string_view option = "--packings=";
+  for (int k = 1; k < argc; ++k) {
+    if (!std::string_view(argv[k]).starts_with(option)) continue;
+    packingFolder = std::string_view(argv[k]).substr(option.size());
+    std::move(argv + k + 1, argv + argc, argv + k);
+    --argc;
+    return;
+  }
+}
+
+}  // namespace
+}  // namespace crossgrain::bench
+
+int main(int argc, char** argv) {
+  crossgrain::bench::readFolder(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  crossgrain::bench::registerAll();
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,228 @@
+#include "tests/bench/packings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <random>
+
+#include "cases/couette.hpp"
+#include "cases/loader.hpp"
+#include "cases/packing.hpp"
+#include "cases/time_step.hpp"
+
+namespace crossgrain::bench {
+namespace {
+
+/// Uniform in [0, 1), the same on every platform.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double operator()() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  /// Uniform in 0 … count − 1.
+  std::size_t below(std::size_t count) {
+    return static_cast<std::size_t>((*this)() * static_cast<double>(count));
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+template <typename T>
+void shuffle(std::vector<T>& values, Random& random) {
+  for (std::size_t k = values.size(); k > 1; --k) std::swap(values[k - 1], values[random.below(k)]);
+}
+
+/// As many sites of a triangular lattice as there are disks, between the walls, line by line, each
+/// off its place by up to a fifth of the lattice constant.
+std::vector<Vec2> jitteredSites(const Case& setup, std::size_t disks, Random& random) {
+  const double inner = setup.cell.innerRadius + setup.particles.largeRadius;
+  const double outer = setup.cell.outerRadius - setup.particles.largeRadius;
+  const double area = std::numbers::pi * (outer * outer - inner * inner);
+  double constant = std::sqrt(area / static_cast<double>(disks) * 2.0 / std::sqrt(3.0));
+  std::vector<Vec2> sites;
+  while (sites.size() < disks) {  // whole cells of a lattice never quite tile a ring
+    sites.clear();
+    const double line = constant * std::sqrt(3.0) / 2.0;
+    const auto lines = static_cast<int>(outer / line) + 1;
+    const auto columns = static_cast<int>(outer / constant) + 2;
+    for (int l = -lines; l <= lines; ++l)
+      for (int c = -columns; c <= columns; ++c) {
+        const Vec2 site((c + (l % 2 == 0 ? 0.0 : 0.5)) * constant, l * line);
+        if (site.norm() > inner && site.norm() < outer) sites.push_back(site);
+      }
+    constant *= 0.9995;
+  }
+  // Spread what is too much over the cell.
+  std::vector<Vec2> kept;
+  for (std::size_t k = 0; k < disks; ++k) {
+    const Vec2 jitter(random() - 0.5, random() - 0.5);
+    kept.push_back(sites[k * sites.size() / disks] + 0.4 * constant * jitter);
+  }
+  return kept;
+}
+
+grain::Wall grainWall(const WallBody& body, double omega, double angle) {
+  grain::Wall wall;
+  for (const Vec2& position : body.diskPosition) {
+    wall.diskX.push_back(position.x());
+    wall.diskY.push_back(position.y());
+  }
+  wall.diskRadius = body.diskRadius;
+  wall.motion = [omega, angle](double t) {
+    grain::WallState state;
+    state.angle = angle + omega * t;
+    state.spin = omega;
+    return state;
+  };
+  return wall;
+}
+
+grain::Law grainLaw(const ContactLaw& law) {
+  grain::Law to;  // the conventions of the thesis are the engine's defaults
+  to.kn = law.kn;
+  to.gn = law.gn;
+  to.kt = law.kt;
+  to.gt = law.gt;
+  to.mu = law.mu;
+  to.tangential = grain::Tangential::springDashpot;
+  return to;
+}
+
+grain::Setup grainSetup(const Case& setup, const Packing& packing) {
+  grain::Setup to;
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    to.disks.x.push_back(packing.disks.position[i].x());
+    to.disks.y.push_back(packing.disks.position[i].y());
+    to.disks.vx.push_back(packing.disks.velocity[i].x());
+    to.disks.vy.push_back(packing.disks.velocity[i].y());
+  }
+  to.disks.spin = packing.disks.spin;
+  to.disks.radius = packing.disks.radius;
+  to.disks.mass = packing.disks.mass;
+  to.disks.inertia = packing.disks.inertia;
+  const Cell& cell = setup.cell;
+  to.walls.push_back(
+      grainWall(wallRing(wheelName, cell, cell.innerRadius, packing.wheelAngle), cell.omega, 0.0));
+  to.walls.push_back(grainWall(wallRing(ringName, cell, cell.outerRadius, 0.0), 0.0, 0.0));
+  to.law = grainLaw(setup.law);
+  const BottomPlate& plate = setup.bottom.value();
+  to.bottom = {plate.mu, plate.kb, plate.gb, plate.tauM, plate.gravity, plate.spin};
+  to.dt = timeStep(setup);
+  return to;
+}
+
+/// Moves what overlaps apart: no friction, and a bath that takes the velocities.
+void relax(grain::Setup setup, std::uint64_t steps, Disks& disks) {
+  setup.law.tangential = grain::Tangential::none;
+  setup.law.gn = 0.4;  // kg/s, nearly critical
+  // k_b = 0 and a bound that is never reached: the plate's force is −γ v.
+  setup.bottom = grain::Bottom{1e9, 0.0, 0.05, 0.0, 9.81, false};
+  grain::Simulation simulation(std::move(setup));
+  simulation.advance(steps);
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    disks.position[i] = {simulation.x()[i], simulation.y()[i]};
+    disks.velocity[i] = Vec2::Zero();
+  }
+}
+
+void shear(grain::Setup setup, std::uint64_t steps, Packing& packing) {
+  grain::Simulation simulation(std::move(setup));
+  simulation.advance(steps);
+  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
+    packing.disks.position[i] = {simulation.x()[i], simulation.y()[i]};
+    packing.disks.velocity[i] = {simulation.velocityX(i), simulation.velocityY(i)};
+    packing.disks.spin[i] = simulation.spin(i);
+  }
+  packing.wheelAngle += simulation.wallState(0).angle;
+}
+
+/// The same disks in another order: disk k becomes disk `to[k]`.
+Disks reordered(const Disks& disks, const std::vector<std::size_t>& to) {
+  Disks result = disks;
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    result.radius[to[k]] = disks.radius[k];
+    result.mass[to[k]] = disks.mass[k];
+    result.inertia[to[k]] = disks.inertia[k];
+    result.position[to[k]] = disks.position[k];
+    result.velocity[to[k]] = disks.velocity[k];
+    result.spin[to[k]] = disks.spin[k];
+  }
+  return result;
+}
+
+Packing makePacking(const Case& setup, std::size_t disks) {
+  Random random(1);
+  const Disks kinds = diskKinds(setup.particles);
+  std::vector<std::size_t> idAtSite(disks);
+  for (std::size_t k = 0; k < disks; ++k) idAtSite[k] = k;
+  shuffle(idAtSite, random);
+
+  // Worked on in the order of the lattice, which is kinder to caches than the order of the ids.
+  Packing packing;
+  packing.disks = kinds;
+  for (std::size_t k = 0; k < disks; ++k) {
+    packing.disks.radius[k] = kinds.radius[idAtSite[k]];
+    packing.disks.mass[k] = kinds.mass[idAtSite[k]];
+    packing.disks.inertia[k] = kinds.inertia[idAtSite[k]];
+  }
+  packing.disks.position = jitteredSites(setup, disks, random);
+  relax(grainSetup(setup, packing), 3000, packing.disks);
+  shear(grainSetup(setup, packing), 2000, packing);
+  packing.disks = reordered(packing.disks, idAtSite);
+  return packing;
+}
+
+/// The factor g on both radii at which the room for disks grows by `room`: that between the walls'
+/// surfaces less half a small disk, since disks pack badly against a wall. A real cell has a band
+/// of loose disks at its wheel and is denser elsewhere: the factor 0.988, calibrated so
+/// that there are about as many contacts per disk as in the real cell, see README.md.
+double growthOf(const Case& setup, double room) {
+  const double width = setup.cell.outerRadius - setup.cell.innerRadius;
+  const double lost = setup.cell.wallRadius + 0.5 * setup.particles.smallRadius;
+  return (lost + std::sqrt(lost * lost + 0.988 * room * width * (width - 2.0 * lost))) / width;
+}
+
+}  // namespace
+
+Case scaledCase(std::size_t disks) {
+  Case setup = loadCase(CROSSGRAIN_SOURCE_DIR "/cases/couette/nu-0.804.toml").front();
+  Particles& particles = setup.particles;
+  const double all = particles.small + particles.large;
+  const double growth = growthOf(setup, static_cast<double>(disks) / all);
+  particles.small =
+      static_cast<int>(std::lround(static_cast<double>(disks) * particles.small / all));
+  particles.large = static_cast<int>(disks) - particles.small;
+  setup.cell.innerRadius *= growth;
+  setup.cell.outerRadius *= growth;
+  setup.cell.omega /= growth;
+  return setup;
+}
+
+grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder) {
+  const Case setup = scaledCase(disks);
+  const std::filesystem::path file = folder / fmt::format("bench-packing-1-{}.h5", disks);
+  if (!std::filesystem::exists(file)) {
+    fmt::print(stderr, "preparing {} disks, kept in {}\n", disks, file.string());
+    writePacking(makePacking(setup, disks), file);
+  }
+  return grainSetup(setup, readPacking(file, setup));
+}
+
+std::size_t listedPairs(const grain::Setup& setup) {
+  const grain::Disks& disks = setup.disks;
+  std::vector<double> x = disks.x, y = disks.y, radius = disks.radius;
+  for (const grain::Wall& wall : setup.walls) {
+    x.insert(x.end(), wall.diskX.begin(), wall.diskX.end());
+    y.insert(y.end(), wall.diskY.begin(), wall.diskY.end());
+    radius.insert(radius.end(), wall.diskRadius.begin(), wall.diskRadius.end());
+  }
+  const double skin = setup.skin > 0.0 ? setup.skin : 0.2 * *std::ranges::min_element(disks.radius);
+  grain::Neighbours list(disks.size(), skin);
+  list.rebuild(x, y, radius);
+  return list.pairCount();
+}
+
+}  // namespace crossgrain::bench
