@@ -100,14 +100,14 @@ box2d_granular::SoftLaw box2dSoftLaw(const ContactLaw& law) {
   return to;
 }
 
-Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool rotation) {
+Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool spins) {
   Snapshot snapshot;
   snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = time;
   for (std::size_t i = 0; i < members.disks; ++i) {
     snapshot.position.push_back(toVec2(members.position[i]));
     snapshot.velocity.push_back(toVec2(members.velocity[i]));
   }
-  if (rotation) snapshot.spin.emplace(members.spin.begin(), members.spin.begin() + members.disks);
+  if (spins) snapshot.spin.emplace(members.spin.begin(), members.spin.begin() + members.disks);
   for (std::size_t i = members.disks; i < members.position.size(); ++i)
     snapshot.wallPosition.push_back(toVec2(members.position[i]));
   for (const box2d_granular::Pose& pose : members.pose)

@@ -35,6 +35,6 @@ inline Vec2 toVec2(box2d_granular::Vector v) {
 }
 
 /// Disks, walls and times of a snapshot; contacts and loads are the engine's own.
-Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool rotation);
+Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, bool spins);
 
 }  // namespace crossgrain

@@ -84,7 +84,7 @@ Capabilities Box2dImpulse::capabilities() const {
   can.effects[Effect::bottomFriction] = Support::never;
   can.effects[Effect::bottomSpinFriction] = Support::never;
   can.lawOptions = {{"normal", {"rigid"}}};
-  can.precision = "float";
+  can.precisions = {Precision::float32};
   can.accumulatedContacts = true;
   can.settings = {
       {"dt", 5e-4, "s", "time step; 0: the case's", {}},
@@ -117,6 +117,7 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
           friction(law_), [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
           number("impact_speed"), passes("velocity_iterations"), passes("position_iterations")});
   rotation_ = model.rotation;
+  spins_ = effectsOf(scene).contains(Effect::friction);
   stopwatch_ = {};
 
   Realised realised;
@@ -130,7 +131,8 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double reducedMass) {
     pair.mu = friction(law_);
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
-    const Restitution used = restitutionOf({1.0 / reducedMass, (1.0 + 1.0 / q) / reducedMass});
+    const Restitution used =
+        restitutionOf({1.0 / reducedMass, (1.0 + (rotation_ ? 1.0 / q : 0.0)) / reducedMass});
     pair.en = used.normal;
     pair.et0 = used.tangential;
   });
@@ -144,8 +146,8 @@ Restitution Box2dImpulse::restitution(std::int32_t i, std::int32_t j) {
     const auto k = static_cast<std::size_t>(id);
     if (k >= disks_.size()) continue;  // walls are infinitely heavy
     pair.normal += 1.0 / disks_.mass[k];
-    pair.tangential +=
-        1.0 / disks_.mass[k] + disks_.radius[k] * disks_.radius[k] / disks_.inertia[k];
+    pair.tangential += 1.0 / disks_.mass[k];
+    if (rotation_) pair.tangential += disks_.radius[k] * disks_.radius[k] / disks_.inertia[k];
   }
   return restitutionOf(pair);
 }
@@ -166,7 +168,7 @@ double Box2dImpulse::advance(double t) {
 
 Snapshot Box2dImpulse::snapshot(ContactReport report) {
   const box2d_granular::Members& members = world_->members();
-  Snapshot snapshot = kinematicSnapshot(members, world_->time(), rotation_);
+  Snapshot snapshot = kinematicSnapshot(members, world_->time(), spins_);
   const bool accumulated = report == ContactReport::accumulated;
   const std::uint64_t steps =
       accumulated ? world_->sumSteps() : std::min<std::uint64_t>(1, world_->steps());

@@ -36,6 +36,7 @@ class Box2dImpulse : public Engine {
   std::map<std::pair<double, double>, box2d_granular::Restitution> known_;
   std::optional<box2d_granular::ImpulseWorld> world_;
   bool rotation_ = false;
+  bool spins_ = false;  ///< whether any force asks for them
   Stopwatch stopwatch_;
 };
 

@@ -21,7 +21,7 @@ Capabilities Box2dPenalty::capabilities() const {
                     {"lever_arm", {"radius", "contact_point"}},
                     {"damping_velocity", {"lagged"}},
                     {"integrator", {"semi_implicit_euler"}}};
-  can.precision = "double";
+  can.precisions = {Precision::float64};
   can.slidingFlags = true;
   can.settings = {{"dt", 0.0, "s", "time step; 0: the case's", {}}, lengthUnitSetting()};
   return can;
@@ -39,7 +39,7 @@ Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
     plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
              scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
   world_.emplace(model, box2dSoftLaw(scene.law), plate);
-  rotation_ = model.rotation;
+  spins_ = effectsOf(scene).contains(Effect::friction);
   stopwatch_ = {};
 
   Realised realised;
@@ -67,7 +67,7 @@ double Box2dPenalty::advance(double t) {
 Snapshot Box2dPenalty::snapshot(ContactReport report) {
   if (report == ContactReport::accumulated)
     throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
-  Snapshot snapshot = kinematicSnapshot(world_->members(), world_->time(), rotation_);
+  Snapshot snapshot = kinematicSnapshot(world_->members(), world_->time(), spins_);
   const std::vector<box2d_granular::WallLoad> loads = world_->wallLoads();
   for (std::size_t b = 0; b < loads.size(); ++b) {
     snapshot.bodies[b].force = toVec2(loads[b].force);

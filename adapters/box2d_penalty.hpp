@@ -23,7 +23,7 @@ class Box2dPenalty : public Engine {
   Contacts contacts() const;
 
   std::optional<box2d_granular::PenaltyWorld> world_;
-  bool rotation_ = false;
+  bool spins_ = false;  ///< whether any force asks for them
   Stopwatch stopwatch_;
 };
 

@@ -49,7 +49,7 @@ Effects effectsOf(const Scene& scene) {
     call(friction && spring && law.kt > 0.0, Effect::tangentialSpring);
     call(friction && dashpot && law.gt > 0.0, Effect::tangentialDamping);
   }
-  call(effects.contains(Effect::friction), Effect::rotation);
+  call(effects.contains(Effect::friction) && scene.rotation, Effect::rotation);
 
   if (scene.bottom && scene.bottom->mu > 0.0) {
     effects.insert(Effect::bottomFriction);

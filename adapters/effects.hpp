@@ -31,8 +31,8 @@ std::string toString(Effect effect);
 
 using Effects = std::set<Effect>;
 
-/// The effects a scene calls for. A frictionless scene calls for no rotation:
-/// nothing can change a spin there.
+/// The effects a scene calls for. Where there is no friction, or the case blocks spins,
+/// no rotation: nothing can change a spin there.
 Effects effectsOf(const Scene& scene);
 
 }  // namespace crossgrain

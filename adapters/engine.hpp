@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -33,10 +34,11 @@ struct Capabilities {
   /// Law options by their case-file name ("tension", "dashpot", …) → values that the engine has.
   /// An option that is not listed does not matter to the engine's law.
   std::map<std::string, std::vector<std::string>> lawOptions;
-  std::string precision;  ///< "double" | "float"
+  std::vector<Precision> precisions;  ///< that it can run in, its own choice first
   bool instantContacts = true;
   bool accumulatedContacts = false;
   bool warmHandover = false;
+  bool checkpoints = false;
   bool slidingFlags = false;
   std::vector<SettingSpec> settings;
 };
@@ -60,8 +62,8 @@ struct PairCoefficients {
 struct Realised {
   std::string engine;
   std::string version;
-  double dt = 0.0;  ///< [s]
-  std::string precision;
+  double dt = 0.0;        ///< [s]
+  std::string precision;  ///< "double" | "float"
   std::string integrator;
   Effects effects;
   std::vector<PairCoefficients> pairs;
@@ -110,6 +112,13 @@ class Engine {
   virtual Snapshot snapshot(ContactReport contacts) = 0;
 
   virtual Stats stats() const = 0;
+
+  /// Writes all that the future of the run depends on; and takes an engine that has loaded the same
+  /// scene with the same settings there, from where it goes on to the bit.
+  /// Capabilities::checkpoints says which engines can.
+  /// @throws EngineFailure if the file cannot be written, or is none of this engine and scene
+  virtual void checkpoint(const std::filesystem::path& file);
+  virtual void restore(const std::filesystem::path& file);
 };
 
 }  // namespace crossgrain

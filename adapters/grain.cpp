@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <optional>
 
 #include "adapters/law_options.hpp"
@@ -50,6 +51,7 @@ grain::Wall translate(const WallBody& body) {
   wall.diskRadius = body.diskRadius;
   for (const Plane& plane : body.planes)
     wall.planes.push_back({plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
+  wall.moves = body.motion.kind != Motion::Kind::fixed;
   wall.motion = [motion = body.motion, centre = body.centre](double t) {
     return translate(stateAt(motion, centre, t));
   };
@@ -93,8 +95,9 @@ class GrainEngine : public Engine {
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
     can.lawOptions["normal"] = {"linear"};
     for (const auto& [name, value] : conventions_) can.lawOptions[name] = {value};
-    can.precision = "double";
+    can.precisions = {Precision::float64};
     can.slidingFlags = true;
+    can.checkpoints = true;
     can.settings = {
         {"dt", 0.0, "s", "time step; 0: the case's", {}},
         {"stiffness",
@@ -126,7 +129,6 @@ class GrainEngine : public Engine {
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
     bodies_ = scene.bodies;
-    rotation_ = setup.law.friction();
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
 
@@ -157,7 +159,8 @@ class GrainEngine : public Engine {
   double advance(double t) override {
     const auto wanted = std::llround(t / simulation_->dt());
     const Stopwatch::Lap lap(stopwatch_);
-    while (static_cast<long long>(simulation_->steps()) < wanted) simulation_->step();
+    const auto done = static_cast<long long>(simulation_->steps());
+    if (wanted > done) simulation_->advance(static_cast<std::uint64_t>(wanted - done));
     return simulation_->time();
   }
 
@@ -166,15 +169,15 @@ class GrainEngine : public Engine {
     Snapshot snapshot;
     snapshot.positionTime = snapshot.velocityTime = snapshot.contactTime = now.time();
     for (std::size_t i = 0; i < now.movingCount(); ++i) {
-      snapshot.position.emplace_back(now.x()[i], now.y()[i]);
+      snapshot.position.emplace_back(now.x(i), now.y(i));
       snapshot.velocity.emplace_back(now.velocityX(i), now.velocityY(i));
     }
-    if (rotation_) {
+    if (now.rotates()) {
       snapshot.spin.emplace();
       for (std::size_t i = 0; i < now.movingCount(); ++i) snapshot.spin->push_back(now.spin(i));
     }
-    for (std::size_t i = now.movingCount(); i < now.x().size(); ++i)
-      snapshot.wallPosition.emplace_back(now.x()[i], now.y()[i]);
+    for (std::size_t i = now.movingCount(); i < now.diskCount(); ++i)
+      snapshot.wallPosition.emplace_back(now.x(i), now.y(i));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const grain::WallState wall = now.wallState(b);
       const grain::WallLoad load = now.wallLoad(b);
@@ -192,12 +195,29 @@ class GrainEngine : public Engine {
     return snapshot;
   }
 
+  void checkpoint(const std::filesystem::path& file) override {
+    std::ofstream out(file, std::ios::binary);
+    simulation_->save(out);
+    out.close();
+    if (!out) throw EngineFailure(fmt::format("{}: cannot be written", file.string()));
+  }
+
+  void restore(const std::filesystem::path& file) override {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw EngineFailure(fmt::format("{}: cannot be read", file.string()));
+    try {
+      simulation_->restore(in);
+    } catch (const std::runtime_error& error) {
+      throw EngineFailure(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  }
+
   Stats stats() const override {
     return {simulation_->steps(),
             simulation_->contactEvaluations(),
             stopwatch_.wallSeconds,
             stopwatch_.cpuSeconds,
-            {{"rebuilds", static_cast<double>(simulation_->neighbourRebuilds())}}};
+            {{"rebuilds", static_cast<double>(simulation_->neighbours().rebuilds)}}};
   }
 
  private:
@@ -223,7 +243,6 @@ class GrainEngine : public Engine {
   std::map<std::string, std::string> conventions_;
   double stiffness_;
   std::vector<WallBody> bodies_;
-  bool rotation_ = false;
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
 };

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "adapters/contact_law.hpp"
@@ -38,6 +40,13 @@ struct WallBody {
   Motion motion;
 };
 
+/// The floating-point numbers that an engine steps with.
+enum class Precision { float64, float32 };
+
+/// As in case files and reports, in enum order.
+inline constexpr std::array<std::string_view, 2> precisionNames = {"double", "float"};
+std::string toString(Precision precision);
+
 /// One granular scene: everything an engine needs, plain data in SI units, laboratory frame.
 /// Ids: disks 0 … N−1, then the wall disks body by body, then the planes body by body.
 struct Scene {
@@ -48,7 +57,8 @@ struct Scene {
   std::optional<BottomPlate> bottom;
   Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
   bool rotation = true;         ///< false: disks keep the spin that they start with
-  double dt = 0.0;              ///< time step [s]
+  Precision precision = Precision::float64;
+  double dt = 0.0;  ///< time step [s]
 
   std::size_t wallDiskCount() const;
   std::size_t planeCount() const;

@@ -22,6 +22,8 @@ void removeEffect(Scene& scene, Effect effect) {
       scene.law.en = 1.0;
       break;
     case Effect::rotation:
+      scene.rotation = false;
+      break;
     case Effect::friction:
       scene.law.mu = 0.0;
       scene.law.tangential = TangentialLaw::none;
@@ -82,6 +84,17 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
     if (mismatch.effectMissing)
       for (const Effect effect : allEffects)
         if (toString(effect) == mismatch.name) removeEffect(adapted.scene, effect);
+  }
+  // Double is what a scene says where nobody chose: an engine of floats that runs it tells its
+  // rounding itself.
+  const bool has = std::ranges::find(can.precisions, scene.precision) != can.precisions.end();
+  if (!has && !can.precisions.empty()) {
+    adapted.scene.precision = can.precisions.front();
+    if (scene.precision == Precision::float32)
+      adapted.deviations.push_back(
+          {"precision", 0.0, "",
+           fmt::format("runs in {}, not {}", toString(can.precisions.front()),
+                       toString(scene.precision))});
   }
   return adapted;
 }

@@ -18,7 +18,8 @@ struct Mismatch {
 std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
 
 /// The scene as this engine may run it: what it cannot do, and `mayDiffer` lists, is changed to
-/// what the engine has, each change a deviation.
+/// what the engine has, each change a deviation. A precision that the engine lacks is no reason to
+/// refuse: it runs in its own.
 struct Adapted {
   Scene scene;
   std::vector<Deviation> deviations;

@@ -27,6 +27,7 @@ struct Particles {
   double smallRadius = 0.0, largeRadius = 0.0;  ///< [m]
   double smallMass = 0.0, largeMass = 0.0;      ///< [kg]
   double inertiaFactor = 0.5;                   ///< q in J = q m a²: 1/2 disk, 2/5 sphere
+  bool rotation = true;                         ///< false: disks keep the spin that they start with
   double maxOverlap = 0.2;  ///< largest overlap allowed at a start, in units of the small radius
   std::optional<std::filesystem::path> file;  ///< a packing of the user's own (see cases/README)
 };
@@ -64,8 +65,9 @@ struct RunOptions {
   std::string handover = "cold";       ///< "cold" | "warm"
   std::vector<std::string> mayDiffer;  ///< law options and effects in which engines may deviate
   double timeout = 120.0;              ///< longest wait for one answer of a worker [s]
-  bool mirrors = true;                 ///< also run the in-house mirrors of the engines named
-  int keepSnapshots = 20;              ///< snapshots kept per run in HDF5
+  Precision precision = Precision::float64;  ///< of engines that can choose
+  bool mirrors = true;                       ///< also run the in-house mirrors of the engines named
+  int keepSnapshots = 20;                    ///< snapshots kept per run in HDF5
 };
 
 /// Two-body collisions: head-on approach with opposite spins that give v_t = Ψ_i v_n.

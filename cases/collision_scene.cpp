@@ -16,6 +16,7 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
   scene.name = setup.name;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
+  scene.precision = setup.run.precision;
   scene.dt = dt;
   const double massSum = pair.mass[0] + pair.mass[1];
   for (std::size_t k = 0; k < starts.size(); ++k) {

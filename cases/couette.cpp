@@ -47,6 +47,8 @@ Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   scene.disks = packing.disks;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
+  scene.rotation = setup.particles.rotation;
+  scene.precision = setup.run.precision;
   scene.dt = dt;
   WallBody wheel = wallRing(wheelName, setup.cell, setup.cell.innerRadius, packing.wheelAngle);
   wheel.motion.kind = Motion::Kind::rotating;

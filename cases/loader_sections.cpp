@@ -105,6 +105,7 @@ void readCell(Reader& in, Cell& cell) {
 
 void readParticles(Reader& in, Particles& particles) {
   in.read("inertia_factor", particles.inertiaFactor, aboveZeroTo(1.0));
+  in.read("rotation", particles.rotation);
   in.read("max_overlap", particles.maxOverlap, between(0.0, 1.0));
   in.read("small", particles.small, between(0, manyDisks));
   in.read("large", particles.large, between(0, manyDisks));
@@ -155,6 +156,10 @@ void readRun(Reader& in, RunOptions& run) {
   if (run.handover == "warm") in.fail("handover", "not yet supported; \"cold\" is");
   in.read("may_differ", run.mayDiffer, deviationNames());
   in.read("timeout", run.timeout, positive("s"));
+  static const std::vector<std::string> precisions(precisionNames.begin(), precisionNames.end());
+  std::string precision = toString(run.precision);
+  in.read("precision", precision, precisions);
+  run.precision = precision == precisions.front() ? Precision::float64 : Precision::float32;
   in.read("mirrors", run.mirrors);
   in.read("keep_snapshots", run.keepSnapshots, between(0, 1'000'000));
   in.finish();

@@ -61,6 +61,7 @@ std::string packingHash(const Case& setup, int index, double dt) {
   const Particles& disks = setup.particles;
   text += fmt::format("disks {} {} {} {} {} {} {};", disks.small, disks.large, disks.smallRadius,
                       disks.largeRadius, disks.smallMass, disks.largeMass, disks.inertiaFactor);
+  if (!disks.rotation) text += "no rotation;";
   const Preparation& how = setup.preparation;
   text += fmt::format("prepare {} {} {} {} {}", packingSeed(setup, index), how.dilation,
                       how.velocity, how.shrinkTime, how.rotations);

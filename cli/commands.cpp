@@ -114,8 +114,10 @@ int listEngines(const CommandLine& line) {
       continue;
     }
     const Capabilities can = capabilitiesFromJson(row["capabilities"]);
+    std::vector<std::string> precisions;
+    for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
     fmt::print("{:<16} {} (version {}, {})\n", row["name"].get<std::string>(),
-               row["summary"].get<std::string>(), can.version, can.precision);
+               row["summary"].get<std::string>(), can.version, fmt::join(precisions, " or "));
     for (const auto& [effect, support] : can.effects)
       fmt::print("  {:<22} {}\n", toString(effect), supportMark(support));
     for (const auto& [option, values] : can.lawOptions)

@@ -183,7 +183,9 @@ void Comparison::runOne(std::size_t engine, int packing, std::size_t task) {
                          &packings_[static_cast<std::size_t>(packing)],
                          dt_,
                          store_.scratch(name),
-                         store_.snapshots(name)};
+                         store_.snapshots(name),
+                         store_.unfinished(name),
+                         runKey(entry, packing)};
     json finished =
         runCouette(run, [&](double fraction) { progress_.update(task, label, fraction); });
     store_.keep(name, runKey(entry, packing), finished);

@@ -15,6 +15,7 @@
 #include "runs/picture.hpp"
 #include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
+#include "runs/unfinished_run.hpp"
 
 namespace crossgrain {
 
@@ -78,9 +79,13 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   const double end = settled + samples * interval;
   // In pieces: an engine answers within its time-out however far apart snapshots are.
   const double piece = 2000.0 * loaded.realised.dt;
-  double now = 0.0;
+  UnfinishedRun unfinished(run.unfinished, run.key, scene,
+                           loaded.can.checkpoints && report == ContactReport::instant);
+  const auto before = unfinished.resume(engine);
+  double now = before ? before->time : 0.0;
   const auto advanceTo = [&](double t) {
     while (now < t) {
+      if (interrupted()) unfinished.keep(engine, now);
       throwIfInterrupted();
       const double next = std::min(t, now + piece);
       const double reached = engine.advance(next);
@@ -88,6 +93,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
         throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
                                         run.entry.name, setup.name, next, reached));
       now = next;
+      unfinished.keepIfDue(engine, now);
     }
     progress(t / end);
   };
@@ -103,25 +109,37 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   SnapshotFile kept(run.snapshots, scene, samples, setup.run.keepSnapshots);
   json picture;
   const double pictureTime = std::min(0.5 * rotation, end);
-  for (int k = 1; k <= samples; ++k) {
-    advanceTo(settled + k * interval);
-    const Snapshot snapshot = engine.snapshot(report);
+  int taken = 0;
+  const auto take = [&](const Snapshot& snapshot) {
     profiles.add(snapshot);
     series.add(snapshot);
-    kept.offer(snapshot, k);
+    kept.offer(snapshot, ++taken);
     if (run.packingIndex == 0 && picture.is_null() &&
         snapshot.positionTime >= pictureTime - interval)
       picture = pictureOf(scene, snapshot, snapshot.positionTime / rotation);
+  };
+  if (before)
+    for (const Snapshot& snapshot : before->snapshots) take(snapshot);
+  while (taken < samples) {
+    advanceTo(settled + (taken + 1) * interval);
+    const Snapshot snapshot = engine.snapshot(report);
+    take(snapshot);
+    unfinished.took(snapshot);
   }
   kept.close();
 
+  Stats stats = engine.stats();
+  if (before) {
+    stats.wallSeconds += before->wallSeconds;
+    stats.cpuSeconds += before->cpuSeconds;
+  }
   const std::vector<Profile> averaged = profiles.profiles();
   json result = {{"engine", run.entry.name},
                  {"packing", run.packingIndex},
                  {"status", "finished"},
                  {"reason", ""},
                  {"realised", toJson(loaded.realised)},
-                 {"stats", statsJson(engine.stats())},
+                 {"stats", statsJson(stats)},
                  {"series", series.rows()},
                  {"picture", picture}};
   result["profiles"] = json::array();

@@ -23,9 +23,11 @@ struct CouetteRun {
   EngineEntry entry;
   int packingIndex;
   const Packing* packing;
-  double dt;                        ///< the case's time step [s]
-  std::filesystem::path scratch;    ///< the worker's
-  std::filesystem::path snapshots;  ///< HDF5 file of kept snapshots
+  double dt;                         ///< the case's time step [s]
+  std::filesystem::path scratch;     ///< the worker's
+  std::filesystem::path snapshots;   ///< HDF5 file of kept snapshots
+  std::filesystem::path unfinished;  ///< folder of what is kept while it runs
+  std::string key;                   ///< everything that the run depends on
 };
 
 /// Lets the packing settle, averages over the case's rotations and returns a finished entry of

@@ -21,14 +21,17 @@ RunStore::RunStore(fs::path out) : out_(std::move(out)) {
                     "new one",
                     out_.string()));
   makeDirectory(out_);
-  writeFile(marker, "Made by crossgrain; a new run replaces runs/, scratch/ and snapshots/.\n");
+  writeFile(
+      marker,
+      "Made by crossgrain; a new run replaces runs/, scratch/, snapshots/ and unfinished/.\n");
   fs::remove_all(out_ / "scratch", ignored);
-  for (const char* folder : {"runs", "scratch", "snapshots"}) makeDirectory(out_ / folder);
+  for (const char* folder : {"runs", "scratch", "snapshots", "unfinished"})
+    makeDirectory(out_ / folder);
 }
 
 void RunStore::startAfresh() const {
   std::error_code ignored;
-  for (const char* folder : {"runs", "snapshots"}) {
+  for (const char* folder : {"runs", "snapshots", "unfinished"}) {
     fs::remove_all(out_ / folder, ignored);
     makeDirectory(out_ / folder);
   }
@@ -46,6 +49,8 @@ std::optional<json> RunStore::find(const std::string& name, const std::string& k
 
 void RunStore::keep(const std::string& name, const std::string& key, const json& run) const {
   writeFile(file(name), reports::toText({{"key", key}, {"run", run}}));
+  std::error_code ignored;
+  fs::remove_all(unfinished(name), ignored);
 }
 
 fs::path RunStore::scratch(const std::string& name) const {
@@ -54,6 +59,10 @@ fs::path RunStore::scratch(const std::string& name) const {
 
 fs::path RunStore::snapshots(const std::string& name) const {
   return out_ / "snapshots" / (name + ".h5");
+}
+
+fs::path RunStore::unfinished(const std::string& name) const {
+  return out_ / "unfinished" / name;
 }
 
 fs::path RunStore::file(const std::string& name) const {

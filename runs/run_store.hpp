@@ -24,6 +24,8 @@ class RunStore {
 
   std::filesystem::path scratch(const std::string& name) const;
   std::filesystem::path snapshots(const std::string& name) const;
+  /// What a run that is under way keeps; gone once it is finished.
+  std::filesystem::path unfinished(const std::string& name) const;
 
  private:
   std::filesystem::path file(const std::string& name) const;

@@ -35,6 +35,8 @@ json toJson(const Capabilities& can) {
   json effects = json::object();
   for (const auto& [effect, support] : can.effects)
     effects[toString(effect)] = nameOf(support, supportNames);
+  json precisions = json::array();
+  for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
   json settings = json::array();
   for (const SettingSpec& spec : can.settings)
     settings.push_back({{"name", spec.name},
@@ -45,10 +47,11 @@ json toJson(const Capabilities& can) {
   return {{"version", can.version},
           {"effects", effects},
           {"law_options", can.lawOptions},
-          {"precision", can.precision},
+          {"precisions", precisions},
           {"instant_contacts", can.instantContacts},
           {"accumulated_contacts", can.accumulatedContacts},
           {"warm_handover", can.warmHandover},
+          {"checkpoints", can.checkpoints},
           {"sliding_flags", can.slidingFlags},
           {"settings", settings}};
 }
@@ -59,10 +62,12 @@ Capabilities capabilitiesFromJson(const json& in) {
   for (const auto& [name, support] : in.at("effects").items())
     can.effects[effectFromName(name)] = valueOf<Support>(support, supportNames);
   in.at("law_options").get_to(can.lawOptions);
-  can.precision = in.at("precision");
+  for (const json& name : in.at("precisions"))
+    can.precisions.push_back(valueOf<Precision>(name, precisionNames));
   can.instantContacts = in.at("instant_contacts");
   can.accumulatedContacts = in.at("accumulated_contacts");
   can.warmHandover = in.at("warm_handover");
+  can.checkpoints = in.value("checkpoints", false);
   can.slidingFlags = in.at("sliding_flags");
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),

@@ -132,8 +132,14 @@ json toJson(const Scene& scene, ArrayWriter& arrays) {
                       {"motion", toJson(body.motion)}});
   }
 
-  json out = {{"name", scene.name},       {"disks", scene.disks.size()},      {"bodies", bodies},
-              {"law", toJson(scene.law)}, {"gravity", pairOf(scene.gravity)}, {"dt", scene.dt}};
+  json out = {{"name", scene.name},
+              {"disks", scene.disks.size()},
+              {"bodies", bodies},
+              {"law", toJson(scene.law)},
+              {"gravity", pairOf(scene.gravity)},
+              {"rotation", scene.rotation},
+              {"precision", toString(scene.precision)},
+              {"dt", scene.dt}};
   if (scene.bottom) out["bottom"] = toJson(*scene.bottom);
   return out;
 }
@@ -164,6 +170,8 @@ Scene sceneFromJson(const json& in, const ArrayReader& arrays) {
   scene.law = lawFromJson(in.at("law"));
   if (in.contains("bottom")) scene.bottom = bottomFromJson(in.at("bottom"));
   scene.gravity = vec2From(in.at("gravity"));
+  scene.rotation = in.at("rotation");
+  scene.precision = valueOf<Precision>(in.at("precision"), precisionNames);
   scene.dt = in.at("dt");
   return scene;
 }

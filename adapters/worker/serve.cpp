@@ -77,9 +77,15 @@ json answer(Engine& engine, const json& request) {
     return reply;
   }
   if (what == "stats") return {{"stats", toJson(engine.stats())}};
+  if (what == "checkpoint" || what == "restore") {
+    what == "checkpoint" ? engine.checkpoint(fileOf(request)) : engine.restore(fileOf(request));
+    return json::object();
+  }
   if (what == "quit") return json::object();
-  throw std::runtime_error(fmt::format(
-      "no request '{}' (there are: hello, load, advance, snapshot, stats, quit)", what));
+  throw std::runtime_error(
+      fmt::format("no request '{}' (there are: hello, load, advance, snapshot, stats, checkpoint, "
+                  "restore, quit)",
+                  what));
 }
 
 json refusal(const char* kind, const std::exception& error) {

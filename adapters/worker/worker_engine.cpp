@@ -120,6 +120,14 @@ Stats WorkerEngine::stats() const {
   return understand("stats", [&] { return statsFromJson(reply.at("stats")); });
 }
 
+void WorkerEngine::checkpoint(const std::filesystem::path& file) {
+  ask({{"request", "checkpoint"}, {"file", file.string()}}, "checkpoint");
+}
+
+void WorkerEngine::restore(const std::filesystem::path& file) {
+  ask({{"request", "restore"}, {"file", file.string()}}, "restore");
+}
+
 json WorkerEngine::ask(const json& request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
   const json reply = exchange(request, what);

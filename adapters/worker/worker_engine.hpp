@@ -36,6 +36,8 @@ class WorkerEngine final : public Engine {
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;
+  void checkpoint(const std::filesystem::path& file) override;
+  void restore(const std::filesystem::path& file) override;
 
   /// Of the worker, which is also its process group; −1 once it has gone.
   pid_t pid() const { return process_ ? process_->pid() : -1; }

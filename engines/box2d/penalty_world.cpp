@@ -20,7 +20,7 @@ PenaltyWorld::PenaltyWorld(const Model& model, const SoftLaw& law, std::optional
       plate_(plate),
       gravity_(model.gravity),
       dt_(model.dt),
-      rotation_(law.friction()),
+      rotation_(model.rotation && law.friction()),
       walls_(model.walls),
       members_(model),
       world_(model, skinFor(model)),
@@ -29,7 +29,7 @@ PenaltyWorld::PenaltyWorld(const Model& model, const SoftLaw& law, std::optional
     mass_.push_back(disk.mass);
     inertia_.push_back(disk.inertia);
   }
-  if (rotation_) torque_.resize(model.disks.size());
+  if (law.friction()) torque_.resize(model.disks.size());
   if (plate_) plateSpring_.resize(model.disks.size());
   world_.box2d().SetContactListener(this);
   showBox2d();

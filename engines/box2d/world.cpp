@@ -76,7 +76,7 @@ void World::addDisk(const Disk& disk, bool rotation, std::size_t id) {
   def.type = b2_dynamicBody;
   def.position = toUnits(disk.position);
   def.linearVelocity = toUnits(disk.velocity);
-  def.angularVelocity = rotation ? static_cast<float>(disk.spin) : 0.0f;
+  def.angularVelocity = static_cast<float>(disk.spin);
   def.fixedRotation = !rotation;
   def.allowSleep = false;
   b2Body& body = *world_.CreateBody(&def);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include "engines/grain/real.hpp"
 
 namespace grain {
 
@@ -36,105 +35,99 @@ struct Law {
   Damping damping = Damping::predicted;
 
   bool friction() const { return tangential != Tangential::none && mu > 0.0; }
+  bool springs() const {
+    return friction() &&
+           (tangential == Tangential::spring || tangential == Tangential::springDashpot);
+  }
 };
 
 /// Motion of one contact that the law sees.
+template <class Real>
 struct ContactMotion {
-  double overlap;               ///< δ [m]
-  double normalVelocity;        ///< v_n [m/s]
-  double tangentialVelocity;    ///< v_t [m/s]
-  double normalCompliance;      ///< dt/2 · (1/m_i + 1/m_j), zero unless damping is implicit [s/kg]
-  double tangentialCompliance;  ///< dt/2 · (1/m_i + 1/m_j + l_i²/J_i + l_j²/J_j), likewise [s/kg]
+  Real overlap;               ///< δ [m]
+  Real normalVelocity;        ///< v_n [m/s]
+  Real tangentialVelocity;    ///< v_t [m/s]
+  Real normalCompliance;      ///< dt/2 · (1/m_i + 1/m_j); read if damping is implicit [s/kg]
+  Real tangentialCompliance;  ///< dt/2 · (1/m_i + 1/m_j + l_i²/J_i + l_j²/J_j), likewise [s/kg]
 };
 
+template <class Real>
 struct ContactForce {
-  double normal;      ///< f_n [N]
-  double tangential;  ///< f_t [N]
-  bool sliding;
+  Real normal;      ///< f_n [N]
+  Real tangential;  ///< f_t [N]
+  Real sliding;     ///< 1 where the Coulomb bound holds, else 0
 };
+
+// The functions below are the law. `L` is one of law_types.hpp: it has Law's members either as
+// compile-time constants, and what they exclude is not compiled, or as run-time values.
 
 /// f_n = k_n δ − γ_n v_n (Lätzel 2003, Eq. 4.9).
 /// Implicit damping takes v_n at the end of the half step that f_n itself brings about:
 /// v_n = v_n' + f_n dt/(2 m₁₂), hence the divisor.
-inline double normalForce(const Law& law, const ContactMotion& contact) {
-  const double force = (law.kn * contact.overlap - law.gn * contact.normalVelocity) /
-                       (1.0 + law.gn * contact.normalCompliance);
-  return law.cutTension ? std::max(force, 0.0) : force;
+template <class L, class Real>
+GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact) {
+  Real force = law.kn * contact.overlap;
+  if (law.normalDamping) force -= law.gn * contact.normalVelocity;
+  if (law.implicitDamping) force /= Real(1) + law.gn * contact.normalCompliance;
+  return law.cutTension ? larger(force, Real(0)) : force;
 }
 
-inline double coulombBound(const Law& law, double normal) {
-  switch (law.bound) {
-    case Bound::compression:
-      return law.mu * std::max(normal, 0.0);
-    case Bound::magnitude:
-      return law.mu * std::abs(normal);
-    case Bound::signedForce:
-      break;
-  }
+template <class L, class Real>
+GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
+  if (law.bound == Bound::compression) return law.mu * larger(normal, Real(0));
+  if (law.bound == Bound::magnitude) return law.mu * magnitude(normal);
   return law.mu * normal;
 }
 
 /// l_i of a disk of radius a that touches one of radius `other` [m].
-inline double leverArm(const Law& law, double a, double other, double overlap) {
-  switch (law.lever) {
-    case Lever::radius:
-      return a;
-    case Lever::contactPoint:
-      return a - overlap * other / (a + other);
-    case Lever::overlapMiddle:
-      break;
-  }
-  return a - 0.5 * overlap;
-}
-
-inline double sign(double value) {
-  return (value > 0.0) - (value < 0.0);
+template <class L, class Real>
+GRAIN_INLINE Real leverArm(const L& law, Real a, Real other, Real overlap) {
+  if (law.lever == Lever::radius) return a;
+  if (law.lever == Lever::contactPoint) return a - overlap * other / (a + other);
+  return a - Real(0.5) * overlap;
 }
 
 /// Spring with or without dashpot: f* = −k_t ξ − γ_t v_t; where |f*| is within the bound f_t = f*
 /// and ξ grows by v_t dt, else f_t = bound·sign(f*) and ξ = −f_t/k_t (Lätzel 2003, Eqs. 4.20–4.25).
-inline ContactForce springForce(const Law& law, const ContactMotion& contact, double normal,
-                                double bound, double& spring, double dt) {
-  const double slip = contact.tangentialVelocity;
-  const double share = law.stretch == Stretch::after    ? 0.0
-                       : law.stretch == Stretch::before ? 1.0
-                                                        : 0.5;
-  spring += share * slip * dt;
-
-  const double gt = law.tangential == Tangential::springDashpot ? law.gt : 0.0;
-  const double elastic = -law.kt * spring;
-  const double trial = (elastic - gt * slip) / (1.0 + gt * contact.tangentialCompliance);
-  const double tested = law.dashpotOutsideBound ? elastic : trial;
-  if (std::abs(tested) <= bound) {
-    spring += (1.0 - share) * slip * dt;
-    return {normal, trial, false};
-  }
-  const double force = bound * sign(tested);
-  if (law.kt > 0.0) spring = -(law.resetSpringOnly ? force + gt * slip : force) / law.kt;
-  if (law.stretch == Stretch::midpoint) spring += 0.5 * slip * dt;
-  return {normal, force, true};
+template <class L, class Real>
+GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Real>& contact,
+                                            Real normal, Real bound, Real& spring) {
+  const Real stretch = contact.tangentialVelocity * law.dt;
+  const Real share = law.stretch == Stretch::after    ? Real(0)
+                     : law.stretch == Stretch::before ? Real(1)
+                                                      : Real(0.5);
+  const Real stretched = law.stretch == Stretch::after ? spring : spring + share * stretch;
+  const Real elastic = -law.kt * stretched;
+  Real viscous = Real(0);
+  if (law.tangential == Tangential::springDashpot) viscous = -law.gt * contact.tangentialVelocity;
+  Real trial = elastic + viscous;
+  if (law.implicitDamping && law.tangential == Tangential::springDashpot)
+    trial /= Real(1) + law.gt * contact.tangentialCompliance;
+  const Real tested = law.dashpotOutsideBound ? elastic : trial;
+  const bool holds = magnitude(tested) <= bound;
+  const Real slipping = signedLike(bound, tested);
+  Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * law.inverseKt;
+  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  spring = holds ? stretched + (Real(1) - share) * stretch : slipped;
+  return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
 }
 
 /// The force on i. `spring` is ξ, kept as long as the contact lasts.
-inline ContactForce contactForce(const Law& law, const ContactMotion& contact, double& spring,
-                                 double dt) {
-  const double normal = normalForce(law, contact);
-  const double bound = coulombBound(law, normal);
-  const double slip = contact.tangentialVelocity;
-  switch (law.tangential) {
-    case Tangential::none:
-      return {normal, 0.0, false};
-    case Tangential::coulomb:  // Eq. 4.16
-      return {normal, -bound * sign(slip), true};
-    case Tangential::viscous: {  // Eq. 4.18
-      const double trial = law.gt * std::abs(slip) / (1.0 + law.gt * contact.tangentialCompliance);
-      return {normal, -std::min(trial, bound) * sign(slip), trial > bound};
-    }
-    case Tangential::spring:
-    case Tangential::springDashpot:
-      break;
+template <class L, class Real>
+GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
+                                             Real& spring) {
+  const Real normal = normalForce(law, contact);
+  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
+  const Real bound = coulombBound(law, normal);
+  const Real slip = contact.tangentialVelocity;
+  if (law.tangential == Tangential::coulomb)  // Eq. 4.16
+    return {normal, -signedLike(bound, slip), Real(1)};
+  if (law.tangential == Tangential::viscous) {  // Eq. 4.18
+    Real trial = law.gt * magnitude(slip);
+    if (law.implicitDamping) trial /= Real(1) + law.gt * contact.tangentialCompliance;
+    return {normal, -signedLike(smaller(trial, bound), slip), trial > bound ? Real(1) : Real(0)};
   }
-  return springForce(law, contact, normal, bound, spring, dt);
+  return springForce(law, contact, normal, bound, spring);
 }
 
 }  // namespace grain

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -28,11 +30,40 @@ struct Wall {
   std::vector<double> diskX, diskY, diskRadius;
   std::vector<Plane> planes;
   std::function<WallState(double t)> motion;
+  bool moves = true;  ///< false: motion(t) is motion(0) at all times, and nobody asks again
 };
 
 /// What the disks do to a wall: force [N] and torque about the wall's centre [N m].
 struct WallLoad {
   double fx = 0.0, fy = 0.0, torque = 0.0;
+};
+
+/// A member's place and velocity.
+struct WallPoint {
+  double x, y, vx, vy;
+};
+
+/// A wall under way.
+class MovingWall {
+ public:
+  explicit MovingWall(Wall wall);
+
+  /// @returns an upper bound of any disk's displacement [m]
+  double moveTo(double t);
+  const WallState& state() const { return now_; }
+  std::size_t diskCount() const { return wall_.diskX.size(); }
+  const std::vector<double>& radii() const { return wall_.diskRadius; }
+  bool moves() const { return wall_.moves; }
+  WallPoint disk(std::size_t k) const;
+  Plane plane(std::size_t k) const;
+  /// No member is faster than this now [m/s].
+  double speed() const;
+
+ private:
+  Wall wall_;
+  WallState start_, now_;
+  double cos_ = 1.0, sin_ = 0.0;
+  double reach_ = 0.0;  ///< of the farthest disk from the centre [m]
 };
 
 }  // namespace grain

@@ -56,8 +56,7 @@ def place_disks(arrays, rotation):
         state.mass, state.inertia = mass, (inertia, inertia, inertia)
         state.vel = (u, v, 0)
         state.blockedDOFs = "zXY" if rotation else "zXYZ"
-        if rotation:
-            state.angVel = (0, 0, spin)
+        state.angVel = (0, 0, spin)
         O.bodies.append(disk)
 
 

@@ -42,7 +42,7 @@ class Law:
             "friction": self.friction,
             "tangential_spring": self.kt > 0,
             "tangential_damping": self.gt > 0,
-            "rotation": self.friction,
+            "rotation": self.friction and scene["rotation"],
             "gravity": any(scene["gravity"]),
             "moving_walls": any(body["motion"]["kind"] != "fixed" for body in scene["bodies"]),
         }

@@ -62,7 +62,7 @@ class Yade:
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
             },
-            "precision": "double",
+            "precisions": ["double"],
             "instant_contacts": True,
             "accumulated_contacts": False,
             "warm_handover": False,
@@ -93,7 +93,8 @@ class Yade:
         O.reset()
         O.dt = self.dt
         O.materials.append(self.law.material())
-        build.place_disks(arrays, rotation=self.law.friction)
+        self.rotation = self.law.friction and scene["rotation"]
+        build.place_disks(arrays, self.rotation)
         build.place_walls(self.bodies)
         self.states = [body.state for body in O.bodies]
         self.first_plane = self.disks + sum(len(body.disk_ids) for body in self.bodies)
@@ -220,8 +221,9 @@ class Yade:
         n = self.disks
         all_velocity, all_spin = np.zeros((len(self.states), 2)), np.zeros(len(self.states))
         all_velocity[:n] = velocity - self.kick * (force[:n] / self.mass[:, None] + self.gravity)
-        if self.law.friction:
-            all_spin[:n] = spin - self.kick * torque[:n] / self.inertia
+        all_spin[:n] = spin
+        if self.rotation:
+            all_spin[:n] -= self.kick * torque[:n] / self.inertia
         then = (self.steps - 1) * self.dt
         for body in self.bodies:
             _, of_centre, _, body_spin = body.state(then)

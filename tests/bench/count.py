@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STEP = "grain::Simulation::step()"  # counted while this function runs
+STEP = "grain::Core<{}>::step(bool)"  # counted while this function runs
 LINE = 64  # bytes
 
 
@@ -43,7 +43,7 @@ def benchmark(options, pattern, prefix=(), min_time="1"):
 def counted(options, pattern):
     """Events per step. With so short a time one iteration is all that the benchmark runs."""
     valgrind = [
-        "valgrind", "--tool=callgrind", f"--toggle-collect={STEP}", "--cache-sim=yes",
+        "valgrind", "--tool=callgrind", f"--toggle-collect={STEP.format(options.precision)}", "--cache-sim=yes",
         f"--LL={options.cache},16,{LINE}", f"--callgrind-out-file={os.devnull}",
     ]  # fmt: skip
     figures, log = benchmark(options, pattern, valgrind, "1e-9")

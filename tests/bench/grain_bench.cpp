@@ -89,13 +89,16 @@ struct Meter {
   }
 };
 
-void report(benchmark::State& state, const Meter& quiet, const Setup& setup) {
+double nearPairs(const grain::Simulation& simulation) {
+  return static_cast<double>(simulation.neighbours().nearPairs);
+}
+
+void report(benchmark::State& state, const Meter& quiet, const Setup& setup, double pairs) {
   if (quiet.steps == 0) return;
   const auto disks = static_cast<double>(setup.disks.size());
   const double step = quiet.seconds / static_cast<double>(quiet.steps);
   const double contacts = static_cast<double>(quiet.contacts) / static_cast<double>(quiet.steps);
-  const auto pairs = static_cast<double>(listedPairs(setup));
-  const double bytes = stepTraffic(setup).perStep(disks, pairs, contacts);
+  const double bytes = stepTraffic(setup).perStep(disks, pairs);
   state.counters["us_step"] = 1e6 * step;
   state.counters["ns_disk"] = 1e9 * step / disks;
   state.counters["ns_contact"] = 1e9 * step / contacts;
@@ -113,21 +116,21 @@ void step(benchmark::State& state, const Variant& variant) {
   const std::uint64_t stretch = variant.disks >= 100000 ? 2 : 10;
   simulation.advance(20);
   Meter all, quiet;
-  const std::size_t rebuildsBefore = simulation.neighbourRebuilds();
+  const std::size_t rebuildsBefore = simulation.neighbours().rebuilds;
   for (auto _ : state) {
-    const std::size_t rebuilds = simulation.neighbourRebuilds();
+    const std::size_t rebuilds = simulation.neighbours().rebuilds;
     Meter meter;
     state.SetIterationTime(meter.advance(simulation, stretch) / static_cast<double>(stretch));
     all.steps += meter.steps;
-    if (simulation.neighbourRebuilds() != rebuilds) continue;
+    if (simulation.neighbours().rebuilds != rebuilds) continue;
     quiet.seconds += meter.seconds;
     quiet.steps += meter.steps;
     quiet.contacts += meter.contacts;
   }
-  report(state, quiet, setup);
+  report(state, quiet, setup, nearPairs(simulation));
   state.counters["steps_run"] = static_cast<double>(simulation.steps());  // for count.py
   state.counters["rebuilds_per_1000"] =
-      1e3 * static_cast<double>(simulation.neighbourRebuilds() - rebuildsBefore) /
+      1e3 * static_cast<double>(simulation.neighbours().rebuilds - rebuildsBefore) /
       static_cast<double>(all.steps);
 }
 
@@ -137,12 +140,14 @@ void sameContacts(benchmark::State& state, const Variant& variant) {
   const Setup setup = variant.setup();
   constexpr std::uint64_t stretch = 10;
   Meter meter;
+  double pairs = 0.0;
   for (auto _ : state) {
     grain::Simulation simulation(setup);
     simulation.advance(2);
     state.SetIterationTime(meter.advance(simulation, stretch) / stretch);
+    pairs = nearPairs(simulation);
   }
-  report(state, meter, setup);
+  report(state, meter, setup, pairs);
 }
 
 void rebuild(benchmark::State& state, const Variant& variant) {
@@ -157,8 +162,7 @@ void rebuild(benchmark::State& state, const Variant& variant) {
     state.SetIterationTime(taken);
     seconds += taken;
   }
-  const auto pairs = static_cast<double>(listedPairs(setup));
-  state.counters["pairs"] = pairs;
+  state.counters["pairs"] = static_cast<double>(simulation.neighbours().farPairs);
   state.counters["ns_disk"] = 1e9 * seconds / static_cast<double>(state.iterations()) /
                               static_cast<double>(setup.disks.size());
 }

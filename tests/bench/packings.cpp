@@ -71,6 +71,7 @@ grain::Wall grainWall(const WallBody& body, double omega, double angle) {
     wall.diskY.push_back(position.y());
   }
   wall.diskRadius = body.diskRadius;
+  wall.moves = omega != 0.0;
   wall.motion = [omega, angle](double t) {
     grain::WallState state;
     state.angle = angle + omega * t;
@@ -123,7 +124,7 @@ void relax(grain::Setup setup, std::uint64_t steps, Disks& disks) {
   grain::Simulation simulation(std::move(setup));
   simulation.advance(steps);
   for (std::size_t i = 0; i < disks.size(); ++i) {
-    disks.position[i] = {simulation.x()[i], simulation.y()[i]};
+    disks.position[i] = {simulation.x(i), simulation.y(i)};
     disks.velocity[i] = Vec2::Zero();
   }
 }
@@ -132,7 +133,7 @@ void shear(grain::Setup setup, std::uint64_t steps, Packing& packing) {
   grain::Simulation simulation(std::move(setup));
   simulation.advance(steps);
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
-    packing.disks.position[i] = {simulation.x()[i], simulation.y()[i]};
+    packing.disks.position[i] = {simulation.x(i), simulation.y(i)};
     packing.disks.velocity[i] = {simulation.velocityX(i), simulation.velocityY(i)};
     packing.disks.spin[i] = simulation.spin(i);
   }
@@ -209,20 +210,6 @@ grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder)
     writePacking(makePacking(setup, disks), file);
   }
   return grainSetup(setup, readPacking(file, setup));
-}
-
-std::size_t listedPairs(const grain::Setup& setup) {
-  const grain::Disks& disks = setup.disks;
-  std::vector<double> x = disks.x, y = disks.y, radius = disks.radius;
-  for (const grain::Wall& wall : setup.walls) {
-    x.insert(x.end(), wall.diskX.begin(), wall.diskX.end());
-    y.insert(y.end(), wall.diskY.begin(), wall.diskY.end());
-    radius.insert(radius.end(), wall.diskRadius.begin(), wall.diskRadius.end());
-  }
-  const double skin = setup.skin > 0.0 ? setup.skin : 0.2 * *std::ranges::min_element(disks.radius);
-  grain::Neighbours list(disks.size(), skin);
-  list.rebuild(x, y, radius);
-  return list.pairCount();
 }
 
 }  // namespace crossgrain::bench

@@ -26,7 +26,4 @@ Case scaledCase(std::size_t disks);
 /// README.md has the contacts per disk of both.
 grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder);
 
-/// Pairs that the Verlet list of `setup` holds.
-std::size_t listedPairs(const grain::Setup& setup);
-
 }  // namespace crossgrain::bench

@@ -4,46 +4,37 @@
 
 namespace crossgrain::bench {
 
-/// Bytes that one step without a rebuild moves between core and memory when nothing of it fits a
+/// Bytes that one step without new lists moves between core and memory when nothing of it fits a
 /// cache: every array once per pass over it, read and write counted apart, the read that a write
 /// brings about not counted, as in the stream test. Partners of a disk are taken to be in cache:
 /// disks are near each other in memory if they are in space.
 struct Traffic {
-  double perDisk = 0.0, perPair = 0.0, perContact = 0.0;  ///< [byte]
+  double perDisk = 0.0, perPair = 0.0;  ///< [byte]; pairs are the near ones
 
-  double perStep(double disks, double pairs, double contacts) const {
-    return perDisk * disks + perPair * pairs + perContact * contacts;
-  }
+  double perStep(double disks, double pairs) const { return perDisk * disks + perPair * pairs; }
 };
 
 /// The model for the step of engines/grain, pass by pass: `setup` says which arrays there are.
 inline Traffic stepTraffic(const grain::Setup& setup) {
-  const double real = setup.precision == grain::Precision::float64 ? 8.0 : 4.0;
+  const bool single = setup.precision == grain::Precision::float32;
+  const double real = single ? 4.0 : 8.0;
   const bool spins = setup.law.friction() && setup.rotation;
-  const bool springs =
-      setup.law.friction() && (setup.law.tangential == grain::Tangential::spring ||
-                               setup.law.tangential == grain::Tangential::springDashpot);
+  const bool velocities = setup.law.friction() || setup.law.gn > 0.0;
+  const bool predict = setup.law.damping == grain::Damping::predicted &&
+                       setup.integrator != grain::Integrator::semiImplicitEuler;
   Traffic traffic;
   const auto disk = [&](int reads, int writes) { traffic.perDisk += real * (reads + writes); };
 
-  disk(5, 2);                                // kick: v, f, 1/m → v
-  if (spins) disk(3, 1);                     //       ω, M, 1/J → ω
-  disk(4, 2);                                // drift: x, v → x
-  disk(5, 2);                                // predict: v, f, 1/m → u
-  if (spins) disk(3, 1);                     //          ω, M, 1/J → u_ω
-  disk(4, 0);                                // outdated: x, x at the last rebuild
-  disk(0, 2);                                // clear f
-  if (spins) disk(0, 1);                     //       M
-  disk(8, 2);                                // pairs: x, u, a, 1/m, f → f
-  if (spins) disk(3, 1);                     //        u_ω, 1/J, M → M
-  traffic.perDisk += 8;                      //        where its row begins
-  traffic.perPair += 4;                      //        partner
-  if (springs) traffic.perPair += 2 * real;  // ξ → ξ
-  traffic.perContact += sizeof(grain::Contact);
-  if (setup.bottom) {
-    disk(8, 4);             // plate: m, a, u, ξ_b, f → ξ_b, f
-    if (spins) disk(2, 1);  //        u_ω, M → M
-  }
+  disk(10, 6);                          // motion: x, v, f, 1/m, x chosen, allowance → x, v, f
+  if (predict) disk(0, 2);              //         → u
+  if (spins) disk(3, predict ? 3 : 2);  //         ω, M, 1/J → ω, M, u_ω
+  if (setup.bottom) disk(4, 2);         //         plate: m, a, ξ_b → ξ_b
+  disk(5, 2);                           // pairs: x, a, f → f
+  if (velocities) disk(2, 0);           //        u
+  if (spins) disk(2, 1);                //        u_ω, M → M
+  traffic.perPair += 8;                 //        i, j
+  if (setup.law.springs()) traffic.perPair += 2 * real;  // ξ → ξ
+  if (single) traffic.perPair += 8;                      //        origin of i − origin of j
   return traffic;
 }
 

@@ -149,6 +149,21 @@ TEST_P(BothBox2dEngines, MovingPlanePushes) {
   EXPECT_EQ(after.bodies[0].centre, Vec2(0.1 * after.positionTime, 0));
 }
 
+TEST_P(BothBox2dEngines, BlockedSpinsStayAndRub) {
+  Scene scene = empty();
+  scene.rotation = false;
+  addPair(scene, Vec2::Zero(), 0.1, 1.0, 1e-6);
+  scene.disks.spin[1] *= 2.0;
+  const auto one = engine();
+  EXPECT_FALSE(one->load(scene, {}).effects.contains(Effect::rotation));
+  one->advance(4.0 * smallContactTime);
+  const Snapshot after = one->snapshot(ContactReport::none);
+  for (std::size_t i : {0u, 1u})  // float32 holds seven digits
+    EXPECT_NEAR((*after.spin)[i], scene.disks.spin[i], 1e-6 * std::abs(scene.disks.spin[i]));
+  EXPECT_GT(after.velocity[0].x(), 0.0);             // they met,
+  EXPECT_GT(std::abs(after.velocity[0].y()), 1e-3);  // and friction did its work
+}
+
 TEST_P(BothBox2dEngines, RefusesAShrinkingRing) {
   Scene scene = empty();
   addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());

@@ -53,7 +53,7 @@ class Conformance : public testing::TestWithParam<std::string> {
   std::vector<Snapshot> watch(double t);
 
   Tolerance byPrecision(double ifDouble, double ifFloat, const char* why) const {
-    const double allowed = can_.precision == "float" ? ifFloat : ifDouble;
+    const double allowed = can_.precisions.front() == Precision::float32 ? ifFloat : ifDouble;
     return {allowed, allowed, why};
   }
 

@@ -40,7 +40,7 @@ class MirrorConformance : public Conformance {
     return std::nullopt;
   }
 
-  double allowed() const { return canPeer_.precision == "float" ? 1e-5 : 1e-6; }
+  double allowed() const { return canPeer_.precisions.front() == Precision::float32 ? 1e-5 : 1e-6; }
 
   std::unique_ptr<Engine> peer_;
   Capabilities canPeer_;

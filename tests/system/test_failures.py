@@ -159,6 +159,26 @@ class UserInterrupts(FailureTest):
     def test_terminate(self):
         self.interrupted(signal.SIGTERM)
 
+    def test_a_run_goes_on_from_where_it_was(self):
+        """Interrupted in the middle of its only run, then resumed: to the bit what it would have been."""
+        one = settings(
+            preparation__packings=1, averaging__rotations=5.0, averaging__snapshots_per_rotation=60
+        )
+        running = self.start_compare(*one, engines="grain")
+        running.worker_at_work("grain", cpu_seconds=0.5)
+        os.kill(running.process.pid, signal.SIGINT)
+        self.assert_one_error(self.check_no_crash(running.end()), INTERRUPTED, "interrupted")
+        self.assertEqual({}, self.finished_runs())
+        left = self.out / "unfinished" / "grain-p0"
+        self.assertTrue((left / "index.json").exists(), list(self.out.rglob("*")))
+        done = self.compare("--resume", *one, engines="grain")
+        self.assertEqual([], done.error_lines())
+        self.assertFalse(left.exists())
+        tables = ("profiles.csv", "series.csv")
+        resumed = [(self.out / name).read_bytes() for name in tables]
+        self.compare(*one, engines="grain")
+        self.assertEqual(resumed, [(self.out / name).read_bytes() for name in tables])
+
     def test_interrupt_while_packings_are_prepared(self):
         running = self.start_compare(
             *settings(preparation__rotations=3.0, preparation__seed=77), engines=BOTH,

@@ -83,6 +83,33 @@ TEST(Suitability, BothEffectsOfThePlateCanBeDropped) {
   EXPECT_EQ(adapted.deviations.size(), 2u);
 }
 
+TEST(Suitability, AnEngineThatCannotSpinDisksBlocksThem) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.effects[Effect::rotation] = Support::never;
+  const Adapted adapted = adaptScene(can, oneDisk(), {"rotation"});
+  EXPECT_FALSE(adapted.scene.rotation);
+  EXPECT_TRUE(effectsOf(adapted.scene).contains(Effect::friction));
+  EXPECT_FALSE(effectsOf(adapted.scene).contains(Effect::rotation));
+}
+
+TEST(Suitability, AnEngineRunsInItsOwnPrecisionAndSaysWhereThatWasNotAskedFor) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  can.precisions = {Precision::float64};
+  Scene scene = oneDisk();
+  EXPECT_TRUE(adaptScene(can, scene, {}).deviations.empty());
+  scene.precision = Precision::float32;
+  const Adapted adapted = adaptScene(can, scene, {});
+  EXPECT_EQ(adapted.scene.precision, Precision::float64);
+  ASSERT_EQ(adapted.deviations.size(), 1u);
+  EXPECT_EQ(adapted.deviations[0].name, "precision");
+  EXPECT_EQ(adapted.deviations[0].note, "runs in double, not float");
+  can.precisions = {Precision::float64, Precision::float32};
+  EXPECT_EQ(adaptScene(can, scene, {}).scene.precision, Precision::float32);
+  EXPECT_TRUE(adaptScene(can, scene, {}).deviations.empty());
+}
+
 TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
   ContactLaw law = oneDisk().law;
   EXPECT_TRUE(mattersTo(law, "lever_arm"));

@@ -1,127 +1,220 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <random>
 #include <set>
 
+#include "engines/grain/pair_lists.hpp"
 #include "tests/unit/grain_scenes.hpp"
 
 namespace {
 
-using grain::Neighbours;
+using namespace grain;
 
-struct Points {
-  std::vector<double> x, y, radius;
+using Pair = std::pair<std::int32_t, std::int32_t>;
+
+constexpr double fixedSkin = 0.3;
+
+/// Disks of radius 0.5 to 1.5 at random, the first `moving` of which move.
+class Neighbours : public testing::TestWithParam<std::size_t> {
+ protected:
+  void scatter(std::size_t count, double extent, std::size_t moving) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> place(-extent, extent), size(0.5, 1.5);
+    for (std::size_t i = 0; i < count; ++i) {
+      position.push_back({place(random), place(random)});
+      radius.push_back(size(random));
+    }
+    travel.assign(count, 1e-3);
+    lists.emplace(moving, GetParam(), true, Skin(fixedSkin, 0.5));
+    lists->rebuild(places(), travel, team);
+  }
+
+  Places places() const { return {position, radius, {}}; }
+  void update() { lists->update(places(), travel, 1, team); }
+  double gap(std::size_t i, std::size_t j) const {
+    return std::hypot(position[i].x - position[j].x, position[i].y - position[j].y) - radius[i] -
+           radius[j];
+  }
+
+  /// Calls visit(list) for each list of each part.
+  template <class Visit>
+  void forLists(Visit&& visit) {
+    for (std::size_t part = 0; part < lists->parts(); ++part)
+      for (const Sort sort : {Sort::inside, Sort::across, Sort::walls})
+        visit(lists->list(part, sort));
+  }
+
+  std::multiset<Pair> nearPairs() {
+    std::multiset<Pair> found;
+    forLists([&](auto& list) {
+      for (std::size_t k = 0; k < list.count; ++k) found.emplace(list.i[k], list.j[k]);
+    });
+    return found;
+  }
+
+  std::multiset<Pair> farPairs() {
+    std::multiset<Pair> found;
+    forLists([&](auto& list) {
+      for (std::size_t k = 0; k < list.farI.size(); ++k) found.emplace(list.farI[k], list.farJ[k]);
+    });
+    return found;
+  }
+
+  /// Pairs i < j, i moving, for which wanted(i, j) is true.
+  template <class Wanted>
+  std::multiset<Pair> searchAll(std::size_t moving, Wanted&& wanted) const {
+    std::multiset<Pair> found;
+    for (std::size_t i = 0; i < moving; ++i)
+      for (std::size_t j = i + 1; j < position.size(); ++j)
+        if (wanted(i, j)) found.emplace(i, j);
+    return found;
+  }
+
+  std::vector<Vec<double>> position;
+  std::vector<double> radius, travel;
+  ThreadTeam team{GetParam()};
+  std::optional<PairLists<double>> lists;
 };
 
-Points randomPoints(std::size_t count, double extent) {
-  std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> place(-extent, extent), size(0.5, 1.5);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i) {
-    points.x.push_back(place(random));
-    points.y.push_back(place(random));
-    points.radius.push_back(size(random));
-  }
-  return points;
+INSTANTIATE_TEST_SUITE_P(Parts, Neighbours, testing::Values(1, 3));
+
+TEST_P(Neighbours, AreThosePairsThatASearchOverAllPairsFinds) {
+  scatter(400, 20.0, 300);  // the last 100 belong to walls
+  const auto allowance = lists->allowances();
+  EXPECT_EQ(farPairs(), searchAll(300, [&](auto i, auto j) { return gap(i, j) < fixedSkin; }));
+  EXPECT_EQ(nearPairs(), searchAll(300, [&](auto i, auto j) {
+              return gap(i, j) < allowance[i] + allowance[j];
+            }));
+  EXPECT_EQ(lists->counts().near, nearPairs().size());
+  EXPECT_EQ(lists->counts().far, farPairs().size());
+  EXPECT_LT(lists->counts().near, lists->counts().far);
 }
 
-TEST(Neighbours, AreThosePairsThatASearchOverAllPairsFinds) {
-  const Points p = randomPoints(400, 20.0);
-  const std::size_t moving = 300;  // the rest belong to walls
-  const double skin = 0.3;
-  Neighbours neighbours(moving, skin);
-  neighbours.rebuild(p.x, p.y, p.radius);
-
-  std::set<std::pair<std::size_t, std::size_t>> listed, wanted;
-  for (std::size_t i = 0; i < moving; ++i)
-    for (std::size_t k = neighbours.rowBegin(i); k < neighbours.rowEnd(i); ++k)
-      listed.emplace(i, neighbours.partner(k));
-  for (std::size_t i = 0; i < moving; ++i)
-    for (std::size_t j = i + 1; j < p.x.size(); ++j)
-      if (std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]) < p.radius[i] + p.radius[j] + skin)
-        wanted.emplace(i, j);
-  EXPECT_EQ(listed, wanted);
-  EXPECT_EQ(neighbours.pairCount(), wanted.size());
+TEST_P(Neighbours, OfEachPartAreInAscendingOrder) {
+  scatter(400, 20.0, 300);
+  forLists([](auto& list) {
+    for (std::size_t k = 1; k < list.farI.size(); ++k)
+      EXPECT_LT(Pair(list.farI[k - 1], list.farJ[k - 1]), Pair(list.farI[k], list.farJ[k]));
+  });
 }
 
-TEST(Neighbours, SpringsOfListedPairsSurviveARebuild) {
-  Points p = randomPoints(200, 15.0);
-  Neighbours neighbours(200, 0.3);
-  neighbours.rebuild(p.x, p.y, p.radius);
-  const auto mark = [](std::size_t i, std::int32_t j) { return static_cast<double>(1000 * i) + j; };
-  for (std::size_t i = 0; i < 200; ++i)
-    for (std::size_t k = neighbours.rowBegin(i); k < neighbours.rowEnd(i); ++k)
-      neighbours.spring(k) = mark(i, neighbours.partner(k));
-
-  std::set<double> before;
-  for (std::size_t k = 0; k < neighbours.pairCount(); ++k) before.insert(neighbours.spring(k));
-  for (std::size_t i = 0; i < 200; i += 3) p.x[i] += 0.4;  // some pairs part, some meet
-  neighbours.rebuild(p.x, p.y, p.radius);
-  std::size_t kept = 0, fresh = 0;
-  for (std::size_t i = 0; i < 200; ++i)
-    for (std::size_t k = neighbours.rowBegin(i); k < neighbours.rowEnd(i); ++k) {
-      const double wanted = mark(i, neighbours.partner(k));
-      if (before.contains(wanted)) {
-        EXPECT_EQ(neighbours.spring(k), wanted);
-        ++kept;
-      } else {
-        EXPECT_EQ(neighbours.spring(k), 0.0);
-        ++fresh;
-      }
+TEST_P(Neighbours, SpringsOfTouchingPairsSurviveARebuild) {
+  scatter(200, 15.0, 150);
+  const auto mark = [](const Pair& pair) { return 1000.0 * pair.first + pair.second + 0.5; };
+  std::set<Pair> touching;
+  forLists([&](auto& list) {
+    for (std::size_t k = 0; k < list.count; ++k) {
+      const Pair pair(list.i[k], list.j[k]);
+      if (!(gap(pair.first, pair.second) < 0.0)) continue;
+      touching.insert(pair);
+      list.spring[k] = mark(pair);
     }
-  EXPECT_GT(kept, 100u);
+  });
+  for (std::size_t i = 0; i < 150; i += 3) position[i].x += 0.4;  // some pairs part, some meet
+  const std::size_t rebuilds = lists->skin().rebuilds();
+  update();
+  ASSERT_EQ(lists->skin().rebuilds(), rebuilds + 1);
+  std::size_t kept = 0, fresh = 0;
+  forLists([&](auto& list) {
+    for (std::size_t k = 0; k < list.count; ++k) {
+      const Pair pair(list.i[k], list.j[k]);
+      const bool old = touching.contains(pair);
+      EXPECT_EQ(list.spring[k], old ? mark(pair) : 0.0);
+      ++(old ? kept : fresh);
+    }
+  });
+  EXPECT_GT(kept, 50u);
   EXPECT_GT(fresh, 10u);
 }
 
-TEST(Neighbours, AreOutdatedOnceADiskUsedUpHalfTheSkin) {
-  Points p = randomPoints(50, 10.0);
-  Neighbours neighbours(50, 0.3);
-  EXPECT_TRUE(neighbours.outdated(p.x, p.y));
-  neighbours.rebuild(p.x, p.y, p.radius);
-  EXPECT_FALSE(neighbours.outdated(p.x, p.y));
-  p.y[17] += 0.149;
-  EXPECT_FALSE(neighbours.outdated(p.x, p.y));
-  p.y[17] += 0.002;
-  EXPECT_TRUE(neighbours.outdated(p.x, p.y));
+TEST_P(Neighbours, SpringsFollowTheirDisksWhenTheseAreRenumbered) {
+  scatter(200, 15.0, 150);
+  std::map<Pair, double> before;
+  forLists([&](auto& list) {
+    for (std::size_t k = 0; k < list.count; ++k)
+      before[{list.i[k], list.j[k]}] = list.spring[k] = static_cast<double>(before.size()) + 0.5;
+  });
+  // Backwards: every pair of moving disks changes its order.
+  std::vector<std::int32_t> newNumber(150);
+  for (std::int32_t i = 0; i < 150; ++i) newNumber[static_cast<std::size_t>(i)] = 149 - i;
+  std::reverse(position.begin(), position.begin() + 150);
+  std::reverse(radius.begin(), radius.begin() + 150);
+  lists->renumber(newNumber, places(), travel, team);
+  std::size_t kept = 0;
+  forLists([&](auto& list) {
+    for (std::size_t k = 0; k < list.count; ++k) {
+      Pair old(149 - list.i[k], list.j[k] < 150 ? 149 - list.j[k] : list.j[k]);
+      if (old.second < old.first) std::swap(old.first, old.second);
+      EXPECT_EQ(list.spring[k], before.at(old));
+      ++kept;
+    }
+  });
+  EXPECT_EQ(kept, before.size());
+  EXPECT_GT(kept, 100u);
 }
 
-TEST(Neighbours, ADiskThatIsNotFiniteIsNamed) {
-  Points p = randomPoints(50, 10.0);
-  Neighbours neighbours(50, 0.3);
-  neighbours.rebuild(p.x, p.y, p.radius);
-  p.y[17] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(neighbours.outdated(p.x, p.y));
-  try {
-    neighbours.rebuild(p.x, p.y, p.radius);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "the position of disk 17 is not finite");
+TEST_P(Neighbours, AreCollectedAnewOnceADiskUsedUpHalfTheSkin) {
+  scatter(50, 10.0, 50);
+  const std::size_t rebuilds = lists->skin().rebuilds();
+  travel.assign(50, 0.0);  // leaves the least allowance, 1e-4 of the smallest radius
+  position[17].y += 0.5 * fixedSkin - 2e-4;
+  update();
+  EXPECT_EQ(lists->skin().rebuilds(), rebuilds);
+  position[17].y += 2e-4;
+  update();
+  EXPECT_EQ(lists->skin().rebuilds(), rebuilds + 1);
+}
+
+TEST_P(Neighbours, ADiskThatIsNotFiniteIsNamed) {
+  scatter(50, 10.0, 50);
+  for (const double nowhere :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    position[17].y = nowhere;
+    try {
+      update();
+      FAIL() << "no exception";
+    } catch (const NotFinite& found) {
+      EXPECT_EQ(found.disk, 17u);
+    }
   }
 }
 
-TEST(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
-  Points p = randomPoints(50, 10.0);
-  p.x[0] = 1e9;
-  Neighbours neighbours(50, 0.3);
-  neighbours.rebuild(p.x, p.y, p.radius);
-  EXPECT_GT(neighbours.pairCount(), 0u);
-  EXPECT_EQ(neighbours.rowBegin(0), neighbours.rowEnd(0));
+TEST_P(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
+  scatter(50, 10.0, 50);
+  position[0].x = 1e9;
+  update();
+  EXPECT_EQ(farPairs(), searchAll(50, [&](auto i, auto j) { return gap(i, j) < fixedSkin; }));
+  EXPECT_GT(farPairs().size(), 0u);
 }
 
-TEST(Neighbours, TheSkinChangesTimeOnly) {
+TEST(NeighboursOfASimulation, TheSkinChangesTimeOnly) {
   const auto run = [](double skin) {
     grain::Setup setup = test::crowd(8, 9, 4e-5);
     setup.skin = skin;
     grain::Simulation simulation(std::move(setup));
-    for (int step = 0; step < 1000; ++step) simulation.step();
+    simulation.advance(1000);
     return simulation;
   };
   const auto thin = run(0.02 * test::radius), thick = run(1.5 * test::radius);
-  EXPECT_GT(thin.neighbourRebuilds(), 2 * thick.neighbourRebuilds());
+  EXPECT_GT(thin.neighbours().rebuilds, 2 * thick.neighbours().rebuilds);
   for (std::size_t i = 0; i < thin.movingCount(); ++i) {
-    EXPECT_EQ(thin.x()[i], thick.x()[i]);
+    EXPECT_EQ(thin.x(i), thick.x(i));
     EXPECT_EQ(thin.spin(i), thick.spin(i));
+  }
+}
+
+TEST(NeighboursOfASimulation, ADiskThatIsNotFiniteIsNamedByItsNumber) {
+  grain::Setup setup = test::crowd(8, 9, 4e-5);
+  setup.disks.vx[17] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    grain::Simulation(std::move(setup)).advance(2);
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "the position of disk 17 is not finite");
   }
 }
 

@@ -1,9 +1,28 @@
 #pragma once
 
 #include <cmath>
+#include <ostream>
 #include <random>
 
 #include "engines/grain/simulation.hpp"
+
+// What the names of parametrised tests show.
+namespace grain {
+
+inline void PrintTo(Precision precision, std::ostream* out) {
+  *out << (precision == Precision::float64 ? "float64" : "float32");
+}
+inline void PrintTo(Integrator integrator, std::ostream* out) {
+  *out << (integrator == Integrator::positionVerlet   ? "positionVerlet"
+           : integrator == Integrator::velocityVerlet ? "velocityVerlet"
+                                                      : "semiImplicitEuler");
+}
+inline void PrintTo(Tangential law, std::ostream* out) {
+  constexpr const char* names[] = {"none", "coulomb", "viscous", "spring", "springDashpot"};
+  *out << names[static_cast<int>(law)];
+}
+
+}  // namespace grain
 
 /// Scenes in the numbers of Lätzel (2003), Table 4.1: two small disks are the pair of section 2.
 namespace test {
@@ -40,8 +59,8 @@ inline void addDisk(grain::Disks& disks, double x, double y, double vx, double v
   disks.inertia.push_back(inertia);
 }
 
-/// Two small disks that touch half a step after t = 0 and approach with v [m/s] along x, offset sideways by
-/// `impact` (sine of the impact angle), each with that spin.
+/// Two small disks that touch half a step after t = 0 and approach with v [m/s] along x, offset
+/// sideways by `impact` (sine of the impact angle), each with that spin.
 inline grain::Setup collidingPair(double v, double impact, double spin, double dt) {
   grain::Setup setup;
   setup.law = thesisLaw();

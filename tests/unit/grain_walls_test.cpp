@@ -26,7 +26,7 @@ TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
   setup.walls.push_back(fixedFloor());
   Simulation simulation(std::move(setup));
   for (int step = 0; step < 10000; ++step) simulation.step();
-  EXPECT_NEAR(simulation.y()[0], radius - sink, 1e-15);
+  EXPECT_NEAR(simulation.y(0), radius - sink, 1e-15);
   EXPECT_NEAR(simulation.wallLoad(0).fy, -mass * 9.81, 1e-12);
   ASSERT_EQ(simulation.contacts().size(), 1u);
   EXPECT_EQ(simulation.contacts()[0].j, 1);  // planes come after all disks
@@ -70,8 +70,8 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   Simulation simulation(std::move(setup));
   simulation.step();
   const double angle = omega * simulation.time();
-  EXPECT_NEAR(simulation.x()[1], rim * std::cos(angle), 1e-17);
-  EXPECT_NEAR(simulation.y()[1], rim * std::sin(angle), 1e-17);
+  EXPECT_NEAR(simulation.x(1), rim * std::cos(angle), 1e-17);
+  EXPECT_NEAR(simulation.y(1), rim * std::sin(angle), 1e-17);
 
   ASSERT_EQ(simulation.contacts().size(), 1u);
   const Contact& c = simulation.contacts()[0];
@@ -83,8 +83,8 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   EXPECT_DOUBLE_EQ(load.fy, -fy);
   // About the centre the pair's forces act at one point, with the contact point as arm.
   const double lever = radius - c.overlap * 1.25e-3 / (radius + 1.25e-3);
-  const double px = simulation.x()[0] - lever * c.nx;
-  const double py = simulation.y()[0] - lever * c.ny;
+  const double px = simulation.x(0) - lever * c.nx;
+  const double py = simulation.y(0) - lever * c.ny;
   EXPECT_NEAR(load.torque, -(px * fy - py * fx), 1e-15 * std::abs(fx));
 }
 
@@ -106,7 +106,7 @@ TEST(GrainWalls, AShrinkingRingMovesItsDisksInward) {
   setup.walls.push_back(ring);
   Simulation simulation(std::move(setup));
   for (int step = 0; step < 100; ++step) simulation.step();
-  EXPECT_NEAR(simulation.y()[1], -0.095, 1e-15);
+  EXPECT_NEAR(simulation.y(1), -0.095, 1e-15);
 }
 
 TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
@@ -126,11 +126,10 @@ TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
 }
 
 TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {
-  const Bottom plate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  const BottomConstants<double> plate({2e-5, 267.1, 0.15, 1e-4, 9.81, true}, 1e-5);
   double springX = 0.0, springY = 0.0;
-  const BottomForce left = bottomForce(plate, mass, radius, 0.0, 0.0, 3.0, springX, springY, 1e-5);
-  const BottomForce right =
-      bottomForce(plate, mass, radius, 0.0, 0.0, -3.0, springX, springY, 1e-5);
+  const auto left = bottomForce<true>(plate, mass, radius, 0.0, 0.0, 3.0, springX, springY);
+  const auto right = bottomForce<true>(plate, mass, radius, 0.0, 0.0, -3.0, springX, springY);
   EXPECT_LT(left.torque, 0.0);
   EXPECT_DOUBLE_EQ(left.torque, -right.torque);
   // γ_b ω a = 1.7e-3 N is far beyond the bound µ_b m g, so the torque is µ_b m g (2/3) a.

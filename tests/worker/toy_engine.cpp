@@ -53,7 +53,7 @@ Capabilities ToyEngine::capabilities() const {
   can.effects[Effect::rotation] = Support::optional;
   can.effects[Effect::friction] = Support::never;
   can.lawOptions["tension"] = {"allow", "cut"};
-  can.precision = "double";
+  can.precisions = {Precision::float64, Precision::float32};
   can.slidingFlags = true;
   can.settings.push_back({"threads", 1.0, "", "how many", {}});
   can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});

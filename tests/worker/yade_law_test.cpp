@@ -27,6 +27,22 @@ TEST_F(YadeWorker, RestitutionOfTwoDisksIsThatOfTheLaw) {
   RecordProperty("restitution", std::to_string(restitution));
 }
 
+TEST_F(YadeWorker, BlocksSpinsThatTheSceneBlocks) {
+  Scene scene = emptyScene();
+  scene.rotation = false;
+  addDisk(scene, small, smallMass, {-small - 0.5e-6, 0.0}, {0.05, 0.0}, 10.0);
+  addDisk(scene, small, smallMass, {small + 0.5e-6, 0.0}, {-0.05, 0.0}, -3.0);
+  scene.dt = 4e-5;
+  const Realised realised = engine_->load(scene, {});
+  EXPECT_TRUE(realised.effects.contains(Effect::friction));
+  EXPECT_FALSE(realised.effects.contains(Effect::rotation));
+  engine_->advance(0.004);
+  const Snapshot after = engine_->snapshot(ContactReport::instant);
+  EXPECT_EQ(*after.spin, (std::vector<double>{10.0, -3.0}));
+  EXPECT_LT(std::abs(after.velocity[0].x()), 0.05);  // they met,
+  EXPECT_NE(after.velocity[0].y(), 0.0);             // and their spins rubbed
+}
+
 TEST_F(YadeWorker, MixesToTheScenesConstantsForEveryPair) {
   Scene scene = emptyScene();
   addDisk(scene, small, smallMass, {0.0, 0.0}, {0, 0});

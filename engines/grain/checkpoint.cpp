@@ -1,0 +1,116 @@
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <stdexcept>
+#include <type_traits>
+
+#include "engines/grain/core.hpp"
+
+namespace grain {
+namespace {
+
+constexpr std::uint64_t magic = 0x32'6e'69'61'72'67;  // "grain2"
+
+template <class T>
+void write(std::ostream& out, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class Vector>
+void writeAll(std::ostream& out, const Vector& values) {
+  write(out, static_cast<std::uint64_t>(values.size()));
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof values[0]));
+}
+
+void require(bool good, const char* what) {
+  if (!good) throw std::runtime_error(std::string("checkpoint: ") + what);
+}
+
+template <class T>
+void read(std::istream& in, T& value) {
+  in.read(reinterpret_cast<char*>(&value), sizeof value);
+  require(in.good(), "cut short");
+}
+
+template <class Vector>
+void readAll(std::istream& in, Vector& values) {
+  in.read(reinterpret_cast<char*>(values.data()),
+          static_cast<std::streamsize>(values.size() * sizeof values[0]));
+  require(in.good(), "cut short");
+}
+
+/// @pre the vector has the size that it must have
+template <class Vector>
+void readSame(std::istream& in, Vector& values) {
+  std::uint64_t size = 0;
+  read(in, size);
+  require(size == values.size(), "of another setup");
+  readAll(in, values);
+}
+
+/// Of any size, up to what a scene of `most` could have.
+template <class Vector>
+void readAny(std::istream& in, Vector& values, std::uint64_t most) {
+  std::uint64_t size = 0;
+  read(in, size);
+  require(size <= most, "damaged");
+  values.resize(size);
+  readAll(in, values);
+}
+
+}  // namespace
+
+template <class Real>
+void Core<Real>::save(std::ostream& out) const {
+  write(out, magic);
+  write(out, static_cast<std::uint64_t>(sizeof(Real)));
+  write(out, fingerprint_);
+  write(out, steps_);
+  write(out, contactEvaluations_);
+  writeAll(out, numberAt_);
+  const_cast<Core*>(this)->forDiskArrays([&](const auto& array) { writeAll(out, array); });
+  writeAll(out, lists_.stretched());
+  writeAll(out, recorded_ ? contacts() : std::vector<Contact>());
+  write(out, recorded_);
+}
+
+template <class Real>
+void Core<Real>::restore(std::istream& in) {
+  std::uint64_t number = 0;
+  read(in, number);
+  require(number == magic, "not one of this engine");
+  read(in, number);
+  require(number == sizeof(Real), "of another precision");
+  read(in, number);
+  require(number == fingerprint_, "of another setup");
+  read(in, steps_);
+  read(in, contactEvaluations_);
+  readSame(in, numberAt_);
+  for (std::size_t place = 0; place < moving_; ++place) {
+    const auto disk = static_cast<std::size_t>(numberAt_[place]);
+    require(disk < moving_, "damaged");
+    placeOf_[disk] = static_cast<std::int32_t>(place);
+  }
+  forDiskArrays([&](auto& array) { readSame(in, array); });
+  const std::uint64_t mostPairs = 64 * (position_.size() + placedPlanes_.size() * moving_);
+  std::vector<CarriedSpring> springs;
+  readAny(in, springs, mostPairs);
+  std::vector<Contact> contacts;
+  readAny(in, contacts, mostPairs);
+  read(in, recorded_);
+  for (MovingWall& wall : walls_) wall.moveTo(time());
+  for (PlacedPlane& placed : placedPlanes_) placed.plane = walls_[placed.wall].plane(placed.member);
+  placeWalls(Which::all);
+  lists_.restoreSprings(std::move(springs), places(), travel(), team_);
+  findReachedWallDisks();
+  rememberChoice();
+  known_.reset();
+  if (recorded_) known_ = std::move(contacts);
+}
+
+template class Core<double>;
+template class Core<float>;
+
+}  // namespace grain

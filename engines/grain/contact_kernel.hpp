@@ -1,0 +1,177 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "engines/grain/kernels.hpp"
+
+namespace grain {
+
+/// Pairs are taken in blocks that stay in the nearest cache: gather both disks, apply the law to
+/// all pairs of the block side by side, then scatter the forces one pair after the other, in the
+/// order of the list: a disk's forces are summed in one order, whatever the width of the vectors.
+inline constexpr std::size_t blockSize = 128;
+
+template <class Real>
+struct alignas(64) ContactBlock {
+  Vec<Real> distance[blockSize], velocity[blockSize];  ///< of i relative to j
+  Real radiusI[blockSize], radiusJ[blockSize], spinI[blockSize], spinJ[blockSize];
+  Real inverseMass[blockSize], inverseInertiaI[blockSize], inverseInertiaJ[blockSize];
+  Vec<Real> force[blockSize];
+  Real leverI[blockSize], leverJ[blockSize];
+  Real normal[blockSize], tangential[blockSize], sliding[blockSize];
+  Real spring[blockSize], touching[blockSize];
+};
+
+/// A few vectors at a time; a library's way to copy has its beginnings to pay for.
+template <class T>
+GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {
+#pragma omp simd
+  for (std::size_t p = 0; p < count; ++p) to[p] = from[p];
+}
+
+/// Velocities are gathered only for a law that has a use for them.
+template <class L>
+GRAIN_INLINE bool seesVelocities(const L& law) {
+  return law.normalDamping || law.tangential != Tangential::none;
+}
+
+template <class L, class Real>
+GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std::int32_t* pairI,
+                         const std::int32_t* pairJ, std::size_t count, ContactBlock<Real>& b) {
+  for (std::size_t p = 0; p < count; ++p) {
+    const auto i = static_cast<std::size_t>(pairI[p]);
+    const auto j = static_cast<std::size_t>(pairJ[p]);
+    b.distance[p] = disks.position[i] - disks.position[j];
+    b.radiusI[p] = disks.radius[i];
+    b.radiusJ[p] = disks.radius[j];
+    if (seesVelocities(law)) b.velocity[p] = disks.velocity[i] - disks.velocity[j];
+    if (law.rotation) {
+      b.spinI[p] = disks.spin[i];
+      b.spinJ[p] = disks.spin[j];
+    }
+    if (law.implicitDamping) {
+      b.inverseMass[p] = disks.inverseMass[i] + disks.inverseMass[j];
+      if (law.rotation) {
+        b.inverseInertiaI[p] = disks.inverseInertia[i];
+        b.inverseInertiaJ[p] = disks.inverseInertia[j];
+      }
+    }
+  }
+}
+
+/// The contact kernel: geometry, relative motion, law, force. Pairs that do not touch (yet) take
+/// part with no force.
+/// Writes the block only, so that the compiler sees that no two of its arrays overlap.
+template <class L, class Real>
+GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::size_t count,
+                                  ContactBlock<Real>& b) {
+  const bool friction = law.tangential != Tangential::none;
+  const bool history =
+      law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
+#pragma omp simd
+  for (std::size_t p = 0; p < count; ++p) {
+    const Real reach = b.radiusI[p] + b.radiusJ[p];
+    Real dx = b.distance[p].x, dy = b.distance[p].y;
+    if constexpr (hasLocalCoordinates<Real>) {
+      dx += shift[p].x;
+      dy += shift[p].y;
+    }
+    const Real distance2 = dx * dx + dy * dy;
+    // A factor and not a choice: compilers turn choices into branches, and then give up the
+    // vectors.
+    const Real touches = distance2 < reach * reach ? Real(1) : Real(0);
+    const Real distance = squareRoot(distance2);
+    const Real inverse = Real(1) / distance;
+    const Real nx = dx * inverse;
+    const Real ny = dy * inverse;
+
+    ContactMotion<Real> motion{reach - distance, Real(0), Real(0), Real(0), Real(0)};
+    if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
+    if (law.implicitDamping) motion.normalCompliance = law.halfStep * b.inverseMass[p];
+    Real leverI = 0, leverJ = 0;
+    if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
+    if (law.rotation) {
+      leverI = leverArm(law, b.radiusI[p], b.radiusJ[p], motion.overlap);
+      leverJ = leverArm(law, b.radiusJ[p], b.radiusI[p], motion.overlap);
+      motion.tangentialVelocity -= leverI * b.spinI[p] + leverJ * b.spinJ[p];
+    }
+    if (law.implicitDamping) {
+      motion.tangentialCompliance = motion.normalCompliance;
+      if (law.rotation)
+        motion.tangentialCompliance += law.halfStep * (leverI * leverI * b.inverseInertiaI[p] +
+                                                       leverJ * leverJ * b.inverseInertiaJ[p]);
+    }
+
+    Real spring = history ? b.spring[p] : Real(0);
+    const ContactForce<Real> force = contactForce(law, motion, spring);
+    const Real fn = touches * force.normal;
+    const Real ft = touches * force.tangential;
+    if (history) b.spring[p] = touches * spring;
+    b.force[p].x = friction ? fn * nx - ft * ny : fn * nx;
+    b.force[p].y = friction ? fn * ny + ft * nx : fn * ny;
+    if (law.rotation) {
+      b.leverI[p] = leverI * ft;
+      b.leverJ[p] = leverJ * ft;
+    }
+    b.normal[p] = fn;
+    b.tangential[p] = ft;
+    b.sliding[p] = touches * force.sliding;
+    b.touching[p] = touches;
+  }
+  Real touching = 0;
+#pragma omp simd reduction(+ : touching)
+  for (std::size_t p = 0; p < count; ++p) touching += b.touching[p];
+  return static_cast<std::size_t>(touching);
+}
+
+template <bool Both, class L, class Real>
+GRAIN_INLINE void scatter(const L& law, const ContactView<Real>& view, const std::int32_t* pairI,
+                          const std::int32_t* pairJ, std::size_t count,
+                          const ContactBlock<Real>& b) {
+  const ContactView<Real> disks = view;  // a copy that no store through a pointer can change
+  for (std::size_t p = 0; p < count; ++p) {
+    const auto i = static_cast<std::size_t>(pairI[p]);
+    disks.force[i] += b.force[p];
+    if (law.rotation) disks.torque[i] -= b.leverI[p];
+    if constexpr (Both) {
+      const auto j = static_cast<std::size_t>(pairJ[p]);
+      disks.force[j] -= b.force[p];
+      if (law.rotation) disks.torque[j] -= b.leverJ[p];
+    }
+  }
+}
+
+template <class L, class Real>
+static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactView<Real>& disks,
+                                 const PairView<Real>& pairs) {
+  const L law(general);
+  ContactBlock<Real> b;
+  std::size_t touching = 0;
+  for (std::size_t begin = 0; begin < pairs.count; begin += blockSize) {
+    const std::size_t count = std::min(blockSize, pairs.count - begin);
+    const std::int32_t* i = pairs.i + begin;
+    const std::int32_t* j = pairs.j + begin;
+    gather(law, disks, i, j, count, b);
+    if (pairs.spring != nullptr) copy(pairs.spring + begin, count, b.spring);
+    touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr, count, b);
+    if (pairs.spring != nullptr) copy(b.spring, count, pairs.spring + begin);
+    if (pairs.normal != nullptr) {
+      copy(b.normal, count, pairs.normal + begin);
+      copy(b.tangential, count, pairs.tangential + begin);
+      copy(b.sliding, count, pairs.sliding + begin);
+    }
+    if (pairs.addTo == AddTo::none) {
+      copy(b.force, count, pairs.stored.force + begin);
+      if (law.rotation) {
+        copy(b.leverI, count, pairs.stored.leverI + begin);
+        copy(b.leverJ, count, pairs.stored.leverJ + begin);
+      }
+    }
+    if (pairs.addTo == AddTo::both) scatter<true>(law, disks, i, j, count, b);
+    if (pairs.addTo == AddTo::first) scatter<false>(law, disks, i, j, count, b);
+  }
+  return touching;
+}
+
+}  // namespace grain

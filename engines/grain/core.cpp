@@ -1,0 +1,256 @@
+#include "engines/grain/core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "engines/grain/fingerprint.hpp"
+
+namespace grain {
+namespace {
+
+template <class Real>
+void fill(Array<Vec<Real>>& array, const std::vector<double>& x, const std::vector<double>& y,
+          std::size_t size) {
+  array.assign(size, {});
+  for (std::size_t i = 0; i < std::min(size, x.size()); ++i)
+    array[i] = {static_cast<Real>(x[i]), static_cast<Real>(y[i])};
+}
+
+template <class Real>
+void fill(Array<Real>& array, const std::vector<double>& values, std::size_t size) {
+  array.assign(size, Real(0));
+  std::ranges::transform(values, array.begin(), [](double v) { return static_cast<Real>(v); });
+}
+
+double smallestRadius(const Disks& disks) {
+  return disks.size() == 0 ? 1.0 : *std::ranges::min_element(disks.radius);
+}
+
+std::size_t partCount(const Setup& setup) {
+  // A part with no disk would be of no use.
+  const std::size_t most = std::max<std::size_t>(setup.disks.size(), 1);
+  return std::min(static_cast<std::size_t>(std::max(setup.threads, 1)), most);
+}
+
+MotionEffects motionEffects(const Setup& setup) {
+  MotionEffects effects;
+  effects.rotation = setup.law.friction() && setup.rotation;
+  effects.predict =
+      setup.law.damping == Damping::predicted && setup.integrator != Integrator::semiImplicitEuler;
+  effects.gravity = setup.gravityX != 0.0 || setup.gravityY != 0.0;
+  effects.plate = setup.bottom.has_value();
+  effects.plateSpin = setup.bottom && setup.bottom->spin;
+  return effects;
+}
+
+}  // namespace
+
+template <class Real>
+Core<Real>::Core(Setup setup)
+    : law_(generalLaw<Real>(setup.law, setup.dt, setup.rotation)),
+      integrator_(setup.integrator),
+      dt_(setup.dt),
+      moving_(setup.disks.size()),
+      fingerprint_(fingerprint(setup)),
+      motionConstants_{
+          static_cast<Real>(setup.integrator == Integrator::velocityVerlet ? 0.5 * setup.dt
+                                                                           : setup.dt),
+          static_cast<Real>(setup.dt),
+          static_cast<Real>(0.5 * setup.dt),
+          static_cast<Real>(setup.gravityX),
+          static_cast<Real>(setup.gravityY),
+          {setup.bottom.value_or(Bottom{}), setup.dt}},
+      mass_(setup.disks.mass),
+      inertia_(setup.disks.inertia),
+      kernels_(kernels<Real>()),
+      lists_(moving_, partCount(setup), setup.law.springs(),
+             Skin(setup.skin, smallestRadius(setup.disks))),
+      team_(partCount(setup)),
+      reports_(partCount(setup)),
+      touching_(partCount(setup)) {
+  if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
+  const MotionEffects effects = motionEffects(setup);
+  motion_ = kernels_.motion[indexOf(effects)];
+  const std::size_t variant =
+      indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation});
+  const bool special = hasThesisConventions(law_) && !setup.generalKernels;
+  contacts_ = special ? kernels_.contacts[variant] : kernels_.generalContacts;
+  planes_ = special ? kernels_.planes[variant] : kernels_.generalPlanes;
+
+  buildWalls(std::move(setup.walls));
+  allocate(setup.disks, effects);
+  start();
+}
+
+template <class Real>
+void Core<Real>::buildWalls(std::vector<Wall> walls) {
+  std::size_t next = moving_;
+  for (Wall& wall : walls) {
+    wallBegin_.push_back(next);
+    next += wall.diskX.size();
+    for (std::size_t member = 0; member < wall.planes.size(); ++member)
+      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}});
+    walls_.emplace_back(std::move(wall));
+  }
+  wallBegin_.push_back(next);
+  reached_.resize(walls_.size());
+  for (PlacedPlane& placed : placedPlanes_) {
+    placed.plane = walls_[placed.wall].plane(placed.member);
+    if (lists_.springs()) placed.spring.assign(moving_, Real(0));
+  }
+}
+
+template <class Real>
+void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
+  const std::size_t all = wallBegin_.back();
+  numberAt_.resize(moving_);
+  std::iota(numberAt_.begin(), numberAt_.end(), 0);
+  placeOf_ = numberAt_;
+  std::vector<double> radius = disks.radius, inverseMass, inverseInertia;
+  for (const MovingWall& wall : walls_)
+    radius.insert(radius.end(), wall.radii().begin(), wall.radii().end());
+  for (const double mass : disks.mass) inverseMass.push_back(1.0 / mass);
+
+  fill(position_, disks.x, disks.y, all);
+  fill(radius_, radius, all);
+  fill(inverseMass_, inverseMass, all);
+  fill(velocity_, disks.vx, disks.vy, effects.predict ? moving_ : all);
+  if (effects.predict) seenVelocity_.assign(all, {});
+  force_.assign(moving_, {});
+  if (effects.rotation) {
+    for (const double inertia : disks.inertia) inverseInertia.push_back(1.0 / inertia);
+    fill(inverseInertia_, inverseInertia, all);
+    fill(spin_, disks.spin, effects.predict ? moving_ : all);
+    torque_.assign(moving_, Real(0));
+    if (effects.predict) seenSpin_.assign(all, Real(0));
+  }
+  if (effects.plate || effects.gravity) fill(weighed_, disks.mass, moving_);
+  if (effects.plate) plateSpring_.assign(moving_, {});
+  if constexpr (hasLocalCoordinates<Real>) {
+    const double largest = radius.empty() ? 1.0 : *std::ranges::max_element(radius);
+    square_ = static_cast<Real>(std::exp2(std::ceil(std::log2(2.0 * largest))));
+    origin_.assign(all, {});
+    const double square = static_cast<double>(square_);
+    for (std::size_t i = 0; i < moving_; ++i) {
+      const Vec<double> corner{std::floor(disks.x[i] / square) * square,
+                               std::floor(disks.y[i] / square) * square};
+      origin_[i] = {static_cast<Real>(corner.x), static_cast<Real>(corner.y)};
+      position_[i] = {static_cast<Real>(disks.x[i] - corner.x),
+                      static_cast<Real>(disks.y[i] - corner.y)};
+    }
+  }
+}
+
+/// At t = 0 the velocities are given, so nothing is predicted and no damping is implicit.
+template <class Real>
+void Core<Real>::start() {
+  renumber();
+  MotionConstants<Real> still = motionConstants_;
+  still.kick = still.drift = still.ahead = Real(0);
+  std::swap(still, motionConstants_);
+  advanceDisks();
+  std::swap(still, motionConstants_);
+  const Real halfStep = std::exchange(law_.halfStep, Real(0));
+  addForces(true);
+  law_.halfStep = halfStep;
+  if (integrator_ == Integrator::positionVerlet) {
+    halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
+    kick(static_cast<Real>(-halfKick_));
+  }
+}
+
+template <class Real>
+void Core<Real>::findNeighbours() {
+  recorded_ = false;
+  known_.reset();
+  placeWalls(Which::all);
+  try {
+    lists_.rebuild(places(), travel(), team_);
+  } catch (const NotFinite& found) {
+    reportNotFinite(found);
+  }
+  findReachedWallDisks();
+  rememberChoice();
+}
+
+template <class Real>
+Places Core<Real>::places() {
+  if constexpr (!hasLocalCoordinates<Real>) {
+    return {position_, radius_, {}};
+  } else {
+    places_.resize(position_.size());
+    placeRadius_.assign(radius_.begin(), radius_.end());
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      places_[i] = {static_cast<double>(origin_[i].x) + static_cast<double>(position_[i].x),
+                    static_cast<double>(origin_[i].y) + static_cast<double>(position_[i].y)};
+    return {places_, placeRadius_, origin_};
+  }
+}
+
+template <class Real>
+void Core<Real>::reportNotFinite(const NotFinite& found) const {
+  const auto number =
+      found.disk < moving_ ? static_cast<std::size_t>(numberAt_[found.disk]) : found.disk;
+  throw std::runtime_error("the position of disk " + std::to_string(number) + " is not finite");
+}
+
+template <class Real>
+ContactView<Real> Core<Real>::contactView() {
+  const bool predicted = !seenVelocity_.empty();
+  return {position_.data(),
+          predicted ? seenVelocity_.data() : velocity_.data(),
+          predicted ? seenSpin_.data() : spin_.data(),
+          radius_.data(),
+          inverseMass_.data(),
+          inverseInertia_.data(),
+          force_.data(),
+          torque_.data()};
+}
+
+template <class Real>
+MotionView<Real> Core<Real>::motionView() {
+  return {position_.data(),       velocity_.data(),       spin_.data(),   seenVelocity_.data(),
+          seenSpin_.data(),       force_.data(),          torque_.data(), inverseMass_.data(),
+          inverseInertia_.data(), weighed_.data(),        radius_.data(), plateSpring_.data(),
+          chosen_.data(),         allowanceSquare_.data()};
+}
+
+/// Before the team begins: its parts share these arrays.
+template <class Real>
+void Core<Real>::makeRoomForRecords() {
+  for (PlacedPlane& placed : placedPlanes_)
+    for (Array<Real>* array :
+         {&placed.overlap, &placed.normal, &placed.tangential, &placed.sliding})
+      array->resize(moving_);
+}
+
+template <class Real>
+PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
+  const Plane& plane = placed.plane;
+  const WallState& wall = walls_[placed.wall].state();
+  const auto real = [](double v) { return static_cast<Real>(v); };
+  return {plane.x,
+          plane.y,
+          real(plane.nx),
+          real(plane.ny),
+          real(wall.x),
+          real(wall.y),
+          real(wall.vx),
+          real(wall.vy),
+          real(wall.spin),
+          origin_.empty() ? nullptr : origin_.data(),
+          placed.spring.empty() ? nullptr : placed.spring.data(),
+          record ? placed.overlap.data() : nullptr,
+          record ? placed.normal.data() : nullptr,
+          record ? placed.tangential.data() : nullptr,
+          record ? placed.sliding.data() : nullptr};
+}
+
+template class Core<double>;
+template class Core<float>;
+
+}  // namespace grain

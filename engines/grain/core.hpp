@@ -1,0 +1,165 @@
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engines/grain/kernels.hpp"
+#include "engines/grain/pair_lists.hpp"
+#include "engines/grain/setup.hpp"
+#include "engines/grain/thread_team.hpp"
+
+namespace grain {
+
+/// The time step in one precision. Simulation is its face; "number" is a disk's number there,
+/// "place" its place in the arrays here, which follow the disks' neighbourhood in space.
+///
+/// Arrays that the scene's effects do not call for stay empty.
+template <class Real>
+class Core {
+ public:
+  explicit Core(Setup setup);
+
+  /// @param record  whether contacts() is to know this step's forces
+  void step(bool record);
+  void findNeighbours();
+
+  double time() const { return static_cast<double>(steps_) * dt_; }
+  std::uint64_t steps() const { return steps_; }
+  double dt() const { return dt_; }
+  std::size_t movingCount() const { return moving_; }
+  std::size_t diskCount() const { return position_.size(); }
+  std::size_t wallCount() const { return walls_.size(); }
+
+  double x(std::size_t number) const;
+  double y(std::size_t number) const;
+  double velocityX(std::size_t number) const;
+  double velocityY(std::size_t number) const;
+  double spin(std::size_t number) const;
+  bool rotates() const { return law_.rotation; }
+  const MovingWall& wall(std::size_t w) const { return walls_[w]; }
+  const std::vector<Contact>& contacts() const;
+  WallLoad wallLoad(std::size_t wall) const;
+  double kineticEnergy() const;
+  double elasticEnergy() const;
+
+  std::uint64_t contactEvaluations() const { return contactEvaluations_; }
+  const PairLists<Real>& lists() const { return lists_; }
+  const char* instructions() const { return kernels_.instructions; }
+
+  void save(std::ostream& out) const;
+  void restore(std::istream& in);
+
+ private:
+  struct PlacedPlane {
+    std::size_t wall, member;
+    Plane plane;                                               ///< as it stands now
+    Array<Real> spring, overlap, normal, tangential, sliding;  ///< by the disks' places
+  };
+
+  // The step.
+  void advanceDisks();
+  void moveWalls();
+  void updateNeighbours();
+  void rememberChoice();
+  std::span<const double> travel();
+  void addForces(bool record);
+  std::size_t addPairs(std::size_t part, Sort sort, bool record);
+  void addFromLowerParts(std::size_t part);
+  void addFromHigherParts(std::size_t part);
+  void kick(Real dt);
+
+  // The beginning.
+  void buildWalls(std::vector<Wall> walls);
+  void allocate(const Disks& disks, const MotionEffects& effects);
+  void start();
+
+  // Housekeeping.
+  void renumber();
+  void localise();
+  void findReachedWallDisks();
+  Places places();
+  [[noreturn]] void reportNotFinite(const NotFinite& found) const;
+  /// Calls visit(array) for each array that goes with the moving disks where they change place.
+  template <class Visit>
+  void forDiskArrays(Visit&& visit);
+  enum class Which { moving, all };
+  void placeWalls(Which which);
+  void placeWallDisk(std::size_t wall, std::size_t k);
+
+  // Views for the kernels.
+  ContactView<Real> contactView();
+  MotionView<Real> motionView();
+  PlaneView<Real> planeView(PlacedPlane& placed, bool record);
+  void makeRoomForRecords();
+
+  WallPoint wallDisk(std::size_t number) const;
+  std::vector<Contact> pairContacts() const;
+  void appendPlaneContacts(std::vector<Contact>& contacts) const;
+
+  GeneralLaw<Real> law_;
+  Integrator integrator_;
+  double dt_;
+  double halfKick_ = 0.0;  ///< from the stored velocity to the one at time() [s]
+  std::size_t moving_;
+  std::uint64_t fingerprint_;  ///< of the setup
+  std::uint64_t steps_ = 0, contactEvaluations_ = 0;
+  MotionConstants<Real> motionConstants_;
+  std::vector<double> mass_, inertia_;  ///< by number
+
+  Kernels<Real> kernels_;
+  ContactKernel<Real> contacts_;
+  PlaneKernel<Real> planes_;
+  MotionKernel<Real> motion_;
+
+  // Moving disks, then wall disks.
+  Array<Vec<Real>> position_;
+  Array<Real> radius_, inverseMass_, inverseInertia_;
+  Array<Vec<Real>> origin_;                   ///< of the local coordinates, in single precision [m]
+  Real square_ = 1;                           ///< that these count from the corners of [m]
+  Array<Vec<Real>> velocity_, seenVelocity_;  ///< as integrated, and as the dashpots see them
+  Array<Real> spin_, seenSpin_;               ///< where that differs
+  // Moving disks.
+  Array<Vec<Real>> force_, plateSpring_;
+  Array<Real> torque_, weighed_;
+  std::vector<std::int32_t> numberAt_, placeOf_;
+  std::vector<Vec<double>> places_;
+  std::vector<double> placeRadius_;  ///< in double, where the state is not
+
+  std::vector<MovingWall> walls_;
+  std::vector<std::size_t> wallBegin_;  ///< first disk of each wall, one more at the end
+  std::vector<std::vector<std::int32_t>> reached_;  ///< per wall: its disks in some list
+  std::vector<PlacedPlane> placedPlanes_;
+
+  PairLists<Real> lists_;
+  mutable ThreadTeam team_;
+  // Near pairs hold as long as every disk is within its allowance of where it was.
+  Array<Vec<Real>> chosen_;
+  Array<Real> allowanceSquare_;
+  std::vector<double> travel_, wallPath_;
+  std::uint64_t chosenAt_ = 0;  ///< step
+  bool outdated_ = false, sampled_ = false;
+  // Kept for the room that they have: a step allocates nothing.
+  std::vector<char> isReached_;
+  CellGrid renumberingGrid_;
+  std::vector<std::int32_t> newPlace_;
+  std::vector<std::byte> scratch_;
+  std::vector<MotionReport<Real>> reports_;
+  std::vector<std::size_t> touching_;
+  bool recorded_ = false;
+  mutable std::optional<std::vector<Contact>> known_;
+};
+
+template <class Real>
+template <class Visit>
+void Core<Real>::forDiskArrays(Visit&& visit) {
+  for (auto* array : {&position_, &velocity_, &seenVelocity_, &force_, &plateSpring_, &origin_})
+    visit(*array);
+  for (auto* array :
+       {&radius_, &inverseMass_, &inverseInertia_, &spin_, &seenSpin_, &torque_, &weighed_})
+    visit(*array);
+  for (PlacedPlane& placed : placedPlanes_) visit(placed.spring);
+}
+
+}  // namespace grain

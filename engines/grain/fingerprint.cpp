@@ -1,0 +1,63 @@
+#include "engines/grain/fingerprint.hpp"
+
+#include <cstddef>
+
+namespace grain {
+namespace {
+
+class Fnv1a {
+ public:
+  void add(std::uint64_t bits) {
+    for (int byte = 0; byte < 8; ++byte) {
+      hash_ = (hash_ ^ ((bits >> (8 * byte)) & 0xff)) * 0x100000001b3u;
+    }
+  }
+  void add(double value) { add(__builtin_bit_cast(std::uint64_t, value)); }
+  template <class... Values>
+  void addAll(const Values&... values) {
+    (add(static_cast<double>(values)), ...);
+  }
+  void add(const std::vector<double>& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    for (const double value : values) add(value);
+  }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+void add(Fnv1a& to, const Law& law) {
+  to.addAll(law.kn, law.gn, law.kt, law.gt, law.mu, static_cast<int>(law.tangential),
+            static_cast<int>(law.bound), law.cutTension, law.dashpotOutsideBound,
+            law.resetSpringOnly, static_cast<int>(law.lever), static_cast<int>(law.stretch),
+            static_cast<int>(law.damping));
+}
+
+void add(Fnv1a& to, const Wall& wall) {
+  for (const auto* values : {&wall.diskX, &wall.diskY, &wall.diskRadius}) to.add(*values);
+  to.add(static_cast<std::uint64_t>(wall.planes.size()));
+  for (const Plane& plane : wall.planes) to.addAll(plane.x, plane.y, plane.nx, plane.ny);
+  to.addAll(wall.moves);
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const Setup& setup) {
+  Fnv1a to;
+  const Disks& disks = setup.disks;
+  for (const auto* values : {&disks.x, &disks.y, &disks.vx, &disks.vy, &disks.spin, &disks.radius,
+                             &disks.mass, &disks.inertia})
+    to.add(*values);
+  to.add(static_cast<std::uint64_t>(setup.walls.size()));
+  for (const Wall& wall : setup.walls) add(to, wall);
+  add(to, setup.law);
+  to.addAll(setup.bottom.has_value());
+  if (const auto& plate = setup.bottom)
+    to.addAll(plate->mu, plate->kb, plate->gb, plate->tauM, plate->gravity, plate->spin);
+  to.addAll(setup.gravityX, setup.gravityY, setup.dt, static_cast<int>(setup.integrator),
+            setup.rotation, static_cast<int>(setup.precision));
+  return to.hash();
+}
+
+}  // namespace grain

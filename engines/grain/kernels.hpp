@@ -1,0 +1,155 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engines/grain/bottom.hpp"
+#include "engines/grain/law_types.hpp"
+
+namespace grain {
+
+/// What contacts read of the disks (moving, then wall disks) and add to (moving disks).
+/// Without rotation there are no spins and torques: null.
+template <class Real>
+struct ContactView {
+  const Vec<Real>*position, *velocity;
+  const Real *spin, *radius;
+  const Real *inverseMass, *inverseInertia;  ///< 0 for wall disks
+  Vec<Real>* force;
+  Real* torque;
+};
+
+/// Forces of a list of pairs, one entry a pair: on i, and l f_t of i and j.
+template <class Real>
+struct PairForces {
+  Vec<Real>* force;
+  Real *leverI, *leverJ;
+};
+
+/// Which disks of a pair a list adds its forces to: both, the first (the second is of a wall), or
+/// none (they are stored, for two threads to add).
+enum class AddTo { both, first, none };
+
+template <class Real>
+struct PairView {
+  std::size_t count;
+  const std::int32_t *i, *j;
+  const Vec<Real>* shift;               ///< origin of i − origin of j, of local coordinates
+  Real* spring;                         ///< null without springs
+  Real *normal, *tangential, *sliding;  ///< the law's results; null: nobody asked
+  AddTo addTo;
+  PairForces<Real> stored;  ///< for AddTo::none
+};
+
+/// Adds the forces of all pairs that touch. @returns how many do
+template <class Real>
+using ContactKernel = std::size_t (*)(const GeneralLaw<Real>&, const ContactView<Real>&,
+                                      const PairView<Real>&);
+
+/// The moving disks as their motion sees them; arrays that the effects do not call for are null.
+template <class Real>
+struct MotionView {
+  Vec<Real>*position, *velocity;
+  Real* spin;
+  Vec<Real>* seenVelocity;
+  Real* seenSpin;  ///< what the dashpots see; the velocities themselves unless predicted
+  Vec<Real>* force;
+  Real* torque;
+  const Real *inverseMass, *inverseInertia, *mass, *radius;
+  Vec<Real>* plateSpring;  ///< [m]
+  /// Where the near pairs were chosen, and the square of how far a disk may be from there.
+  const Vec<Real>* chosen;
+  const Real* allowance;
+};
+
+template <class Real>
+struct MotionConstants {
+  Real kick, drift;  ///< v += kick·a, x += drift·v [s]
+  Real ahead;        ///< how far the dashpots' velocities are carried on [s]
+  Real gravityX, gravityY;
+  BottomConstants<Real> plate;
+};
+
+/// What a motion kernel saw on its way.
+template <class Real>
+struct MotionReport {
+  Real excess;        ///< > 0, or not a number, if some disk is beyond its allowance [m²]
+  Real speedSquares;  ///< sum of v², not finite if some v is not
+};
+
+/// Kick, drift and predict disks begin … end−1, and begin their forces anew with those that no
+/// contact has part in.
+template <class Real>
+using MotionKernel = MotionReport<Real> (*)(const MotionConstants<Real>&, const MotionView<Real>&,
+                                            std::size_t begin, std::size_t end);
+
+/// v += dt·a alone.
+template <class Real>
+using KickKernel = void (*)(Real dt, const MotionView<Real>&, std::size_t begin, std::size_t end);
+
+/// A disk against a plane through (x, y) that moves with (vx, vy) − spin × arm.
+template <class Real>
+struct PlaneView {
+  double x, y;  ///< in double, as disks are seen from their own origins
+  Real nx, ny;
+  Real centreX, centreY, vx, vy, spin;
+  const Vec<Real>* origin;                        ///< of the disks' coordinates; null: one origin
+  Real* spring;                                   ///< one a disk; null without springs
+  Real *overlap, *normal, *tangential, *sliding;  ///< results, one a disk; null: nobody asked
+};
+
+template <class Real>
+using PlaneKernel = std::size_t (*)(const GeneralLaw<Real>&, const ContactView<Real>&,
+                                    const PlaneView<Real>&, std::size_t begin, std::size_t end);
+
+/// The effects that decide which kernels a scene runs.
+struct ContactEffects {
+  Tangential tangential;
+  bool cutTension, normalDamping, rotation;
+};
+
+struct MotionEffects {
+  bool rotation, predict, gravity, plate, plateSpin;
+};
+
+inline constexpr std::size_t contactVariants = 5 * 2 * 2 * 2;
+inline constexpr std::size_t motionVariants = 2 * 2 * 2 * 2 * 2;
+
+constexpr std::size_t indexOf(const ContactEffects& e) {
+  return ((static_cast<std::size_t>(e.tangential) * 2 + e.cutTension) * 2 + e.normalDamping) * 2 +
+         e.rotation;
+}
+constexpr ContactEffects contactEffects(std::size_t index) {
+  return {static_cast<Tangential>(index / 8), index / 4 % 2 == 1, index / 2 % 2 == 1,
+          index % 2 == 1};
+}
+constexpr std::size_t indexOf(const MotionEffects& e) {
+  return (((e.rotation * 2u + e.predict) * 2u + e.gravity) * 2u + e.plate) * 2u + e.plateSpin;
+}
+constexpr MotionEffects motionEffects(std::size_t index) {
+  return {index / 16 % 2 == 1, index / 8 % 2 == 1, index / 4 % 2 == 1, index / 2 % 2 == 1,
+          index % 2 == 1};
+}
+
+/// Every kernel for one precision, compiled for one instruction set.
+template <class Real>
+struct Kernels {
+  const char* instructions;  ///< "x86-64-v3", …
+  ContactKernel<Real> contacts[contactVariants];
+  ContactKernel<Real> generalContacts;
+  MotionKernel<Real> motion[motionVariants];
+  KickKernel<Real> kick[2];  ///< without and with rotation
+  PlaneKernel<Real> planes[contactVariants];
+  PlaneKernel<Real> generalPlanes;
+};
+
+/// The fastest set that this processor runs, or the one that GRAIN_INSTRUCTIONS names; all give the
+/// same bits. @throws std::invalid_argument for a name that is none, or beyond the processor
+template <class Real>
+Kernels<Real> kernels();
+
+/// Names of the sets that this processor runs, slowest first.
+const std::vector<const char*>& instructionSets();
+
+}  // namespace grain

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "engines/grain/law.hpp"
+
+namespace grain {
+
+/// The constants of a law, in the precision of the state.
+template <class Real>
+struct LawConstants {
+  Real kn, gn, kt, inverseKt, gt, mu;
+  Real dt;        ///< [s]
+  Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
+};
+
+/// Every option at run time: the reference that each specialised law must match to the bit, and
+/// what runs the conventions of other engines.
+template <class Real>
+struct GeneralLaw : LawConstants<Real> {
+  Tangential tangential;
+  Bound bound;
+  Lever lever;
+  Stretch stretch;
+  bool cutTension, normalDamping, implicitDamping, dashpotOutsideBound, resetSpringOnly, rotation;
+};
+
+/// The thesis' conventions with the effects of a scene as constants: what the scene does not call
+/// for is not compiled.
+template <class Real, Tangential T, bool CutTension, bool NormalDamping, bool Rotation>
+struct EffectsLaw : LawConstants<Real> {
+  static constexpr Tangential tangential = T;
+  static constexpr bool cutTension = CutTension;
+  static constexpr bool normalDamping = NormalDamping;
+  static constexpr bool rotation = Rotation;
+  static constexpr Bound bound = Bound::compression;
+  static constexpr Lever lever = Lever::radius;
+  static constexpr Stretch stretch = Stretch::after;
+  static constexpr bool implicitDamping = false;
+  static constexpr bool dashpotOutsideBound = false;
+  static constexpr bool resetSpringOnly = false;
+
+  explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
+};
+
+/// Whether EffectsLaw has the law's conventions, so that only effects remain to be chosen.
+template <class Real>
+bool hasThesisConventions(const GeneralLaw<Real>& law) {
+  return law.bound == Bound::compression && law.lever == Lever::radius &&
+         law.stretch == Stretch::after && !law.implicitDamping && !law.dashpotOutsideBound &&
+         !law.resetSpringOnly;
+}
+
+template <class Real>
+GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
+  GeneralLaw<Real> to;
+  to.kn = static_cast<Real>(law.kn);
+  to.gn = static_cast<Real>(law.gn);
+  to.kt = static_cast<Real>(law.kt);
+  to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
+  to.gt = static_cast<Real>(law.gt);
+  to.mu = static_cast<Real>(law.mu);
+  to.dt = static_cast<Real>(dt);
+  to.halfStep = static_cast<Real>(0.5 * dt);
+  to.tangential = law.friction() ? law.tangential : Tangential::none;
+  to.bound = law.bound;
+  to.lever = law.lever;
+  to.stretch = law.stretch;
+  to.cutTension = law.cutTension;
+  to.normalDamping = law.gn > 0.0;
+  to.implicitDamping = law.damping == Damping::implicit;
+  to.dashpotOutsideBound = law.dashpotOutsideBound;
+  to.resetSpringOnly = law.resetSpringOnly;
+  to.rotation = law.friction() && rotation;
+  return to;
+}
+
+}  // namespace grain

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+#include "engines/grain/core.hpp"
+
+namespace grain {
+
+template <class Real>
+double Core<Real>::x(std::size_t number) const {
+  if (number >= moving_) return wallDisk(number).x;
+  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  return (origin_.empty() ? 0.0 : static_cast<double>(origin_[i].x)) +
+         static_cast<double>(position_[i].x);
+}
+
+template <class Real>
+double Core<Real>::y(std::size_t number) const {
+  if (number >= moving_) return wallDisk(number).y;
+  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  return (origin_.empty() ? 0.0 : static_cast<double>(origin_[i].y)) +
+         static_cast<double>(position_[i].y);
+}
+
+template <class Real>
+WallPoint Core<Real>::wallDisk(std::size_t number) const {
+  const auto after = std::ranges::upper_bound(wallBegin_, number);
+  const auto w = static_cast<std::size_t>(after - wallBegin_.begin()) - 1;
+  return walls_[w].disk(number - wallBegin_[w]);
+}
+
+template <class Real>
+double Core<Real>::velocityX(std::size_t number) const {
+  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  return static_cast<double>(velocity_[i].x) +
+         halfKick_ * static_cast<double>(force_[i].x * inverseMass_[i]);
+}
+
+template <class Real>
+double Core<Real>::velocityY(std::size_t number) const {
+  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  return static_cast<double>(velocity_[i].y) +
+         halfKick_ * static_cast<double>(force_[i].y * inverseMass_[i]);
+}
+
+template <class Real>
+double Core<Real>::spin(std::size_t number) const {
+  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  return static_cast<double>(spin_[i]) +
+         halfKick_ * static_cast<double>(torque_[i] * inverseInertia_[i]);
+}
+
+template <class Real>
+const std::vector<Contact>& Core<Real>::contacts() const {
+  if (!known_) {
+    if (!recorded_) throw std::logic_error("the last step did not record its contacts");
+    std::vector<Contact> contacts = pairContacts();
+    appendPlaneContacts(contacts);
+    std::ranges::sort(contacts, [](const Contact& a, const Contact& b) {
+      return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+    });
+    known_ = std::move(contacts);
+  }
+  return *known_;
+}
+
+template <class Real>
+std::vector<Contact> Core<Real>::pairContacts() const {
+  std::vector<Contact> contacts;
+  for (std::size_t part = 0; part < lists_.parts(); ++part)
+    for (const Sort sort : {Sort::inside, Sort::across, Sort::walls}) {
+      const PairList<Real>& list = lists_.list(part, sort);
+      for (std::size_t k = 0; k < list.count; ++k) {
+        const auto i = static_cast<std::size_t>(list.i[k]);
+        const auto j = static_cast<std::size_t>(list.j[k]);
+        // The kernel's own arithmetic: the same bits.
+        Vec<Real> d = position_[i] - position_[j];
+        if (!list.shift.empty()) d += list.shift[k];
+        const Real reach = radius_[i] + radius_[j];
+        const Real distance2 = d.x * d.x + d.y * d.y;
+        if (!(distance2 < reach * reach)) continue;
+        const Real distance = squareRoot(distance2);
+        const Real inverse = Real(1) / distance;
+        Contact contact{numberAt_[i],
+                        j < moving_ ? numberAt_[j] : list.j[k],
+                        static_cast<double>(d.x * inverse),
+                        static_cast<double>(d.y * inverse),
+                        static_cast<double>(reach - distance),
+                        static_cast<double>(list.normal[k]),
+                        static_cast<double>(list.tangential[k]),
+                        list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
+                        list.sliding[k] != Real(0)};
+        if (contact.j < contact.i) {
+          std::swap(contact.i, contact.j);
+          contact.nx = -contact.nx;
+          contact.ny = -contact.ny;
+        }
+        contacts.push_back(contact);
+      }
+    }
+  return contacts;
+}
+
+template <class Real>
+void Core<Real>::appendPlaneContacts(std::vector<Contact>& contacts) const {
+  for (std::size_t p = 0; p < placedPlanes_.size(); ++p) {
+    const PlacedPlane& placed = placedPlanes_[p];
+    const Plane& plane = placed.plane;
+    for (std::size_t number = 0; number < moving_; ++number) {
+      const auto i = static_cast<std::size_t>(placeOf_[number]);
+      if (!(placed.overlap[i] > Real(0))) continue;
+      contacts.push_back(
+          {static_cast<std::int32_t>(number), static_cast<std::int32_t>(position_.size() + p),
+           plane.nx, plane.ny, static_cast<double>(placed.overlap[i]),
+           static_cast<double>(placed.normal[i]), static_cast<double>(placed.tangential[i]),
+           placed.spring.empty() ? 0.0 : static_cast<double>(placed.spring[i]),
+           placed.sliding[i] != Real(0)});
+    }
+  }
+}
+
+/// The sum over the wall's contacts, each with the opposite force and, for a wall disk, with the
+/// torque about that disk's own centre that the law gives it.
+template <class Real>
+WallLoad Core<Real>::wallLoad(std::size_t w) const {
+  WallLoad load;
+  const WallState& wall = walls_[w].state();
+  for (const Contact& contact : contacts()) {
+    const auto j = static_cast<std::size_t>(contact.j);
+    const bool plane = j >= position_.size();
+    if (plane ? placedPlanes_[j - position_.size()].wall != w
+              : j < wallBegin_[w] || j >= wallBegin_[w + 1])
+      continue;
+    const auto i = static_cast<std::size_t>(contact.i);
+    const double forceX = contact.normalForce * contact.nx - contact.tangentialForce * contact.ny;
+    const double forceY = contact.normalForce * contact.ny + contact.tangentialForce * contact.nx;
+    double armX, armY;
+    if (plane) {
+      const double height =
+          static_cast<double>(radius_[static_cast<std::size_t>(placeOf_[i])]) - contact.overlap;
+      armX = x(i) - height * contact.nx - wall.x;
+      armY = y(i) - height * contact.ny - wall.y;
+    } else {
+      const WallPoint centre = wallDisk(j);
+      armX = centre.x - wall.x;
+      armY = centre.y - wall.y;
+      if (law_.rotation) {
+        const auto radius = static_cast<double>(radius_[j]);
+        const auto other = static_cast<double>(radius_[static_cast<std::size_t>(placeOf_[i])]);
+        load.torque -= leverArm(law_, radius, other, contact.overlap) * contact.tangentialForce;
+      }
+    }
+    load.fx -= forceX;
+    load.fy -= forceY;
+    load.torque -= armX * forceY - armY * forceX;
+  }
+  return load;
+}
+
+template <class Real>
+double Core<Real>::kineticEnergy() const {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < moving_; ++i) {
+    const double vx = velocityX(i);
+    const double vy = velocityY(i);
+    energy += 0.5 * mass_[i] * (vx * vx + vy * vy);
+    if (rotates()) energy += 0.5 * inertia_[i] * spin(i) * spin(i);
+  }
+  return energy;
+}
+
+template <class Real>
+double Core<Real>::elasticEnergy() const {
+  double energy = 0.0;
+  for (const Contact& contact : contacts())
+    energy += 0.5 * static_cast<double>(law_.kn) * contact.overlap * contact.overlap +
+              0.5 * static_cast<double>(law_.kt) * contact.spring * contact.spring;
+  return energy;
+}
+
+template class Core<double>;
+template class Core<float>;
+
+}  // namespace grain

@@ -1,0 +1,103 @@
+#include "engines/grain/pair_list.hpp"
+
+#include <tuple>
+
+namespace grain {
+
+template <class Real>
+void PairList<Real>::clear() {
+  farI.clear();
+  farJ.clear();
+  count = 0;
+}
+
+template <class Real>
+void PairList<Real>::append(std::int32_t diskI, std::int32_t diskJ) {
+  farI.push_back(diskI);
+  farJ.push_back(diskJ);
+}
+
+template <class Real>
+void PairList<Real>::storeSprings() {
+  for (std::size_t k = 0; k < count; ++k) farSpring[far[k]] = spring[k];
+}
+
+template <class Real>
+void PairList<Real>::carry() {
+  carried.clear();
+  for (std::size_t p = 0; p < farI.size(); ++p)
+    if (farSpring[p] != Real(0)) carried.push_back({farI[p], farJ[p], farSpring[p]});
+}
+
+template <class Real>
+void PairList<Real>::takeCarried() {
+  farSpring.assign(farI.size(), Real(0));
+  auto next = carried.begin();
+  for (std::size_t p = 0; p < farI.size(); ++p) {
+    while (next != carried.end() && std::tie(next->i, next->j) < std::tie(farI[p], farJ[p])) ++next;
+    if (next == carried.end()) return;
+    if (next->i == farI[p] && next->j == farJ[p]) farSpring[p] = static_cast<Real>(next->spring);
+  }
+}
+
+template <class Real>
+std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double> allowance,
+                                       bool springs) {
+  const std::size_t room = farI.size();
+  for (auto* ids : {&i, &j})
+    if (ids->size() < room) ids->resize(room);
+  if (far.size() < room) far.resize(room);
+  if (springs && spring.size() < room) spring.resize(room);
+  std::size_t n = 0, touching = 0;
+  for (std::size_t p = 0; p < room; ++p) {
+    const auto a = static_cast<std::size_t>(farI[p]);
+    const auto b = static_cast<std::size_t>(farJ[p]);
+    const Vec<double> d = now.position[a] - now.position[b];
+    const double distance2 = d.x * d.x + d.y * d.y;
+    const double reach = now.radius[a] + now.radius[b];
+    // Written whether near or not: the next pair overwrites it, and there is no branch to guess.
+    i[n] = farI[p];
+    j[n] = farJ[p];
+    far[n] = static_cast<std::uint32_t>(p);
+    const double within = reach + allowance[a] + allowance[b];
+    n += distance2 < within * within;
+    touching += distance2 < reach * reach;
+  }
+  count = n;
+  if (springs)
+    for (std::size_t k = 0; k < count; ++k) spring[k] = farSpring[far[k]];
+  if (now.origin.empty()) return touching;
+  shift.resize(room);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec<float> between =
+        now.origin[static_cast<std::size_t>(i[k])] - now.origin[static_cast<std::size_t>(j[k])];
+    shift[k] = {static_cast<Real>(between.x), static_cast<Real>(between.y)};
+  }
+  return touching;
+}
+
+template <class Real>
+PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation) {
+  if (record)
+    for (auto* array : {&normal, &tangential, &sliding}) array->resize(i.size());
+  if (addTo == AddTo::none) force.resize(i.size());
+  if (addTo == AddTo::none && rotation) {
+    leverI.resize(i.size());
+    leverJ.resize(i.size());
+  }
+  return {count,
+          i.data(),
+          j.data(),
+          shift.data(),
+          spring.empty() ? nullptr : spring.data(),
+          record ? normal.data() : nullptr,
+          record ? tangential.data() : nullptr,
+          record ? sliding.data() : nullptr,
+          addTo,
+          {force.data(), leverI.data(), leverJ.data()}};
+}
+
+template struct PairList<double>;
+template struct PairList<float>;
+
+}  // namespace grain

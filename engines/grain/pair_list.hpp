@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engines/grain/kernels.hpp"
+#include "engines/grain/real.hpp"
+
+namespace grain {
+
+/// Where all disks are, moving ones first [m].
+struct Places {
+  std::span<const Vec<double>> position;
+  std::span<const double> radius;
+  std::span<const Vec<float>> origin;  ///< of each disk's local coordinates; empty: one origin
+};
+
+/// The tangential spring of a pair on its way from one list to the next.
+struct CarriedSpring {
+  std::int32_t i, j;
+  double spring;
+};
+
+/// Pairs in ascending (i, j) on two levels: those with surfaces nearer than the skin when they were
+/// collected, and of these the ones that their disks' allowances may bring together. A step works
+/// through the near pairs only.
+template <class Real>
+struct PairList {
+  std::vector<std::int32_t> farI, farJ;
+  std::vector<Real> farSpring;
+  std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
+  std::vector<std::int32_t> i, j;
+  std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
+  Array<Real> spring;
+  Array<Vec<Real>> shift;                   ///< origin of i − origin of j, of local coordinates
+  Array<Real> normal, tangential, sliding;  ///< the last step's results, where asked for
+  Array<Vec<Real>> force;
+  Array<Real> leverI, leverJ;          ///< forces for two threads to add
+  std::vector<CarriedSpring> carried;  ///< in ascending (i, j)
+
+  void clear();
+  void append(std::int32_t diskI, std::int32_t diskJ);
+
+  /// The near springs back to the far list.
+  void storeSprings();
+  /// Keeps the far list's springs for the next one, and takes them up there: both lists are in one
+  /// order, so that one walk through both finds every pair.
+  void carry();
+  void takeCarried();
+
+  /// @returns how many of the near pairs touch
+  std::size_t chooseNear(const Places& now, std::span<const double> allowance, bool springs);
+
+  PairView<Real> view(AddTo addTo, bool record, bool rotation);
+};
+
+}  // namespace grain

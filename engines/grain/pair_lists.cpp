@@ -1,0 +1,203 @@
+#include "engines/grain/pair_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace grain {
+namespace {
+
+bool earlier(const CarriedSpring& a, const CarriedSpring& b) {
+  return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+}
+
+}  // namespace
+
+void requireFinite(const Places& now) {
+  for (std::size_t i = 0; i < now.position.size(); ++i)
+    if (!std::isfinite(now.position[i].x) || !std::isfinite(now.position[i].y)) throw NotFinite{i};
+}
+
+template <class Real>
+PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin)
+    : moving_(moving), springs_(springs), skin_(skin), lists_(parts), row_(parts) {}
+
+template <class Real>
+PairCounts PairLists<Real>::counts() const {
+  PairCounts counts;
+  for (const auto& part : lists_)
+    for (const PairList<Real>& list : part) {
+      counts.near += list.count;
+      counts.far += list.farI.size();
+    }
+  counts.touching = std::accumulate(touching_.begin(), touching_.end(), std::size_t{0});
+  return counts;
+}
+
+template <class Real>
+void PairLists<Real>::update(const Places& now, std::span<const double> travel,
+                             std::size_t stepsSince, ThreadTeam& team) {
+  skin_.beginUpdate(stepsSince);
+  setAllowances(travel);
+  const double used = skinUsed(now);
+  for (auto& part : lists_)
+    for (PairList<Real>& list : part)
+      if (springs_) list.storeSprings();
+  if (!(used <= 0.5 * skin_.skin())) {
+    skin_.tune(counts(), used);
+    carrySprings();
+    collect(now, team);
+  }
+  refresh(now, team);
+}
+
+template <class Real>
+void PairLists<Real>::rebuild(const Places& now, std::span<const double> travel, ThreadTeam& team) {
+  restoreSprings(stretched(), now, travel, team);
+}
+
+template <class Real>
+void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Places& now,
+                               std::span<const double> travel, ThreadTeam& team) {
+  std::vector<CarriedSpring> carried = stretched();
+  for (CarriedSpring& spring : carried) {
+    spring.i = newNumber[static_cast<std::size_t>(spring.i)];
+    if (spring.j < static_cast<std::int32_t>(moving_))
+      spring.j = newNumber[static_cast<std::size_t>(spring.j)];
+    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
+    if (spring.j < spring.i) std::swap(spring.i, spring.j);
+  }
+  restoreSprings(std::move(carried), now, travel, team);
+}
+
+template <class Real>
+std::vector<CarriedSpring> PairLists<Real>::stretched() const {
+  std::vector<CarriedSpring> found;
+  if (!springs_) return found;
+  for (const auto& part : lists_)
+    for (const PairList<Real>& list : part)
+      for (std::size_t k = 0; k < list.count; ++k)
+        if (list.spring[k] != Real(0)) found.push_back({list.i[k], list.j[k], list.spring[k]});
+  return found;
+}
+
+template <class Real>
+void PairLists<Real>::restoreSprings(std::vector<CarriedSpring> springs, const Places& now,
+                                     std::span<const double> travel, ThreadTeam& team) {
+  std::ranges::sort(springs, earlier);
+  for (auto& part : lists_)
+    for (PairList<Real>& list : part) list.carried.clear();
+  for (const CarriedSpring& spring : springs) {
+    const std::size_t part = partOf(spring.i);
+    const Sort sort = spring.j >= static_cast<std::int32_t>(moving_) ? Sort::walls
+                      : partOf(spring.j) == part                     ? Sort::inside
+                                                                     : Sort::across;
+    list(part, sort).carried.push_back(spring);
+  }
+  skin_.beginUpdate(0);
+  setAllowances(travel);
+  collect(now, team);
+  refresh(now, team);
+}
+
+template <class Real>
+std::size_t PairLists<Real>::partOf(std::int32_t disk) const {
+  std::size_t part = parts() - 1;
+  while (static_cast<std::size_t>(disk) < partBegin(part)) --part;
+  return part;
+}
+
+/// What a disk would travel within the horizon, with room for it to become faster. A quarter of the
+/// skin is the most that a list just built could grant.
+template <class Real>
+void PairLists<Real>::setAllowances(std::span<const double> travel) {
+  const double mean = std::accumulate(travel.begin(), travel.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(travel.size(), 1));
+  const double least = 1e-4 * skin_.smallestRadius();
+  const double most = 0.25 * skin_.skin();
+  allowance_.resize(travel.size());
+  for (std::size_t i = 0; i < travel.size(); ++i) {
+    const double wanted = skin_.horizon() * (1.25 * travel[i] + 0.25 * mean);
+    allowance_[i] = std::min(std::max(wanted, least), most);
+  }
+}
+
+/// The skin is used up by how far a disk has come since the rebuild and how far it may go on: two
+/// disks may approach each other, so either may take half of it. Not a number for a disk that is
+/// nowhere.
+template <class Real>
+double PairLists<Real>::skinUsed(const Places& now) const {
+  if (built_.size() != now.position.size()) return std::numeric_limits<double>::infinity();
+  double farthest = 0.0;
+  double notFinite = 0.0;  // max() would drop a NaN, this sum keeps it
+  for (std::size_t i = 0; i < built_.size(); ++i) {
+    const Vec<double> moved = now.position[i] - built_[i];
+    const double used = std::sqrt(moved.x * moved.x + moved.y * moved.y) + allowance_[i];
+    farthest = std::max(farthest, used);
+    notFinite += used - used;
+  }
+  return farthest + notFinite;
+}
+
+template <class Real>
+void PairLists<Real>::carrySprings() {
+  if (!springs_) return;
+  for (auto& part : lists_)
+    for (PairList<Real>& list : part) list.carry();
+}
+
+template <class Real>
+void PairLists<Real>::collect(const Places& now, ThreadTeam& team) {
+  requireFinite(now);
+  skin_.beginRebuild();
+  const double largest = now.radius.empty() ? 1.0 : *std::ranges::max_element(now.radius);
+  grid_.sort(now.position, 2.0 * largest + skin_.skin());
+  team.run([&](std::size_t part) { collectPart(part, now); });
+  built_.assign(now.position.begin(), now.position.end());
+  skin_.endRebuild();
+}
+
+template <class Real>
+void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
+  auto& lists = lists_[part];
+  for (PairList<Real>& list : lists) list.clear();
+  const auto moving = static_cast<std::int32_t>(moving_);
+  const auto end = static_cast<std::int32_t>(partBegin(part + 1));
+  std::vector<std::int32_t>& row = row_[part];
+  for (std::size_t i = partBegin(part); i < partBegin(part + 1); ++i) {
+    row.clear();
+    grid_.around(i, [&](std::int32_t j) {
+      if (j <= static_cast<std::int32_t>(i)) return;
+      const Vec<double> d = now.position[i] - now.position[static_cast<std::size_t>(j)];
+      const double reach = now.radius[i] + now.radius[static_cast<std::size_t>(j)] + skin_.skin();
+      if (d.x * d.x + d.y * d.y < reach * reach) row.push_back(j);
+    });
+    std::ranges::sort(row);
+    for (const std::int32_t j : row)
+      list(part, j >= moving ? Sort::walls
+                 : j < end   ? Sort::inside
+                             : Sort::across)
+          .append(static_cast<std::int32_t>(i), j);
+  }
+  if (springs_)
+    for (PairList<Real>& list : lists) list.takeCarried();
+}
+
+template <class Real>
+void PairLists<Real>::refresh(const Places& now, ThreadTeam& team) {
+  touching_.assign(parts(), 0);
+  team.run([&](std::size_t part) {
+    for (PairList<Real>& list : lists_[part])
+      touching_[part] += list.chooseNear(now, allowance_, springs_);
+  });
+  skin_.endRefresh(counts());
+}
+
+template class PairLists<double>;
+template class PairLists<float>;
+
+}  // namespace grain

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "engines/grain/kernels.hpp"
+
+namespace grain {
+
+/// Disks begin … end−1 against one plane. Planes are few and few disks touch one, so disks are
+/// taken one by one.
+template <class L, class Real>
+static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactView<Real>& disks,
+                               const PlaneView<Real>& plane, std::size_t begin, std::size_t end) {
+  const L law(general);
+  std::size_t touching = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    // Origin and plane first: where the disk touches their difference is small.
+    Vec<double> origin{0.0, 0.0};
+    if constexpr (hasLocalCoordinates<Real>)
+      origin = {static_cast<double>(plane.origin[i].x), static_cast<double>(plane.origin[i].y)};
+    const Real dx = static_cast<Real>(origin.x - plane.x) + disks.position[i].x;
+    const Real dy = static_cast<Real>(origin.y - plane.y) + disks.position[i].y;
+    const Real height = dx * plane.nx + dy * plane.ny;
+    const Real overlap = disks.radius[i] - height;
+    Real spring = plane.spring == nullptr ? Real(0) : plane.spring[i];
+    ContactForce<Real> force{Real(0), Real(0), Real(0)};
+    if (overlap > Real(0)) {
+      const Real armX = static_cast<Real>(plane.x) + dx - height * plane.nx - plane.centreX;
+      const Real armY = static_cast<Real>(plane.y) + dy - height * plane.ny - plane.centreY;
+      const Real vx = disks.velocity[i].x - (plane.vx - plane.spin * armY);
+      const Real vy = disks.velocity[i].y - (plane.vy + plane.spin * armX);
+      // The plane does not yield, so the contact point lies on it: a disk of infinite radius.
+      const Real lever = law.lever == Lever::radius ? disks.radius[i] : height;
+      ContactMotion<Real> motion{overlap, vx * plane.nx + vy * plane.ny,
+                                 vy * plane.nx - vx * plane.ny, Real(0), Real(0)};
+      if (law.rotation) motion.tangentialVelocity -= lever * disks.spin[i];
+      if (law.implicitDamping) {
+        motion.normalCompliance = law.halfStep * disks.inverseMass[i];
+        motion.tangentialCompliance = motion.normalCompliance;
+        if (law.rotation)
+          motion.tangentialCompliance += law.halfStep * lever * lever * disks.inverseInertia[i];
+      }
+      force = contactForce(law, motion, spring);
+      disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;
+      disks.force[i].y += force.normal * plane.ny + force.tangential * plane.nx;
+      if (law.rotation) disks.torque[i] -= lever * force.tangential;
+      ++touching;
+    } else {
+      spring = Real(0);
+    }
+    if (plane.spring != nullptr) plane.spring[i] = spring;
+    if (plane.normal != nullptr) {
+      plane.overlap[i] = overlap;
+      plane.normal[i] = force.normal;
+      plane.tangential[i] = force.tangential;
+      plane.sliding[i] = force.sliding;
+    }
+  }
+  return touching;
+}
+
+}  // namespace grain

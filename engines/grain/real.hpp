@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace grain {
+
+/// Whether coordinates count from an origin near the disk: in single precision, where an overlap of
+/// 1e-7 m would be lost in a position of 0.1 m.
+template <class Real>
+inline constexpr bool hasLocalCoordinates = sizeof(Real) < sizeof(double);
+
+/// Starts arrays on a cache line, so that no vector load straddles two.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+
+  CacheLineAllocator() = default;
+  template <class U>
+  CacheLineAllocator(const CacheLineAllocator<U>&) {}
+
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const CacheLineAllocator&) const = default;
+};
+
+template <class T>
+using Array = std::vector<T, CacheLineAllocator<T>>;
+
+// What the kernels need of <cmath> and <algorithm>, inlined without exception: a kernel is compiled
+// for several instruction sets, and the linker would keep one arbitrary copy of a function that
+// was not inlined.
+#define GRAIN_INLINE [[gnu::always_inline]] inline
+
+GRAIN_INLINE double squareRoot(double v) {
+  return __builtin_sqrt(v);
+}
+GRAIN_INLINE float squareRoot(float v) {
+  return __builtin_sqrtf(v);
+}
+template <class Real>
+GRAIN_INLINE Real magnitude(Real v) {
+  return v < Real(0) ? -v : v;
+}
+template <class Real>
+GRAIN_INLINE Real larger(Real a, Real b) {
+  return a < b ? b : a;
+}
+template <class Real>
+GRAIN_INLINE Real smaller(Real a, Real b) {
+  return b < a ? b : a;
+}
+/// v with the sign of `like`; 0 where `like` is 0.
+template <class Real>
+GRAIN_INLINE Real signedLike(Real v, Real like) {
+  return like > Real(0) ? v : like < Real(0) ? -v : Real(0);
+}
+
+/// A vector of the plane. The two components move through memory and arithmetic together.
+template <class Real>
+struct Vec {
+  Real x, y;
+};
+
+template <class Real>
+struct Both {
+  typedef Real Lanes __attribute__((vector_size(2 * sizeof(Real))));
+  Lanes lanes;
+
+  GRAIN_INLINE explicit Both(const Vec<Real>& v) { __builtin_memcpy(&lanes, &v, sizeof lanes); }
+  GRAIN_INLINE void store(Vec<Real>& v) const { __builtin_memcpy(&v, &lanes, sizeof lanes); }
+};
+
+template <class Real>
+GRAIN_INLINE Vec<Real> operator-(const Vec<Real>& a, const Vec<Real>& b) {
+  Both<Real> difference(a);
+  difference.lanes -= Both<Real>(b).lanes;
+  Vec<Real> v;
+  difference.store(v);
+  return v;
+}
+template <class Real>
+GRAIN_INLINE void operator+=(Vec<Real>& a, const Vec<Real>& b) {
+  Both<Real> sum(a);
+  sum.lanes += Both<Real>(b).lanes;
+  sum.store(a);
+}
+template <class Real>
+GRAIN_INLINE void operator-=(Vec<Real>& a, const Vec<Real>& b) {
+  Both<Real> difference(a);
+  difference.lanes -= Both<Real>(b).lanes;
+  difference.store(a);
+}
+
+}  // namespace grain

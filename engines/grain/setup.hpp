@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engines/grain/bottom.hpp"
+#include "engines/grain/law.hpp"
+#include "engines/grain/walls.hpp"
+
+namespace grain {
+
+/// State of disks, structure of arrays [SI units].
+struct Disks {
+  std::vector<double> x, y, vx, vy, spin, radius, mass, inertia;
+
+  std::size_t size() const { return radius.size(); }
+};
+
+enum class Precision { float64, float32 };
+
+/// Everything a simulation starts from.
+struct Setup {
+  Disks disks;
+  std::vector<Wall> walls;
+  Law law;
+  std::optional<Bottom> bottom;
+  double gravityX = 0.0, gravityY = 0.0;  ///< [m/s²]
+  double dt = 0.0;                        ///< [s]
+  Integrator integrator = Integrator::positionVerlet;
+  bool rotation = true;  ///< false: friction, but no disk turns about itself
+  double skin = 0.0;     ///< of the Verlet lists [m]; 0: tuned
+  Precision precision = Precision::float64;
+  int threads = 1;
+  bool generalKernels = false;  ///< all options at run time: the reference of the specialised ones
+};
+
+/// One contact of the last force evaluation; the force acts on i, n points from j to i.
+/// Numbers: disks as in Disks, then wall disks wall by wall, then planes wall by wall.
+struct Contact {
+  std::int32_t i, j;
+  double nx, ny;
+  double overlap;
+  double normalForce, tangentialForce;
+  double spring;  ///< ξ after the evaluation [m]
+  bool sliding;
+};
+
+}  // namespace grain

@@ -1,0 +1,69 @@
+#include "engines/grain/skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grain {
+namespace {
+
+double seconds(auto duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+/// Three quarters of the old figure, one quarter of the new one.
+void follow(double& figure, double now) {
+  figure = figure > 0.0 ? 0.75 * figure + 0.25 * now : now;
+}
+
+double towards(double from, double to) {
+  return std::clamp(to, from / 1.25, 1.25 * from);
+}
+
+}  // namespace
+
+Skin::Skin(double skin, double smallestRadius)
+    : fixed_(skin > 0.0),
+      radius_(smallestRadius),
+      skin_(fixed_ ? skin : 0.3 * smallestRadius),
+      nextSkin_(skin_) {}
+
+void Skin::beginUpdate(std::size_t stepsSince) {
+  began_ = Clock::now();
+  stepsSinceRebuild_ += stepsSince;
+}
+
+void Skin::beginRebuild() {
+  skin_ = nextSkin_;
+}
+
+void Skin::endRebuild() {
+  const auto now = Clock::now();
+  follow(rebuildTime_, seconds(now - began_));
+  began_ = now;
+  stepsSinceRebuild_ = 0;
+  ++rebuilds_;
+}
+
+void Skin::endRefresh(const PairCounts& pairs) {
+  follow(refreshTime_, seconds(Clock::now() - began_));
+  ++refreshes_;
+  const std::size_t waiting = pairs.near - pairs.touching;
+  if (!(pairTime_ > 0.0) || waiting == 0) return;
+  const double best = refreshTime_ / (0.3 * pairTime_ * static_cast<double>(waiting));
+  horizon_ = std::clamp(towards(horizon_, best), 1.0, 256.0);
+}
+
+void Skin::pairsTook(double time, std::size_t pairs) {
+  if (pairs > 0) follow(pairTime_, time / static_cast<double>(pairs));
+}
+
+void Skin::tune(const PairCounts& pairs, double used) {
+  if (fixed_ || !(used > 0.0) || stepsSinceRebuild_ == 0 || pairs.far <= pairs.near) return;
+  const double path = used / static_cast<double>(stepsSinceRebuild_);
+  const double farCost = refreshTime_ / static_cast<double>(pairs.far) *
+                         (static_cast<double>(pairs.far - pairs.near) / skin_);
+  const double best = std::sqrt(rebuildTime_ * path * horizon_ / farCost);
+  nextSkin_ = std::clamp(towards(skin_, best), 0.01 * radius_, 2.0 * radius_);
+}
+
+}  // namespace grain

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace grain {
+
+/// Threads that do one thing together, part by part, again and again. They spin for a while between
+/// two calls, as steps follow each other within microseconds, then give way to others, then sleep.
+class ThreadTeam {
+ public:
+  explicit ThreadTeam(std::size_t parts);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  /// Calls work(part) for every part, part 0 on the calling thread, and waits for all of them.
+  /// What a part throws is thrown here, the lowest part's first.
+  template <class Work>
+  void run(const Work& work) {
+    runTask(
+        {&work, [](const void* it, std::size_t part) { (*static_cast<const Work*>(it))(part); }});
+  }
+
+ private:
+  /// A std::function would allocate for all but the smallest lambda, twice a step.
+  struct Task {
+    const void* work;
+    void (*call)(const void* work, std::size_t part);
+  };
+
+  void runTask(const Task& task);
+  void serve(std::size_t part);
+  void finish(std::size_t part) noexcept;
+
+  Task task_{};
+  std::atomic<std::uint32_t> round_{0}, pending_{0};
+  std::atomic<bool> stop_{false};
+  std::vector<std::exception_ptr> thrown_;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace grain

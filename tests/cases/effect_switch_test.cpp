@@ -1,0 +1,113 @@
+#include "cases/effect_switch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cases/couette.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// Table 4.1 of Lätzel (2003) in a small cell: every effect that a case can have.
+Case thesisCase() {
+  Case setup;
+  setup.law.kn = 352.1;
+  setup.law.gn = 0.19;
+  setup.law.kt = 267.1;
+  setup.law.gt = 0.15;
+  setup.law.mu = 0.44;
+  setup.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.cell = {0.03, 0.075, 0.00125, 0.0025, 0.006, 1.0};
+  return setup;
+}
+
+std::vector<std::string> namesOf(const Case& setup) {
+  std::vector<std::string> names;
+  for (const EffectSwitch& one : effectSwitches(setup)) names.push_back(one.name);
+  return names;
+}
+
+const Case& off(const std::vector<EffectSwitch>& switches, const std::string& name) {
+  return std::ranges::find(switches, name, &EffectSwitch::name)->without;
+}
+
+TEST(EffectSwitch, AreThoseOfTheCaseAndNeverItsMovingWalls) {
+  EXPECT_EQ(namesOf(thesisCase()),
+            (std::vector<std::string>{"normal_damping", "friction", "tangential_spring",
+                                      "tangential_damping", "rotation", "bottom_friction",
+                                      "bottom_spin_friction", "tension_cut", "double_precision"}));
+  Case bare = thesisCase();
+  bare.law.tangential = TangentialLaw::none;
+  bare.law.mu = bare.law.kt = bare.law.gt = bare.law.gn = 0.0;
+  bare.bottom.reset();
+  bare.run.precision = Precision::float32;
+  EXPECT_TRUE(namesOf(bare).empty());
+  EXPECT_TRUE(effectsOf(bare).contains(Effect::movingWalls));
+  EXPECT_FALSE(without(bare, Effect::movingWalls));
+  EXPECT_FALSE(without(bare, Effect::rotation));
+}
+
+TEST(EffectSwitch, TakeTheirEffectAndWhatCannotBeWithoutIt) {
+  const Case base = thesisCase();
+  const Effects all = effectsOf(base);
+  using enum Effect;
+  const std::map<Effect, Effects> gone = {
+      {normalDamping, {normalDamping}},
+      {friction, {friction, tangentialSpring, tangentialDamping, rotation, bottomSpinFriction}},
+      {tangentialSpring, {tangentialSpring}},
+      {tangentialDamping, {tangentialDamping}},
+      {rotation, {rotation, bottomSpinFriction}},
+      {bottomFriction, {bottomFriction, bottomSpinFriction}},
+      {bottomSpinFriction, {bottomSpinFriction}}};
+  for (const auto& [effect, expected] : gone) {
+    const auto one = without(base, effect);
+    ASSERT_TRUE(one) << toString(effect);
+    EXPECT_FALSE(one->what.empty());
+    Effects missing;
+    std::ranges::set_difference(all, effectsOf(one->without),
+                                std::inserter(missing, missing.end()));
+    EXPECT_EQ(missing, expected) << toString(effect);
+    EXPECT_TRUE(std::ranges::includes(all, effectsOf(one->without))) << toString(effect);
+  }
+}
+
+TEST(EffectSwitch, LeaveAllConstantsOfOtherEffectsAlone) {
+  const Case base = thesisCase();
+  const auto switches = effectSwitches(base);
+  const ContactLaw& viscous = off(switches, "tangential_spring").law;
+  EXPECT_EQ(viscous.tangential, TangentialLaw::viscous);
+  EXPECT_EQ(viscous.kt, 0.0);
+  EXPECT_EQ(viscous.gt, base.law.gt);
+  EXPECT_EQ(viscous.mu, base.law.mu);
+  const ContactLaw& spring = off(switches, "tangential_damping").law;
+  EXPECT_EQ(spring.tangential, TangentialLaw::spring);
+  EXPECT_EQ(spring.kt, base.law.kt);
+  EXPECT_EQ(spring.gn, base.law.gn);
+  const ContactLaw& undamped = off(switches, "normal_damping").law;
+  EXPECT_EQ(undamped.gn, 0.0);
+  EXPECT_EQ(undamped.kn, base.law.kn);
+  EXPECT_EQ(undamped.tangential, base.law.tangential);
+  const Case& cut = off(switches, "tension_cut");
+  EXPECT_EQ(cut.law.conventions.tension, Tension::cut);
+  EXPECT_EQ(effectsOf(cut), effectsOf(base));
+  EXPECT_EQ(off(switches, "double_precision").run.precision, Precision::float32);
+  EXPECT_EQ(off(switches, "bottom_spin_friction").bottom->mu, base.bottom->mu);
+  EXPECT_FALSE(off(switches, "rotation").particles.rotation);
+}
+
+TEST(EffectSwitch, GoDownTheLadderOfTangentialLaws) {
+  Case setup = thesisCase();
+  setup.law.gt = 0.0;
+  EXPECT_EQ(without(setup, Effect::tangentialSpring)->without.law.tangential,
+            TangentialLaw::coulomb);
+  EXPECT_FALSE(without(setup, Effect::tangentialDamping));
+  setup = thesisCase();
+  setup.law.tangential = TangentialLaw::viscous;
+  setup.law.kt = 0.0;
+  EXPECT_EQ(without(setup, Effect::tangentialDamping)->without.law.tangential,
+            TangentialLaw::coulomb);
+}
+
+}  // namespace
+}  // namespace crossgrain

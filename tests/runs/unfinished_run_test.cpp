@@ -1,0 +1,115 @@
+#include "runs/unfinished_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "adapters/grain.hpp"
+
+namespace {
+
+using namespace crossgrain;
+namespace fs = std::filesystem;
+
+/// Two disks that bounce on a floor.
+Scene bouncing() {
+  Scene scene;
+  scene.name = "bouncing";
+  scene.law.kn = 352.1;
+  scene.law.gn = 0.05;
+  scene.law.kt = 267.1;
+  scene.law.gt = 0.15;
+  scene.law.mu = 0.44;
+  scene.law.tangential = TangentialLaw::springDashpot;
+  scene.gravity = {0.3, -9.81};
+  scene.dt = 4e-5;
+  for (const double x : {0.0, 7.3e-3}) {
+    scene.disks.radius.push_back(3.7e-3);
+    scene.disks.mass.push_back(0.275e-3);
+    scene.disks.inertia.push_back(0.5 * 0.275e-3 * 3.7e-3 * 3.7e-3);
+    scene.disks.position.push_back({x, 5e-3 + x});
+    scene.disks.velocity.push_back({0.02, 0.0});
+    scene.disks.spin.push_back(3.0);
+  }
+  WallBody floor;
+  floor.name = "floor";
+  floor.planes.emplace_back();
+  scene.bodies.push_back(floor);
+  return scene;
+}
+
+class UnfinishedRuns : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    engine_->load(scene_, {});
+  }
+
+  /// Runs to 0.05 s with a snapshot on the way, and leaves the run there.
+  void leave() {
+    UnfinishedRun run(folder_, "key", scene_, true);
+    engine_->advance(0.02);
+    run.took(engine_->snapshot(ContactReport::instant));
+    run.keep(*engine_, 0.02);
+    engine_->advance(0.03);
+    run.took(engine_->snapshot(ContactReport::instant));
+    engine_->advance(0.05);
+    run.keep(*engine_, 0.05);
+  }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / "unfinished";
+  const Scene scene_ = bouncing();
+  std::unique_ptr<Engine> engine_ = makeGrain(), later_ = makeGrain();
+};
+
+TEST_F(UnfinishedRuns, GoOnToTheBit) {
+  leave();
+  later_->load(scene_, {});
+  const auto before = UnfinishedRun(folder_, "key", scene_, true).resume(*later_);
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->time, 0.05);
+  ASSERT_EQ(before->snapshots.size(), 2u);
+  EXPECT_EQ(before->snapshots[0].positionTime, 0.02);
+  EXPECT_NEAR(before->snapshots[1].positionTime, 0.03, 1e-15);
+  for (Engine* engine : {engine_.get(), later_.get()}) engine->advance(0.1);
+  const Snapshot a = engine_->snapshot(ContactReport::instant);
+  const Snapshot b = later_->snapshot(ContactReport::instant);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(*a.spin, *b.spin);
+  EXPECT_EQ(engine_->stats().contactEvaluations, later_->stats().contactEvaluations);
+}
+
+TEST_F(UnfinishedRuns, OfAnotherKeyOrDamagedAreForgotten) {
+  leave();
+  EXPECT_FALSE(UnfinishedRun(folder_, "another key", scene_, true).resume(*later_));
+  EXPECT_FALSE(fs::exists(folder_));
+  SetUp();
+  leave();
+  fs::resize_file(folder_ / "snapshot-00001.bin", 10);
+  EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(UnfinishedRuns, ACheckpointCutShortIsTheEnginesFailureOnce) {
+  leave();
+  fs::resize_file(folder_ / "engine-2", fs::file_size(folder_ / "engine-2") / 2);
+  later_->load(scene_, {});
+  try {
+    UnfinishedRun(folder_, "key", scene_, true).resume(*later_);
+    FAIL() << "no exception";
+  } catch (const EngineFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("cut short"), std::string::npos) << failure.what();
+  }
+  EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
+}
+
+TEST_F(UnfinishedRuns, OfEnginesWithoutCheckpointsKeepNothing) {
+  UnfinishedRun run(folder_, "key", scene_, false);
+  run.took(engine_->snapshot(ContactReport::none));
+  run.keep(*engine_, 0.0);
+  EXPECT_FALSE(fs::exists(folder_));
+  EXPECT_FALSE(run.resume(*engine_));
+}
+
+}  // namespace

@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <tuple>
+
+#include "tests/unit/grain_packed.hpp"
+
+// What the engine allocates: once started nothing, and nothing for effects that a scene does not
+// call for. This program's operator new counts.
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+/// The size is kept before the block, to be subtracted when it goes.
+std::atomic<std::size_t> liveBytes{0};
+constexpr std::size_t head = 64;
+
+void* allocate(std::size_t size) {
+  void* block = std::aligned_alloc(head, head + (size + head - 1) / head * head);
+  if (block == nullptr) throw std::bad_alloc();
+  *static_cast<std::size_t*>(block) = size;
+  ++allocations;
+  liveBytes += size;
+  return static_cast<char*>(block) + head;
+}
+
+void release(void* p) {
+  if (p == nullptr) return;
+  void* block = static_cast<char*>(p) - head;
+  liveBytes -= *static_cast<std::size_t*>(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return allocate(size);
+}
+void* operator new(std::size_t size, std::align_val_t) {
+  return allocate(size);
+}
+void operator delete(void* p) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  release(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  release(p);
+}
+
+namespace {
+
+using namespace grain;
+
+/// Allocations of `steps` steps once the run has warmed up.
+std::size_t allocationsOf(const grain::Setup& setup, std::uint64_t warmUp, std::uint64_t steps) {
+  Simulation simulation(setup);
+  simulation.advance(warmUp);
+  const std::size_t rebuilds = simulation.neighbours().rebuilds;
+  const std::size_t before = allocations;
+  simulation.advance(steps);
+  const std::size_t made = allocations - before;
+  EXPECT_GT(simulation.neighbours().rebuilds, rebuilds);  // else there was little to allocate for
+  return made;
+}
+
+TEST(Allocation, IsSeenByThisProgram) {
+  const std::size_t before = allocations, bytes = liveBytes;
+  {
+    std::vector<double> some(100);
+    Array<double> aligned(100);
+    EXPECT_EQ(allocations, before + 2);
+    EXPECT_EQ(liveBytes, bytes + 1600);
+  }
+  EXPECT_EQ(liveBytes, bytes);
+}
+
+class SteadyState : public testing::TestWithParam<std::tuple<Precision, Integrator, int>> {
+ protected:
+  grain::Setup scene() const {
+    grain::Setup setup = test::packed(10, 6);
+    std::tie(setup.precision, setup.integrator, setup.threads) = GetParam();
+    setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+    setup.skin = 0.1 * test::radius;
+    return setup;
+  }
+
+  /// Lists may still find a new largest size after the warm-up. They double then, so this is some
+  /// few times in a run of any length, for each part's lists; once a rebuild would be hundreds of
+  /// times.
+  std::size_t someGrowth() { return 12 * static_cast<std::size_t>(std::get<int>(GetParam())); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Schemes, SteadyState,
+                         testing::Combine(testing::Values(Precision::float64, Precision::float32),
+                                          testing::Values(Integrator::positionVerlet,
+                                                          Integrator::velocityVerlet,
+                                                          Integrator::semiImplicitEuler),
+                                          testing::Values(1)));
+INSTANTIATE_TEST_SUITE_P(TwoThreads, SteadyState,
+                         testing::Combine(testing::Values(Precision::float64, Precision::float32),
+                                          testing::Values(Integrator::velocityVerlet),
+                                          testing::Values(2)));
+
+TEST_P(SteadyState, AllocatesNothingOverStepsAndRebuilds) {
+  EXPECT_LE(allocationsOf(scene(), 3000, 3000), someGrowth());
+}
+
+TEST_P(SteadyState, AllocatesNothingOverASecondRenumbering) {
+  EXPECT_LE(allocationsOf(scene(), 16000, 500), someGrowth());
+}
+
+/// What a simulation holds at its beginning.
+std::size_t bytesHeld(const grain::Setup& setup) {
+  const Simulation first(setup);  // what the program keeps from then on is not this scene's
+  const std::size_t before = liveBytes;
+  Simulation simulation(setup);
+  return liveBytes - before;
+}
+
+class AbsentEffects : public testing::TestWithParam<Precision> {
+ protected:
+  static grain::Setup scene() {
+    grain::Setup setup = test::packed(20, 6);
+    setup.precision = GetParam();
+    setup.skin = 0.2 * test::radius;
+    return setup;
+  }
+  static std::size_t real() { return GetParam() == Precision::float64 ? 8 : 4; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Precisions, AbsentEffects,
+                         testing::Values(Precision::float64, Precision::float32));
+
+TEST_P(AbsentEffects, BlockedRotationHoldsNoSpinsAndTorques) {
+  auto setup = scene();
+  const std::size_t turning = bytesHeld(setup);
+  setup.rotation = false;
+  // Spin, torque, spin as the dashpots see it and inverse inertia.
+  EXPECT_GE(turning, bytesHeld(setup) + 4 * real() * setup.disks.size());
+}
+
+TEST_P(AbsentEffects, LawsWithoutSpringsHoldNoHistory) {
+  auto setup = scene();
+  const std::size_t history = bytesHeld(setup);
+  const std::size_t pairs = Simulation(setup).neighbours().farPairs;
+  setup.law.tangential = Tangential::viscous;
+  // A spring a pair, near and far, and one a disk for each of four planes.
+  EXPECT_GE(history, bytesHeld(setup) + real() * (2 * pairs + 4 * setup.disks.size()));
+}
+
+TEST_P(AbsentEffects, FrictionlessScenesHoldWhatOnesWithoutSpringsAndRotationDo) {
+  auto setup = scene();
+  setup.law.tangential = Tangential::viscous;
+  setup.rotation = false;
+  const std::size_t without = bytesHeld(setup);
+  setup.law.tangential = Tangential::none;
+  setup.rotation = true;  // nothing would turn them
+  EXPECT_EQ(bytesHeld(setup), without);
+  setup.law.tangential = Tangential::springDashpot;
+  setup.law.mu = 0.0;
+  EXPECT_EQ(bytesHeld(setup), without);
+}
+
+TEST_P(AbsentEffects, ScenesWithoutAPlateHoldNoSpringsOfIt) {
+  auto setup = scene();
+  const std::size_t without = bytesHeld(setup);
+  setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  // Springs along x and y, and the mass that it carries.
+  EXPECT_GE(bytesHeld(setup), without + 3 * real() * setup.disks.size());
+}
+
+}  // namespace

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+
+#include "engines/grain/kernels.hpp"
+#include "tests/unit/grain_packed.hpp"
+
+// "The same setup gives the same bits in every run, on any number of threads, with any skin and any
+// instruction set", at any moment of the run: before and after renumberings, which come every 8192
+// steps.
+
+namespace {
+
+using namespace grain;
+
+/// Environment variable for as long as this lives, then as it was.
+class WithInstructions {
+ public:
+  explicit WithInstructions(const char* set) {
+    if (const char* old = std::getenv(name)) was_ = old;
+    ::setenv(name, set, 1);
+  }
+  ~WithInstructions() { was_.empty() ? ::unsetenv(name) : ::setenv(name, was_.c_str(), 1); }
+
+ private:
+  static constexpr const char* name = "GRAIN_INSTRUCTIONS";
+  std::string was_;
+};
+
+grain::Setup scene(Precision precision, int side = 12) {
+  grain::Setup setup = test::packed(side, 5);
+  setup.precision = precision;
+  setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  return setup;
+}
+
+Simulation run(grain::Setup setup, std::uint64_t steps) {
+  Simulation simulation(std::move(setup));
+  simulation.advance(steps);
+  return simulation;
+}
+
+class Determinism : public testing::TestWithParam<Precision> {};
+
+INSTANTIATE_TEST_SUITE_P(Precisions, Determinism,
+                         testing::Values(Precision::float64, Precision::float32));
+
+constexpr std::uint64_t pastARenumbering = 8192 + 500;
+
+TEST_P(Determinism, TwoRunsGiveTheSameBits) {
+  const auto reference = run(scene(GetParam()), pastARenumbering);
+  EXPECT_EQ(test::difference(run(scene(GetParam()), pastARenumbering), reference), "");
+  EXPECT_GT(reference.contacts().size(), 100u);
+}
+
+TEST_P(Determinism, EveryInstructionSetGivesTheSameBits) {
+  std::optional<Simulation> reference;
+  ASSERT_STREQ(instructionSets().front(), "baseline");
+  for (const char* set : instructionSets()) {
+    SCOPED_TRACE(set);
+    const WithInstructions with(set);
+    auto simulation = run(scene(GetParam()), 1500);
+    ASSERT_EQ(simulation.instructions(), set);
+    if (!reference)
+      reference = std::move(simulation);
+    else
+      EXPECT_EQ(test::difference(simulation, *reference), "");
+  }
+}
+
+TEST_P(Determinism, EveryInstructionSetGivesTheSameBitsForEveryLaw) {
+  for (const Tangential tangential : {Tangential::none, Tangential::coulomb, Tangential::viscous,
+                                      Tangential::spring, Tangential::springDashpot})
+    for (const Damping damping : {Damping::lagged, Damping::predicted, Damping::implicit})
+      for (const Lever lever : {Lever::radius, Lever::contactPoint, Lever::overlapMiddle}) {
+        grain::Setup setup = scene(GetParam(), 8);
+        setup.law.tangential = tangential;
+        setup.law.damping = damping;
+        setup.law.lever = lever;
+        std::optional<Simulation> reference;
+        for (const char* set : instructionSets()) {
+          SCOPED_TRACE(set);
+          const WithInstructions with(set);
+          auto simulation = run(setup, 100);
+          if (!reference)
+            reference = std::move(simulation);
+          else
+            EXPECT_EQ(test::difference(simulation, *reference), "");
+        }
+      }
+}
+
+TEST(Instructions, ThatTheProcessorLacksAreRefused) {
+  const WithInstructions with("z80");
+  try {
+    Simulation simulation(test::crowd(2, 1, 4e-5));
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("\"z80\""), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("baseline"), std::string::npos);
+  }
+}
+
+TEST_P(Determinism, AnySkinGivesTheSameBits) {
+  const auto reference = run(scene(GetParam()), pastARenumbering);  // a tuned one
+  std::size_t rebuilds = SIZE_MAX;
+  for (const double share : {0.01, 0.1, 0.5, 2.0}) {
+    SCOPED_TRACE(share);
+    grain::Setup setup = scene(GetParam());
+    setup.skin = share * test::radius;
+    const auto simulation = run(std::move(setup), pastARenumbering);
+    EXPECT_EQ(test::difference(simulation, reference), "");
+    EXPECT_EQ(simulation.neighbours().skin, share * test::radius);
+    EXPECT_LT(simulation.neighbours().rebuilds, rebuilds);
+    rebuilds = simulation.neighbours().rebuilds;
+  }
+}
+
+TEST_P(Determinism, LookingDoesNotChangeTheRun) {
+  const auto reference = run(scene(GetParam()), 2000);
+  Simulation watched(scene(GetParam()));
+  double seen = 0.0;
+  while (watched.steps() < 2000) {
+    watched.advance(1 + watched.steps() % 7);
+    seen += watched.x(0) + watched.velocityY(1) + watched.spin(2) + watched.kineticEnergy();
+    seen += watched.elasticEnergy() + watched.wallLoad(2).torque + watched.contacts()[0].overlap;
+    if (watched.steps() + 7 > 2000) watched.advance(2000 - watched.steps());
+  }
+  EXPECT_NE(seen, 0.0);
+  EXPECT_EQ(test::difference(watched, reference), "");
+}
+
+TEST_P(Determinism, ListingNeighboursAnewDoesNotChangeTheRun) {
+  const auto reference = run(scene(GetParam()), 600);
+  Simulation relisted(scene(GetParam()));
+  for (int k = 0; k < 12; ++k) {
+    relisted.findNeighbours();
+    relisted.advance(50);
+  }
+  EXPECT_EQ(test::difference(relisted, reference), "");
+}
+
+TEST(Contacts, OfTheLastStepAreNotKnownOnceNeighboursAreListedAnew) {
+  for (const bool lookedBefore : {false, true}) {
+    Simulation simulation(scene(Precision::float64, 8));
+    simulation.advance(10);
+    if (lookedBefore) {
+      EXPECT_FALSE(simulation.contacts().empty());
+    }
+    simulation.findNeighbours();
+    EXPECT_THROW(simulation.contacts(), std::logic_error) << "looked before: " << lookedBefore;
+  }
+}
+
+}  // namespace

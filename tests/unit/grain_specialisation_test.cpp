@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "tests/unit/grain_packed.hpp"
+
+// Kernels in which a scene's effects are compiled in, against the one that decides at run time.
+
+namespace {
+
+using namespace grain;
+
+constexpr int steps = 150;
+
+enum class Plate { none, sliding, spinning };
+enum class Dashpot { none, lagged, predicted };  // implicit damping has no kernel of its own
+
+struct Share {
+  std::size_t contacts = 0, sliding = 0, pulling = 0, planes = 0;
+};
+
+/// What there is to see, so that "the same" is not "nothing on both sides".
+void count(const Simulation& s, Share& share) {
+  for (const Contact& c : s.contacts()) {
+    ++share.contacts;
+    share.sliding += c.sliding;
+    share.pulling += c.normalForce < 0.0;
+    share.planes += static_cast<std::size_t>(c.j) >= s.diskCount();
+  }
+}
+
+Setup scene(Tangential tangential, bool cut, Dashpot dashpot, bool rotation, Plate plate,
+            bool gravity) {
+  grain::Setup setup = test::packed(9, 21);
+  setup.law.tangential = tangential;
+  setup.law.cutTension = cut;
+  if (dashpot == Dashpot::none) setup.law.gn = 0.0;
+  setup.law.damping = dashpot == Dashpot::lagged ? Damping::lagged : Damping::predicted;
+  setup.rotation = rotation;
+  if (plate != Plate::none)
+    setup.bottom = Bottom{0.02, 267.1, 0.15, 1e-4, 9.81, plate == Plate::spinning};
+  if (gravity) setup.gravityY = -9.81;
+  return setup;
+}
+
+using Kind = std::tuple<Tangential, Integrator, Precision>;
+
+class Specialised : public testing::TestWithParam<Kind> {};
+
+TEST_P(Specialised, GivesTheBitsOfTheGeneralKernel) {
+  const auto [tangential, integrator, precision] = GetParam();
+  Share share;
+  for (const bool cut : {false, true})
+    for (const Dashpot dashpot : {Dashpot::none, Dashpot::lagged, Dashpot::predicted})
+      for (const bool rotation : {false, true})
+        for (const Plate plate : {Plate::none, Plate::sliding, Plate::spinning})
+          for (const bool gravity : {false, true}) {
+            if (tangential == Tangential::none && !rotation) continue;  // nothing turns either way
+            grain::Setup setup = scene(tangential, cut, dashpot, rotation, plate, gravity);
+            setup.integrator = integrator;
+            setup.precision = precision;
+            grain::Setup general = setup;
+            general.generalKernels = true;
+            Simulation special(std::move(setup)), reference(std::move(general));
+            special.advance(steps);
+            reference.advance(steps);
+            EXPECT_EQ(test::difference(special, reference), "")
+                << "cut " << cut << ", dashpot " << static_cast<int>(dashpot) << ", rotation "
+                << rotation << ", plate " << static_cast<int>(plate) << ", gravity " << gravity;
+            EXPECT_EQ(special.rotates(), rotation && tangential != Tangential::none);
+            count(special, share);
+          }
+  EXPECT_GT(share.contacts, 1000u);
+  EXPECT_GT(share.planes, 50u);
+  EXPECT_GT(share.pulling, 0u);
+  EXPECT_EQ(share.sliding > 0, tangential != Tangential::none);
+  EXPECT_EQ(share.sliding < share.contacts, tangential != Tangential::coulomb);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kernels, Specialised,
+    testing::Combine(testing::Values(Tangential::none, Tangential::coulomb, Tangential::viscous,
+                                     Tangential::spring, Tangential::springDashpot),
+                     testing::Values(Integrator::positionVerlet, Integrator::velocityVerlet,
+                                     Integrator::semiImplicitEuler),
+                     testing::Values(Precision::float64, Precision::float32)));
+
+TEST(Specialisation, EffectsChangeTheRun) {
+  // Else the comparison above could not tell one kernel from another.
+  const auto run = [](grain::Setup setup) {
+    Simulation simulation(std::move(setup));
+    simulation.advance(steps);
+    return test::stateOf(simulation);
+  };
+  const auto full =
+      run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::spinning, true));
+  for (const auto& less :
+       {run(scene(Tangential::spring, false, Dashpot::predicted, true, Plate::spinning, true)),
+        run(scene(Tangential::springDashpot, true, Dashpot::predicted, true, Plate::spinning,
+                  true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::lagged, true, Plate::spinning, true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::none, true, Plate::spinning, true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::predicted, false, Plate::spinning,
+                  true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::sliding,
+                  true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::none, true)),
+        run(scene(Tangential::springDashpot, false, Dashpot::predicted, true, Plate::spinning,
+                  false))})
+    EXPECT_NE(less, full);
+}
+
+}  // namespace

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <sstream>
+#include <stdexcept>
+
+#include "engines/grain/thread_team.hpp"
+#include "tests/unit/grain_packed.hpp"
+
+namespace {
+
+using namespace grain;
+
+TEST(ThreadTeam, DoesEveryPartOnceInEveryRound) {
+  for (const std::size_t parts : {1u, 2u, 3u, 5u}) {
+    ThreadTeam team(parts);
+    std::vector<int> done(parts, 0);
+    for (int round = 0; round < 100; ++round) {
+      team.run([&](std::size_t part) { ++done[part]; });
+      ASSERT_EQ(done, std::vector<int>(parts, round + 1));  // all are done when run() returns
+    }
+  }
+}
+
+TEST(ThreadTeam, ThrowsWhatTheLowestPartThrewAndGoesOn) {
+  ThreadTeam team(4);
+  for (int round = 0; round < 20; ++round) {
+    try {
+      team.run([](std::size_t part) {
+        if (part == 0 || part == 2) return;
+        throw std::runtime_error("part " + std::to_string(part));
+      });
+      FAIL() << "no exception";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "part 1");
+    }
+    std::atomic<int> done = 0;
+    team.run([&](std::size_t) { ++done; });
+    EXPECT_EQ(done, 4);
+  }
+}
+
+TEST(ThreadTeam, MayNeverBeAskedAnything) {
+  ThreadTeam idle(3);
+}
+
+class Threads : public testing::TestWithParam<Precision> {
+ protected:
+  grain::Setup scene(int side, int threads) const {
+    grain::Setup setup = test::packed(side, 8);
+    setup.precision = GetParam();
+    setup.threads = threads;
+    return setup;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Precisions, Threads,
+                         testing::Values(Precision::float64, Precision::float32));
+
+TEST_P(Threads, OfAnyNumberGiveTheSameBits) {
+  Simulation reference(scene(20, 1));
+  reference.advance(80);
+  for (const int threads : {2, 3, 5}) {
+    SCOPED_TRACE(threads);
+    Simulation simulation(scene(20, threads));
+    simulation.advance(80);
+    EXPECT_EQ(test::difference(simulation, reference), "");
+  }
+}
+
+TEST_P(Threads, OfAnyNumberGiveTheSameBitsAcrossARenumbering) {
+  Simulation reference(scene(10, 1));
+  reference.advance(8180);
+  std::stringstream saved;
+  reference.save(saved);
+  reference.advance(40);  // disks are renumbered at step 8192
+  for (const int threads : {2, 3, 5}) {
+    SCOPED_TRACE(threads);
+    Simulation simulation(scene(10, threads));
+    saved.seekg(0);
+    simulation.restore(saved);
+    simulation.advance(40);
+    EXPECT_EQ(test::difference(simulation, reference), "");
+  }
+}
+
+TEST_P(Threads, GiveTheSameBitsForEveryLawAndIntegrator) {
+  for (const Tangential tangential : {Tangential::none, Tangential::viscous, Tangential::spring})
+    for (const Integrator integrator :
+         {Integrator::positionVerlet, Integrator::velocityVerlet, Integrator::semiImplicitEuler})
+      for (const bool rotation : {false, true}) {
+        const auto run = [&](int threads) {
+          grain::Setup setup = scene(8, threads);
+          setup.law.tangential = tangential;
+          setup.integrator = integrator;
+          setup.rotation = rotation;
+          Simulation simulation(std::move(setup));
+          simulation.advance(15);
+          return simulation;
+        };
+        EXPECT_EQ(test::difference(run(2), run(1)), "");
+      }
+}
+
+TEST_P(Threads, OfALargeSceneGiveTheSameBits) {
+  const auto run = [&](int threads) {
+    Simulation simulation(scene(75, threads));
+    simulation.advance(60);
+    return simulation;
+  };
+  const auto alone = run(1), together = run(2);
+  EXPECT_GT(alone.movingCount(), 5000u);
+  EXPECT_GT(alone.contacts().size(), 2000u);
+  EXPECT_EQ(test::difference(together, alone), "");
+}
+
+TEST_P(Threads, KeepTheMomentumOfALargeScene) {
+  grain::Setup setup = scene(75, 2);
+  setup.walls.clear();
+  const std::vector<double> masses = setup.disks.mass;
+  Simulation simulation(std::move(setup));
+  struct Sum {
+    double x = 0.0, y = 0.0, magnitude = 0.0;
+  };
+  const auto momentum = [&] {
+    Sum sum;
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      sum.x += masses[i] * simulation.velocityX(i);
+      sum.y += masses[i] * simulation.velocityY(i);
+      sum.magnitude += masses[i] * std::hypot(simulation.velocityX(i), simulation.velocityY(i));
+    }
+    return sum;
+  };
+  const Sum before = momentum();
+  simulation.advance(100);
+  const Sum after = momentum();
+  // Each disk's velocity is rounded once a step: 100 roundings of random sign, ten times one.
+  const double epsilon = GetParam() == Precision::float64 ? 0x1p-53 : 0x1p-24;
+  EXPECT_NEAR(after.x, before.x, 10.0 * epsilon * after.magnitude);
+  EXPECT_NEAR(after.y, before.y, 10.0 * epsilon * after.magnitude);
+}
+
+TEST_P(Threads, MoreThanDisksAreNoHarm) {
+  const auto run = [&](int threads) {
+    grain::Setup setup = test::collidingPair(0.1, 0.3, 5.0, 4e-5);
+    setup.precision = GetParam();
+    setup.threads = threads;
+    Simulation simulation(std::move(setup));
+    simulation.advance(50);
+    return simulation;
+  };
+  EXPECT_EQ(test::difference(run(4), run(1)), "");
+}
+
+TEST_P(Threads, PassOnWhatGoesWrong) {
+  grain::Setup setup = scene(10, 3);
+  setup.disks.vx[40] = std::numeric_limits<double>::infinity();
+  Simulation simulation(std::move(setup));
+  EXPECT_THROW(simulation.step(), std::runtime_error);
+}
+
+}  // namespace
