@@ -79,6 +79,8 @@ grain::Setup translate(const Scene& scene) {
   setup.gravityY = scene.gravity.y();
   setup.dt = scene.dt;
   setup.integrator = static_cast<grain::Integrator>(scene.law.conventions.integrator);
+  setup.rotation = scene.rotation;
+  setup.precision = static_cast<grain::Precision>(scene.precision);
   return setup;
 }
 
@@ -95,7 +97,7 @@ class GrainEngine : public Engine {
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
     can.lawOptions["normal"] = {"linear"};
     for (const auto& [name, value] : conventions_) can.lawOptions[name] = {value};
-    can.precisions = {Precision::float64};
+    can.precisions = {Precision::float64, Precision::float32};
     can.slidingFlags = true;
     can.checkpoints = true;
     can.settings = {
@@ -105,7 +107,8 @@ class GrainEngine : public Engine {
          "-",
          "times the case's k_n and k_t, at the same restitution; dt shrinks by its root",
          {}},
-        {"skin", 0.0, "m", "of the Verlet list; 0: a fifth of the smallest radius", {}}};
+        {"skin", 0.0, "m", "of the Verlet lists; 0: tuned while it runs", {}},
+        {"threads", 1.0, "-", "that share the work of a step, to the same bits", {}}};
     return can;
   }
 
@@ -128,13 +131,15 @@ class GrainEngine : public Engine {
     grain::Setup setup = translate(own);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
+    setup.threads = threadsOf(settings);
     bodies_ = scene.bodies;
+    spins_ = effectsOf(own).contains(Effect::friction);
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
 
     Realised realised;
     realised.dt = simulation_->dt();
-    realised.precision = "double";
+    realised.precision = toString(scene.precision);
     realised.integrator = lawOptionValue(law, "integrator");
     realised.effects = effectsOf(own);
     const LawConventions& how = law.conventions;
@@ -172,7 +177,7 @@ class GrainEngine : public Engine {
       snapshot.position.emplace_back(now.x(i), now.y(i));
       snapshot.velocity.emplace_back(now.velocityX(i), now.velocityY(i));
     }
-    if (now.rotates()) {
+    if (spins_) {
       snapshot.spin.emplace();
       for (std::size_t i = 0; i < now.movingCount(); ++i) snapshot.spin->push_back(now.spin(i));
     }
@@ -226,6 +231,15 @@ class GrainEngine : public Engine {
     return found == settings.end() ? otherwise : std::get<double>(found->second);
   }
 
+  static int threadsOf(const Settings& settings) {
+    constexpr double most = 1024.0;
+    const double threads = setting(settings, "threads", 1.0);
+    if (threads != std::floor(threads) || threads < 1.0 || threads > most)
+      throw std::invalid_argument(fmt::format(
+          "the setting threads = {:g} must be a whole number from 1 to {:g}", threads, most));
+    return static_cast<int>(threads);
+  }
+
   Contacts contacts() const {
     Contacts contacts;
     for (const grain::Contact& contact : simulation_->contacts()) {
@@ -243,6 +257,7 @@ class GrainEngine : public Engine {
   std::map<std::string, std::string> conventions_;
   double stiffness_;
   std::vector<WallBody> bodies_;
+  bool spins_ = false;  ///< whether snapshots tell them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
 };

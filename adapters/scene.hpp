@@ -56,7 +56,7 @@ struct Scene {
   ContactLaw law;
   std::optional<BottomPlate> bottom;
   Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
-  bool rotation = true;         ///< false: disks keep the spin that they start with
+  bool rotation = true;         ///< false: friction acts, but no spin changes; all are zero
   Precision precision = Precision::float64;
   double dt = 0.0;  ///< time step [s]
 

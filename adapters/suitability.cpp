@@ -23,6 +23,7 @@ void removeEffect(Scene& scene, Effect effect) {
       break;
     case Effect::rotation:
       scene.rotation = false;
+      std::ranges::fill(scene.disks.spin, 0.0);
       break;
     case Effect::friction:
       scene.law.mu = 0.0;

@@ -156,6 +156,13 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
   return result;
 }
 
+std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
+                                          double confidence) {
+  if (packings < fewestPackings || tests == 0) return std::nullopt;
+  const double tail = (1.0 - confidence) / 2.0 / static_cast<double>(tests);
+  return upperQuantile(tail, packings) * standardError;
+}
+
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {
   FieldVerdict result;
   bool telling = true;

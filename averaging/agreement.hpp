@@ -54,6 +54,12 @@ struct PairedComparison {
 std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
                                                            double confidence);
 
+/// The smallest mean paired difference that would be significant in a family of that many two-sided
+/// tests whose false alarms are held to 1 − confidence (Holm's first step, which is Bonferroni's).
+/// Absent for fewer than 4 packings. @param standardError  of the mean difference over packings
+std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
+                                          double confidence);
+
 /// The verdict on a field from its rings.
 struct FieldVerdict {
   Verdict verdict = Verdict::undecided;

@@ -27,7 +27,7 @@ struct Particles {
   double smallRadius = 0.0, largeRadius = 0.0;  ///< [m]
   double smallMass = 0.0, largeMass = 0.0;      ///< [kg]
   double inertiaFactor = 0.5;                   ///< q in J = q m a²: 1/2 disk, 2/5 sphere
-  bool rotation = true;                         ///< false: disks keep the spin that they start with
+  bool rotation = true;     ///< false: friction acts, but no disk has a spin or gets one
   double maxOverlap = 0.2;  ///< largest overlap allowed at a start, in units of the small radius
   std::optional<std::filesystem::path> file;  ///< a packing of the user's own (see cases/README)
 };

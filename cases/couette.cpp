@@ -48,6 +48,7 @@ Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   scene.law = setup.law;
   scene.bottom = setup.bottom;
   scene.rotation = setup.particles.rotation;
+  if (!scene.rotation) std::ranges::fill(scene.disks.spin, 0.0);
   scene.precision = setup.run.precision;
   scene.dt = dt;
   WallBody wheel = wallRing(wheelName, setup.cell, setup.cell.innerRadius, packing.wheelAngle);

@@ -11,7 +11,7 @@ inline constexpr const char* ringName = "ring";
 
 /// The Couette cell filled with a packing: the wheel (turning with Ω about the origin) and the ring
 /// (at rest) are rigid bodies of wall disks with centres on R_i and R_o, as many as fit at the
-/// spacing wanted.
+/// spacing wanted. Where the case blocks rotation, the packing's spins are dropped.
 Scene couetteScene(const Case& setup, const Packing& packing, double dt);
 
 /// The wall disks of one wall: centres on `radius`, turned by `angle`.

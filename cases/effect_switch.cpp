@@ -32,7 +32,7 @@ std::string switchOff(Case& setup, Effect effect) {
       return "Coulomb's law, the viscous one's limit of a dashpot without bound.";
     case Effect::rotation:
       setup.particles.rotation = false;
-      return "Friction acts, but every disk keeps the spin that it starts with.";
+      return "Friction acts, but no disk turns about itself: every spin is zero, and stays so.";
     case Effect::bottomFriction:
       setup.bottom.reset();
       return "No plate under the disks.";

@@ -25,7 +25,7 @@ struct EffectSwitch {
 /// - normal damping: γ_n = 0;  friction: no tangential force, and so no rotation and no springs;
 /// - tangential spring: the viscous law where γ_t > 0, else Coulomb's;
 /// - tangential damping: the spring alone; of the viscous law its limit γ_t → ∞, Coulomb's;
-/// - rotation: spins stay;  bottom friction: no plate;  bottom spin friction: the plate leaves
+/// - rotation: no spins;  bottom friction: no plate;  bottom spin friction: the plate leaves
 ///   spins alone.
 /// Absent where the case lacks the effect, and for moving walls: they drive the flow.
 std::optional<EffectSwitch> without(const Case& setup, Effect effect);

@@ -20,7 +20,6 @@
 #include "reports/report.hpp"
 #include "runs/collide.hpp"
 #include "runs/collision_sweep.hpp"
-#include "runs/compare.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/engine_access.hpp"
 
@@ -57,36 +56,6 @@ std::string supportMark(Support support) {
       break;
   }
   return "no";
-}
-
-int countOf(const json& list, const char* key, const std::string& value) {
-  return static_cast<int>(
-      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
-}
-
-/// Only the verdicts between engines that the user named decide the exit status.
-json peerRows(const json& results) {
-  json rows = json::array();
-  for (const json& row : results["agreement"])
-    if (row["kind"] == "peer") rows.push_back(row);
-  return rows;
-}
-
-Case onlyCase(const CommandLine& line, CaseKind kind, const char* command) {
-  if (line.inputs.size() != 1)
-    throw BadInput(fmt::format("{} takes one case file, not {}", command, line.inputs.size()));
-  const fs::path& file = line.inputs.front();
-  const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (cases.front().kind != kind)
-    throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
-  if (cases.size() > 1)
-    throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
-  if (!line.quick) return cases.front();
-  std::vector<std::string> overrides = {
-      "preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
-      "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
-  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
-  return loadCase(file, overrides).front();
 }
 
 }  // namespace
@@ -155,6 +124,15 @@ void printSuitability(const EngineEntry& entry, const Case& setup, const Scene& 
 
 }  // namespace
 
+std::string effectsInWords(const Effects& called) {
+  std::vector<std::string> in, out;
+  for (const Effect effect : allEffects)
+    (called.contains(effect) ? in : out).push_back(toString(effect));
+  return fmt::format("effects called for: {}; left out: {}",
+                     in.empty() ? "none" : fmt::format("{}", fmt::join(in, ", ")),
+                     out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
+}
+
 int checkCase(const CommandLine& line) {
   if (line.inputs.size() != 1) throw BadInput("check takes one case file");
   const ScratchFolder scratch;
@@ -165,9 +143,7 @@ int checkCase(const CommandLine& line) {
     fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n",
                setup.variant.empty() ? setup.name : setup.variant, scene.disks.size(),
                scene.wallDiskCount(), scene.dt);
-    std::vector<std::string> called;
-    for (const Effect effect : effectsOf(scene)) called.push_back(toString(effect));
-    fmt::print("  effects called for: {}\n", fmt::join(called, ", "));
+    fmt::print("  {}\n", effectsInWords(effectsOf(scene)));
     if (setup.kind == CaseKind::couette) {
       const double end =
           (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
@@ -186,35 +162,6 @@ int checkCase(const CommandLine& line) {
         fmt::print("  {:<16} not available: {}\n", entry.name, entry.missing());
   }
   return allCan ? exitHeld : exitFellShort;
-}
-
-int compare(const CommandLine& line) {
-  const Case setup = onlyCase(line, CaseKind::couette, "compare");
-  const json results = compareEngines(setup, line.run);
-  writeReport(results, line.run.out);
-
-  const json rows = peerRows(results);
-  const int agree = countOf(rows, "verdict", "agree");
-  const int disagree = countOf(rows, "verdict", "disagree");
-  const int undecided = countOf(rows, "verdict", "undecided");
-  const int failed = countOf(results["runs"], "status", "failed");
-  if (line.json)
-    fmt::print("{}\n", (line.run.out / "results.json").string());
-  else {
-    for (const json& row : rows)
-      if (row["a"] == results["engines"][0]["name"])
-        fmt::print("{:<16} {:<22} {}\n", row["b"].get<std::string>(),
-                   row["field"].get<std::string>(), row["verdict"].get<std::string>());
-    fmt::print("{} agree, {} disagree, {} undecided; {} of {} runs failed\nreport: {}\n", agree,
-               disagree, undecided, failed, results["runs"].size(),
-               (line.run.out / "report.html").string());
-  }
-  for (const json& run : results["runs"])
-    if (run["status"] == "failed")
-      fmt::print(stderr, "crossgrain: {}\n", run["reason"].get<std::string>());
-  if (failed > 0) return exitEngineFailed;
-  if (disagree > 0 || (line.strict && undecided > 0)) return exitFellShort;
-  return exitHeld;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/effects.hpp"
 #include "runs/options.hpp"
 
 namespace crossgrain {
@@ -27,10 +28,14 @@ struct CommandLine {
   bool json = false;
 };
 
+/// "effects called for: friction, rotation; left out: gravity"
+std::string effectsInWords(const Effects& called);
+
 int listEngines(const CommandLine& line);
 int checkCase(const CommandLine& line);
 int collide(const CommandLine& line);
 int compare(const CommandLine& line);
+int effects(const CommandLine& line);
 int rebuildReports(const CommandLine& line);
 int serveEngine(const std::string& name);
 

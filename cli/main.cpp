@@ -45,6 +45,13 @@ void addRun(CLI::App& command, CommandLine& line) {
   command.add_flag("--json", line.json, "print the path of results.json only, for scripts");
 }
 
+/// What all commands that run engines on packings have.
+void addPackings(CLI::App& command, CommandLine& line, std::int64_t& seed) {
+  command.add_option("--seed", seed, "preparation.seed of the case")->check(CLI::NonNegativeNumber);
+  command.add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
+  command.add_flag("--quick", line.quick, "a short version, to see that everything works");
+}
+
 CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& what,
                      const std::string& example) {
   CLI::App* command = app.add_subcommand(name, what);
@@ -90,12 +97,15 @@ int run(int argc, char** argv) {
                  "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out");
   comparison->add_option("case", line.inputs, "case file")->required();
   addRun(*comparison, line);
-  comparison->add_option("--seed", seed, "preparation.seed of the case")
-      ->check(CLI::NonNegativeNumber);
-  comparison->add_flag("--resume", line.run.resume,
-                       "take up what an earlier run in --out finished");
-  comparison->add_flag("--quick", line.quick, "a short version, to see that everything works");
+  addPackings(*comparison, line, seed);
   comparison->add_flag("--strict", line.strict, "undecided verdicts count as falling short");
+
+  CLI::App* switching =
+      addCommand(app, "effects", "what each effect of a case costs and changes",
+                 "crossgrain effects cases/couette/quick.toml --engines grain --out out");
+  switching->add_option("case", line.inputs, "case file")->required();
+  addRun(*switching, line);
+  addPackings(*switching, line, seed);
 
   CLI::App* report =
       addCommand(app, "report", "rebuild reports from results.json", "crossgrain report out");
@@ -107,7 +117,8 @@ int run(int argc, char** argv) {
   serve->add_option("engine", served)->required();
 
   // CLI11 would only say that some subcommand is required.
-  const std::vector<std::string> names = {"engines", "check", "collide", "compare", "report"};
+  const std::vector<std::string> names = {"engines", "check",   "collide",
+                                          "compare", "effects", "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
@@ -118,13 +129,14 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw BadInput(fmt::format("{}; see crossgrain --help", error.what()));
   }
-  if (comparison->count("--seed") > 0)
+  if (comparison->count("--seed") + switching->count("--seed") > 0)
     line.overrides.push_back(fmt::format("preparation.seed={}", seed));
 
   if (engines->parsed()) return listEngines(line);
   if (check->parsed()) return checkCase(line);
   if (collisions->parsed()) return collide(line);
   if (comparison->parsed()) return compare(line);
+  if (switching->parsed()) return effects(line);
   if (report->parsed()) return rebuildReports(line);
   return serveEngine(served);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -131,6 +132,48 @@ std::string agreementCsv(const Json& results) {
                    number(ring, "stderr"), number(ring, "low"), number(ring, "high"),
                    number(ring, "margin"), text(ring, "verdict"));
     }
+  }
+  return table;
+}
+
+namespace {
+
+std::string yesOrNo(const Json& value) {
+  return value.is_boolean() ? (value.get<bool>() ? "yes" : "no") : "";
+}
+
+}  // namespace
+
+std::string effectsCsv(const Json& results) {
+  std::string table =
+      "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
+      "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,step_s,"
+      "contacts_per_step,precision,status,reason\n";
+  const auto confidence = number(member(results, "averaging"), "confidence");
+  const auto level =
+      confidence ? std::optional(std::round((1.0 - *confidence) * 1e12) / 1e12) : std::nullopt;
+  const Json& radii = list(member(results, "rings"), "r_tilde");
+  for (const Json& leg : list(results, "legs")) {
+    const std::string engine = text(leg, "engine"), effect = text(leg, "effect");
+    if (effect.empty()) continue;  // everything on: what the others are held against
+    const auto line = [&](const Json& field, const Json& ring) {
+      const auto index = number(ring, "ring");
+      const std::string place = index ? fmt::format("{:.0f}", *index + 1.0) : "";
+      const auto rTilde =
+          index ? number(element(radii, static_cast<std::size_t>(*index))) : std::nullopt;
+      const bool judged = number(ring, "p").has_value();
+      table +=
+          row(engine, effect, number(leg, "time_ratio"), text(field, "field"), place,
+              number(ring, "change"), number(ring, "stderr"), rTilde, number(ring, "reference"),
+              text(field, "unit"), yesOrNo(member(ring, "resolved")), number(ring, "p"),
+              number(ring, "smallest"), judged ? level : std::nullopt, number(leg, "packings"),
+              text(leg, "stderr_kind"), number(leg, "time_ratio_stderr"), number(leg, "step_s"),
+              number(leg, "contacts_per_step"), text(leg, "precision"), text(leg, "status"),
+              text(leg, "reason"));
+    };
+    for (const Json& field : list(leg, "fields"))
+      for (const Json& ring : list(field, "rings")) line(field, ring);
+    if (list(leg, "fields").empty()) line({}, {});
   }
   return table;
 }

@@ -25,4 +25,10 @@ std::string seriesCsv(const Json& results);
 /// ring "all" is the verdict on the field.
 std::string agreementCsv(const Json& results);
 
+/// engine,effect,time_ratio,field,ring,change,stderr, then r_tilde,reference,unit,resolved,
+/// p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,step_s,
+/// contacts_per_step,precision,status,reason
+/// One row per field and ring; a leg that has none is one row with its status.
+std::string effectsCsv(const Json& results);
+
 }  // namespace crossgrain::reports

@@ -100,4 +100,25 @@ void addDetails(Json& view, const Json& results, const std::vector<RealisedOf>& 
   for (const RealisedOf& engine : engines) view["effectColumns"].push_back(engine.engine);
 }
 
+Json packingRows(const Json& results) {
+  Json rows = Json::array();
+  for (const Json& packing : list(results, "packings")) {
+    const Json &index = member(packing, "index"), &seed = member(packing, "seed");
+    rows.push_back({{"index", index.is_number() ? index.dump() : ""},
+                    {"seed", seed.is_number() ? seed.dump() : ""},
+                    {"hash", text(packing, "hash")},
+                    {"source", member(packing, "from_cache") == Json(true) ? "earlier, kept"
+                                                                           : "for this run"}});
+  }
+  return rows;
+}
+
+std::string averagesInWords(const Json& results) {
+  const Json& averaging = member(results, "averaging");
+  const std::string width = readable(number(member(results, "rings"), "width"));
+  return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run.",
+                     list(member(results, "rings"), "r").size(), width, text(averaging, "method"),
+                     readableCount(number(averaging, "snapshots")));
+}
+
 }  // namespace crossgrain::reports

@@ -26,6 +26,23 @@ const Json& EngineResults::realised() const {
   return nothing;
 }
 
+void EngineResults::takeRuns(const Json& results, const std::string& of,
+                             const std::string& without) {
+  const auto belongs = [&](const Json& row) {
+    return text(row, "engine") == of && text(row, "without") == without;
+  };
+  for (const Json& run : list(results, "runs")) {
+    if (!belongs(run)) continue;
+    runs.push_back(&run);
+    if (text(run, "status") == "finished") finished.push_back(&run);
+  }
+  for (const Json& mean : list(results, "ensemble"))
+    if (belongs(mean) && finished.size() > 1) {
+      ensemble = &mean;
+      break;
+    }
+}
+
 LineStyle engineStyle(std::size_t index) {
   static const std::array<std::string, 7> colours = {"#000000", "#d55e00", "#0072b2", "#009e73",
                                                      "#cc79a7", "#e69f00", "#56b4e9"};
@@ -63,13 +80,7 @@ std::vector<EngineResults> engineResults(const Json& results) {
                          {},
                          {},
                          nullptr};
-    for (const Json& run : list(results, "runs")) {
-      if (text(run, "engine") != engine.name) continue;
-      engine.runs.push_back(&run);
-      if (text(run, "status") == "finished") engine.finished.push_back(&run);
-    }
-    const Json& ensemble = findByText(results, "ensemble", "engine", engine.name);
-    if (ensemble.is_object() && engine.finished.size() > 1) engine.ensemble = &ensemble;
+    engine.takeRuns(results, engine.name, "");
     engines.push_back(std::move(engine));
   }
   return engines;

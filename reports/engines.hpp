@@ -24,9 +24,12 @@ struct EngineResults {
   const Json& averages() const;
   /// Of the first run that got as far as loading the scene, or null.
   const Json& realised() const;
+
+  /// Sets runs, finished and ensemble: of that engine, with that effect switched off (empty: none).
+  void takeRuns(const Json& results, const std::string& engine, const std::string& without);
 };
 
-/// In the results' order: the reference first.
+/// In the results' order: the reference first. Runs with an effect switched off are left out.
 std::vector<EngineResults> engineResults(const Json& results);
 
 /// Colours by Okabe and Ito (2008), told apart with any colour vision; marks differ too.

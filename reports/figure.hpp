@@ -10,7 +10,7 @@ namespace crossgrain::reports {
 
 struct Point {
   double x = 0.0, y = 0.0;
-  std::optional<double> error;  ///< half length of the bar
+  std::optional<double> error;  ///< half length of the bar: upright, in panels with rows across
 };
 
 /// How everything that belongs to one engine looks in every plot.
@@ -20,7 +20,8 @@ struct LineStyle {
   bool dashed = false;
 };
 
-enum class Draw { linesAndPoints, lines, points };
+/// Blocks reach from x = 0 to each point, in panels with rows.
+enum class Draw { linesAndPoints, lines, points, blocks };
 
 struct Curve {
   std::string name;  ///< empty: not in the key
@@ -42,6 +43,7 @@ struct Panel {
   std::optional<Range> xRange, yRange;
   bool logX = false, logY = false;  ///< points that are not positive are left out
   std::vector<double> xTicks;       ///< empty: gnuplot's choice
+  std::vector<std::string> rows;    ///< names along the y axis, at y = 0, 1, … from the top
   std::optional<Range> shaded;      ///< part of the x axis
   std::optional<double> level;      ///< a thin horizontal line
   std::vector<Curve> curves;
@@ -57,6 +59,7 @@ struct Figure {
   int columns = 1;
   int panelWidth = 560, panelHeight = 380;  ///< [px] in the SVG
   bool png = false;                         ///< also as PNG, twice the size
+  int rowNames = 0;  ///< [px] left of the first panel: panels with rows, in one line, share them
 };
 
 /// Makes the y axis logarithmic where all values are positive and differ tenfold or more, so that

@@ -67,9 +67,12 @@ std::string dataBlock(const Panel& panel, const Curve& curve) {
       block += fmt::format("{} {} ? ?\n", point.x, point.y);
       continue;
     }
-    double low = point.y - *point.error;
-    if (panel.logY && range) low = std::max(low, std::min(range->low, point.y));
-    block += fmt::format("{} {} {} {}\n", point.x, point.y, low, point.y + *point.error);
+    const double middle = panel.rows.empty() ? point.y : point.x;
+    const auto& shown = panel.rows.empty() ? range : panel.xRange;
+    const bool log = panel.rows.empty() ? panel.logY : panel.logX;
+    double low = middle - *point.error;
+    if (log && shown) low = std::max(low, std::min(shown->low, middle));
+    block += fmt::format("{} {} {} {}\n", point.x, point.y, low, middle + *point.error);
   }
   return block.empty() ? "? ? ? ?\n" : block;
 }
@@ -79,23 +82,34 @@ bool hasBars(const Curve& curve) {
 }
 
 /// Bars below the curve. Not "yerrorbars": as SVG it paints a white disk around each point.
-std::string barsElement(const std::string& source, const std::string& colour) {
-  return fmt::format("{} using 1:3:(0):($4-$3) with vectors nohead {} lw 1 notitle, \\\n    ",
-                     source, colour);
+std::string barsElement(const std::string& source, const std::string& colour, bool across) {
+  return fmt::format("{} using {} with vectors nohead {} lw 1 notitle, \\\n    ", source,
+                     across ? "3:2:($4-$3):(0)" : "1:3:(0):($4-$3)", colour);
 }
 
-std::string plotElements(const std::string& data, std::size_t index, const Curve& curve) {
+std::string blocksElement(const std::string& source, const std::string& colour) {
+  return fmt::format(
+      "{} using 1:2:(0):1:($2-0.3):($2+0.3) with boxxyerror fill solid 0.75 noborder {} notitle",
+      source, colour);
+}
+
+std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
+                         bool across) {
   const std::string source = fmt::format("'{}' index {}", data, index);
   const std::string colour = fmt::format("lc rgb '{}'", curve.style.colour);
+  if (curve.draw == Draw::blocks)
+    return blocksElement(source, colour) +
+           (hasBars(curve) ? ", " + barsElement(source, "lc rgb 'black'", across) + "1/0 notitle"
+                           : "");
   const std::string line =
       fmt::format("lw {} dt {}", curve.width, curve.style.dashed ? "(8,4)" : "solid");
-  const std::string marks = fmt::format("pt {} ps 0.6", curve.style.pointType);
+  const std::string marks = fmt::format("pt {} ps {}", curve.style.pointType, across ? 0.9 : 0.6);
   const std::string look = curve.draw == Draw::lines    ? "lines " + line
                            : curve.draw == Draw::points ? "points " + marks
                                                         : "linespoints " + line + " " + marks;
   const std::string title =
       curve.name.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(curve.name));
-  return (hasBars(curve) ? barsElement(source, colour) : std::string()) +
+  return (hasBars(curve) ? barsElement(source, colour, across) : std::string()) +
          fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title);
 }
 
@@ -109,6 +123,17 @@ std::string ticks(char axis, const std::vector<double>& at, bool log) {
   const bool powers = log && at.empty();
   return fmt::format("set format {0} {1}\n  set {0}tics {2}", axis, powers ? "'10^{%L}'" : "'%g'",
                      at.empty() ? "autofreq" : "(" + places + ")");
+}
+
+/// Names instead of numbers along the y axis, which then runs downward.
+std::string rowNames(const Panel& panel, bool shown) {
+  std::string places;
+  for (std::size_t k = 0; k < panel.rows.size(); ++k)
+    places += fmt::format("{}{} {}", k == 0 ? "" : ",", quoted(shown ? panel.rows[k] : ""), k);
+  return fmt::format(
+      "set ytics noenhanced ({})\n  set yrange [{}:-0.5]\n  set yzeroaxis lc rgb "
+      "'#444444' lw 1 dt solid",
+      places, static_cast<double>(panel.rows.size()) - 0.5);
 }
 
 std::string keyText(Key key) {
@@ -141,7 +166,8 @@ std::string furniture(const Panel& panel) {
   return lines;
 }
 
-std::string panelScript(const std::string& data, std::size_t firstBlock, const Panel& panel) {
+std::string panelScript(const std::string& data, std::size_t firstBlock, const Panel& panel,
+                        bool firstInLine) {
   const auto range = yRange(panel);
   std::string script = fmt::format(
       "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n"
@@ -151,15 +177,30 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
       ticks('x', panel.xTicks, panel.logX),
       ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
       rangeText(panel.xRange), rangeText(range));
+  if (!panel.rows.empty()) script += "  " + rowNames(panel, firstInLine) + "\n";
   script += furniture(panel);
   script += "  plot ";
   for (std::size_t k = 0; k < panel.curves.size(); ++k)
-    script += (k == 0 ? "" : ", \\\n    ") + plotElements(data, firstBlock + k, panel.curves[k]);
+    script += (k == 0 ? "" : ", \\\n    ") +
+              plotElements(data, firstBlock + k, panel.curves[k], !panel.rows.empty());
   return script + "\n";
 }
 
+int widthOf(const Figure& figure) {
+  return figure.rowNames + figure.panelWidth * figure.columns;
+}
+
+/// Where the k-th of panels that share the names of their rows stands.
+std::string placeInLine(const Figure& figure, std::size_t k) {
+  if (figure.rowNames == 0) return {};
+  constexpr double gap = 22.0;  // [px]
+  const double left = figure.rowNames + figure.panelWidth * static_cast<double>(k);
+  return fmt::format("  set lmargin at screen {}\n  set rmargin at screen {}\n",
+                     left / widthOf(figure), (left + figure.panelWidth - gap) / widthOf(figure));
+}
+
 std::string terminals(const Figure& figure, std::size_t rows) {
-  const int width = figure.panelWidth * figure.columns;
+  const int width = widthOf(figure);
   const int height = figure.panelHeight * static_cast<int>(rows);
   std::string script = fmt::format(
       "  if (terminal eq 'svg') {{\n"
@@ -202,17 +243,19 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
   const bool several = figure.panels.size() > 1;
   std::string script = fmt::format(
-      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin 3.2\nset datafile missing '?'\nset "
+      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\nset "
       "border 3 lc rgb "
       "'#444444'\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw 0.7 dt solid\n"
       "do for [terminal in 'svg pdfcairo{1}'] {{\n"
       "  if (strstrt(GPVAL_TERMINALS, ' ' . terminal . ' ') == 0) {{ continue }}\n{2}{3}",
       figure.name, figure.png ? " pngcairo" : "", terminals(figure, rows),
-      several ? fmt::format("  set multiplot layout {},{}\n", rows, columns) : "");
+      several ? fmt::format("  set multiplot layout {},{}\n", rows, columns) : "",
+      figure.rowNames > 0 ? 3.8 : 3.2);
   std::string blocks;
   std::size_t block = 0;
-  for (const Panel& panel : figure.panels) {
-    script += panelScript(data, block, panel);
+  for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+    const Panel& panel = figure.panels[k];
+    script += placeInLine(figure, k) + panelScript(data, block, panel, k == 0);
     for (const Curve& curve : panel.curves) {
       blocks +=
           fmt::format("{}# x y low high\n{}", block == 0 ? "" : "\n\n", dataBlock(panel, curve));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,16 @@ std::vector<Figure> compareFigures(const Json& results);
 /// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
 std::vector<Figure> collideFigures(const Json& results);
 
+/// Every plot of a study of effects, for each engine k = 1, 2, …: effects_k_cost, what each costs
+/// and changes; effects_k_profile_FIELD, with and without.
+std::vector<Figure> effectFigures(const Json& results);
+
+/// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
+using IsFaint = std::function<bool(const EngineResults&, const std::string& field)>;
+
 /// The parts of compareFigures. A check of a single number is no plot.
-std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines);
+std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines,
+                                   const IsFaint& faint = {});
 std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineResults>& engines);
 std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineResults>& engines);
 

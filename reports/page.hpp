@@ -7,7 +7,7 @@
 #include "reports/engines.hpp"
 #include "reports/pages.hpp"
 
-/// What both pages share. A view is the JSON that a template is filled from.
+/// What all pages share. A view is the JSON that a template is filled from.
 namespace crossgrain::reports {
 
 /// Fills the template of that name; its parts may use all of the view.
@@ -28,6 +28,12 @@ Json columnsView(const std::vector<EngineResults>& engines);
 
 /// "1 field", "2 fields".
 std::string counted(std::size_t count, std::string_view noun);
+
+/// One row per packing: index, seed, hash, and where it came from.
+Json packingRows(const Json& results);
+
+/// Rings, weights and snapshots that the profiles are means over.
+std::string averagesInWords(const Json& results);
 
 /// Realised scenes by engine → rows of the tables of deviations, pairs and effects, set in view.
 struct RealisedOf {

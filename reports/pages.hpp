@@ -22,5 +22,6 @@ struct Illustrations {
 /// One page each, HTML with everything inside: no scripts and nothing to fetch.
 std::string comparePage(const Json& results, const Illustrations& shown);
 std::string collidePage(const Json& results, const Illustrations& shown);
+std::string effectsPage(const Json& results, const Illustrations& shown);
 
 }  // namespace crossgrain::reports

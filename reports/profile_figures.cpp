@@ -98,8 +98,15 @@ std::optional<Curve> powerLaw(const Panel& panel, double exponent) {
   return line;
 }
 
+void makeFaint(Curve& curve) {
+  curve.name.clear();
+  curve.style = {"#b8bec4", 0, false};
+  curve.draw = Draw::lines;
+  curve.width = 1.0;
+}
+
 Panel profilePanel(const Json& results, const std::vector<EngineResults>& engines,
-                   const ProfilePlot& plot) {
+                   const ProfilePlot& plot, const IsFaint& faint) {
   const Scaled scale = scaled(plot, member(results, "cell"));
   Panel panel;
   panel.xLabel = plot.logX ? "r / R_{i}" : "(r − R_{i}) / d";
@@ -109,8 +116,10 @@ Panel profilePanel(const Json& results, const std::vector<EngineResults>& engine
   for (const EngineResults& engine : engines) {
     Curve curve{engine.name, engine.style, Draw::linesAndPoints,
                 profilePoints(results, engine.averages(), plot, scale.factor), 1.5};
+    if (faint && faint(engine, plot.field)) makeFaint(curve);
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
   }
+  std::ranges::stable_partition(panel.curves, [](const Curve& c) { return c.name.empty(); });
   if (plot.field.starts_with("stress_") && !plot.logY) chooseLogY(panel);
   if (plot.guide)
     if (auto line = powerLaw(panel, *plot.guide)) panel.curves.push_back(*line);
@@ -127,7 +136,8 @@ Panel profilePanel(const Json& results, const std::vector<EngineResults>& engine
 }
 
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
-Figure overview(const Json& results, const std::vector<EngineResults>& engines) {
+Figure overview(const Json& results, const std::vector<EngineResults>& engines,
+                const IsFaint& faint) {
   Figure figure;
   figure.name = "overview";
   figure.title = "Azimuthal velocity, shear stress and volume fraction of all engines";
@@ -139,7 +149,7 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines) 
   for (const char* name :
        {"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}) {
     const auto plot = std::ranges::find(profilePlots(), name, &ProfilePlot::name);
-    Panel panel = profilePanel(results, engines, *plot);
+    Panel panel = profilePanel(results, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
     panel.key = figure.panels.empty() ? Key::topRight : Key::none;
     figure.panels.push_back(std::move(panel));
@@ -189,12 +199,13 @@ std::string barsInWords(const std::vector<EngineResults>& engines) {
   return single.empty() ? over + "." : fmt::format("{}; for {}: {}.", over, single, within);
 }
 
-std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines) {
+std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines,
+                                   const IsFaint& faint) {
   std::vector<Figure> figures;
-  if (Figure all = overview(results, engines); !all.panels.empty())
+  if (Figure all = overview(results, engines, faint); !all.panels.empty())
     figures.push_back(std::move(all));
   for (const ProfilePlot& plot : profilePlots()) {
-    Panel panel = profilePanel(results, engines, plot);
+    Panel panel = profilePanel(results, engines, plot, faint);
     if (!hasPoints(panel)) continue;
     Figure figure;
     figure.name = "profile_" + plot.name;

@@ -18,14 +18,29 @@ namespace {
 
 using namespace reports;
 
-void writeTables(const nlohmann::json& results, const std::filesystem::path& dir) {
-  if (text(results, "kind") == kindCollide) {
-    writeFile(dir / "collisions.csv", collisionsCsv(results));
-    return;
-  }
-  writeFile(dir / "profiles.csv", profilesCsv(results));
-  writeFile(dir / "series.csv", seriesCsv(results));
-  writeFile(dir / "agreement.csv", agreementCsv(results));
+/// What a kind of results is written as.
+struct Kind {
+  std::vector<std::pair<const char*, std::string (*)(const Json&)>> tables;
+  std::vector<Figure> (*figures)(const Json&);
+  std::vector<Picture> (*pictures)(const Json&);
+  std::string (*page)(const Json&, const Illustrations&);
+};
+
+std::vector<Picture> noPictures(const Json&) {
+  return {};
+}
+
+Kind kindOf(const Json& results) {
+  const std::string kind = text(results, "kind");
+  if (kind == kindCollide)
+    return {{{"collisions.csv", collisionsCsv}}, collideFigures, noPictures, collidePage};
+  if (kind == kindEffects)
+    return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+  return {
+      {{"profiles.csv", profilesCsv}, {"series.csv", seriesCsv}, {"agreement.csv", agreementCsv}},
+      compareFigures,
+      comparePictures,
+      comparePage};
 }
 
 /// @returns why there are no plots, if so
@@ -48,18 +63,16 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
   checkSchema(results, "results");
   makeDirectory(dir);
   writeFile(dir / "results.json", toText(results));
-  writeTables(results, dir);
+  const Kind kind = kindOf(results);
+  for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
 
-  const bool collide = text(results, "kind") == kindCollide;
   const auto plots = dir / "plots";
-  const auto figures = collide ? collideFigures(results) : compareFigures(results);
+  const auto figures = kind.figures(results);
   const auto missing = draw(figures, plots);
-  const auto pictures = collide ? std::vector<Picture>{} : comparePictures(results);
+  const auto pictures = kind.pictures(results);
   for (const Picture& picture : pictures) writePicture(picture, plots);
 
-  const Illustrations shown{figures, pictures, plots, missing};
-  writeFile(dir / "report.html",
-            collide ? collidePage(results, shown) : comparePage(results, shown));
+  writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
   if (missing) throw std::runtime_error(*missing);
 }
 

@@ -15,9 +15,9 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = text(results, "kind");
-  if (kind != kindCompare && kind != kindCollide)
-    throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of \"{}\" or \"{}\"", where,
-                               kind, kindCompare, kindCollide));
+  if (kind != kindCompare && kind != kindCollide && kind != kindEffects)
+    throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of \"{}\", \"{}\" or \"{}\"",
+                               where, kind, kindCompare, kindCollide, kindEffects));
 }
 
 std::string toText(const nlohmann::json& results) {
@@ -28,8 +28,9 @@ std::string toText(const nlohmann::json& results) {
 nlohmann::json readResultsFile(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in)
-    throw BadInput(fmt::format("{}: cannot be read; a folder that compare or collide wrote has it",
-                               file.string()));
+    throw BadInput(
+        fmt::format("{}: cannot be read; a folder that compare, collide or effects wrote has it",
+                    file.string()));
   nlohmann::json results;
   try {
     results = nlohmann::json::parse(in);

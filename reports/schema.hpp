@@ -11,6 +11,7 @@ namespace crossgrain::reports {
 inline constexpr std::string_view schemaVersion = "crossgrain-results-1";
 inline constexpr std::string_view kindCompare = "compare";
 inline constexpr std::string_view kindCollide = "collide";
+inline constexpr std::string_view kindEffects = "effects";
 
 /// @throws BadInput, beginning with where, unless schema and kind are ones that are known here
 void checkSchema(const nlohmann::json& results, const std::string& where);

@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averaging/agreement.hpp"
+#include "runs/paired_rings.hpp"
 #include "runs/records.hpp"
 
 namespace crossgrain {
 
 using nlohmann::json;
-using Numbers = std::vector<std::optional<double>>;
 
 namespace {
-
-/// The finished runs of one engine, in the order of packings.
-std::vector<const json*> runsOf(const json& runs, const std::string& engine) {
-  std::vector<const json*> found;
-  for (const json& run : runs)
-    if (run["engine"] == engine && run["status"] == "finished") found.push_back(&run);
-  std::ranges::sort(found, {}, [](const json* run) { return (*run)["packing"].get<int>(); });
-  return found;
-}
-
-const json* profileOf(const json& run, const json& method, const std::string& field) {
-  for (const json& profile : run["profiles"])
-    if (profile["field"] == field && profile["method"] == method) return &profile;
-  return nullptr;
-}
 
 /// Mean and error over packings of one number per run.
 json ensembleRow(json row, const Numbers& perPacking) {
@@ -70,61 +54,17 @@ json ensembleProfile(const std::vector<const json*>& runs, const json& like) {
   return profileJson(like["method"], like["field"], like["unit"], mean, error, count);
 }
 
-/// The mean of one field in each ring, by packing index.
-std::vector<Numbers> fieldByRing(const std::vector<const json*>& runs, const json& method,
-                                 const std::string& field, std::size_t packings) {
-  std::vector<Numbers> rings;
-  for (const json* run : runs) {
-    const json* profile = profileOf(*run, method, field);
-    if (!profile) continue;
-    const Numbers mean = optionalNumbers((*profile)["mean"]);
-    rings.resize(std::max(rings.size(), mean.size()), Numbers(packings));
-    for (std::size_t ring = 0; ring < mean.size(); ++ring)
-      rings[ring][(*run)["packing"].get<std::size_t>()] = mean[ring];
-  }
-  return rings;
-}
-
-/// One ring as it is put to the test. A relative margin is one on the ratio of the two engines:
-/// where every packing has a positive value it is tested on logarithms, whose paired differences
-/// scatter far less than those of the values, for a packing that is stiffer for one engine is so
-/// for all.
-struct TestedRing {
-  PairedSample sample;
-  bool logarithmic = false;
-  double reference = 0.0;  ///< mean over packings, in the field's unit
-};
-
-TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numbers& other) {
-  const auto mean = ensembleMean(reference);
-  TestedRing ring;
-  ring.reference = mean ? std::abs(mean->mean) : 0.0;
-  ring.sample = {reference, other, margin.relative ? margin.value * ring.reference : margin.value};
-  const auto positive = [](const std::optional<double>& value) { return !value || *value > 0.0; };
-  ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, positive) &&
-                     std::ranges::all_of(other, positive);
-  if (!ring.logarithmic) return ring;
-  for (auto* values : {&ring.sample.reference, &ring.sample.other})
-    for (auto& value : *values)
-      if (value) value = std::log(*value);
-  ring.sample.margin = std::log1p(margin.value);
-  return ring;
-}
-
 /// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
 json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison& found,
               const Margin& margin) {
-  const auto inUnit = [&](double value) {
-    return ring.logarithmic ? ring.reference * std::expm1(value) : value;
-  };
   const auto bound = [&](const std::optional<double>& value) {
-    return value ? json(inUnit(*value)) : json(nullptr);
+    return value ? json(inUnit(ring, *value)) : json(nullptr);
   };
   json error = toJson(found.standardError);
   if (ring.logarithmic && found.standardError)
     error = ring.reference * std::exp(found.difference) * *found.standardError;
   return {{"ring", index},
-          {"difference", inUnit(found.difference)},
+          {"difference", inUnit(ring, found.difference)},
           {"stderr", error},
           {"low", bound(found.low)},
           {"high", bound(found.high)},
@@ -135,12 +75,11 @@ json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison&
 }
 
 json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair) {
-  const auto reference = runsOf(runs, pair.reference);
-  const auto other = runsOf(runs, pair.other);
+  const auto reference = finishedRuns(runs, pair.reference);
+  const auto other = finishedRuns(runs, pair.other, pair.without);
   if (reference.empty() || other.empty()) return json::array();
   const json method = setup.averaging.methods.front();
-  std::size_t packings = 0;
-  for (const json& run : runs) packings = std::max(packings, run["packing"].get<std::size_t>() + 1);
+  const std::size_t packings = packingsOf(runs);
 
   // All rings of all fields are one family of tests, so they are put through together.
   struct Field {
@@ -188,20 +127,24 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
 
 }  // namespace
 
+json ensembleOf(const json& runs, const std::string& engine, const std::string& without) {
+  const auto finished = finishedRuns(runs, engine, without);
+  if (finished.empty()) return nullptr;
+  json profiles = json::array();
+  for (const json& profile : (*finished.front())["profiles"])
+    profiles.push_back(ensembleProfile(finished, profile));
+  return {{"engine", engine},
+          {"packings", finished.size()},
+          {"profiles", profiles},
+          {"fits", ensembleRows(finished, "fits")},
+          {"head", ensembleRows(finished, "head")}};
+}
+
 json ensembleOf(const json& runs, const std::vector<std::string>& engines) {
   json ensemble = json::array();
-  for (const std::string& engine : engines) {
-    const auto finished = runsOf(runs, engine);
-    if (finished.empty()) continue;
-    json profiles = json::array();
-    for (const json& profile : (*finished.front())["profiles"])
-      profiles.push_back(ensembleProfile(finished, profile));
-    ensemble.push_back({{"engine", engine},
-                        {"packings", finished.size()},
-                        {"profiles", profiles},
-                        {"fits", ensembleRows(finished, "fits")},
-                        {"head", ensembleRows(finished, "head")}});
-  }
+  for (const std::string& engine : engines)
+    if (json entry = ensembleOf(runs, engine, ""); !entry.is_null())
+      ensemble.push_back(std::move(entry));
   return ensemble;
 }
 

@@ -10,10 +10,15 @@ namespace crossgrain {
 /// number of its finished runs, with sd/√P as error.
 nlohmann::json ensembleOf(const nlohmann::json& runs, const std::vector<std::string>& engines);
 
-/// Two engines to hold against each other, and why.
+/// One entry of it, of the runs with that switched off; null without a finished one.
+nlohmann::json ensembleOf(const nlohmann::json& runs, const std::string& engine,
+                          const std::string& without);
+
+/// Two engines to hold against each other, and why; or one and itself without an effect.
 struct ComparedPair {
   std::string reference, other;
-  std::string kind;  ///< "peer" | "mirror_model" | "mirror_implementation"
+  std::string kind;     ///< "peer" | "mirror_model" | "mirror_implementation" | "effect"
+  std::string without;  ///< what is switched off in the runs of `other`
 };
 
 /// results.json's "agreement": for every pair and every field with a margin in the case the

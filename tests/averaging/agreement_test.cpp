@@ -181,6 +181,13 @@ TEST(ComparePaired, LargeDifferencesAreFound) {
   EXPECT_GT(familyRate(Verdict::disagree, 30.0, 1.0, 500), 0.99);
 }
 
+TEST(SmallestSignificant, IsTheQuantileOfTheWholeFamily) {
+  // Student's t with 3 degrees of freedom, two-sided: 5 % at 3.182, 0.5 % at 7.453 (tables).
+  EXPECT_NEAR(*smallestSignificant(2.0, 4, 1, 0.95), 2.0 * 3.182, 2e-3);
+  EXPECT_NEAR(*smallestSignificant(2.0, 4, 10, 0.95), 2.0 * 7.453, 2e-3);
+  EXPECT_FALSE(smallestSignificant(2.0, 3, 10, 0.95));
+}
+
 TEST(FieldVerdict, FollowsItsRings) {
   const auto ring = [](Verdict verdict, std::optional<int> more = {}) {
     PairedComparison c;

@@ -96,6 +96,17 @@ TEST(EffectSwitch, LeaveAllConstantsOfOtherEffectsAlone) {
   EXPECT_FALSE(off(switches, "rotation").particles.rotation);
 }
 
+TEST(EffectSwitch, BlockedRotationDropsThePackingsSpins) {
+  const Case base = thesisCase();
+  Packing packing;
+  packing.disks.radius = packing.disks.mass = packing.disks.inertia = {1.0};
+  packing.disks.position = packing.disks.velocity = {Vec2::Zero()};
+  packing.disks.spin = {7.0};
+  EXPECT_EQ(couetteScene(base, packing, 1e-5).disks.spin, std::vector<double>{7.0});
+  const auto blocked = without(base, Effect::rotation);
+  EXPECT_EQ(couetteScene(blocked->without, packing, 1e-5).disks.spin, std::vector<double>{0.0});
+}
+
 TEST(EffectSwitch, GoDownTheLadderOfTangentialLaws) {
   Case setup = thesisCase();
   setup.law.gt = 0.0;

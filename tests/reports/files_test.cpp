@@ -97,7 +97,8 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
   const auto message = [&] {
     return messageOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
   };
-  EXPECT_EQ(message(), file + ": cannot be read; a folder that compare or collide wrote has it");
+  EXPECT_EQ(message(),
+            file + ": cannot be read; a folder that compare, collide or effects wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");
@@ -106,8 +107,8 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
                            "\"crossgrain-results-1\"");
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
   EXPECT_EQ(message(), file +
-                           ": has kind \"dance\", a report is made of \"compare\" or "
-                           "\"collide\"");
+                           ": has kind \"dance\", a report is made of \"compare\", "
+                           "\"collide\" or \"effects\"");
 }
 
 }  // namespace

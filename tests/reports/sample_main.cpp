@@ -11,5 +11,6 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::compareResults(4, 2921), dir / "compare");
   crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
+  crossgrain::writeReport(crossgrain::sample::effectsResults(4), dir / "effects");
   std::printf("%s\n", dir.c_str());
 }

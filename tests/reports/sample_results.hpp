@@ -13,6 +13,10 @@ nlohmann::json compareResults(int packings, int disks);
 /// Two laws, several time steps, a sweep without points.
 nlohmann::json collideResults();
 
+/// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
+/// and which refuses a third switch.
+nlohmann::json effectsResults(int packings);
+
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";
 

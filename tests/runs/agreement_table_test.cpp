@@ -52,11 +52,11 @@ TEST(AgreementTable, PairsPackingsByTheirIndex) {
   for (const int packing : {0, 1, 2, 3})
     runs.push_back(runOf("b", packing, "f", 10.0 * packing + 1.0));
   const json table =
-      agreementOf(withMargin("f", {1.5, false, "because"}), runs, {{"a", "b", "peer"}});
+      agreementOf(withMargin("f", {1.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "agree");
   EXPECT_NEAR(ringOf(table)["difference"].get<double>(), 1.0, 1e-12);
   const json strict =
-      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer"}});
+      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(strict[0]["verdict"], "disagree");
 }
 
@@ -69,7 +69,7 @@ TEST(AgreementTable, RelativeMarginsAreTestedOnRatios) {
     runs.push_back(runOf("b", packing, "stress_rr", pressure * (1.1 + 0.001 * packing)));
   }
   const json table =
-      agreementOf(withMargin("stress_rr", {0.25, true, "because"}), runs, {{"a", "b", "peer"}});
+      agreementOf(withMargin("stress_rr", {0.25, true, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "agree");
   EXPECT_EQ(ringOf(table)["scale"], "logarithmic");
   // In the field's unit: 10 % of the mean 375, and the margin 25 % of it.
@@ -84,7 +84,7 @@ TEST(AgreementTable, RelativeMarginsOfASignChangingFieldAreLinear) {
     runs.push_back(runOf("b", packing, "spin", packing - 0.9));
   }
   const json table =
-      agreementOf(withMargin("spin", {0.25, true, "because"}), runs, {{"a", "b", "peer"}});
+      agreementOf(withMargin("spin", {0.25, true, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(ringOf(table)["scale"], "linear");
 }
 
@@ -95,7 +95,7 @@ TEST(AgreementTable, ThreePackingsDecideNothing) {
     runs.push_back(runOf("b", packing, "f", 9.0 + packing));
   }
   const json table =
-      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer"}});
+      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "undecided");
 }
 

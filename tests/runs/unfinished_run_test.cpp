@@ -57,7 +57,10 @@ class UnfinishedRuns : public testing::Test {
     run.keep(*engine_, 0.05);
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / "unfinished";
+  /// Of this test alone: others may run at the same time.
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("unfinished-") + testing::UnitTest::GetInstance()->current_test_info()->name());
   const Scene scene_ = bouncing();
   std::unique_ptr<Engine> engine_ = makeGrain(), later_ = makeGrain();
 };

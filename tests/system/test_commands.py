@@ -35,7 +35,7 @@ class Help(SystemTest):
         return re.findall(r"(?m)^  (\S+) +\S", section)
 
     def test_lists_the_commands_and_exit_statuses(self):
-        expected = {"engines", "check", "collide", "compare", "report"}
+        expected = {"engines", "check", "collide", "compare", "effects", "report"}
         self.assertLessEqual(expected, set(self.commands()))
         self.assertIn("Exit status: 0 ", self.run_program("--help").stdout)
 
@@ -101,6 +101,13 @@ class Check(SystemTest):
         # 1.25 rotations of 2π s in steps of 4e-5 s.
         self.assertRegex(done.stdout, r"per packing: 196350 steps[\s\S]*grain +can run it")
         self.assertRegex(done.stdout, r"differs: has \w+")
+        self.assertRegex(done.stdout, r"(?m)^  effects called for: .*rotation.*; left out: gravity$")
+
+    def test_a_case_that_blocks_rotation(self):
+        done = self.check(COUETTE, *settings(particles__rotation="false"), engines="grain")
+        self.assertRegex(
+            done.stdout, r"(?m)^  effects called for: .*friction.*; left out: rotation, .*gravity$"
+        )
 
     def test_collision_with_variants(self):
         done = self.check(COLLISION)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
@@ -87,8 +88,11 @@ TEST(Suitability, AnEngineThatCannotSpinDisksBlocksThem) {
   Capabilities can;
   for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
   can.effects[Effect::rotation] = Support::never;
-  const Adapted adapted = adaptScene(can, oneDisk(), {"rotation"});
+  Scene scene = oneDisk();
+  scene.disks.spin = {3.0};
+  const Adapted adapted = adaptScene(can, scene, {"rotation"});
   EXPECT_FALSE(adapted.scene.rotation);
+  EXPECT_EQ(adapted.scene.disks.spin, std::vector<double>{0.0});
   EXPECT_TRUE(effectsOf(adapted.scene).contains(Effect::friction));
   EXPECT_FALSE(effectsOf(adapted.scene).contains(Effect::rotation));
 }
@@ -108,6 +112,60 @@ TEST(Suitability, AnEngineRunsInItsOwnPrecisionAndSaysWhereThatWasNotAskedFor) {
   can.precisions = {Precision::float64, Precision::float32};
   EXPECT_EQ(adaptScene(can, scene, {}).scene.precision, Precision::float32);
   EXPECT_TRUE(adaptScene(can, scene, {}).deviations.empty());
+}
+
+/// Two disks that are about to graze each other.
+Scene grazing() {
+  Scene scene = oneDisk();
+  for (auto* values : {&scene.disks.radius, &scene.disks.mass, &scene.disks.inertia})
+    values->push_back(values->front());
+  scene.disks.spin = {0.0, 0.0};
+  scene.disks.position = {{-1.0, 0.0}, {1.0, 0.5}};
+  scene.disks.velocity = {{1.0, 0.0}, {-1.0, 0.0}};
+  return scene;
+}
+
+Snapshot after(Engine& engine, const Scene& scene, const Settings& settings = {}) {
+  engine.load(scene, settings);
+  engine.advance(0.5);
+  return engine.snapshot(ContactReport::none);
+}
+
+TEST(GrainAdapter, BlockedDisksRubAndDoNotSpin) {
+  Scene scene = grazing();
+  const auto engine = makeGrain();
+  const Snapshot free = after(*engine, scene);
+  EXPECT_GT(std::abs(free.spin->at(0)), 0.1);
+  scene.rotation = false;
+  EXPECT_EQ(engine->load(scene, {}).effects,
+            (Effects{Effect::normalDamping, Effect::friction, Effect::tangentialSpring,
+                     Effect::tangentialDamping}));
+  const Snapshot blocked = after(*engine, scene);
+  EXPECT_EQ(*blocked.spin, (std::vector<double>{0.0, 0.0}));
+  EXPECT_GT((blocked.velocity[0] - free.velocity[0]).norm(), 0.01);
+}
+
+TEST(GrainAdapter, StepsInTheScenesPrecision) {
+  Scene scene = grazing();
+  const auto engine = makeGrain();
+  EXPECT_EQ(engine->load(scene, {}).precision, "double");
+  const Snapshot exact = after(*engine, scene);
+  scene.precision = Precision::float32;
+  EXPECT_EQ(engine->load(scene, {}).precision, "float");
+  const Snapshot rounded = after(*engine, scene);
+  // float32 holds seven digits; 500 steps add their roundings.
+  EXPECT_NEAR((rounded.position[0] - exact.position[0]).norm(), 0.0, 1e-4);
+  EXPECT_NE(rounded.velocity[0].x(), exact.velocity[0].x());
+}
+
+TEST(GrainAdapter, ThreadsAreAWholeNumberAndChangeNoBit) {
+  const auto engine = makeGrain();
+  const Snapshot one = after(*engine, grazing());
+  const Snapshot two = after(*engine, grazing(), {{"threads", 2.0}});
+  EXPECT_EQ(one.position, two.position);
+  EXPECT_EQ(*one.spin, *two.spin);
+  for (const double threads : {0.0, 1.5, -1.0, 1e6})
+    EXPECT_THROW(engine->load(grazing(), {{"threads", threads}}), std::invalid_argument);
 }
 
 TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/effect_legs.hpp"
+
+/// Legs of a study of effects in words.
+namespace crossgrain::reports {
+
+/// "takes 12.1 ± 0.4 % of a step"
+std::string costInWords(const EffectLeg& leg);
+
+/// "without it azimuthal velocity (−34 ± 5 %, ring 3) changes", or from where on this run could
+/// have seen a change; empty where there are too few packings to tell.
+std::string changesInWords(const EffectLeg& leg);
+
+/// The table of one engine: effects by what they cost, contacts, and each field that is judged.
+Json effectTable(const Json& results, const std::string& engine);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/packing.hpp"
+#include "runs/engine_access.hpp"
+#include "runs/options.hpp"
+#include "runs/progress.hpp"
+#include "runs/run_store.hpp"
+
+namespace crossgrain {
+
+/// One engine on every packing, with the case as it is or with something switched off.
+struct Leg {
+  std::size_t engine;   ///< index into Campaign::engines()
+  std::string without;  ///< what is switched off, empty: nothing; "without" of its runs
+  const Case* setup;
+};
+
+/// Engines on the packings of one Couette case, side by side where `jobs` allows. Every finished
+/// run is kept in out/runs at once; a failed one ends by itself and is reported.
+///
+///   askEngines ── preparePackings ── timeEngines ── run ── results
+class Campaign {
+ public:
+  /// @throws BadInput for a packing file without a time step; what RunStore throws
+  Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines);
+
+  /// Asks every engine, before anything is computed, whether it can run the case.
+  /// @throws UnsupportedScene of an engine named that cannot
+  void askEngines();
+  /// @throws BadInput
+  void preparePackings();
+  /// Times some steps of every engine on the first packing, so that the longest runs start first.
+  void timeEngines();
+  /// Every engine with the case as it is.
+  std::vector<Leg> wholeCase() const;
+  void run(const std::vector<Leg>& legs);
+
+  /// results.json as far as it does not depend on what the runs are for: head, cell, averaging,
+  /// effects, engines, rings, packings, runs, notes, elapsed_s.
+  nlohmann::json results(const std::string& kind) const;
+
+  const std::vector<EngineEntry>& engines() const { return engines_; }
+  /// Why an engine does not take part, empty if it does.
+  const std::string& refusal(std::size_t engine) const { return refusals_[engine]; }
+  /// What timeEngines() found; absent where the engine failed.
+  const std::optional<Capabilities>& capabilities(std::size_t engine) const { return can_[engine]; }
+  const std::optional<Realised>& realised(std::size_t engine) const { return realised_[engine]; }
+  const std::vector<Packing>& packings() const { return packings_; }
+  double dt() const { return dt_; }  ///< the case's [s]
+  const RunStore& store() const { return store_; }
+  Progress& progress() { return progress_; }
+
+  /// Everything that a result of this engine on this packing depends on.
+  std::string keyOf(std::size_t engine, int packing, const std::string& without) const;
+
+ private:
+  /// A file is one packing, however many a case would prepare.
+  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
+  void runOne(const Leg& leg, int packing, std::size_t task);
+  nlohmann::json enginesJson() const;
+
+  const Case& setup_;
+  const RunCommand& command_;
+  std::vector<EngineEntry> engines_;
+  double dt_;
+  RunStore store_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  std::vector<double> predicted_;  ///< seconds of one run, per engine
+  std::vector<std::string> versions_, refusals_;
+  std::vector<std::optional<Capabilities>> can_;
+  std::vector<std::optional<Realised>> realised_;
+  std::vector<Packing> packings_;
+  std::vector<nlohmann::json> runs_;  ///< leg by leg, packing by packing
+};
+
+/// Does the work. @throws Interrupted saying that --resume takes up what is finished
+void resumably(const std::function<void()>& work);
+
+}  // namespace crossgrain

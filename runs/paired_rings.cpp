@@ -1,0 +1,69 @@
+#include "runs/paired_rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runs/records.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+std::vector<const json*> finishedRuns(const json& runs, const std::string& engine,
+                                      const std::string& without) {
+  std::vector<const json*> found;
+  for (const json& run : runs)
+    if (run["engine"] == engine && run["status"] == "finished" &&
+        run.value("without", "") == without)
+      found.push_back(&run);
+  std::ranges::sort(found, {}, [](const json* run) { return (*run)["packing"].get<int>(); });
+  return found;
+}
+
+std::size_t packingsOf(const json& runs) {
+  std::size_t packings = 0;
+  for (const json& run : runs) packings = std::max(packings, run["packing"].get<std::size_t>() + 1);
+  return packings;
+}
+
+const json* profileOf(const json& run, const json& method, const std::string& field) {
+  for (const json& profile : run["profiles"])
+    if (profile["field"] == field && profile["method"] == method) return &profile;
+  return nullptr;
+}
+
+std::vector<Numbers> fieldByRing(const std::vector<const json*>& runs, const json& method,
+                                 const std::string& field, std::size_t packings, const char* what) {
+  std::vector<Numbers> rings;
+  for (const json* run : runs) {
+    const json* profile = profileOf(*run, method, field);
+    if (!profile) continue;
+    const Numbers mean = optionalNumbers((*profile)[what]);
+    rings.resize(std::max(rings.size(), mean.size()), Numbers(packings));
+    for (std::size_t ring = 0; ring < mean.size(); ++ring)
+      rings[ring][(*run)["packing"].get<std::size_t>()] = mean[ring];
+  }
+  return rings;
+}
+
+TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numbers& other) {
+  const auto mean = ensembleMean(reference);
+  TestedRing ring;
+  ring.reference = mean ? std::abs(mean->mean) : 0.0;
+  ring.sample = {reference, other, margin.relative ? margin.value * ring.reference : margin.value};
+  const auto positive = [](const std::optional<double>& value) { return !value || *value > 0.0; };
+  ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, positive) &&
+                     std::ranges::all_of(other, positive);
+  if (!ring.logarithmic) return ring;
+  for (auto* values : {&ring.sample.reference, &ring.sample.other})
+    for (auto& value : *values)
+      if (value) value = std::log(*value);
+  ring.sample.margin = std::log1p(margin.value);
+  return ring;
+}
+
+double inUnit(const TestedRing& ring, double value) {
+  return ring.logarithmic ? ring.reference * std::expm1(value) : value;
+}
+
+}  // namespace crossgrain

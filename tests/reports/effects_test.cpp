@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "cases/files.hpp"
+#include "reports/csv.hpp"
+#include "reports/effect_legs.hpp"
+#include "reports/figures.hpp"
+#include "reports/report.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+bool has(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
+
+std::string lineOf(const std::string& table, std::size_t line) {
+  std::size_t begin = 0;
+  for (; line > 0; --line) begin = table.find('\n', begin) + 1;
+  return table.substr(begin, table.find('\n', begin) - begin);
+}
+
+TEST(EffectsCsv, BeginsWithTheContractsColumns) {
+  EXPECT_EQ(lineOf(effectsCsv(sample::effectsResults(4)), 0),
+            "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
+            "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,"
+            "step_s,contacts_per_step,precision,status,reason");
+}
+
+TEST(EffectsCsv, HasARowPerRingOfEachFieldWithoutEachEffect) {
+  const std::string table = effectsCsv(sample::effectsResults(4));
+  EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 2 * 3 + 1);
+  EXPECT_EQ(lineOf(table, 2),
+            "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,yes,1e-05,0.001,"
+            "0.05,4,packings,0.01,2.5e-06,45,double,ran,");
+}
+
+TEST(EffectsCsv, WhatWasRefusedIsOneRowWithItsReason) {
+  const std::string last = lineOf(effectsCsv(sample::effectsResults(4)), 13);
+  EXPECT_TRUE(last.starts_with("grain,tension_cut,,,,,,,,,,,,,,,,,,,refused,\"odd")) << last;
+}
+
+TEST(EffectsCsv, WhatCannotBeToldIsEmpty) {
+  EXPECT_EQ(lineOf(effectsCsv(sample::effectsResults(1)), 2),
+            "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,,,,,1,within_run,"
+            "0.01,2.5e-06,45,double,ran,");
+}
+
+TEST(EffectLegs, TellTheRingThatSaysMostAsAShareOfTheProfilesLargestValue) {
+  const auto legs = effectLegs(sample::effectsResults(4));
+  ASSERT_EQ(legs.size(), 3u);
+  const FieldChange& velocity = *legs[0].of("azimuthal_velocity");
+  EXPECT_EQ(velocity.ring, 1u);
+  EXPECT_NEAR(velocity.change, -0.2, 1e-12);  // −0.004 of 0.02
+  EXPECT_NEAR(*velocity.error, 0.01, 1e-12);
+  EXPECT_NEAR(*velocity.inErrors, 20.0, 1e-9);
+  EXPECT_EQ(velocity.detected, true);
+  EXPECT_EQ(legs[0].of("volume_fraction")->detected, false);
+  EXPECT_NEAR(*legs[0].saved, 0.5, 1e-12);
+  EXPECT_FALSE(legs[2].ran());
+}
+
+TEST(EffectLegs, AreRunsOfTheirOwn) {
+  const Json results = sample::effectsResults(4);
+  EXPECT_EQ(engineResults(results).front().runs.size(), 4u);  // with everything on
+  const auto legs = legResults(results, "grain");
+  ASSERT_EQ(legs.size(), 4u);
+  EXPECT_EQ(legs[1].name, "without friction");
+  EXPECT_EQ(legs[1].finished.size(), 4u);
+  EXPECT_EQ(text(*legs[1].ensemble, "without"), "friction");
+  EXPECT_EQ(legs[3].name, "tension cut off");
+  EXPECT_TRUE(legs[3].runs.empty());
+}
+
+TEST(EffectFigures, MarkWhatIsToldApartByShapeToo) {
+  const auto figures = effectFigures(sample::effectsResults(4));
+  ASSERT_EQ(figures.front().name, "effects_1_cost");
+  const Panel& cost = figures.front().panels[0];
+  EXPECT_EQ(cost.rows, (std::vector<std::string>{"friction", "bottom friction"}));
+  EXPECT_NEAR(cost.curves[0].points[0].x, 50.0, 1e-9);
+  EXPECT_NEAR(cost.curves[0].points[1].x, 0.5, 1e-9);
+  const Panel& velocity = figures.front().panels[1];
+  ASSERT_EQ(velocity.curves.size(), 2u);
+  EXPECT_EQ(velocity.curves[0].style.pointType, 8);   // up, open: bottom friction
+  EXPECT_EQ(velocity.curves[1].style.pointType, 11);  // down, filled: friction
+  EXPECT_NEAR(velocity.curves[1].points[0].x, 20.0, 1e-9);
+  EXPECT_EQ(velocity.curves[1].points[0].y, 0.0);
+}
+
+TEST(EffectFigures, ProfilesNameWhatChangesThem) {
+  for (const Figure& figure : effectFigures(sample::effectsResults(4))) {
+    if (figure.name != "effects_1_profile_azimuthal_velocity") continue;
+    std::vector<std::string> names;
+    for (const Curve& curve : figure.panels[0].curves) names.push_back(curve.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"", "everything on", "without friction"}));
+    return;
+  }
+  FAIL() << "no profile of the velocity";
+}
+
+TEST(EffectsPage, SaysInASentenceWhatEachEffectCostsAndChanges) {
+  const TemporaryFolder folder;
+  writeReport(sample::effectsResults(4), folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page,
+                  "On grain, 1 of 2 effects of this scene changes a profile detectably; the "
+                  "dearest is friction, 50 % of a step."));
+  EXPECT_TRUE(
+      has(page,
+          "Friction takes 50.0\u00a0±\u00a01.0 % of a step (without it there are 45 contacts "
+          "instead of 424); without it azimuthal velocity (−20.0\u00a0±\u00a01.0 %, ring 2) "
+          "changes."));
+  EXPECT_TRUE(has(page,
+                  "Bottom friction costs nothing measurable (+0.5\u00a0±\u00a01.0 % of a step); no "
+                  "change detected; the smallest that this run could see, field by field: 5 % "
+                  "(azimuthal velocity)"))
+      << page.substr(page.find("Bottom friction"), 300);
+  EXPECT_TRUE(has(page, "Tension: refused: odd &lt;b&gt;"));
+  EXPECT_TRUE(has(page, "▼ −20.0\u00a0±\u00a01.0 %</b>"));
+  EXPECT_TRUE(has(page, "No &lt;tangential&gt; force."));
+  for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script"})
+    EXPECT_FALSE(has(page, bad)) << bad;
+}
+
+TEST(EffectsPage, OfFewPackingsSaysThatItCannotTell) {
+  const TemporaryFolder folder;
+  writeReport(sample::effectsResults(1), folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "Fewer than 4 packings: what an effect changes cannot be told"));
+  EXPECT_TRUE(has(page, "On grain, of 2 effects of this scene the dearest is friction, 50 %"));
+  EXPECT_FALSE(has(page, "no change detected"));
+  EXPECT_TRUE(has(page, "within the two runs of one packing"));
+}
+
+TEST(EffectsPage, OfSeveralEnginesHasASentenceOnEachAndAStudyOfEach) {
+  Json results = sample::effectsResults(4);
+  Json second = results["engines"][0];
+  second["name"] = "other";
+  results["engines"].push_back(second);
+  for (const char* rows : {"legs", "runs", "ensemble"})
+    for (Json row : Json(results[rows])) {
+      row["engine"] = "other";
+      results[rows].push_back(row);
+    }
+  const TemporaryFolder folder;
+  writeReport(results, folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "<li>On other, 1 of 2 effects"));
+  EXPECT_TRUE(has(page, "<h2 id=\"effects-2\">What each effect costs and changes: other</h2>"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots/effects_2_cost.svg"));
+}
+
+TEST(EffectsReport, PlotsAndTableStandBesideThePage) {
+  const TemporaryFolder folder;
+  writeReport(sample::effectsResults(4), folder.path());
+  for (const char* file : {"results.json", "effects.csv", "plots/effects_1_cost.svg",
+                           "plots/effects_1_profile_volume_fraction.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "profiles.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "plots" / "gnuplot.log"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports
