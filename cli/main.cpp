@@ -10,6 +10,7 @@
 #include "adapters/engine.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/nearest.hpp"
+#include "cli/calibrate.hpp"
 #include "cli/commands.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/version.hpp"
@@ -107,6 +108,15 @@ int run(int argc, char** argv) {
   addRun(*switching, line);
   addPackings(*switching, line, seed);
 
+  CalibrationRequest calibration;
+  CLI::App* calibrations = addCommand(
+      app, "calibrate", "law constants from wanted restitution and contact time, and back",
+      "crossgrain calibrate --en 0.9 --et 0.5 --tc 1e-3 --mass 1e-3 --radius 5e-3 --mu 0.4\n"
+      "  crossgrain calibrate --kn 352.1 --gn 0.19 --kt 267.1 --gt 0.15 --mu 0.44 --mass 0.275e-3 "
+      "--radius 3.7e-3\n"
+      "  crossgrain calibrate cases/couette/quick.toml");
+  addCalibrationOptions(*calibrations, line, calibration);
+
   CLI::App* report =
       addCommand(app, "report", "rebuild reports from results.json", "crossgrain report out");
   report->add_option("folder", line.inputs, "folders that hold a results.json")->required();
@@ -117,8 +127,8 @@ int run(int argc, char** argv) {
   serve->add_option("engine", served)->required();
 
   // CLI11 would only say that some subcommand is required.
-  const std::vector<std::string> names = {"engines", "check",   "collide",
-                                          "compare", "effects", "report"};
+  const std::vector<std::string> names = {"engines", "check",     "collide", "compare",
+                                          "effects", "calibrate", "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
@@ -137,6 +147,7 @@ int run(int argc, char** argv) {
   if (collisions->parsed()) return collide(line);
   if (comparison->parsed()) return compare(line);
   if (switching->parsed()) return effects(line);
+  if (calibrations->parsed()) return calibrate(line, calibration);
   if (report->parsed()) return rebuildReports(line);
   return serveEngine(served);
 }

@@ -1,0 +1,243 @@
+#include "cli/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adapters/law_options.hpp"
+#include "cases/bad_input.hpp"
+#include "cases/loader.hpp"
+#include "cases/nearest.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// An option of one number, and what it may be.
+struct Number {
+  const char* option;
+  std::optional<double> CalibrationRequest::*member;
+  const char* what;
+  const char* range;
+  bool (*allowed)(double);
+};
+
+bool isPositive(double x) {
+  return x > 0.0 && std::isfinite(x);
+}
+bool isNotNegative(double x) {
+  return x >= 0.0 && std::isfinite(x);
+}
+
+using Request = CalibrationRequest;
+const std::vector<Number> wantedValues = {
+    {"--en", &Request::en, "wanted: normal restitution e_n", "> 0 and <= 1",
+     [](double x) { return x > 0.0 && x <= 1.0; }},
+    {"--et", &Request::et0, "wanted: tangential restitution e_t0 of a contact that never slips",
+     "> -1 and <= 1", [](double x) { return x > -1.0 && x <= 1.0; }},
+    {"--tc", &Request::contactTime, "wanted: contact time [s]", "> 0 s", isPositive},
+};
+const std::vector<Number> constants = {
+    {"--kn", &Request::kn, "given: normal stiffness [N/m]", "> 0 N/m", isPositive},
+    {"--gn", &Request::gn, "given: normal damping [kg/s]", ">= 0 kg/s", isNotNegative},
+    {"--kt", &Request::kt, "given: tangential stiffness [N/m]", ">= 0 N/m", isNotNegative},
+    {"--gt", &Request::gt, "given: tangential damping [kg/s]", ">= 0 kg/s", isNotNegative},
+};
+const std::vector<Number> bodies = {
+    {"--mass", &Request::mass, "mass of the first body [kg]", "> 0 kg", isPositive},
+    {"--mass2", &Request::mass2, "of the second [kg]; inf: a wall (default: as the first)",
+     "> 0 kg, or inf for a wall", [](double x) { return x > 0.0; }},
+    {"--radius", &Request::radius, "radius of the first body [m]", "> 0 m", isPositive},
+    {"--radius2", &Request::radius2, "of the second [m] (default: as the first)", "> 0 m",
+     isPositive},
+    {"--inertia-factor", &Request::inertiaFactor, "q in J = q m a^2 (default: 0.5, a disk)",
+     "> 0 and <= 1", [](double x) { return x > 0.0 && x <= 1.0; }},
+};
+const std::vector<Number> furtherNumbers = {
+    {"--mu", &Request::mu, "Coulomb's coefficient", "> 0", isPositive},
+    {"--vn", &Request::vn, "speed of an impact, for its overlap [m/s]", "> 0 m/s", isPositive},
+};
+
+const Number* firstGiven(const Request& request, const std::vector<Number>& numbers) {
+  const auto found = std::ranges::find_if(
+      numbers, [&](const Number& number) { return (request.*number.member).has_value(); });
+  return found == numbers.end() ? nullptr : &*found;
+}
+
+void checkRanges(const Request& request) {
+  for (const auto* numbers : {&wantedValues, &constants, &bodies, &furtherNumbers})
+    for (const Number& number : *numbers)
+      if (const auto value = request.*number.member; value && !number.allowed(*value))
+        throw BadInput(fmt::format("{} = {}: must be {}", number.option, *value, number.range));
+}
+
+double need(std::optional<double> value, const char* option, const char* why) {
+  if (!value) throw BadInput(fmt::format("{} is missing: {}", option, why));
+  return *value;
+}
+
+CollidingPair askedPair(const Request& request) {
+  const double mass = need(request.mass, "--mass", "constants are for a pair of bodies [kg]");
+  const double radius = need(request.radius, "--radius", "constants are for a pair of bodies [m]");
+  CollidingPair pair{
+      {radius, request.radius2.value_or(radius)}, {mass, request.mass2.value_or(mass)}, {}};
+  for (const int k : {0, 1})
+    pair.inertia[k] =
+        request.inertiaFactor.value_or(0.5) * pair.mass[k] * pair.radius[k] * pair.radius[k];
+  return pair;
+}
+
+std::string describe(const CollidingPair& pair, const Request& request) {
+  return fmt::format("masses {} and {} kg, radii {} and {} m, J = {} m a²", pair.mass[0],
+                     pair.mass[1], pair.radius[0], pair.radius[1],
+                     request.inertiaFactor.value_or(0.5));
+}
+
+void setOption(ContactLaw& law, const char* option, const std::string& value,
+               const std::vector<std::string>& values) {
+  if (std::ranges::find(values, value) == values.end())
+    throw BadInput(fmt::format("--{} = {}{}", option, value, suggestion(value, values)));
+  setLawOption(law, option, value);
+}
+
+ContactLaw startOfLaw(const Request& request) {
+  ContactLaw law;
+  law.mu = request.mu.value_or(0.0);
+  if (request.tension) setOption(law, "tension", *request.tension, {"allow", "cut"});
+  return law;
+}
+
+int fromWanted(const Request& request) {
+  const CollidingPair pair = askedPair(request);
+  const double en = need(request.en, "--en", "the normal restitution wanted");
+  const double time = need(request.contactTime, "--tc", "the contact time wanted [s]");
+  ContactLaw law = startOfLaw(request);
+  setOption(law, "tangential", request.tangential.value_or("spring_dashpot"),
+            {"spring", "spring_dashpot"});
+  std::string asked = fmt::format("e_n = {}, t_c = {} s", en, time);
+  const ReducedPair two = reduced(pair);
+  calibrateNormal(law, en, time, two.mass);
+  if (!std::isnormal(law.kn)) throw BadInput(fmt::format("--tc = {}: no kn fits it", time));
+  if (request.et0) {
+    calibrateTangential(law, *request.et0, two);
+    asked += fmt::format(", e_t0 = {}", *request.et0);
+  } else {
+    if (request.mu || request.tangential)
+      throw BadInput("--et is missing: a law with friction has a tangential restitution");
+    law.tangential = TangentialLaw::none;
+  }
+  printLaw(law, fmt::format("{}; {}", asked, describe(pair, request)));
+  printImpact(law, pair, request.vn);
+  return exitHeld;
+}
+
+TangentialLaw tangentialLaw(const ContactLaw& law) {
+  if (law.kt > 0.0) return law.gt > 0.0 ? TangentialLaw::springDashpot : TangentialLaw::spring;
+  if (law.gt > 0.0) return TangentialLaw::viscous;
+  return law.mu > 0.0 ? TangentialLaw::coulomb : TangentialLaw::none;
+}
+
+int fromConstants(const Request& request) {
+  if (request.tangential) throw BadInput("--tangential: --kt and --gt already say which law it is");
+  const CollidingPair pair = askedPair(request);
+  ContactLaw law = startOfLaw(request);
+  law.kn = need(request.kn, "--kn", "the normal stiffness [N/m]");
+  law.gn = need(request.gn, "--gn", "an undamped law says 0 [kg/s]");
+  law.kt = request.kt.value_or(0.0);
+  law.gt = request.gt.value_or(0.0);
+  law.tangential = tangentialLaw(law);
+  const double critical = 2.0 * std::sqrt(law.kn * reduced(pair).mass);
+  if (!(law.gn < critical))
+    throw BadInput(
+        fmt::format("--gn = {}: must be < {:.6g} kg/s, critical for this pair", law.gn, critical));
+  printLaw(law, fmt::format("these constants; {}", describe(pair, request)));
+  printImpact(law, pair, request.vn);
+  return exitHeld;
+}
+
+CollidingPair disksOf(const Case& setup, double radiusI, double massI, double radiusJ,
+                      double massJ) {
+  const double q = setup.kind == CaseKind::collision ? setup.collision.inertiaFactor
+                                                     : setup.particles.inertiaFactor;
+  return {{radiusI, radiusJ},
+          {massI, massJ},
+          {q * massI * radiusI * radiusI, q * massJ * radiusJ * radiusJ}};
+}
+
+std::vector<NamedPair> pairsOf(const Case& setup) {
+  if (setup.kind == CaseKind::collision) {
+    const Collision& two = setup.collision;
+    return {{"i-j", disksOf(setup, two.radius[0], two.mass[0], two.radius[1], two.mass[1])}};
+  }
+  const Particles& p = setup.particles;
+  struct Kind {
+    const char* name;
+    double radius, mass;
+  };
+  std::vector<Kind> kinds;
+  if (p.small > 0 || p.file) kinds.push_back({"small", p.smallRadius, p.smallMass});
+  if (p.large > 0 || p.file) kinds.push_back({"large", p.largeRadius, p.largeMass});
+  const std::size_t disks = kinds.size();
+  kinds.push_back({"wall", setup.cell.wallRadius, std::numeric_limits<double>::infinity()});
+  std::vector<NamedPair> pairs;
+  for (std::size_t i = 0; i < disks; ++i)
+    for (std::size_t j = i; j < kinds.size(); ++j)
+      pairs.push_back(
+          {fmt::format("{}-{}", kinds[i].name, kinds[j].name),
+           disksOf(setup, kinds[i].radius, kinds[i].mass, kinds[j].radius, kinds[j].mass)});
+  return pairs;
+}
+
+int fromCase(const CommandLine& line, const Request& request) {
+  for (const auto* numbers : {&bodies, &furtherNumbers})
+    if (const Number* given = firstGiven(request, *numbers); given && given->member != &Request::vn)
+      throw BadInput(fmt::format("{}: the case file says it", given->option));
+  if (request.tension || request.tangential)
+    throw BadInput("--tension and --tangential: the case file says it; --set changes it");
+  const auto& file = line.inputs.front();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
+  for (const Case& setup : cases)
+    if (setup.law.normal == NormalLaw::rigid)
+      throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",
+                                 file.string()));
+  for (const Case& setup : cases) {
+    if (cases.size() > 1) fmt::print("# variant {}\n", setup.variant);
+    printLaw(setup.law, file.filename().string());
+    printPairs(setup.law, pairsOf(setup), request.vn);
+    if (&setup != &cases.back()) fmt::print("\n");
+  }
+  return exitHeld;
+}
+
+}  // namespace
+
+void addCalibrationOptions(CLI::App& command, CommandLine& line, Request& request) {
+  command.add_option("case", line.inputs, "case file: what its law means for each pair")
+      ->expected(0, 1);
+  command.add_option("--set", line.overrides, "key=value: changes the case, e.g. law.gn=0.1")
+      ->allow_extra_args(false);
+  for (const auto* numbers : {&wantedValues, &constants, &bodies, &furtherNumbers})
+    for (const Number& number : *numbers)
+      command.add_option(number.option, request.*number.member, number.what);
+  command.add_option("--tension", request.tension, "allow (default) or cut");
+  command.add_option("--tangential", request.tangential,
+                     "wanted: spring, or spring_dashpot (default)");
+}
+
+int calibrate(const CommandLine& line, const Request& request) {
+  checkRanges(request);
+  const Number* wanted = firstGiven(request, wantedValues);
+  const Number* constant = firstGiven(request, constants);
+  const bool ofCase = !line.inputs.empty();
+  if ((wanted != nullptr) + (constant != nullptr) + ofCase != 1)
+    throw BadInput(
+        "calibrate takes one of: wanted values (--en, --et, --tc), constants (--kn, --gn, --kt, "
+        "--gt), a case file; see crossgrain calibrate --help");
+  if (ofCase) return fromCase(line, request);
+  if (!line.overrides.empty()) throw BadInput("--set changes a case file, and there is none");
+  return wanted ? fromWanted(request) : fromConstants(request);
+}
+
+}  // namespace crossgrain

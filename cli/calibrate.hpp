@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/calibration.hpp"
+#include "cli/commands.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace crossgrain {
+
+/// What `crossgrain calibrate` was asked: wanted values, or constants, or a case file (which is in
+/// CommandLine::inputs), and the pair that they are for. SI units.
+struct CalibrationRequest {
+  std::optional<double> en, et0, contactTime;
+  std::optional<double> kn, gn, kt, gt;
+  std::optional<double> mass, mass2, radius, radius2, inertiaFactor;
+  std::optional<double> mu, vn;
+  std::optional<std::string> tension, tangential;
+};
+
+void addCalibrationOptions(CLI::App& command, CommandLine& line, CalibrationRequest& request);
+
+int calibrate(const CommandLine& line, const CalibrationRequest& request);
+
+/// The law as a [law] table that a case can take, every line that is not TOML a comment.
+/// @param asked what it was made from, for the head
+void printLaw(const ContactLaw& law, const std::string& asked);
+
+/// What the law means for one pair, as comments.
+/// @param vn speed of an impact, for its overlap [m/s]
+void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn);
+
+struct NamedPair {
+  std::string name;
+  CollidingPair bodies;
+};
+
+/// One row for each pair.
+void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                std::optional<double> vn);
+
+}  // namespace crossgrain

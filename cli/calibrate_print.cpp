@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "adapters/law_options.hpp"
+#include "cli/calibrate.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr double stepsPerContact = 50.0;
+constexpr double softOverlap = 0.01;  // of the smaller radius
+
+void printConstant(const char* key, double value, const char* unit) {
+  fmt::print("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
+}
+
+void note(const std::string& label, const std::string& value) {
+  fmt::print("#   {:<48} {}\n", label, value);
+}
+
+std::string number(std::optional<double> value, const char* unit = "") {
+  return value ? fmt::format("{:.6g}{}{}", *value, *unit ? " " : "", unit) : "-";
+}
+
+double smallerRadius(const CollidingPair& pair) {
+  return std::min(pair.radius[0], pair.radius[1]);
+}
+
+void warnIfSoft(double overlap) {
+  if (overlap > softOverlap)
+    fmt::print(
+        "# warning: soft: δ_max is {:.2g} of the radius; closed forms freeze the normal, and "
+        "contacts of disks are meant to be < {}\n",
+        overlap, softOverlap);
+}
+
+/// Where the table has no figure, or one may be misread.
+void printRemarks(const ContactLaw& law) {
+  if (law.tangential != TangentialLaw::none && law.gn > 0.0 &&
+      law.conventions.tension == Tension::allow &&
+      law.conventions.coulombBound != CoulombBound::compression)
+    fmt::print("# e_t0 and what follows from it are for coulomb_bound = \"compression\" only\n");
+}
+
+}  // namespace
+
+void printLaw(const ContactLaw& law, const std::string& asked) {
+  fmt::print("# {}\n[law]\nnormal = \"linear\"\n", asked);
+  for (const char* option : {"tension", "tangential", "coulomb_bound"})
+    if (mattersTo(law, option)) fmt::print("{} = \"{}\"\n", option, lawOptionValue(law, option));
+  printConstant("kn", law.kn, "N/m");
+  printConstant("gn", law.gn, "kg/s");
+  if (law.tangential == TangentialLaw::none) return;
+  if (law.mu > 0.0)
+    printConstant("mu", law.mu, "-");
+  else
+    fmt::print("# mu = …   a case needs it; not given\n");
+  if (law.kt > 0.0) printConstant("kt", law.kt, "N/m");
+  if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
+    printConstant("gt", law.gt, "kg/s");
+}
+
+void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn) {
+  const ImpliedImpact is = impliedImpact(law, pair);
+  const ReducedPair two = reduced(pair);
+  const bool cut = law.conventions.tension == Tension::cut;
+  fmt::print("\n# implied (normal frozen: slow impacts)\n");
+  note("reduced mass m12, K = 1 + m12 Σ a²/J",
+       fmt::format("{}, {}", number(two.mass, "kg"), number(two.K)));
+  note("e_n", fmt::format("{:.6g}, with tension {}: {:.6g}", cut ? is.enCut : is.enAllowed,
+                          cut ? "allowed" : "cut", cut ? is.enAllowed : is.enCut));
+  note("contact time t_c", number(is.contactTime, "s"));
+  note("suggested dt = t_c/50", number(is.contactTime / stepsPerContact, "s"));
+  if (cut) note("π/ω, which steps_per_contact counts from", number(is.halfPeriod, "s"));
+  note("ω, γ_n over critical",
+       fmt::format("{}, {}", number(is.omega, "rad/s"), number(is.dampingRatio)));
+  if (law.tangential != TangentialLaw::none) {
+    note("e_t0 without slip", number(is.et0));
+    note("ω_t, γ_t over critical",
+         fmt::format("{}, {}", number(is.omegaT, "rad/s"), number(is.dampingRatioT)));
+    note("kt/kn", number(law.kt / law.kn));
+    note("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
+    note("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
+    printRemarks(law);
+  }
+  const double radius = smallerRadius(pair);
+  note("δ_max reaches 1 % of the smaller radius at v_n",
+       number(softOverlap * radius / is.overlapPerSpeed, "m/s"));
+  if (!vn) return;
+  const double overlap = *vn * is.overlapPerSpeed;
+  note(fmt::format("δ_max, δ_max/a at v_n = {} m/s", *vn),
+       fmt::format("{}, {}", number(overlap, "m"), number(overlap / radius)));
+  warnIfSoft(overlap / radius);
+}
+
+void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                std::optional<double> vn) {
+  fmt::print(
+      "\n# implied (normal frozen: slow impacts); the constants are the same for all pairs, "
+      "so restitutions are not\n");
+  fmt::print("# {:<12} {:>11} {:>8} {:>9} {:>9} {:>11} {:>9} {:>9} {:>9} {:>11}{}\n", "pair",
+             "m12 [kg]", "K", "e_n allow", "e_n cut", "t_c [s]", "e_t0", "sliding", "Ψ*",
+             "t_c/50 [s]", vn ? fmt::format(" {:>9}", "δ_max/a") : "");
+  double largest = 0.0;
+  for (const auto& [name, bodies] : pairs) {
+    const ImpliedImpact is = impliedImpact(law, bodies);
+    const ReducedPair two = reduced(bodies);
+    const double overlap = vn.value_or(0.0) * is.overlapPerSpeed / smallerRadius(bodies);
+    largest = std::max(largest, overlap);
+    const auto cell = [](std::optional<double> value) {
+      return value ? fmt::format("{:.4f}", *value) : "-";
+    };
+    fmt::print(
+        "# {:<12} {:>11.4g} {:>8.4g} {:>9.4f} {:>9.4f} {:>11.4g} {:>9} {:>9} {:>9} {:>11.4g}{}\n",
+        name, two.mass, two.K, is.enAllowed, is.enCut, is.contactTime, cell(is.et0),
+        cell(is.slidingConstant), cell(is.stickingEndsAtPsi), is.contactTime / stepsPerContact,
+        vn ? fmt::format(" {:>9.2g}", overlap) : "");
+  }
+  printRemarks(law);
+  warnIfSoft(largest);
+}
+
+}  // namespace crossgrain
