@@ -147,6 +147,11 @@ ImpliedImpact impliedImpact(const ContactLaw& law, const CollidingPair& pair) {
     if (square > 0.0) implied.omegaT = std::sqrt(square);
     implied.dampingRatioT = etaT / std::sqrt(reducedPair.K * law.kt / mass);
   }
+  // At first touch f_n = γ_n v_n holds a trial force of γ_t v_t. A spring that carries the whole
+  // bound leaves the dashpot on top of it, so what has slipped goes on until v_t changes sign.
+  if (law.mu > 0.0 && law.tangential == TangentialLaw::springDashpot && law.gt > 0.0 &&
+      law.conventions.springReset == SpringReset::total)
+    implied.firstTouchSticksToPsi = law.mu * law.gn / law.gt;
   if (law.mu > 0.0) {
     implied.slidingConstant = slidingConstant(law, pair);
     if (*implied.et0 > -1.0)

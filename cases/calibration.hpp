@@ -53,8 +53,11 @@ struct ImpliedImpact {
   std::optional<double> et0;     ///< without slip [-]; absent without friction, and where friction
                                  ///< goes on under tension (bounds µ|f_n| and µ f_n)
   std::optional<double> omegaT;  ///< ω_t [rad/s]; absent if overdamped or no spring
-  std::optional<double> dampingRatioT;      ///< γ_t over critical; absent without a spring
-  std::optional<double> slidingConstant;    ///< Ψ_i − Ψ_f while sliding: K (1 + e_cut) µ
+  std::optional<double> dampingRatioT;          ///< γ_t over critical; absent without a spring
+  std::optional<double> slidingConstant;        ///< Ψ_i − Ψ_f while sliding: K (1 + e_cut) µ
+  std::optional<double> firstTouchSticksToPsi;  ///< µ γ_n/γ_t where spring_reset is total: from a
+                                                ///< larger |Ψ_i| on it slips until v_t = 0, and
+                                                ///< e_t0 does not hold
   std::optional<double> stickingEndsAtPsi;  ///< Ψ* = K (1 + e_cut) µ/(1 + e_t0) of Walton's law
 };
 

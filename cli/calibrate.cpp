@@ -46,7 +46,7 @@ const std::vector<Number> constants = {
     {"--gt", &Request::gt, "given: tangential damping [kg/s]", ">= 0 kg/s", isNotNegative},
 };
 const std::vector<Number> bodies = {
-    {"--mass", &Request::mass, "mass of the first body [kg]", "> 0 kg", isPositive},
+    {"--mass", &Request::mass, "mass of the first body [kg]", "> 0 kg and finite", isPositive},
     {"--mass2", &Request::mass2, "of the second [kg]; inf: a wall (default: as the first)",
      "> 0 kg, or inf for a wall", [](double x) { return x > 0.0; }},
     {"--radius", &Request::radius, "radius of the first body [m]", "> 0 m", isPositive},
@@ -86,6 +86,10 @@ CollidingPair askedPair(const Request& request) {
   for (const int k : {0, 1})
     pair.inertia[k] =
         request.inertiaFactor.value_or(0.5) * pair.mass[k] * pair.radius[k] * pair.radius[k];
+  const ReducedPair two = reduced(pair);
+  if (!std::isnormal(two.mass) || !std::isnormal(two.K))
+    throw BadInput(fmt::format("--mass = {}, --radius = {}: too small or too large to compute with",
+                               mass, radius));
   return pair;
 }
 
@@ -122,6 +126,9 @@ int fromWanted(const Request& request) {
   if (!std::isnormal(law.kn)) throw BadInput(fmt::format("--tc = {}: no kn fits it", time));
   if (request.et0) {
     calibrateTangential(law, *request.et0, two);
+    // What slips at first touch is to stick again; see ImpliedImpact::firstTouchSticksToPsi.
+    law.conventions.springReset = SpringReset::springOnly;
+    law.conventions.springUpdate = SpringUpdate::before;
     asked += fmt::format(", e_t0 = {}", *request.et0);
   } else {
     if (request.mu || request.tangential)

@@ -17,7 +17,7 @@ void printConstant(const char* key, double value, const char* unit) {
 }
 
 void note(const std::string& label, const std::string& value) {
-  fmt::print("#   {:<48} {}\n", label, value);
+  fmt::print("#   {:<50} {}\n", label, value);
 }
 
 std::string number(std::optional<double> value, const char* unit = "") {
@@ -48,7 +48,8 @@ void printRemarks(const ContactLaw& law) {
 
 void printLaw(const ContactLaw& law, const std::string& asked) {
   fmt::print("# {}\n[law]\nnormal = \"linear\"\n", asked);
-  for (const char* option : {"tension", "tangential", "coulomb_bound"})
+  for (const char* option :
+       {"tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"})
     if (mattersTo(law, option)) fmt::print("{} = \"{}\"\n", option, lawOptionValue(law, option));
   printConstant("kn", law.kn, "N/m");
   printConstant("gn", law.gn, "kg/s");
@@ -83,6 +84,8 @@ void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional
     note("kt/kn", number(law.kt / law.kn));
     note("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
     note("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
+    if (is.firstTouchSticksToPsi)
+      note("e_t0 holds up to |Ψ_i| = µ γ_n/γ_t (spring_reset)", number(is.firstTouchSticksToPsi));
     printRemarks(law);
   }
   const double radius = smallerRadius(pair);
