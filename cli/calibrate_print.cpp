@@ -36,12 +36,14 @@ void warnIfSoft(double overlap) {
         overlap, softOverlap);
 }
 
-/// Where the table has no figure, or one may be misread.
-void printRemarks(const ContactLaw& law) {
-  if (law.tangential != TangentialLaw::none && law.gn > 0.0 &&
-      law.conventions.tension == Tension::allow &&
-      law.conventions.coulombBound != CoulombBound::compression)
-    fmt::print("# e_t0 and what follows from it are for coulomb_bound = \"compression\" only\n");
+/// Where e_t0 is not known, or not all there is to know.
+void printRemarks(const ContactLaw& law, const ImpliedImpact& is) {
+  if (law.tangential != TangentialLaw::none && !is.et0)
+    fmt::print(
+        "# e_t0 and what follows from it are known for coulomb_bound = \"compression\" only\n");
+  if (is.firstTouchSticksToPsi)
+    fmt::print("# e_t0 holds up to |Ψ_i| = µ γ_n/γ_t = {:.6g} only (spring_reset = \"total\")\n",
+               *is.firstTouchSticksToPsi);
 }
 
 }  // namespace
@@ -79,18 +81,18 @@ void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional
        fmt::format("{}, {}", number(is.omega, "rad/s"), number(is.dampingRatio)));
   if (law.tangential != TangentialLaw::none) {
     note("e_t0 without slip", number(is.et0));
-    note("ω_t, γ_t over critical",
-         fmt::format("{}, {}", number(is.omegaT, "rad/s"), number(is.dampingRatioT)));
-    note("kt/kn", number(law.kt / law.kn));
+    if (law.kt > 0.0) {
+      note("ω_t, γ_t over critical",
+           fmt::format("{}, {}", number(is.omegaT, "rad/s"), number(is.dampingRatioT)));
+      note("kt/kn", number(law.kt / law.kn));
+    }
     note("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
     note("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
-    if (is.firstTouchSticksToPsi)
-      note("e_t0 holds up to |Ψ_i| = µ γ_n/γ_t (spring_reset)", number(is.firstTouchSticksToPsi));
-    printRemarks(law);
   }
   const double radius = smallerRadius(pair);
   note("δ_max reaches 1 % of the smaller radius at v_n",
        number(softOverlap * radius / is.overlapPerSpeed, "m/s"));
+  printRemarks(law, is);
   if (!vn) return;
   const double overlap = *vn * is.overlapPerSpeed;
   note(fmt::format("δ_max, δ_max/a at v_n = {} m/s", *vn),
@@ -121,7 +123,7 @@ void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
         cell(is.slidingConstant), cell(is.stickingEndsAtPsi), is.contactTime / stepsPerContact,
         vn ? fmt::format(" {:>9.2g}", overlap) : "");
   }
-  printRemarks(law);
+  printRemarks(law, impliedImpact(law, pairs.front().bodies));
   warnIfSoft(largest);
 }
 

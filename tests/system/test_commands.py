@@ -35,7 +35,7 @@ class Help(SystemTest):
         return re.findall(r"(?m)^  (\S+) +\S", section)
 
     def test_lists_the_commands_and_exit_statuses(self):
-        expected = {"engines", "check", "collide", "compare", "effects", "report"}
+        expected = {"engines", "check", "collide", "compare", "effects", "calibrate", "report"}
         self.assertLessEqual(expected, set(self.commands()))
         self.assertIn("Exit status: 0 ", self.run_program("--help").stdout)
 
