@@ -170,6 +170,7 @@ void Core<Real>::addFromHigherParts(std::size_t part) {
 template <class Array>
 void reorder(Array& array, std::span<const std::int32_t> order, std::vector<std::byte>& scratch) {
   using Element = typename Array::value_type;
+  if (order.empty()) return;
   scratch.resize(order.size() * sizeof(Element));
   std::memcpy(scratch.data(), array.data(), scratch.size());
   for (std::size_t k = 0; k < order.size(); ++k)
