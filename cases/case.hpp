@@ -9,6 +9,7 @@
 
 #include "adapters/contact_law.hpp"
 #include "adapters/engine.hpp"
+#include "cases/collision_end.hpp"
 
 namespace crossgrain {
 
@@ -70,12 +71,13 @@ struct RunOptions {
   int keepSnapshots = 20;                    ///< snapshots kept per run in HDF5
 };
 
-/// Two-body collisions: head-on approach with opposite spins that give v_t = Ψ_i v_n.
+/// Two-body collisions: disks that meet with v_t = Ψ_i v_n.
 struct Collision {
-  std::vector<double> psi;        ///< Ψ_i = v_t/|v_n| before
-  std::vector<double> vn;         ///< approach speeds [m/s]
-  double radius[2] = {0.0, 0.0};  ///< [m]
-  double mass[2] = {0.0, 0.0};    ///< [kg]
+  std::vector<double> psi;             ///< Ψ_i = v_t/|v_n| before
+  Approach approach = Approach::spin;  ///< what v_t comes from
+  std::vector<double> vn;              ///< approach speeds [m/s]
+  double radius[2] = {0.0, 0.0};       ///< [m]
+  double mass[2] = {0.0, 0.0};         ///< [kg]
   double inertiaFactor = 0.5;
   std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
   double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)

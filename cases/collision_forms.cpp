@@ -7,11 +7,18 @@
 /// Closed forms, with the normal frozen.
 namespace crossgrain {
 
-CollisionEnd rigidOutcome(double en, double et0, double mu, double inverseInertiaFactor,
-                          double psi) {
-  const double sliding = (1.0 + inverseInertiaFactor) * (1.0 + en) * mu;
-  const double magnitude = std::max(-et0 * std::abs(psi), std::abs(psi) - sliding);
-  return {en, std::copysign(1.0, psi) * magnitude};
+CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
+                          const CollisionStart& start) {
+  const double sliding = pair.tangentialCompliance() * pair.reducedMass() * (1.0 + law.en) * law.mu;
+  const double magnitude = std::max(-law.et0 * std::abs(start.psi), std::abs(start.psi) - sliding);
+  const double psi = std::copysign(1.0, start.psi) * magnitude;
+  const double impulse = (psi - start.psi) * start.vn / pair.tangentialCompliance();
+  PairMotion after = motionBefore(pair, start);
+  after.normal *= -law.en;
+  after.tangential += impulse / pair.reducedMass();
+  for (const int side : {0, 1})
+    after.spin[side] -= pair.radius[side] * impulse / pair.inertia[side];
+  return endOf(pair, start, after);
 }
 
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {
@@ -26,17 +33,13 @@ double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {
 }
 
 double slidingConstant(const ContactLaw& law, const CollidingPair& pair) {
-  const double reducedMass = 1.0 / (1.0 / pair.mass[0] + 1.0 / pair.mass[1]);
-  const double inverseInertiaFactor =
-      reducedMass * (pair.radius[0] * pair.radius[0] / pair.inertia[0] +
-                     pair.radius[1] * pair.radius[1] / pair.inertia[1]);
   double restitution = law.en;
   if (law.normal == NormalLaw::linear) {
     ContactLaw cut = law;
     cut.conventions.tension = Tension::cut;
-    restitution = restitutionOfLinearLaw(cut, reducedMass);
+    restitution = restitutionOfLinearLaw(cut, pair.reducedMass());
   }
-  return (1.0 + inverseInertiaFactor) * (1.0 + restitution) * law.mu;
+  return pair.tangentialCompliance() * pair.reducedMass() * (1.0 + restitution) * law.mu;
 }
 
 }  // namespace crossgrain

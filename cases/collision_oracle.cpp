@@ -14,7 +14,8 @@
 namespace crossgrain {
 
 int TwoBodyProblem::rightHandSide(double, const double y[], double dydt[], void* self) {
-  const State s{y[0], y[1], y[2], y[3], y[4], y[5], y[6]};
+  State s;
+  std::memcpy(&s, y, sizeof s);
   const State rate = static_cast<const TwoBodyProblem*>(self)->derivative(s);
   std::memcpy(dydt, &rate, sizeof rate);
   return GSL_SUCCESS;
@@ -31,9 +32,11 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   const std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> stepper(
       gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, dimension), &gsl_odeiv2_step_free);
 
-  const double spin = -start.psi * start.vn / reach_;
-  State now{reach_, 0.0, -start.vn, 0.0, spin, spin, 0.0};
-  choosePhase(now);
+  const PairMotion touch = motionBefore(pair_, start);
+  State now{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0,
+            0.0,    0.0, 0.0};
+  stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
+  enterPhase(now);
 
   // A fixed step of t_c/400 leaves rk8pd's own error far below rounding; events cut it short.
   const auto stepFrom = [&](const State& from, double h) {
@@ -44,24 +47,42 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
                           nullptr, nullptr, &system);
     return to;
   };
-  const double fullStep = contactTime / 400.0;
-  constexpr int mostSteps = 20000;
-  for (int step = 0; step < mostSteps; ++step) {
-    State next = stepFrom(now, fullStep);
-    if (firstGuard(next) > 0.0) {
-      now = next;
-      continue;
-    }
-    double before = 0.0, after = fullStep;
+  /// When within h a guard that is > 0 at first no longer is.
+  const auto timeOf = [&](const auto& guard, const State& from, double h) {
+    double before = 0.0, after = h;
     while (after - before > 1e-16 * contactTime && after - before > 1e-15 * after) {
       const double middle = 0.5 * (before + after);
-      (firstGuard(stepFrom(now, middle)) > 0.0 ? before : after) = middle;
+      (guard(stepFrom(from, middle)) > 0.0 ? before : after) = middle;
     }
-    now = stepFrom(now, after);
+    return after;
+  };
+  const auto phaseLasts = [this](const State& s) { return firstGuard(s); };
+  const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
+
+  const double fullStep = contactTime / 400.0;
+  constexpr int mostSteps = 20000;
+  double duration = 0.0, maxOverlap = 0.0;
+  for (int step = 0; step < mostSteps; ++step) {
+    double h = fullStep;
+    State next = stepFrom(now, h);
+    const bool event = !(phaseLasts(next) > 0.0);
+    if (event) {
+      h = timeOf(phaseLasts, now, h);
+      next = stepFrom(now, h);
+    }
+    if (approach(now) > 0.0 && !(approach(next) > 0.0))
+      maxOverlap = kinematics(stepFrom(now, timeOf(approach, now, h))).overlap;
+    duration += h;
+    now = next;
+    if (!event) continue;
     const Kinematics k = kinematics(now);
-    if (k.overlap <= 1e-14 * reach_ && k.normalVelocity > 0.0)
-      return {k.normalVelocity / start.vn, k.tangentialVelocity / start.vn};
-    choosePhase(now);
+    if (k.overlap <= 1e-14 * reach_ && k.normalVelocity > 0.0) {
+      CollisionEnd end = endAt(now, start);
+      end.duration = duration;
+      end.maxOverlap = maxOverlap;
+      return end;
+    }
+    enterPhase(now);
   }
   throw std::runtime_error("the collision oracle did not come to an end");
 }
@@ -101,11 +122,7 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
     requireContinuousLimit(law);
     return TwoBodyProblem(law, pair).solve(start);
   }
-  const double reducedMass = 1.0 / (1.0 / pair.mass[0] + 1.0 / pair.mass[1]);
-  const double inverseInertiaFactor =
-      reducedMass * (pair.radius[0] * pair.radius[0] / pair.inertia[0] +
-                     pair.radius[1] * pair.radius[1] / pair.inertia[1]);
-  return rigidOutcome(law.en, law.et0, law.mu, inverseInertiaFactor, start.psi);
+  return rigidOutcome(law, pair, start);
 }
 
 }  // namespace crossgrain

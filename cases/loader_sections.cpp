@@ -169,12 +169,19 @@ void readRun(Reader& in, RunOptions& run) {
 
 void readCollision(Reader& in, Collision& collision) {
   requirePsi(in, collision.psi);
-  in.require("vn", collision.vn, positive("m/s"));
+  in.require("vn", collision.vn, positive("m/s, else the disks never meet"));
+  static const std::vector<std::string> approaches = {"spin", "oblique"};
+  std::string approach = approaches.front();
+  in.read("approach", approach, approaches);
+  if (approach != approaches.front()) collision.approach = Approach::oblique;
   requirePair(in, "radius", collision.radius, positive("m"));
   requirePair(in, "mass", collision.mass, positive("kg"));
   in.read("inertia_factor", collision.inertiaFactor, aboveZeroTo(1.0));
   in.read("steps_per_contact", collision.stepsPerContact, atLeast(2.0));
-  in.read("start_phase", collision.startPhase, {.low = 0.0, .high = 1.0, .highOpen = true});
+  in.read("start_phase", collision.startPhase, Range{});
+  if (collision.startPhase < 0.0)
+    in.fail("start_phase", "must be >= 0, else the disks overlap at the start");
+  if (!(collision.startPhase < 1.0)) in.fail("start_phase", "must be < 1");
   collision.margins = readMargins(in.section("margins"), {"psi_f", "e_n"});
   in.finish();
 }

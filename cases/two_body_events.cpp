@@ -44,22 +44,25 @@ double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
 /// tested with the spring just reset exceeds the bound at once, or, where it equals the bound,
 /// grows faster than the bound. A law that stretches its spring only after a sticking step
 /// (SpringUpdate::after) does not see v_t in the step after a slip: it slips on while the bound
-/// falls, also against a v_t that would relax the spring, and where the bound rises it sticks and
-/// slips in turn, one stretch for two steps of the bound.
+/// falls, also against a v_t that would relax the spring. Where the bound rises it sticks and slips
+/// in turn, with a force that stays within a few steps' rise of the bound as long as the stretching
+/// is the faster.
 double TwoBodyProblem::slipGuard(const State& s, const Kinematics& k) const {
   const bool outside = law_.conventions.dashpot == Dashpot::outside;
   const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
   const double damping = law_.gt * k.tangentialVelocity * phase_.side;
   if (law_.gt > 0.0 && outside == springOnly) return outside ? damping : -damping;
 
-  double testedRate = -law_.kt * k.tangentialVelocity * phase_.side;
-  if (law_.conventions.springUpdate == SpringUpdate::after)
-    testedRate = std::max(0.5 * testedRate, 0.0);
-  if (!outside) {
-    const double sticking = bound(normalForce(k)) * phase_.side;
-    testedRate -= law_.gt * compliance(k) * (sticking - holdingForce(s, k)) * phase_.side;
-  }
-  return testedRate - boundRate(s, k);
+  double stretching = -law_.kt * k.tangentialVelocity * phase_.side;
+  if (law_.conventions.springUpdate == SpringUpdate::after) stretching = std::max(stretching, 0.0);
+  return stretching + (outside ? 0.0 : dashpotRate(s, k)) - boundRate(s, k);
+}
+
+/// The rate at which the dashpot's part of the tested force grows, towards `side`, in a contact
+/// that begins to stick at its bound.
+double TwoBodyProblem::dashpotRate(const State& s, const Kinematics& k) const {
+  const double sticking = bound(normalForce(k)) * phase_.side;
+  return -law_.gt * compliance(k) * (sticking - holdingForce(s, k)) * phase_.side;
 }
 
 double TwoBodyProblem::tangentialGuard(const State& s) const {
@@ -77,7 +80,7 @@ double TwoBodyProblem::tangentialGuard(const State& s) const {
     case Phase::Tangential::slip:
       break;
   }
-  const double opposing = -phase_.side * k.tangentialVelocity;
+  const double opposing = stillness_ - phase_.side * k.tangentialVelocity;
   if (law_.tangential == TangentialLaw::coulomb || limit < 0.0) return opposing;
   if (law_.tangential == TangentialLaw::viscous) return law_.gt * opposing - limit;
   return slipGuard(s, k);
@@ -91,8 +94,15 @@ double TwoBodyProblem::firstGuard(const State& s) const {
   return guard;
 }
 
-/// The phase that holds right after `s`, an event or the start; resets the spring where the law
-/// does.
+/// Begins the phase that holds right after `s`, an event or the start. While a contact slips, the
+/// energy in its spring is part of the slip's account.
+void TwoBodyProblem::enterPhase(State& s) {
+  s.lostSliding += storedEnergy(s);
+  choosePhase(s);
+  s.lostSliding -= storedEnergy(s);
+}
+
+/// Resets the spring where the law does.
 void TwoBodyProblem::choosePhase(State& s) {
   const Kinematics k = kinematics(s);
   phase_.compressive = law_.gn == 0.0 || trialNormal(k) > 0.0;
@@ -106,9 +116,10 @@ void TwoBodyProblem::choosePhase(State& s) {
 
   const double slip = k.tangentialVelocity;
   const double limit = bound(normalForce(k));
-  const bool still =
-      std::abs(slip) < 1e-13 * (std::abs(k.normalVelocity) + k.leverI * std::abs(s.spinI));
+  const bool still = std::abs(slip) < 2.0 * stillness_;
   if (law_.tangential == TangentialLaw::coulomb && still) {
+    // At rest to the last bit, else what is left of v_t would end the slip that may follow at once.
+    s.spinI += slip / k.leverI;
     const double hold = holdingForce(s, k);
     const bool holds = std::abs(hold) <= limit;
     phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;
@@ -126,7 +137,11 @@ void TwoBodyProblem::choosePhase(State& s) {
 
 void TwoBodyProblem::chooseSpringPhase(State& s, const Kinematics& k) {
   const double limit = bound(normalForce(k));
-  if (phase_.tangential == Phase::Tangential::slip) s.spring = slippedSpring(k);
+  if (phase_.tangential == Phase::Tangential::slip) {
+    s.spring = slippedSpring(k);
+    // A slip with a dashpot ends at v_t = 0.
+    limitless_ |= law_.gt > 0.0 && dashpotRate(s, k) > boundRate(s, k);
+  }
   phase_.tangential = Phase::Tangential::stick;
   const double tested = testedForce(k, s.spring);
   if (std::abs(tested) < limit) return;

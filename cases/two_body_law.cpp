@@ -70,18 +70,38 @@ double TwoBodyProblem::tangentialForce(const State& s, const Kinematics& k) cons
   return holdingForce(s, k);
 }
 
+/// In the tangential spring while it sticks [J].
+double TwoBodyProblem::storedEnergy(const State& s) const {
+  const bool sticks = phase_.tangential == Phase::Tangential::stick;
+  return sticks ? 0.5 * law_.kt * s.spring * s.spring : 0.0;
+}
+
 State TwoBodyProblem::derivative(const State& s) const {
   const Kinematics k = kinematics(s);
   const double normal = normalForce(k);
   const double tangential = tangentialForce(s, k);
-  const bool stretches = phase_.tangential == Phase::Tangential::stick;
+  const double slip = k.tangentialVelocity;
+  const bool sticks = phase_.tangential == Phase::Tangential::stick;
+  const bool damps = sticks || phase_.tangential == Phase::Tangential::damped;
   return {s.vx,
           s.vy,
           (normal * k.nx - tangential * k.ny) * inverseMass_,
           (normal * k.ny + tangential * k.nx) * inverseMass_,
           -k.leverI * tangential / pair_.inertia[0],
           -k.leverJ * tangential / pair_.inertia[1],
-          stretches ? k.tangentialVelocity : 0.0};
+          sticks ? slip : 0.0,
+          (law_.kn * k.overlap - normal) * k.normalVelocity,
+          damps ? law_.gt * slip * slip : 0.0,
+          damps ? 0.0 : -tangential * slip};
+}
+
+CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) const {
+  const Kinematics k = kinematics(s);
+  CollisionEnd end =
+      endOf(pair_, start, {k.normalVelocity, k.turning * k.distance, {s.spinI, s.spinJ}});
+  end.limitless = limitless_;
+  end.lost = {s.lostNormal, s.lostTangential, s.lostSliding, storedEnergy(s)};
+  return end;
 }
 
 }  // namespace crossgrain

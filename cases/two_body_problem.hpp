@@ -9,11 +9,13 @@
 
 namespace crossgrain {
 
-/// Relative position and velocity of i against j, both spins, tangential spring.
+/// Relative position and velocity of i against j, both spins, tangential spring; and the account of
+/// the energy lost so far, as in EnergySplit.
 struct State {
   double x, y, vx, vy, spinI, spinJ, spring;
+  double lostNormal, lostTangential, lostSliding;
 };
-constexpr std::size_t dimension = 7;
+constexpr std::size_t dimension = 10;
 static_assert(sizeof(State) == dimension * sizeof(double));
 
 /// Between two events the right-hand side is smooth; a phase says which branch of the law holds.
@@ -65,7 +67,9 @@ class TwoBodyProblem {
   double bound(double normal) const;
   double testedForce(const Kinematics& k, double spring) const;
   double tangentialForce(const State& s, const Kinematics& k) const;
+  double storedEnergy(const State& s) const;
   State derivative(const State& s) const;
+  CollisionEnd endAt(const State& s, const CollisionStart& start) const;
 
   // Events
   double compliance(const Kinematics& k) const;
@@ -73,8 +77,10 @@ class TwoBodyProblem {
   double boundRate(const State& s, const Kinematics& k) const;
   double slippedSpring(const Kinematics& k) const;
   double slipGuard(const State& s, const Kinematics& k) const;
+  double dashpotRate(const State& s, const Kinematics& k) const;
   double tangentialGuard(const State& s) const;
   double firstGuard(const State& s) const;
+  void enterPhase(State& s);
   void choosePhase(State& s);
   void chooseSpringPhase(State& s, const Kinematics& k);
 
@@ -84,6 +90,8 @@ class TwoBodyProblem {
   CollidingPair pair_;
   double reach_, inverseMass_;
   Phase phase_;
+  double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
+  bool limitless_ = false;  ///< CollisionEnd::limitless
 };
 
 }  // namespace crossgrain

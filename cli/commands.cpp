@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
@@ -19,6 +20,7 @@
 #include "cases/time_step.hpp"
 #include "reports/report.hpp"
 #include "runs/collide.hpp"
+#include "runs/collision_folder.hpp"
 #include "runs/collision_sweep.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/engine_access.hpp"
@@ -166,13 +168,12 @@ int checkCase(const CommandLine& line) {
 
 namespace {
 
-int collideFile(const fs::path& file, const fs::path& out, const CommandLine& line) {
-  const std::vector<Case> variants = loadCase(file, line.overrides);
-  if (variants.front().kind != CaseKind::collision)
-    throw BadInput(fmt::format("{}: collide cannot run a case of this kind", file.string()));
-  RunCommand command = line.run;
-  command.out = out;
-  const json results = collideEngines(variants, command);
+/// Runs what was loaded into one report.
+int collideCases(const std::vector<Case>& variants, const std::optional<fs::path>& folder,
+                 const CommandLine& line) {
+  const fs::path& out = line.run.out;
+  json results = collideEngines(variants, line.run);
+  if (folder) describeFolder(results, *folder, variants);
   writeReport(results, out);
 
   int failed = 0, fellShort = 0;
@@ -203,16 +204,13 @@ int collideFile(const fs::path& file, const fs::path& out, const CommandLine& li
 int collide(const CommandLine& line) {
   if (line.inputs.size() != 1) throw BadInput("collide takes one case file or folder");
   const fs::path& input = line.inputs.front();
-  if (!fs::is_directory(input)) return collideFile(input, line.run.out, line);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(input))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (files.empty()) throw BadInput(input.string() + ": there is no case file (*.toml) in it");
-  std::ranges::sort(files);
-  int worst = exitHeld;
-  for (const fs::path& file : files)
-    worst = std::max(worst, collideFile(file, line.run.out / file.stem(), line));
-  return worst;
+  if (!fs::is_directory(input)) {
+    const std::vector<Case> variants = loadCase(input, line.overrides);
+    if (variants.front().kind != CaseKind::collision)
+      throw BadInput(fmt::format("{}: collide cannot run a case of this kind", input.string()));
+    return collideCases(variants, std::nullopt, line);
+  }
+  return collideCases(collisionsOf(input, line.overrides), input, line);
 }
 
 int rebuildReports(const CommandLine& line) {

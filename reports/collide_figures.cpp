@@ -5,16 +5,10 @@
 #include <map>
 #include <set>
 
+#include "reports/collide_figures.hpp"
 #include "reports/figures.hpp"
 
 namespace crossgrain::reports {
-
-namespace {
-
-using Styles = std::map<std::string, LineStyle>;
-
-const LineStyle oracleStyle{"#999999", 0, false};
-const LineStyle asymptoteStyle{"#999999", 0, true};
 
 std::vector<Point> pointsOf(const Json& rows, const char* x, const char* y) {
   std::vector<Point> points;
@@ -24,6 +18,29 @@ std::vector<Point> pointsOf(const Json& rows, const char* x, const char* y) {
   }
   return points;
 }
+
+std::vector<const Json*> firstCurves(const Json& variant) {
+  std::vector<const Json*> curves;
+  std::set<std::string> seen;
+  for (const Json& curve : list(variant, "curves"))
+    if (!list(curve, "points").empty() && seen.insert(text(curve, "engine")).second)
+      curves.push_back(&curve);
+  return curves;
+}
+
+Range psiRange(const Json& variant) {
+  double largest = 0.0;
+  for (const Json& row : list(variant, "oracle"))
+    largest = std::max(largest, number(row, "psi_i").value_or(0.0));
+  for (const Json& curve : list(variant, "curves"))
+    for (const Json& point : list(curve, "points"))
+      largest = std::max(largest, number(point, "psi_i").value_or(0.0));
+  return {0.0, largest > 0.0 ? largest * 1.02 : 1.0};
+}
+
+namespace {
+
+const LineStyle asymptoteStyle{"#999999", 0, true};
 
 /// One line per approach speed of the oracle; only the first is in the key.
 std::vector<Curve> oracleCurves(const Json& variant) {
@@ -63,16 +80,6 @@ std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
   return curves;
 }
 
-double largestPsi(const Json& variant) {
-  double largest = 0.0;
-  for (const Json& row : list(variant, "oracle"))
-    largest = std::max(largest, number(row, "psi_i").value_or(0.0));
-  for (const Json& curve : list(variant, "curves"))
-    for (const Json& point : list(curve, "points"))
-      largest = std::max(largest, number(point, "psi_i").value_or(0.0));
-  return largest;
-}
-
 /// Figure 4.3 of Lätzel (2003): each engine at the first of its time steps.
 Panel sweepPanel(const Json& variant, const Styles& styles) {
   Panel panel;
@@ -80,15 +87,13 @@ Panel sweepPanel(const Json& variant, const Styles& styles) {
   panel.yLabel = "Ψ_{f} = v_{t,f} / v_{n,i}";
   panel.level = 0.0;
   panel.key = Key::topLeft;
-  const double last = largestPsi(variant);
-  panel.xRange = Range{0.0, last > 0.0 ? last * 1.02 : 1.0};
-  panel.curves = asymptotes(variant, last);
+  panel.xRange = psiRange(variant);
+  panel.curves = asymptotes(variant, panel.xRange->high);
   for (Curve& curve : oracleCurves(variant)) panel.curves.push_back(std::move(curve));
-  std::set<std::string> seen;
-  for (const Json& curve : list(variant, "curves")) {
-    const std::string engine = text(curve, "engine");
-    auto points = pointsOf(list(curve, "points"), "psi_i", "psi_f");
-    if (points.empty() || !seen.insert(engine).second) continue;
+  for (const Json* curve : firstCurves(variant)) {
+    const std::string engine = text(*curve, "engine");
+    auto points = pointsOf(list(*curve, "points"), "psi_i", "psi_f");
+    if (points.empty()) continue;
     panel.curves.push_back({engine, styles.at(engine), Draw::points, std::move(points), 1.0});
   }
   return panel;
@@ -101,8 +106,7 @@ Panel errorPanel(const Json& variant, const Styles& styles) {
   panel.yLabel = "|Ψ_{f} − Ψ_{f,oracle}|";
   panel.logY = true;
   panel.key = Key::none;
-  const double last = largestPsi(variant);
-  panel.xRange = Range{0.0, last > 0.0 ? last * 1.02 : 1.0};
+  panel.xRange = psiRange(variant);
   for (const Json& curve : list(variant, "curves")) {
     const std::string engine = text(curve, "engine");
     std::vector<Point> points;
@@ -119,27 +123,51 @@ Panel errorPanel(const Json& variant, const Styles& styles) {
   return panel;
 }
 
-/// Largest error of a sweep against its time step; only where an engine ran with several.
-Panel convergencePanel(const Json& variant, const Styles& styles) {
+/// "grain: order 1.02 ± 0.03"
+std::string orderInWords(const Json& order) {
+  const std::string error =
+      number(order, "stderr") ? fmt::format(" ± {:.2f}", *number(order, "stderr")) : std::string();
+  return fmt::format("{}: order {:.2f}{}", text(order, "engine"),
+                     number(order, "order").value_or(0.0), error);
+}
+
+/// The least-squares line of slope `order` through points in log–log: it goes through their mean.
+std::vector<Point> fittedLine(const std::vector<Point>& points, double order) {
+  double x = 0.0, y = 0.0;
+  for (const Point& p : points) {
+    x += std::log(p.x) / static_cast<double>(points.size());
+    y += std::log(p.y) / static_cast<double>(points.size());
+  }
+  std::vector<Point> line;
+  for (const Point& end : {points.front(), points.back()})
+    line.push_back({end.x, std::exp(y + order * (std::log(end.x) - x)), {}});
+  return line;
+}
+
+/// Rms error of a sweep against its time step and the order fitted to it; only engines that ran
+/// with several.
+Panel convergencePanel(const Json& results, const Json& variant, const Styles& styles) {
   Panel panel;
   panel.xLabel = "dt [s]";
-  panel.yLabel = "largest error / range of Ψ_{f}";
+  panel.yLabel = "rms error / range of Ψ_{f}";
   panel.logX = panel.logY = true;
-  panel.key = Key::none;
+  panel.key = Key::outside;
   std::map<std::string, std::map<double, double>> errors;
-  bool several = false;
   for (const Json& curve : list(variant, "curves")) {
-    const auto dt = number(curve, "dt"), error = number(member(curve, "score"), "max_error");
-    if (!dt || !error || *dt <= 0.0 || *error <= 0.0) continue;
-    auto& ofEngine = errors[text(curve, "engine")];
-    ofEngine[*dt] = *error;
-    several = several || ofEngine.size() > 1;
+    const auto dt = number(curve, "dt"), error = number(member(curve, "score"), "rms_error");
+    if (dt && error && *dt > 0.0 && *error > 0.0) errors[text(curve, "engine")][*dt] = *error;
   }
-  if (!several) return panel;
-  for (const auto& [engine, byStep] : errors) {
-    Curve curve{engine, styles.at(engine), Draw::linesAndPoints, {}, 1.5};
-    for (const auto& [dt, error] : byStep) curve.points.push_back({dt, error, {}});
-    panel.curves.push_back(std::move(curve));
+  for (const Json& order : list(results, "orders")) {
+    const std::string engine = text(order, "engine");
+    const auto slope = number(order, "order");
+    const bool own = text(order, "variant") == text(variant, "variant") &&
+                     text(order, "case") == text(variant, "case");
+    if (!own || !slope || errors[engine].size() < 2) continue;
+    std::vector<Point> points;
+    for (const auto& [dt, error] : errors[engine]) points.push_back({dt, error, {}});
+    LineStyle line = styles.at(engine);
+    panel.curves.push_back({"", line, Draw::lines, fittedLine(points, *slope), 1.0});
+    panel.curves.push_back({orderInWords(order), line, Draw::points, std::move(points), 1.0});
   }
   return panel;
 }
@@ -162,15 +190,17 @@ std::vector<Figure> collideFigures(const Json& results) {
     figure.name = fmt::format("collision_{}", ++index);
     figure.title = "Tangential velocity after a collision against before, and its error";
     for (Panel panel : {sweepPanel(variant, styles), errorPanel(variant, styles),
-                        convergencePanel(variant, styles)})
+                        convergencePanel(results, variant, styles)})
       if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
     if (figure.panels.empty()) continue;
     figure.caption =
         "Left: every engine at the first of its time steps. Further panels: every time step, one "
-        "curve each, and the largest error against the time step.";
+        "curve each; and the rms error against the time step, with the order fitted to it.";
     figure.columns = static_cast<int>(figure.panels.size());
     figure.panelWidth = 420;
     figures.push_back(std::move(figure));
+    Figure quantities = quantitiesFigure(variant, styles, figures.back().name + "_quantities");
+    if (!quantities.panels.empty()) figures.push_back(std::move(quantities));
   }
   return figures;
 }

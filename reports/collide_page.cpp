@@ -79,12 +79,26 @@ std::string factsOf(const Json& variant) {
     facts += " Sticking: Ψ_f = −" + readable(e) + " Ψ_i.";
   if (const auto constant = number(variant, "sliding_constant"))
     facts += " Sliding: Ψ_f = Ψ_i − " + readable(constant) + ".";
+  std::vector<double> limitless;
+  for (const Json& row : list(variant, "oracle"))
+    if (member(row, "limitless") == Json(true))
+      limitless.push_back(number(row, "psi_i").value_or(0));
+  if (!limitless.empty())
+    facts += " Between Ψ_i = " + readable(limitless.front()) + " and " +
+             readable(limitless.back()) +
+             " the law's outcome goes on varying with the time step, however small: the oracle "
+             "gives one "
+             "of a narrow family.";
   return mathHtml(facts);
 }
 
-std::string variantName(const Json& variant) {
-  const std::string name = text(variant, "variant");
-  return name.empty() ? "the case itself" : name;
+/// "case: variant" where the results hold several cases.
+std::string variantName(const Json& results, const Json& variant) {
+  std::string name = text(variant, "variant");
+  if (name.empty()) name = "the case itself";
+  const std::string own = text(variant, "case");
+  const bool several = !own.empty() && own != text(member(results, "case"), "name");
+  return !several || own == name ? name : own + ": " + name;
 }
 
 Json variantViews(const Json& results, const Illustrations& shown, const Columns& columns) {
@@ -95,9 +109,10 @@ Json variantViews(const Json& results, const Illustrations& shown, const Columns
     for (const Json& curve : list(variant, "curves")) scores.push_back(scoreRow(curve, columns));
     Json figures = Json::array();
     for (Json& figure : figureViews(shown, "collision_"))
-      if (text(figure, "file") == id) figures.push_back(std::move(figure));
+      if (text(figure, "file") == id || text(figure, "file") == id + "_quantities")
+        figures.push_back(std::move(figure));
     views.push_back({{"id", id},
-                     {"name", variantName(variant)},
+                     {"name", variantName(results, variant)},
                      {"facts", factsOf(variant)},
                      {"figures", std::move(figures)},
                      {"scores", std::move(scores)}});
@@ -115,10 +130,38 @@ Json orderRows(const Json& results) {
     }
     std::vector<std::string> words;
     for (const auto& [step, error] : errors) words.push_back(error);
-    rows.push_back({{"variant", variantName(order)},
+    rows.push_back({{"variant", variantName(results, order)},
                     {"engine", text(order, "engine")},
                     {"order", readable(number(order, "order"), number(order, "stderr"))},
                     {"errors", fmt::format("{}", fmt::join(words, ", "))}});
+  }
+  return rows;
+}
+
+/// One row per variant: its place on the page and, engine by engine, how many of its sweeps held.
+Json indexRows(const Json& results, const std::vector<EngineResults>& engines) {
+  Json rows = Json::array();
+  for (const Json& variant : list(results, "variants")) {
+    std::map<std::string, std::pair<int, int>> counts;  // held, judged
+    for (const Json& curve : list(variant, "curves")) {
+      const std::string verdict = verdictOf(curve);
+      auto& [held, judged] = counts[text(curve, "engine")];
+      held += verdict == "held";
+      judged += verdict == "held" || verdict == "fell short";
+    }
+    Json cells = Json::array();
+    for (const EngineResults& engine : engines) {
+      const auto [held, judged] = counts[engine.name];
+      const bool all = held == judged;
+      cells.push_back(
+          {{"text", judged == 0 ? "–" : fmt::format("{} {}/{}", all ? "✓" : "✗", held, judged)},
+           {"class", judged == 0 ? "undecided"
+                     : all       ? "agree"
+                                 : "disagree"}});
+    }
+    rows.push_back({{"id", fmt::format("collision_{}", rows.size() + 1)},
+                    {"name", variantName(results, variant)},
+                    {"cells", std::move(cells)}});
   }
   return rows;
 }
@@ -172,6 +215,7 @@ std::string collidePage(const Json& results, const Illustrations& shown) {
   addSummary(view, results, engines);
   view["engines"] = engineRows(engines);
   view["variants"] = variantViews(results, shown, columnsByName(engines));
+  view["index"] = indexRows(results, engines);
   view["orders"] = orderRows(results);
   view["hasOrders"] = !view["orders"].empty();
   addDetails(view, results, realised);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace crossgrain::reports {
@@ -67,25 +69,72 @@ std::vector<std::string> seriesColumns(const Json& results) {
   return columns;
 }
 
+/// Quantities of a collision beyond the restitutions, as in results.json, and their units.
+constexpr std::array<std::pair<const char*, const char*>, 14> furtherQuantities = {{
+    {"beta", ""},
+    {"centre_psi_f", ""},
+    {"e_t", ""},
+    {"rebound_angle", "_rad"},
+    {"spin_i", "_rad_s"},
+    {"spin_j", "_rad_s"},
+    {"duration", "_s"},
+    {"max_overlap", "_m"},
+    {"energy_before", "_J"},
+    {"energy_after", "_J"},
+    {"lost_normal_damping", "_J"},
+    {"lost_tangential_damping", "_J"},
+    {"lost_sliding", "_J"},
+    {"lost_stored", "_J"},
+}};
+
+/// A variant's own case where the results hold several.
+std::string caseOf(const Json& results, const Json& variant) {
+  const std::string own = text(variant, "case");
+  return own.empty() ? text(member(results, "case"), "name") : own;
+}
+
+std::string furtherColumns() {
+  std::string columns;
+  for (const auto& [name, unit] : furtherQuantities)
+    columns += fmt::format(",{0}{1},{0}_reference{1}", name, unit);
+  return columns;
+}
+
+/// Empty cells for a row without a point.
+std::string furtherCells(const Json& point) {
+  std::string cells;
+  for (const auto& [name, unit] : furtherQuantities)
+    for (const char* suffix : {"", "_reference"})
+      cells += "," + cell(number(point, fmt::format("{}{}", name, suffix).c_str()));
+  return cells;
+}
+
 }  // namespace
 
 std::string collisionsCsv(const Json& results) {
   std::string table =
-      "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status\n";
-  const std::string name = text(member(results, "case"), "name");
+      "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
+      furtherColumns() + "\n";
+  const auto add = [&](std::string binding, const Json& point) {
+    binding.pop_back();
+    table += binding + furtherCells(point) + "\n";
+  };
   const std::optional<double> absent;
   for (const Json& variant : list(results, "variants")) {
+    const std::string name = caseOf(results, variant);
     const std::string label = text(variant, "variant");
     for (const Json& curve : list(variant, "curves")) {
       const std::string engine = text(curve, "engine");
       const auto dt = number(curve, "dt");
       for (const Json& point : list(curve, "points"))
-        table += row(engine, name, label, number(point, "psi_i"), number(point, "v_n"),
-                     number(point, "e_n"), number(point, "psi_f"), number(point, "e_n_reference"),
-                     number(point, "psi_f_reference"), dt, text(point, "status"));
+        add(row(engine, name, label, number(point, "psi_i"), number(point, "v_n"),
+                number(point, "e_n"), number(point, "psi_f"), number(point, "e_n_reference"),
+                number(point, "psi_f_reference"), dt, text(point, "status")),
+            point);
       if (list(curve, "points").empty())
-        table += row(engine, name, label, absent, absent, absent, absent, absent, absent, dt,
-                     text(curve, "status"));
+        add(row(engine, name, label, absent, absent, absent, absent, absent, absent, dt,
+                text(curve, "status")),
+            Json::object());
     }
   }
   return table;

@@ -40,13 +40,11 @@ json fineOracle(const Case& setup) {
     for (int part = 0; part < parts; ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
       const CollisionStart start{psi[k] + (next - psi[k]) * part / parts,
-                                 setup.collision.vn.front()};
+                                 setup.collision.vn.front(), setup.collision.approach};
       const OracleCurve one = oracleCurve(setup, {start});
       if (!one.ends.front()) return json::array();
-      line.push_back({{"psi_i", start.psi},
-                      {"v_n", start.vn},
-                      {"e_n", one.ends.front()->en},
-                      {"psi_f", one.ends.front()->psi}});
+      line.push_back({{"psi_i", start.psi}, {"v_n", start.vn}});
+      describe(line.back(), one.ends.front(), "");
     }
   }
   return line;
@@ -122,6 +120,7 @@ json variantJson(const Sweep& sweep) {
   const double reducedMass = pair.mass[0] * pair.mass[1] / (pair.mass[0] + pair.mass[1]);
   const bool linear = setup.law.normal == NormalLaw::linear;
   json variant = {
+      {"case", setup.name},
       {"variant", setup.variant.empty() ? setup.name : setup.variant},
       {"law", lawJson(setup.law)},
       {"e_n_closed", linear ? restitutionOfLinearLaw(setup.law, reducedMass) : setup.law.en},
@@ -139,6 +138,7 @@ json variantJson(const Sweep& sweep) {
 json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
   const auto started = std::chrono::steady_clock::now();
   const std::vector<EngineEntry> engines = enginesFor(variants.front(), command.engines);
+  for (const Case& setup : variants) checkEngineSections(setup);
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
@@ -179,6 +179,7 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
       std::vector<const json*> list;
       for (const json& curve : curves[e][s]) list.push_back(&curve);
       if (auto order = convergenceOrder(list)) {
+        (*order)["case"] = variant["case"];
         (*order)["variant"] = variant["variant"];
         results["orders"].push_back(*order);
       }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "adapters/worker/json.hpp"
 #include "cases/time_step.hpp"
@@ -17,19 +18,9 @@ using nlohmann::json;
 std::vector<CollisionStart> sweepStarts(const Case& setup) {
   std::vector<CollisionStart> starts;
   for (const double vn : setup.collision.vn)
-    for (const double psi : setup.collision.psi) starts.push_back({psi, vn});
+    for (const double psi : setup.collision.psi)
+      starts.push_back({psi, vn, setup.collision.approach});
   return starts;
-}
-
-CollidingPair collidingPair(const Case& setup) {
-  const Collision& c = setup.collision;
-  CollidingPair pair{};
-  for (const int side : {0, 1}) {
-    pair.radius[side] = c.radius[side];
-    pair.mass[side] = c.mass[side];
-    pair.inertia[side] = c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
-  }
-  return pair;
 }
 
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
@@ -43,6 +34,35 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
     }
   }
   return curve;
+}
+
+void describe(json& point, const std::optional<CollisionEnd>& end, const std::string& suffix) {
+  const auto put = [&](const std::string& name, const std::optional<double>& value) {
+    point[name + suffix] = toJson(value);
+  };
+  const auto of = [&](auto member) {
+    return end ? std::optional<double>(std::invoke(member, *end)) : std::nullopt;
+  };
+  const auto lost = [&](double EnergySplit::*part) {
+    return end && end->lost ? std::optional((*end->lost).*part) : std::nullopt;
+  };
+  put("e_n", of(&CollisionEnd::en));
+  put("psi_f", of(&CollisionEnd::psi));
+  put("beta", end ? end->beta : std::nullopt);
+  put("centre_psi_f", of(&CollisionEnd::centrePsi));
+  put("e_t", end ? end->et : std::nullopt);
+  put("rebound_angle", of(&CollisionEnd::reboundAngle));
+  put("spin_i", of([](const CollisionEnd& e) { return e.spin[0]; }));
+  put("spin_j", of([](const CollisionEnd& e) { return e.spin[1]; }));
+  put("duration", end ? end->duration : std::nullopt);
+  put("max_overlap", end ? end->maxOverlap : std::nullopt);
+  put("energy_before", of(&CollisionEnd::energyBefore));
+  put("energy_after", of(&CollisionEnd::energyAfter));
+  put("lost_normal_damping", lost(&EnergySplit::normalDamping));
+  put("lost_tangential_damping", lost(&EnergySplit::tangentialDamping));
+  put("lost_sliding", lost(&EnergySplit::sliding));
+  put("lost_stored", lost(&EnergySplit::stored));
+  if (end && end->limitless) point["limitless" + suffix] = true;
 }
 
 namespace {
@@ -110,13 +130,11 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto end = collisionEnd(scene, after, k, starts[k]);
     const auto& reference = oracle.ends[k];
-    points.push_back({{"psi_i", starts[k].psi},
-                      {"v_n", starts[k].vn},
-                      {"e_n", end ? json(end->en) : json(nullptr)},
-                      {"psi_f", end ? json(end->psi) : json(nullptr)},
-                      {"e_n_reference", reference ? json(reference->en) : json(nullptr)},
-                      {"psi_f_reference", reference ? json(reference->psi) : json(nullptr)},
-                      {"status", end ? "parted" : "not parted"}});
+    json point = {
+        {"psi_i", starts[k].psi}, {"v_n", starts[k].vn}, {"status", end ? "parted" : "not parted"}};
+    describe(point, end, "");
+    describe(point, reference, "_reference");
+    points.push_back(std::move(point));
     if (!end) ++missing;
     if (!reference) continue;
     low = std::min(low, reference->psi);

@@ -6,6 +6,7 @@
 
 #include "cases/case.hpp"
 #include "cases/collision_oracle.hpp"
+#include "cases/collision_scene.hpp"
 #include "runs/engine_access.hpp"
 
 namespace crossgrain {
@@ -13,15 +14,17 @@ namespace crossgrain {
 /// Every collision of a case's sweep: all Ψ_i at each v_n.
 std::vector<CollisionStart> sweepStarts(const Case& setup);
 
-/// The two disks of the case.
-CollidingPair collidingPair(const Case& setup);
-
 /// What the oracle says of each start; absent where the law has no limit of small steps.
 struct OracleCurve {
   std::vector<std::optional<CollisionEnd>> ends;
   std::string reason;  ///< why there is none
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
+
+/// Puts what is known of a collision's end into a row of results.json, each name followed by
+/// `suffix`; null where absent.
+void describe(nlohmann::json& row, const std::optional<CollisionEnd>& end,
+              const std::string& suffix);
 
 /// One engine on one sweep: an entry of results.json's "curves".
 /// @throws EngineFailure, UnsupportedScene, BadInput

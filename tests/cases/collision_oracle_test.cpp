@@ -6,16 +6,13 @@
 #include <numbers>
 
 #include "adapters/grain.hpp"
+#include "cases/collision_scene.hpp"
 #include "tests/cases/thesis_pair.hpp"
 
 namespace {
 
 using namespace crossgrain;
 using namespace test;
-
-double reducedMass(const CollidingPair& pair) {
-  return pair.mass[0] * pair.mass[1] / (pair.mass[0] + pair.mass[1]);
-}
 
 TEST(CollisionOracle, NormalRestitutionIsTheClosedFormForSlowCollisions) {
   // At 1e-4 m/s the frozen normal of the closed form costs v t_c/a = 6e-5 of nothing: without
@@ -24,7 +21,7 @@ TEST(CollisionOracle, NormalRestitutionIsTheClosedFormForSlowCollisions) {
     ContactLaw law = thesisLaw();
     law.tangential = TangentialLaw::none;
     law.conventions.tension = tension;
-    const double closed = restitutionOfLinearLaw(law, reducedMass(smallPair()));
+    const double closed = restitutionOfLinearLaw(law, smallPair().reducedMass());
     EXPECT_NEAR(closed, tension == Tension::allow ? 0.2223 : 0.3408, 5e-5);
     EXPECT_NEAR(oracleOutcome(law, smallPair(), {0.0, 1e-4}).en, closed, 1e-10);
   }
@@ -93,10 +90,48 @@ TEST(CollisionOracle, ConventionsWithoutALimitAreRefused) {
   EXPECT_THROW(oracleOutcome(law, smallPair(), {1.0, 0.1}), std::invalid_argument);
 }
 
+ContactLaw rigidLaw() {
+  ContactLaw law;
+  law.normal = NormalLaw::rigid;
+  law.en = 0.9;
+  law.et0 = 0.5;
+  law.mu = 0.44;
+  return law;
+}
+
 TEST(CollisionOracle, RigidLawIsWaltons) {
-  EXPECT_DOUBLE_EQ(rigidOutcome(0.9, 0.5, 0.44, 2.0, 1.0).psi, -0.5);
-  EXPECT_DOUBLE_EQ(rigidOutcome(0.9, 0.5, 0.44, 2.0, 4.0).psi, 4.0 - 3.0 * 1.9 * 0.44);
-  EXPECT_DOUBLE_EQ(rigidOutcome(0.9, 0.5, 0.44, 2.0, -1.0).psi, 0.5);
+  const auto psi = [](double start) {
+    return oracleOutcome(rigidLaw(), smallPair(), {start, 0.1}).psi;
+  };
+  EXPECT_NEAR(psi(1.0), -0.5, 1e-15);
+  EXPECT_NEAR(psi(4.0), 4.0 - 3.0 * 1.9 * 0.44, 1e-15);
+  EXPECT_NEAR(psi(-1.0), 0.5, 1e-15);
+}
+
+TEST(CollisionOracle, SaysWhereTheLawHasNoLimitOfSmallSteps) {
+  // Spring and dashpot near the transition: the in-house engine settles at Ψ_i = 1.65; at 1.75 ever
+  // smaller steps go on giving other outcomes.
+  Case setup = smallPairCase();
+  setup.collision.radius[1] = 3.0 * radius;
+  setup.collision.mass[1] = 20.0 * mass;
+  const auto spread = [&](const CollisionStart& start) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double steps : {1e4, 3e4, 1e5, 3e5}) {
+      const Scene scene = collisionScene(setup, {start}, contactTime / steps);
+      const auto engine = makeGrain();
+      engine->load(scene, {});
+      engine->advance(2.5 * contactTime);
+      const double psi = collisionEnd(scene, engine->snapshot(ContactReport::none), 0, start)->psi;
+      low = std::min(low, psi);
+      high = std::max(high, psi);
+    }
+    return high - low;
+  };
+  const CollisionStart settled{1.65, 1e-3}, unsettled{1.75, 1e-3};
+  EXPECT_FALSE(oracleOutcome(setup.law, collidingPair(setup), settled).limitless);
+  EXPECT_TRUE(oracleOutcome(setup.law, collidingPair(setup), unsettled).limitless);
+  EXPECT_LT(spread(settled), 1e-4);
+  EXPECT_GT(spread(unsettled), 1e-3);
 }
 
 struct Convention {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/cases/thesis_pair.hpp"
 
 namespace {
@@ -31,6 +33,20 @@ TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
   }
 }
 
+TEST(CollisionScene, AnObliqueApproachHasNoSpinAndTouchesOnTheAxis) {
+  Case setup = test::smallPairCase();
+  setup.collision.mass[1] = 8.0 * test::mass;
+  const double dt = 1e-4;
+  const Scene scene = collisionScene(setup, {{2.0, 0.1, Approach::oblique}}, dt);
+  const Vec2 velocity = scene.disks.velocity[0] - scene.disks.velocity[1];
+  EXPECT_NEAR(velocity.x(), -0.1, 1e-15);
+  EXPECT_NEAR(velocity.y(), 0.2, 1e-15);  // z × n is +y
+  EXPECT_EQ(scene.disks.spin, (std::vector<double>{0.0, 0.0}));
+  const Vec2 touch = scene.disks.position[0] - scene.disks.position[1] + 0.5 * dt * velocity;
+  EXPECT_NEAR(touch.x(), 2.0 * test::radius, 1e-16);
+  EXPECT_NEAR(touch.y(), 0.0, 1e-16);
+}
+
 TEST(CollisionScene, TheEndIsTakenAtSeparationWithThatInstantsNormal) {
   // Disks of radius 1 that parted at (2, 0) with velocity (0.3, 0.4) and spin −0.5 each, 10 s ago.
   Case setup = test::smallPairCase();
@@ -41,10 +57,20 @@ TEST(CollisionScene, TheEndIsTakenAtSeparationWithThatInstantsNormal) {
   after.position = {Vec2(2.0 + 3.0, 4.0), Vec2(0.0, 0.0)};
   after.velocity = {Vec2(0.3, 0.4), Vec2(0.0, 0.0)};
   after.spin = {{-0.5, -0.5}};
+  after.positionTime = 10.5;
   const auto end = collisionEnd(scene, after, 0, start);
   ASSERT_TRUE(end);
   EXPECT_NEAR(end->en, 0.3 / 0.5, 1e-12);
   EXPECT_NEAR(end->psi, (0.4 + 1.0) / 0.5, 1e-12);
+  EXPECT_NEAR(*end->beta, -2.8, 1e-12);
+  EXPECT_NEAR(end->centrePsi, 0.8, 1e-12);
+  EXPECT_FALSE(end->et);
+  EXPECT_NEAR(end->reboundAngle, std::atan2(4.0, 3.0), 1e-12);
+  EXPECT_EQ(end->spin[1], -0.5);
+  // They touched half a step after the start and parted 10 s before what is seen at 10.5 s.
+  EXPECT_NEAR(*end->duration, 0.5 - 0.5e-4, 1e-12);
+  EXPECT_FALSE(end->maxOverlap);
+  EXPECT_FALSE(end->lost);
 }
 
 TEST(CollisionScene, APairThatStillTouchesHasNoEnd) {

@@ -25,6 +25,16 @@ inline crossgrain::CollidingPair smallPair() {
   return {{radius, radius}, {mass, mass}, {inertia, inertia}};
 }
 
+/// A small disk and one of three times its radius, twenty times its mass and another inertia
+/// factor.
+inline crossgrain::CollidingPair unequalPair() {
+  crossgrain::CollidingPair pair = smallPair();
+  pair.radius[1] = 3.0 * radius;
+  pair.mass[1] = 20.0 * mass;
+  pair.inertia[1] = 0.4 * pair.mass[1] * pair.radius[1] * pair.radius[1];
+  return pair;
+}
+
 inline crossgrain::Case smallPairCase() {
   crossgrain::Case setup;
   setup.name = "pair";

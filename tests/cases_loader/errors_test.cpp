@@ -108,7 +108,8 @@ TEST_F(LoaderErrors, NumbersOutOfRangeSayTheRange) {
        "case.toml:25:21: run.steps_per_contact = 1: must be >= 2"},
       {plus("[engines.x]\nrate = inf\n"),
        "case.toml:25:8: engines.x.rate = inf: must be a finite number"},
-      {collision(10, "vn = [0.1, 0]"), "case.toml:10:12: collision.vn[1] = 0: must be > 0 m/s"},
+      {collision(10, "vn = [0.1, 0]"),
+       "case.toml:10:12: collision.vn[1] = 0: must be > 0 m/s, else the disks never meet"},
   });
 }
 
@@ -261,7 +262,12 @@ TEST_F(LoaderErrors, SweepsOfCollisions) {
       {collision(11, "radius = [1, 2, 3]"),
        "case.toml:11:10: collision.radius: must be one number or two"},
       {collision(12, "mass = 0.275e-3\nstart_phase = 1"),
-       "case.toml:13:15: collision.start_phase = 1: must be in [0, 1)"},
+       "case.toml:13:15: collision.start_phase = 1: must be < 1"},
+      {collision(12, "mass = 0.275e-3\nstart_phase = -0.5"),
+       "case.toml:13:15: collision.start_phase = -0.5: must be >= 0, else the disks overlap at the "
+       "start"},
+      {collision(12, "mass = 0.275e-3\napproach = \"obligue\""),
+       "case.toml:13:12: collision.approach = \"obligue\": unknown name (did you mean oblique?)"},
       {collision(5, "gn = 0.45"),
        "case.toml:5:6: law.gn = 0.45: overdamps the lightest pair: must be < 0.4401 kg/s"},
   });

@@ -4,6 +4,7 @@
 
 #include "adapters/law_options.hpp"
 #include "cases/collision_oracle.hpp"
+#include "cases/collision_scene.hpp"
 #include "tests/conformance/conformance.hpp"
 
 namespace crossgrain::conformance {

@@ -193,6 +193,21 @@ class CommandLine(SystemTest):
             ["collide", self.folder / "empty", "--engines", "grain", "--out", self.out], "empty"
         )
 
+    def test_collide_on_a_folder_without_collisions(self):
+        folder = self.folder / "sheared"
+        folder.mkdir()
+        (folder / "sheared.toml").write_text(f'[case]\nkind = "couette"\nextends = "{COUETTE}"\n')
+        self.refuse(["collide", folder, "--engines", "grain", "--out", self.out], "sheared", "collision")
+
+    def test_collide_on_cases_of_one_name(self):
+        folder = self.folder / "twins"
+        folder.mkdir()
+        for name in ("a", "b"):
+            (folder / f"{name}.toml").write_text(
+                f'[case]\nname = "twin"\nkind = "collision"\nextends = "{COLLISION}"\n'
+            )
+        self.refuse(["collide", folder, "--engines", "grain", "--out", self.out], "b.toml", "twin")
+
     def test_line_break_in_a_name_stays_one_line(self):
         done = self.compare("--quiet", out="/proc/no\nsuch")
         self.assert_one_line(done, BAD_INPUT, "/proc/no")

@@ -1,0 +1,48 @@
+#include "cases/collision_end.hpp"
+
+#include <cmath>
+
+namespace crossgrain {
+
+double CollidingPair::reducedMass() const {
+  return 1.0 / (1.0 / mass[0] + 1.0 / mass[1]);
+}
+
+double CollidingPair::tangentialCompliance() const {
+  return 1.0 / mass[0] + 1.0 / mass[1] + radius[0] * radius[0] / inertia[0] +
+         radius[1] * radius[1] / inertia[1];
+}
+
+PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start) {
+  const double slip = start.psi * start.vn;
+  if (start.approach == Approach::oblique) return {-start.vn, slip, {0.0, 0.0}};
+  const double spin = -slip / (pair.radius[0] + pair.radius[1]);
+  return {-start.vn, 0.0, {spin, spin}};
+}
+
+double energyOf(const CollidingPair& pair, const PairMotion& motion) {
+  double twice =
+      pair.reducedMass() * (motion.normal * motion.normal + motion.tangential * motion.tangential);
+  for (const int side : {0, 1}) twice += pair.inertia[side] * motion.spin[side] * motion.spin[side];
+  return 0.5 * twice;
+}
+
+CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start,
+                   const PairMotion& after) {
+  const PairMotion before = motionBefore(pair, start);
+  const double slip =
+      after.tangential - pair.radius[0] * after.spin[0] - pair.radius[1] * after.spin[1];
+  CollisionEnd end;
+  end.en = after.normal / start.vn;
+  end.psi = slip / start.vn;
+  if (start.psi != 0.0) end.beta = -end.psi / start.psi;
+  end.centrePsi = after.tangential / start.vn;
+  if (before.tangential != 0.0) end.et = after.tangential / before.tangential;
+  end.reboundAngle = std::atan2(after.tangential, after.normal);
+  for (const int side : {0, 1}) end.spin[side] = after.spin[side];
+  end.energyBefore = energyOf(pair, before);
+  end.energyAfter = energyOf(pair, after);
+  return end;
+}
+
+}  // namespace crossgrain
