@@ -14,6 +14,11 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// Two figures, three and more as they are: never a power of ten.
+std::string roughly(double percent) {
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
+
 std::optional<double> percent(std::optional<double> share) {
   return share ? std::optional(100.0 * *share) : std::nullopt;
 }
@@ -54,7 +59,7 @@ std::string detectableInWords(const EffectLeg& leg) {
   }
   if (!least) return {};
   const auto one = [](const FieldChange& change) {
-    return fmt::format("{:.2g} % ({})", 100.0 * *change.detectable, spaced(change.field));
+    return fmt::format("{} % ({})", roughly(100.0 * *change.detectable), spaced(change.field));
   };
   return least == most ? one(*least) : one(*least) + " to " + one(*most);
 }
@@ -118,7 +123,7 @@ Json fieldCell(const FieldChange* change) {
   std::string detail = ringName(*change);
   if (change->inErrors) detail += fmt::format(", {:.2g} errors", *change->inErrors);
   if (!found && change->detectableHere)
-    detail += fmt::format("; seen from {:.2g} %", 100.0 * *change->detectableHere);
+    detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
   if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
   return {{"symbol", !found                 ? "○"
                      : change->change > 0.0 ? "▲"
