@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/kernels.hpp"
 
 namespace grain {
@@ -50,7 +51,7 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
       b.spinI[p] = disks.spin[i];
       b.spinJ[p] = disks.spin[j];
     }
-    if (law.implicitDamping) {
+    if (seesMasses(law)) {
       b.inverseMass[p] = disks.inverseMass[i] + disks.inverseMass[j];
       if (law.rotation) {
         b.inverseInertiaI[p] = disks.inverseInertia[i];
@@ -86,7 +87,10 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     const Real nx = dx * inverse;
     const Real ny = dy * inverse;
 
-    ContactMotion<Real> motion{reach - distance, Real(0), Real(0), Real(0), Real(0)};
+    ContactMotion<Real> motion{};
+    motion.overlap = reach - distance;
+    if (law.normal == Normal::hertz) motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+    if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
     if (law.implicitDamping) motion.normalCompliance = law.halfStep * b.inverseMass[p];
     Real leverI = 0, leverJ = 0;

@@ -96,6 +96,7 @@ class Core {
 
   WallPoint wallDisk(std::size_t number) const;
   std::vector<Contact> pairContacts() const;
+  Real pairRadius(const Contact& contact) const;
   void appendPlaneContacts(std::vector<Contact>& contacts) const;
 
   GeneralLaw<Real> law_;

@@ -4,6 +4,24 @@
 
 namespace grain {
 
+/// The elastic part of the normal force, f_el(δ).
+enum class Normal {
+  linear,  ///< k_n δ
+  hertz,  ///< k_n √R₁₂ δ^(3/2), k_n = 4/3 E₁₂ [Pa]; the tangential stiffness is k_t √(R₁₂ δ)
+  polynomial  ///< k_n δ² + k_n3 δ³ [N/m², N/m³]
+};
+/// What a dashpot's constant multiplies besides the velocity; S is f_el′(δ), or the tangential
+/// stiffness.
+enum class Damper {
+  constant,   ///< 1
+  stiffness,  ///< S: viscoelastic bodies, γ [s] (Brilliantov et al. 1996): e falls with the speed
+  critical    ///< √(m₁₂ S): γ [-]; e does not depend on the speed (Tsuji et al. 1992)
+};
+/// What a contact remembers while k_t changes with the overlap.
+enum class History {
+  displacement,  ///< ξ: f* = −k_t(δ) ξ
+  force  ///< the force itself, which grows by −k_t(δ) v_t dt (Mindlin and Deresiewicz 1953)
+};
 enum class Tangential { none, coulomb, viscous, spring, springDashpot };
 enum class Bound { compression, magnitude, signedForce };  ///< µ times max(f_n,0), |f_n| or f_n
 enum class Lever {
@@ -20,11 +38,15 @@ enum class Integrator { positionVerlet, velocityVerlet, semiImplicitEuler };
 /// n points from j to i, s = z × n, overlap δ = a_i + a_j − |x_i − x_j|;
 /// v_n = (v_i − v_j)·n, v_t = (v_i − v_j)·s − (l_i ω_i + l_j ω_j); the force on i is f_n n + f_t s.
 struct Law {
-  double kn = 0.0;  ///< [N/m]
-  double gn = 0.0;  ///< [kg/s]
-  double kt = 0.0;  ///< [N/m]
-  double gt = 0.0;  ///< [kg/s]
-  double mu = 0.0;  ///< [-]
+  double kn = 0.0;   ///< [N/m] or as `normal` says
+  double kn3 = 0.0;  ///< k_n3 of a polynomial [N/m³]
+  double gn = 0.0;   ///< [kg/s] or as `damper` says
+  double kt = 0.0;   ///< [N/m]; with Hertz 8 G₁₂ [Pa]
+  double gt = 0.0;   ///< [kg/s] or as `damper` says
+  double mu = 0.0;   ///< [-]
+  Normal normal = Normal::linear;
+  Damper damper = Damper::constant;
+  History history = History::displacement;
   Tangential tangential = Tangential::none;
   Bound bound = Bound::compression;
   bool cutTension = false;
@@ -49,6 +71,8 @@ struct ContactMotion {
   Real tangentialVelocity;    ///< v_t [m/s]
   Real normalCompliance;      ///< dt/2 · (1/m_i + 1/m_j); read if damping is implicit [s/kg]
   Real tangentialCompliance;  ///< dt/2 · (1/m_i + 1/m_j + l_i²/J_i + l_j²/J_j), likewise [s/kg]
+  Real radius = 0;            ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
+  Real mass = 0;              ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]
 };
 
 template <class Real>
@@ -57,77 +81,5 @@ struct ContactForce {
   Real tangential;  ///< f_t [N]
   Real sliding;     ///< 1 where the Coulomb bound holds, else 0
 };
-
-// The functions below are the law. `L` is one of law_types.hpp: it has Law's members either as
-// compile-time constants, and what they exclude is not compiled, or as run-time values.
-
-/// f_n = k_n δ − γ_n v_n (Lätzel 2003, Eq. 4.9).
-/// Implicit damping takes v_n at the end of the half step that f_n itself brings about:
-/// v_n = v_n' + f_n dt/(2 m₁₂), hence the divisor.
-template <class L, class Real>
-GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact) {
-  Real force = law.kn * contact.overlap;
-  if (law.normalDamping) force -= law.gn * contact.normalVelocity;
-  if (law.implicitDamping) force /= Real(1) + law.gn * contact.normalCompliance;
-  return law.cutTension ? larger(force, Real(0)) : force;
-}
-
-template <class L, class Real>
-GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
-  if (law.bound == Bound::compression) return law.mu * larger(normal, Real(0));
-  if (law.bound == Bound::magnitude) return law.mu * magnitude(normal);
-  return law.mu * normal;
-}
-
-/// l_i of a disk of radius a that touches one of radius `other` [m].
-template <class L, class Real>
-GRAIN_INLINE Real leverArm(const L& law, Real a, Real other, Real overlap) {
-  if (law.lever == Lever::radius) return a;
-  if (law.lever == Lever::contactPoint) return a - overlap * other / (a + other);
-  return a - Real(0.5) * overlap;
-}
-
-/// Spring with or without dashpot: f* = −k_t ξ − γ_t v_t; where |f*| is within the bound f_t = f*
-/// and ξ grows by v_t dt, else f_t = bound·sign(f*) and ξ = −f_t/k_t (Lätzel 2003, Eqs. 4.20–4.25).
-template <class L, class Real>
-GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Real>& contact,
-                                            Real normal, Real bound, Real& spring) {
-  const Real stretch = contact.tangentialVelocity * law.dt;
-  const Real share = law.stretch == Stretch::after    ? Real(0)
-                     : law.stretch == Stretch::before ? Real(1)
-                                                      : Real(0.5);
-  const Real stretched = law.stretch == Stretch::after ? spring : spring + share * stretch;
-  const Real elastic = -law.kt * stretched;
-  Real viscous = Real(0);
-  if (law.tangential == Tangential::springDashpot) viscous = -law.gt * contact.tangentialVelocity;
-  Real trial = elastic + viscous;
-  if (law.implicitDamping && law.tangential == Tangential::springDashpot)
-    trial /= Real(1) + law.gt * contact.tangentialCompliance;
-  const Real tested = law.dashpotOutsideBound ? elastic : trial;
-  const bool holds = magnitude(tested) <= bound;
-  const Real slipping = signedLike(bound, tested);
-  Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * law.inverseKt;
-  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
-  spring = holds ? stretched + (Real(1) - share) * stretch : slipped;
-  return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
-}
-
-/// The force on i. `spring` is ξ, kept as long as the contact lasts.
-template <class L, class Real>
-GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
-                                             Real& spring) {
-  const Real normal = normalForce(law, contact);
-  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
-  const Real bound = coulombBound(law, normal);
-  const Real slip = contact.tangentialVelocity;
-  if (law.tangential == Tangential::coulomb)  // Eq. 4.16
-    return {normal, -signedLike(bound, slip), Real(1)};
-  if (law.tangential == Tangential::viscous) {  // Eq. 4.18
-    Real trial = law.gt * magnitude(slip);
-    if (law.implicitDamping) trial /= Real(1) + law.gt * contact.tangentialCompliance;
-    return {normal, -signedLike(smaller(trial, bound), slip), trial > bound ? Real(1) : Real(0)};
-  }
-  return springForce(law, contact, normal, bound, spring);
-}
 
 }  // namespace grain

@@ -7,7 +7,7 @@ namespace grain {
 /// The constants of a law, in the precision of the state.
 template <class Real>
 struct LawConstants {
-  Real kn, gn, kt, inverseKt, gt, mu;
+  Real kn, kn3, gn, kt, inverseKt, gt, mu;
   Real dt;        ///< [s]
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
@@ -16,6 +16,9 @@ struct LawConstants {
 /// what runs the conventions of other engines.
 template <class Real>
 struct GeneralLaw : LawConstants<Real> {
+  Normal normal;
+  Damper damper;
+  History history;
   Tangential tangential;
   Bound bound;
   Lever lever;
@@ -31,6 +34,9 @@ struct EffectsLaw : LawConstants<Real> {
   static constexpr bool cutTension = CutTension;
   static constexpr bool normalDamping = NormalDamping;
   static constexpr bool rotation = Rotation;
+  static constexpr Normal normal = Normal::linear;
+  static constexpr Damper damper = Damper::constant;
+  static constexpr History history = History::displacement;
   static constexpr Bound bound = Bound::compression;
   static constexpr Lever lever = Lever::radius;
   static constexpr Stretch stretch = Stretch::after;
@@ -44,15 +50,23 @@ struct EffectsLaw : LawConstants<Real> {
 /// Whether EffectsLaw has the law's conventions, so that only effects remain to be chosen.
 template <class Real>
 bool hasThesisConventions(const GeneralLaw<Real>& law) {
-  return law.bound == Bound::compression && law.lever == Lever::radius &&
-         law.stretch == Stretch::after && !law.implicitDamping && !law.dashpotOutsideBound &&
-         !law.resetSpringOnly;
+  return law.normal == Normal::linear && law.damper == Damper::constant &&
+         law.history == History::displacement && law.bound == Bound::compression &&
+         law.lever == Lever::radius && law.stretch == Stretch::after && !law.implicitDamping &&
+         !law.dashpotOutsideBound && !law.resetSpringOnly;
+}
+
+/// Whether a law asks for m₁₂ (and the compliances that follow from the inverse masses).
+template <class L>
+GRAIN_INLINE constexpr bool seesMasses(const L& law) {
+  return law.implicitDamping || law.damper == Damper::critical;
 }
 
 template <class Real>
 GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   GeneralLaw<Real> to;
   to.kn = static_cast<Real>(law.kn);
+  to.kn3 = static_cast<Real>(law.kn3);
   to.gn = static_cast<Real>(law.gn);
   to.kt = static_cast<Real>(law.kt);
   to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
@@ -60,6 +74,9 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.mu = static_cast<Real>(law.mu);
   to.dt = static_cast<Real>(dt);
   to.halfStep = static_cast<Real>(0.5 * dt);
+  to.normal = law.normal;
+  to.damper = law.damper;
+  to.history = law.history;
   to.tangential = law.friction() ? law.tangential : Tangential::none;
   to.bound = law.bound;
   to.lever = law.lever;

@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/core.hpp"
 
 namespace grain {
@@ -169,12 +170,25 @@ double Core<Real>::kineticEnergy() const {
   return energy;
 }
 
+/// R₁₂; of a plane's partner its own radius.
+template <class Real>
+Real Core<Real>::pairRadius(const Contact& contact) const {
+  const Real own = radius_[static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)])];
+  const auto j = static_cast<std::size_t>(contact.j);
+  if (j >= position_.size()) return own;
+  const Real other = j < moving_ ? radius_[static_cast<std::size_t>(placeOf_[j])] : radius_[j];
+  return own * other / (own + other);
+}
+
 template <class Real>
 double Core<Real>::elasticEnergy() const {
   double energy = 0.0;
-  for (const Contact& contact : contacts())
-    energy += 0.5 * static_cast<double>(law_.kn) * contact.overlap * contact.overlap +
-              0.5 * static_cast<double>(law_.kt) * contact.spring * contact.spring;
+  for (const Contact& contact : contacts()) {
+    ContactMotion<Real> motion{};
+    motion.overlap = static_cast<Real>(contact.overlap);
+    motion.radius = pairRadius(contact);
+    energy += static_cast<double>(storedEnergy(law_, motion, static_cast<Real>(contact.spring)));
+  }
   return energy;
 }
 

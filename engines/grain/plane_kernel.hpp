@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/kernels.hpp"
 
 namespace grain {
@@ -29,8 +30,12 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       const Real vy = disks.velocity[i].y - (plane.vy + plane.spin * armX);
       // The plane does not yield, so the contact point lies on it: a disk of infinite radius.
       const Real lever = law.lever == Lever::radius ? disks.radius[i] : height;
-      ContactMotion<Real> motion{overlap, vx * plane.nx + vy * plane.ny,
-                                 vy * plane.nx - vx * plane.ny, Real(0), Real(0)};
+      ContactMotion<Real> motion{};
+      motion.overlap = overlap;
+      motion.normalVelocity = vx * plane.nx + vy * plane.ny;
+      motion.tangentialVelocity = vy * plane.nx - vx * plane.ny;
+      motion.radius = disks.radius[i];
+      if (law.damper == Damper::critical) motion.mass = Real(1) / disks.inverseMass[i];
       if (law.rotation) motion.tangentialVelocity -= lever * disks.spin[i];
       if (law.implicitDamping) {
         motion.normalCompliance = law.halfStep * disks.inverseMass[i];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/law_types.hpp"
 #include "tests/unit/grain_scenes.hpp"
 

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "engines/grain/stiffness.hpp"
+
+namespace grain {
+
+// The functions below are the law. `L` is one of law_types.hpp: it has Law's members either as
+// compile-time constants, and what they exclude is not compiled, or as run-time values.
+
+/// f_n = f_el(δ) − γ_n v_n (linear: Lätzel 2003, Eq. 4.9).
+/// Implicit damping takes v_n at the end of the half step that f_n itself brings about:
+/// v_n = v_n' + f_n dt/(2 m₁₂), hence the divisor.
+template <class L, class Real>
+GRAIN_INLINE Real normalForce(const L& law, const ContactMotion<Real>& contact) {
+  Real force = elasticForce(law, contact);
+  if (law.normalDamping) {
+    const Real gn = normalDamping(law, contact);
+    force -= gn * contact.normalVelocity;
+    if (law.implicitDamping) force /= Real(1) + gn * contact.normalCompliance;
+  }
+  return law.cutTension ? larger(force, Real(0)) : force;
+}
+
+template <class L, class Real>
+GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
+  if (law.bound == Bound::compression) return law.mu * larger(normal, Real(0));
+  if (law.bound == Bound::magnitude) return law.mu * magnitude(normal);
+  return law.mu * normal;
+}
+
+/// l_i of a disk of radius a that touches one of radius `other` [m].
+template <class L, class Real>
+GRAIN_INLINE Real leverArm(const L& law, Real a, Real other, Real overlap) {
+  if (law.lever == Lever::radius) return a;
+  if (law.lever == Lever::contactPoint) return a - overlap * other / (a + other);
+  return a - Real(0.5) * overlap;
+}
+
+/// Spring with or without dashpot: f* = −k_t ξ − γ_t v_t; where |f*| is within the bound f_t = f*
+/// and ξ grows by v_t dt, else f_t = bound·sign(f*) and ξ = −f_t/k_t (Lätzel 2003, Eqs. 4.20–4.25).
+template <class L, class Real>
+GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Real>& contact,
+                                            Real normal, Real bound, Real& spring) {
+  // With History::force the spring is the force itself: one unit of it per unit.
+  const bool force = law.history == History::force;
+  const Real stiffness = tangentialStiffness(law, contact);
+  const Real unit = force ? Real(1) : stiffness;
+  Real inverse = law.inverseKt;
+  if (force) inverse = Real(1);
+  if (law.normal == Normal::hertz && !force)
+    inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
+  Real stretch = contact.tangentialVelocity * law.dt;
+  if (force) stretch *= stiffness;
+  const Real share = law.stretch == Stretch::after    ? Real(0)
+                     : law.stretch == Stretch::before ? Real(1)
+                                                      : Real(0.5);
+  const Real stretched = law.stretch == Stretch::after ? spring : spring + share * stretch;
+  const Real elastic = -unit * stretched;
+  Real viscous = Real(0), gt = Real(0);
+  if (law.tangential == Tangential::springDashpot) {
+    gt = tangentialDamping(law, contact);
+    viscous = -gt * contact.tangentialVelocity;
+  }
+  Real trial = elastic + viscous;
+  if (law.implicitDamping && law.tangential == Tangential::springDashpot)
+    trial /= Real(1) + gt * contact.tangentialCompliance;
+  const Real tested = law.dashpotOutsideBound ? elastic : trial;
+  const bool holds = magnitude(tested) <= bound;
+  const Real slipping = signedLike(bound, tested);
+  Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
+  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  spring = holds ? stretched + (Real(1) - share) * stretch : slipped;
+  return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
+}
+
+/// The force on i. `spring` is ξ, kept as long as the contact lasts.
+template <class L, class Real>
+GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
+                                             Real& spring) {
+  const Real normal = normalForce(law, contact);
+  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
+  const Real bound = coulombBound(law, normal);
+  const Real slip = contact.tangentialVelocity;
+  if (law.tangential == Tangential::coulomb)  // Eq. 4.16
+    return {normal, -signedLike(bound, slip), Real(1)};
+  if (law.tangential == Tangential::viscous) {  // Eq. 4.18
+    const Real gt = tangentialDamping(law, contact);
+    Real trial = gt * magnitude(slip);
+    if (law.implicitDamping) trial /= Real(1) + gt * contact.tangentialCompliance;
+    return {normal, -signedLike(smaller(trial, bound), slip), trial > bound ? Real(1) : Real(0)};
+  }
+  return springForce(law, contact, normal, bound, spring);
+}
+
+}  // namespace grain
