@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "adapters/box2d.hpp"
+#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 
 namespace crossgrain {
@@ -36,8 +37,7 @@ Contacts contactsFrom(std::span<const PairImpulse> impulses, double interval,
 }
 
 double friction(const ContactLaw& law) {
-  const bool frictionless =
-      law.normal == NormalLaw::linear && law.tangential == TangentialLaw::none;
+  const bool frictionless = law.soft() && law.tangential == TangentialLaw::none;
   return frictionless ? 0.0 : law.mu;
 }
 
@@ -105,6 +105,12 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   const auto number = [&](const std::string& name) { return numberSetting(settings, specs, name); };
   const auto passes = [&](const std::string& name) { return iterations(number(name), name); };
   if (scene.bottom && scene.bottom->mu > 0.0) throw UnsupportedScene("has no bottom_friction");
+  if (scene.law.stiffens())
+    throw UnsupportedScene(
+        "has rigid contacts, normal = \"rigid\"; they can stand for normal = \"linear\", whose "
+        "restitutions are the same at every speed");
+  if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
+    throw UnsupportedScene("can stand in for a linear law with damper = \"constant\" only");
   const double dt = number("dt") > 0.0 ? number("dt") : scene.dt;
   const box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
 

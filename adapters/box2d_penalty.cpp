@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "adapters/box2d.hpp"
+#include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 
 namespace crossgrain {
@@ -17,6 +18,7 @@ Capabilities Box2dPenalty::capabilities() const {
   can.version = box2dVersion();
   for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
   can.lawOptions = {{"normal", {"linear"}},
+                    {"damper", {"constant"}},
                     {"spring_update", {"after", "before"}},
                     {"lever_arm", {"radius", "contact_point"}},
                     {"damping_velocity", {"lagged"}},
@@ -28,8 +30,9 @@ Capabilities Box2dPenalty::capabilities() const {
 }
 
 Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
-  if (scene.law.normal != NormalLaw::linear)
-    throw UnsupportedScene("has no rigid contacts, only normal = \"linear\"");
+  if (scene.law.normal != NormalLaw::linear) throw UnsupportedScene("has only normal = \"linear\"");
+  if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
+    throw UnsupportedScene("has only damper = \"constant\"");
   const std::vector<SettingSpec> specs = capabilities().settings;
   const double dt = numberSetting(settings, specs, "dt");
   const box2d_granular::Model model =

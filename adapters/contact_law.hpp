@@ -9,9 +9,21 @@ namespace crossgrain {
 ///   lever arms l,
 /// the force on i is f_n n + f_t s and its torque on i is −l_i f_t (Lätzel 2003, chapter 4).
 
+/// f_n = f_el(δ) − γ_n v_n with an elastic part that is
 enum class NormalLaw {
-  linear,  ///< f_n = k_n δ − γ_n v_n  (Lätzel 2003, Eq. 4.9)
-  rigid    ///< hard disks: restitution e_n, tangential restitution e_t0, friction µ (Walton 1992)
+  linear,  ///< k_n δ  (Lätzel 2003, Eq. 4.9)
+  hertz,  ///< 4/3 E₁₂ √R₁₂ δ^(3/2) (Johnson 1985, Eq. 4.22); k_t is then 8 G₁₂ √(R₁₂ δ) (Eq. 7.43)
+  polynomial,  ///< k₂ δ² + k₃ δ³, as measured for a disk (Lätzel 2003, Fig. 4.4)
+  rigid  ///< hard disks: restitution e_n, tangential restitution e_t0, friction µ (Walton 1992)
+};
+
+/// What the dashpots' constants multiply besides the velocity. S is the stiffness f_el′(δ), of the
+/// tangential dashpot k_t(δ).
+enum class Damper {
+  constant,      ///< 1: γ [kg/s]
+  viscoelastic,  ///< S: γ [s]; e falls as the speed rises (Brilliantov et al. 1996)
+  critical  ///< √(m₁₂ S): γ [-]; e does not depend on the speed (Tsuji et al. 1992). γ = 2 is
+            ///< critical for a linear law
 };
 
 enum class Tension {
@@ -62,6 +74,12 @@ enum class LeverArm {
   overlapMiddle  ///< a_i − δ/2: keeps it too; the same for equal radii
 };
 
+/// What a contact remembers of its tangential motion while k_t follows the overlap.
+enum class History {
+  displacement,  ///< ξ, f* = −k_t(δ) ξ
+  force          ///< the force, df* = −k_t(δ) v_t dt (Mindlin and Deresiewicz 1953)
+};
+
 /// The relative velocity that enters the dashpots when velocities live half a step away.
 enum class DampingVelocity {
   lagged,     ///< v(t − dt/2)
@@ -82,6 +100,7 @@ struct LawConventions {
   SpringReset springReset = SpringReset::total;
   SpringUpdate springUpdate = SpringUpdate::after;
   LeverArm leverArm = LeverArm::radius;
+  History history = History::displacement;
   DampingVelocity dampingVelocity = DampingVelocity::predicted;
   Integrator integrator = Integrator::positionVerlet;
 };
@@ -90,14 +109,23 @@ struct LawConventions {
 struct ContactLaw {
   NormalLaw normal = NormalLaw::linear;
   TangentialLaw tangential = TangentialLaw::springDashpot;
-  double kn = 0.0;   ///< normal stiffness [N/m]
-  double gn = 0.0;   ///< normal damping γ_n [kg/s]
-  double kt = 0.0;   ///< tangential stiffness [N/m]
-  double gt = 0.0;   ///< tangential damping γ_t [kg/s]
+  Damper damper = Damper::constant;
+  double kn = 0.0;  ///< normal stiffness k_n [N/m]; Hertz: 4/3 E₁₂ [Pa]; polynomial: k₂ [N/m²]
+  double kn3 = 0.0;  ///< polynomial: k₃ [N/m³]
+  double gn = 0.0;   ///< normal damping γ_n [kg/s], or as `damper` says
+  double kt = 0.0;   ///< tangential stiffness k_t [N/m]; Hertz: 8 G₁₂ [Pa]
+  double gt = 0.0;   ///< tangential damping γ_t [kg/s], or as `damper` says
   double mu = 0.0;   ///< Coulomb's coefficient, static = dynamic [-]
   double en = 1.0;   ///< rigid law: normal restitution [-]
   double et0 = 0.0;  ///< rigid law: tangential restitution of a sticking contact [-]
   LawConventions conventions;
+
+  bool soft() const { return normal != NormalLaw::rigid; }
+  /// Whether stiffness, and with it the contact time, depends on how deep an impact goes.
+  bool stiffens() const { return normal == NormalLaw::hertz || normal == NormalLaw::polynomial; }
+  bool springs() const {
+    return tangential == TangentialLaw::spring || tangential == TangentialLaw::springDashpot;
+  }
 };
 
 /// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29):

@@ -18,12 +18,19 @@ namespace {
 grain::Law translate(const ContactLaw& law) {
   const LawConventions& how = law.conventions;
   grain::Law to;
+  to.normal = static_cast<grain::Normal>(law.normal);
+  to.damper = static_cast<grain::Damper>(law.damper);
+  to.history = static_cast<grain::History>(how.history);
   to.kn = law.kn;
+  to.kn3 = law.kn3;
   to.gn = law.gn;
   to.kt = law.kt;
   to.gt = law.gt;
   to.mu = law.mu;
-  to.tangential = static_cast<grain::Tangential>(law.tangential);
+  to.en = law.en;
+  to.et0 = law.et0;
+  to.tangential = law.soft() ? static_cast<grain::Tangential>(law.tangential)
+                             : grain::Tangential::coulomb;  // rigid disks have no springs
   to.bound = static_cast<grain::Bound>(how.coulombBound);
   to.stretch = static_cast<grain::Stretch>(how.springUpdate);
   to.cutTension = how.tension == Tension::cut;
@@ -84,6 +91,18 @@ grain::Setup translate(const Scene& scene) {
   return setup;
 }
 
+/// Contacts that last 1/√factor as long, at the same restitution.
+void stiffen(ContactLaw& law, double factor) {
+  law.kn *= factor;
+  law.kn3 *= factor;
+  law.kt *= factor;
+  const double slower = law.damper == Damper::constant       ? std::sqrt(factor)
+                        : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
+                                                             : 1.0;
+  law.gn *= slower;
+  law.gt *= slower;
+}
+
 class GrainEngine : public Engine {
  public:
   GrainEngine(std::map<std::string, std::string> conventions, double stiffness)
@@ -95,7 +114,8 @@ class GrainEngine : public Engine {
     for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
     for (const LawOption& option : lawOptions())
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
-    can.lawOptions["normal"] = {"linear"};
+    // A mirror of soft contacts has nothing to say of rigid ones, and the other way round.
+    if (!conventions_.empty() || stiffness_ != 1.0) std::erase(can.lawOptions["normal"], "rigid");
     for (const auto& [name, value] : conventions_) can.lawOptions[name] = {value};
     can.precisions = {Precision::float64, Precision::float32};
     can.slidingFlags = true;
@@ -113,16 +133,17 @@ class GrainEngine : public Engine {
   }
 
   Realised load(const Scene& scene, const Settings& settings) override {
-    if (scene.law.normal != NormalLaw::linear)
-      throw UnsupportedScene("has no rigid contacts, only normal = \"linear\"");
+    const bool rigid = !scene.law.soft();
+    if (!has(scene.law.normal))
+      throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
+                                   : "has rigid contacts only, normal = \"rigid\"");
     ContactLaw law = scene.law;
     for (const auto& [name, value] : conventions_) setLawOption(law, name, value);
+    // An impulse is a force within one step of the scheme in which a kick precedes its drift.
+    if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
     if (!(stiffness > 0.0)) throw std::invalid_argument("the setting stiffness must be > 0");
-    law.kn *= stiffness;
-    law.kt *= stiffness;
-    law.gn *= std::sqrt(stiffness);
-    law.gt *= std::sqrt(stiffness);
+    stiffen(law, stiffness);
     const double gtUsed = law.tangential == TangentialLaw::spring ? 0.0 : law.gt;
 
     Scene own = scene;
@@ -148,6 +169,9 @@ class GrainEngine : public Engine {
       realised.deviations.push_back({"damping_velocity", 0.0, "",
                                      "Euler's velocities are those of the positions' own time: "
                                      "nothing is predicted"});
+    if (rigid && scene.law.conventions.integrator != Integrator::semiImplicitEuler)
+      realised.deviations.push_back(
+          {"integrator", 0.0, "", "impulses act at the beginning of semi-implicit Euler steps"});
     if (stiffness != 1.0)
       realised.deviations.push_back(
           {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
@@ -157,6 +181,10 @@ class GrainEngine : public Engine {
       pair.kt = law.kt;
       pair.gt = gtUsed;
       pair.mu = law.mu;
+      if (rigid) {
+        pair.en = law.en;
+        pair.et0 = law.et0;
+      }
     });
     return realised;
   }
@@ -226,6 +254,14 @@ class GrainEngine : public Engine {
   }
 
  private:
+  /// Whether the engine, or the peer that this is a mirror of, has such contacts.
+  bool has(NormalLaw normal) const {
+    const bool rigid = normal == NormalLaw::rigid;
+    if (const auto only = conventions_.find("normal"); only != conventions_.end())
+      return rigid == (only->second == "rigid");
+    return !rigid || (conventions_.empty() && stiffness_ == 1.0);
+  }
+
   static double setting(const Settings& settings, const std::string& name, double otherwise) {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : std::get<double>(found->second);

@@ -42,7 +42,8 @@ const LawOption& findOption(std::string_view name) {
 
 std::span<const LawOption> lawOptions() {
   static const std::vector<LawOption> options = {
-      option("normal", &ContactLaw::normal, {"linear", "rigid"}),
+      option("normal", &ContactLaw::normal, {"linear", "hertz", "polynomial", "rigid"}),
+      option("damper", &ContactLaw::damper, {"constant", "viscoelastic", "critical"}),
       option("tangential", &ContactLaw::tangential,
              {"none", "coulomb", "viscous", "spring", "spring_dashpot"}),
       option("tension", &LawConventions::tension, {"allow", "cut"}),
@@ -52,6 +53,7 @@ std::span<const LawOption> lawOptions() {
       option("spring_reset", &LawConventions::springReset, {"total", "spring_only"}),
       option("spring_update", &LawConventions::springUpdate, {"after", "before", "midpoint"}),
       option("lever_arm", &LawConventions::leverArm, {"radius", "contact_point", "overlap_middle"}),
+      option("history", &LawConventions::history, {"displacement", "force"}),
       option("damping_velocity", &LawConventions::dampingVelocity,
              {"lagged", "predicted", "implicit"}),
       option("integrator", &LawConventions::integrator,
@@ -75,20 +77,18 @@ void setLawOption(ContactLaw& law, std::string_view name, std::string_view value
 }
 
 bool mattersTo(const ContactLaw& law, std::string_view name) {
-  const bool spring =
-      law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
-  const bool soft = law.normal == NormalLaw::linear;
-  if (name == "normal" || name == "integrator") return true;
-  if (name == "tangential") return true;
+  const bool soft = law.soft();
+  const bool damped = law.gn > 0.0 || law.gt > 0.0;
   if (name == "tension") return soft && law.gn > 0.0;
-  if (name == "damping_velocity") return soft && (law.gn > 0.0 || law.gt > 0.0);
+  if (name == "damper" || name == "damping_velocity") return soft && damped;
   if (name == "coulomb_bound")
     return soft && law.tangential != TangentialLaw::none && law.gn > 0.0 &&
            law.conventions.tension == Tension::allow;
   if (name == "lever_arm") return soft && law.tangential != TangentialLaw::none;
   if (name == "dashpot" || name == "spring_reset")
     return soft && law.tangential == TangentialLaw::springDashpot;
-  if (name == "spring_update") return soft && spring;
+  if (name == "spring_update") return soft && law.springs();
+  if (name == "history") return law.normal == NormalLaw::hertz && law.springs();
   return true;
 }
 

@@ -18,8 +18,8 @@ struct LawOption {
   std::function<void(ContactLaw&, std::size_t)> set;
 };
 
-/// Every option of the law: normal, tangential, tension, coulomb_bound, dashpot, spring_reset,
-/// spring_update, lever_arm, damping_velocity, integrator.
+/// Every option of the law: normal, damper, tangential, tension, coulomb_bound, dashpot,
+/// spring_reset, spring_update, lever_arm, history, damping_velocity, integrator.
 std::span<const LawOption> lawOptions();
 
 /// The value that a law has for an option, by name. @throws std::invalid_argument if unknown

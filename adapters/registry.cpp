@@ -60,6 +60,18 @@ const std::vector<EngineEntry>& engineRegistry() {
        {},
        {},
        "box2d-penalty"},
+      {"grain-as-box2d-impulse",
+       "the in-house engine with impulses, as Box2D's solver has them for two disks",
+       [] {
+         return makeGrainMirror({{"normal", "rigid"},
+                                 {"integrator", "semi_implicit_euler"},
+                                 {"damping_velocity", "lagged"},
+                                 {"lever_arm", "overlap_middle"}});
+       },
+       {},
+       {},
+       "box2d-impulse",
+       true},
       // In the quick cell Box2D's solver holds about 20 times the pressure of the soft law.
       {"grain-stiff",
        "the in-house engine with contacts 25 times as stiff, towards rigid ones",

@@ -115,9 +115,10 @@ double stickingRestitution(double etaT, double undamped, double t) {
   return decay * sinhOverPhase - 0.5 * (std::exp(-slow) + std::exp(-fast));
 }
 
-ImpliedImpact impliedImpact(const ContactLaw& law, const CollidingPair& pair) {
+ImpliedImpact impliedImpact(const ContactLaw& given, const CollidingPair& pair) {
   const ReducedPair reducedPair = reduced(pair);
   const double mass = reducedPair.mass;
+  const ContactLaw law = withConstantDampers(given, mass);
   const NormalOscillator normal = normalOscillator(law, mass);
   const double compression = normal.compressionPhase() / normal.omega;
   const bool tension = law.conventions.tension == Tension::allow;

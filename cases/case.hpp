@@ -9,6 +9,7 @@
 
 #include "adapters/contact_law.hpp"
 #include "adapters/engine.hpp"
+#include "adapters/vec2.hpp"
 #include "cases/collision_end.hpp"
 
 namespace crossgrain {
@@ -71,13 +72,18 @@ struct RunOptions {
   int keepSnapshots = 20;                    ///< snapshots kept per run in HDF5
 };
 
-/// Two-body collisions: disks that meet with v_t = Ψ_i v_n.
+/// Two-body collisions: disks that meet each other, or a wall, with v_t = Ψ_i v_n.
 struct Collision {
   std::vector<double> psi;             ///< Ψ_i = v_t/|v_n| before
   Approach approach = Approach::spin;  ///< what v_t comes from
-  std::vector<double> vn;              ///< approach speeds [m/s]
-  double radius[2] = {0.0, 0.0};       ///< [m]
-  double mass[2] = {0.0, 0.0};         ///< [kg]
+  std::vector<double> vn;              ///< approach speeds [m/s]; empty: `speed` is given
+  double speed = 0.0;                  ///< √(v_n² + v_t²), for every Ψ_i its own v_n [m/s]
+  std::vector<double> counterSpin = {0.0};  ///< CollisionStart::counterSpin [rad/s]
+  bool wall = false;                        ///< the second body is a plane wall
+  Vec2 wallVelocity =
+      Vec2::Zero();  ///< (along its normal, along it): relative motion is the same [m/s]
+  double radius[2] = {0.0, 0.0};  ///< of a wall not used [m]
+  double mass[2] = {0.0, 0.0};    ///< likewise [kg]
   double inertiaFactor = 0.5;
   std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
   double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)

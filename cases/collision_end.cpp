@@ -8,6 +8,10 @@ double CollidingPair::reducedMass() const {
   return 1.0 / (1.0 / mass[0] + 1.0 / mass[1]);
 }
 
+double CollidingPair::reducedRadius() const {
+  return plane ? radius[0] : radius[0] * radius[1] / (radius[0] + radius[1]);
+}
+
 double CollidingPair::tangentialCompliance() const {
   return 1.0 / mass[0] + 1.0 / mass[1] + radius[0] * radius[0] / inertia[0] +
          radius[1] * radius[1] / inertia[1];
@@ -15,15 +19,27 @@ double CollidingPair::tangentialCompliance() const {
 
 PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start) {
   const double slip = start.psi * start.vn;
-  if (start.approach == Approach::oblique) return {-start.vn, slip, {0.0, 0.0}};
-  const double spin = -slip / (pair.radius[0] + pair.radius[1]);
-  return {-start.vn, 0.0, {spin, spin}};
+  PairMotion motion{-start.vn, 0.0, {0.0, 0.0}};
+  const bool both = start.approach == Approach::spin && !pair.plane;
+  if (start.approach == Approach::oblique) {
+    motion.tangential = slip;
+  } else {
+    motion.spin[0] = -slip / (both ? pair.radius[0] + pair.radius[1] : pair.radius[0]);
+    if (both) motion.spin[1] = motion.spin[0];
+  }
+  if (start.counterSpin != 0.0) {
+    motion.spin[0] += start.counterSpin;
+    motion.spin[1] -= start.counterSpin * pair.radius[0] / pair.radius[1];
+  }
+  return motion;
 }
 
 double energyOf(const CollidingPair& pair, const PairMotion& motion) {
   double twice =
       pair.reducedMass() * (motion.normal * motion.normal + motion.tangential * motion.tangential);
-  for (const int side : {0, 1}) twice += pair.inertia[side] * motion.spin[side] * motion.spin[side];
+  for (const int side : {0, 1})
+    if (motion.spin[side] != 0.0)  // a wall has none, and an infinite moment of inertia
+      twice += pair.inertia[side] * motion.spin[side] * motion.spin[side];
   return 0.5 * twice;
 }
 

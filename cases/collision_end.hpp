@@ -4,21 +4,25 @@
 
 namespace crossgrain {
 
-/// Two disks, free but for each other.
+/// Two disks, free but for each other, or a disk and a plane wall that moves at a constant
+/// velocity.
 struct CollidingPair {
-  double radius[2];   ///< [m]
-  double mass[2];     ///< [kg]
-  double inertia[2];  ///< [kg m²]
+  double radius[2];    ///< [m]; 0 of a wall
+  double mass[2];      ///< [kg]; inf of a wall
+  double inertia[2];   ///< [kg m²]; inf of a wall
+  bool plane = false;  ///< the second is a plane: the normal does not turn
 
-  double reducedMass() const;  ///< m₁₂ [kg]
+  double reducedMass() const;    ///< m₁₂ [kg]
+  double reducedRadius() const;  ///< R₁₂ = a_i a_j/(a_i + a_j), a_i on a plane [m]
   /// dv_t/dt of the contact point per tangential force, 1/m₁₂ + Σ a²/J = K/m₁₂ [1/kg]
   double tangentialCompliance() const;
 };
 
 /// What gives the contact point its tangential velocity before a collision.
 enum class Approach {
-  spin,    ///< both disks turn alike, their centres meet head on
-  oblique  ///< the centres' own motion; the disks do not turn
+  spin,       ///< both disks turn alike, their centres meet head on
+  firstSpin,  ///< only the first disk turns; the same on a wall
+  oblique     ///< the centres' own motion; the disks do not turn
 };
 
 /// Ψ_i = v_t/v_n of the contact point before, with v_n the speed of approach.
@@ -26,6 +30,9 @@ struct CollisionStart {
   double psi = 0.0;
   double vn = 0.0;  ///< > 0 [m/s]
   Approach approach = Approach::spin;
+  /// Spin added to the first disk and taken from the second, times a_j/a_i there: it leaves v_t as
+  /// it is [rad/s]
+  double counterSpin = 0.0;
 };
 
 /// Motion of i against j, in the frame of the normal n (from j to i) and s = z × n.
@@ -36,12 +43,16 @@ struct PairMotion {
 };
 
 /// Where the energy went that a collision took, a closed account:
-/// before = after + normalDamping + tangentialDamping + sliding + stored.
+/// before = after + normalDamping + tangentialDamping + stiffening + sliding + stored.
 struct EnergySplit {
-  /// ∫ (k_n δ − f_n) v_n dt: the dashpot's, and what the spring does not give back where tension is
+  /// ∫ (f_el − f_n) v_n dt: the dashpot's, and what the spring does not give back where tension is
   /// cut [J]
   double normalDamping = 0.0;
   double tangentialDamping = 0.0;  ///< ∫ γ_t v_t² dt while the contact does not slip [J]
+  /// What a loaded tangential spring loses (+) or gains (−) because its stiffness follows the
+  /// overlap, while the contact does not slip: no force does this work, a history-dependent law
+  /// just forgets it (Elata and Berryman 1996) [J]
+  double stiffening = 0.0;
   /// −∫ f_t v_t dt while it slips, together with what the tangential spring gains (−) or loses (+)
   /// from the first instant of a slip to the last: the law resets it [J]
   double sliding = 0.0;

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "cases/collision_oracle.hpp"
+#include "cases/time_step.hpp"
 
 /// Closed forms, with the normal frozen.
 namespace crossgrain {
@@ -22,7 +23,7 @@ CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
 }
 
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {
-  const double eta = law.gn / (2.0 * reducedMass);
+  const double eta = withConstantDampers(law, reducedMass).gn / (2.0 * reducedMass);
   const double omega2 = law.kn / reducedMass - eta * eta;
   if (!(omega2 > 0.0)) throw std::invalid_argument("the pair is overdamped: it never parts");
   const double omega = std::sqrt(omega2);
@@ -32,14 +33,25 @@ double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass) {
   return std::exp(-eta / omega * end);
 }
 
-double slidingConstant(const ContactLaw& law, const CollidingPair& pair) {
-  double restitution = law.en;
-  if (law.normal == NormalLaw::linear) {
-    ContactLaw cut = law;
-    cut.conventions.tension = Tension::cut;
-    restitution = restitutionOfLinearLaw(cut, pair.reducedMass());
-  }
-  return pair.tangentialCompliance() * pair.reducedMass() * (1.0 + restitution) * law.mu;
+std::optional<double> closedRestitution(const ContactLaw& law, double reducedMass) {
+  if (!law.soft()) return law.en;
+  if (law.normal == NormalLaw::linear) return restitutionOfLinearLaw(law, reducedMass);
+  if (law.gn == 0.0) return 1.0;
+  const bool tension = law.conventions.tension == Tension::allow;
+  if (law.normal != NormalLaw::hertz || law.damper != Damper::critical || !tension)
+    return std::nullopt;
+  const double share = law.gn / (2.0 * std::sqrt(5.0 / 6.0));  // of critical damping
+  if (!(share < 1.0)) return std::nullopt;
+  return std::exp(-std::numbers::pi * share / std::sqrt(1.0 - share * share));
+}
+
+std::optional<double> slidingConstant(const ContactLaw& law, const CollidingPair& pair) {
+  if (!(law.mu > 0.0)) return std::nullopt;
+  ContactLaw cut = law;
+  cut.conventions.tension = Tension::cut;
+  const auto restitution = closedRestitution(cut, pair.reducedMass());
+  if (!restitution) return std::nullopt;
+  return pair.tangentialCompliance() * pair.reducedMass() * (1.0 + *restitution) * law.mu;
 }
 
 }  // namespace crossgrain

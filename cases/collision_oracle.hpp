@@ -5,12 +5,12 @@
 
 namespace crossgrain {
 
-/// The outcome of a collision, from the planar two-body problem in continuous time: the linear law
+/// The outcome of a collision, from the planar two-body problem in continuous time: any soft law
 /// with any of its tangential laws and conventions, the normal turning with the pair. Integrated
-/// with Runge–Kutta–Prince–Dormand (8, 9) steps of t_c/400 (GSL), whose own error is below
-/// rounding; every change between stick and slip, of v_t's sign and of compression is an event,
-/// located to rounding. The energies lost are integrated beside the motion. Rigid laws:
-/// rigidOutcome().
+/// with Runge–Kutta–Prince–Dormand (8, 9) steps of at most t_c/400 (GSL), whose own error is below
+/// rounding; where a law that stiffens is not smooth, at δ = 0, steps shrink until it is again.
+/// Every change between stick and slip, of v_t's sign and of compression is an event, located to
+/// rounding. The energies lost are integrated beside the motion. Rigid laws: rigidOutcome().
 /// @throws std::invalid_argument for an overdamped pair, which never parts, and for conventions
 ///         whose force jumps with every step so that they have no limit of small steps
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
@@ -26,8 +26,13 @@ CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
 /// is allowed, exp(−(η/ω)(π − atan2(2ηω, ω² − η²))) where it is cut.
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass);
 
+/// The same of any law where it has a closed form: rigid and undamped ones, and Hertz' with
+/// critical dampers and tension, exp(−π β/√(1 − β²)) with β = γ_n/(2 √(5/6)) (Antypov and Elliott
+/// 2011).
+std::optional<double> closedRestitution(const ContactLaw& law, double reducedMass);
+
 /// The constant of the sliding asymptote Ψ_f = Ψ_i − constant: (1 + 1/q)(1 + e) µ with e of the cut
-/// law where the bound is µ max(f_n, 0), tension or not.
-double slidingConstant(const ContactLaw& law, const CollidingPair& pair);
+/// law where the bound is µ max(f_n, 0), tension or not. Absent without friction or a known e.
+std::optional<double> slidingConstant(const ContactLaw& law, const CollidingPair& pair);
 
 }  // namespace crossgrain

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace crossgrain {
 
 CollidingPair collidingPair(const Case& setup) {
   const Collision& c = setup.collision;
   CollidingPair pair{};
+  pair.plane = c.wall;
+  if (c.wall) pair.mass[1] = pair.inertia[1] = std::numeric_limits<double>::infinity();
   for (const int side : {0, 1}) {
+    if (c.wall && side == 1) continue;
     pair.radius[side] = c.radius[side];
     pair.mass[side] = c.mass[side];
     pair.inertia[side] = c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
@@ -16,12 +20,53 @@ CollidingPair collidingPair(const Case& setup) {
   return pair;
 }
 
+std::vector<CollisionStart> collisionStarts(const Case& setup) {
+  const Collision& c = setup.collision;
+  std::vector<CollisionStart> starts;
+  const auto add = [&](const std::vector<double>& speeds, bool whole) {
+    for (const double speed : speeds)
+      for (const double spin : c.counterSpin)
+        for (const double psi : c.psi)
+          starts.push_back({psi, whole ? speed / std::hypot(1.0, psi) : speed, c.approach, spin});
+  };
+  c.vn.empty() ? add({c.speed}, true) : add(c.vn, false);
+  return starts;
+}
+
+namespace {
+
+void addDisk(Disks& disks, const CollidingPair& pair, int side, const Vec2& position,
+             const Vec2& velocity, double spin) {
+  disks.radius.push_back(pair.radius[side]);
+  disks.mass.push_back(pair.mass[side]);
+  disks.inertia.push_back(pair.inertia[side]);
+  disks.position.push_back(position);
+  disks.velocity.push_back(velocity);
+  disks.spin.push_back(spin);
+}
+
+WallBody movingWall(const Vec2& velocity) {
+  WallBody wall;
+  wall.name = "wall";
+  wall.planes.push_back({Vec2::Zero(), Vec2::UnitX()});
+  if (!velocity.isZero(0.0)) {
+    wall.motion.kind = Motion::Kind::translating;
+    wall.motion.velocity = velocity;
+  }
+  return wall;
+}
+
+}  // namespace
+
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
-  const Collision& pair = setup.collision;
+  const Collision& collision = setup.collision;
+  const CollidingPair pair = collidingPair(setup);
   const double reach = pair.radius[0] + pair.radius[1];
   const double spacing = 3.0 * std::max(2.0 * std::max(pair.radius[0], pair.radius[1]), reach);
-  const auto columns =
-      static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(starts.size()))));
+  const std::size_t columns =
+      pair.plane
+          ? 1
+          : static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(starts.size()))));
 
   Scene scene;
   scene.name = setup.name;
@@ -29,24 +74,23 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
   scene.bottom = setup.bottom;
   scene.precision = setup.run.precision;
   scene.dt = dt;
-  const double massSum = pair.mass[0] + pair.mass[1];
+  if (pair.plane) scene.bodies.push_back(movingWall(collision.wallVelocity));
+  const double middle = 0.5 * static_cast<double>(columns - 1);
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const double middle = 0.5 * static_cast<double>(columns - 1);
     const Vec2 centre((static_cast<double>(k % columns) - middle) * spacing,
                       (static_cast<double>(k / columns) - middle) * spacing);
-    const PairMotion motion = motionBefore(collidingPair(setup), starts[k]);
+    const PairMotion motion = motionBefore(pair, starts[k]);
     const Vec2 velocity(motion.normal, motion.tangential);
-    const Vec2 apart = Vec2(reach, 0.0) - pair.startPhase * dt * velocity;
+    const Vec2 apart = Vec2(reach, 0.0) - collision.startPhase * dt * velocity;
+    if (pair.plane) {
+      addDisk(scene.disks, pair, 0, centre + apart, velocity + collision.wallVelocity,
+              motion.spin[0]);
+      continue;
+    }
+    const double massSum = pair.mass[0] + pair.mass[1];
     for (const int side : {0, 1}) {
-      const double sign = side == 0 ? 1.0 : -1.0;
-      const double share = pair.mass[1 - side] / massSum;
-      scene.disks.radius.push_back(pair.radius[side]);
-      scene.disks.mass.push_back(pair.mass[side]);
-      scene.disks.inertia.push_back(pair.inertiaFactor * pair.mass[side] * pair.radius[side] *
-                                    pair.radius[side]);
-      scene.disks.position.push_back(centre + sign * share * apart);
-      scene.disks.velocity.push_back(sign * share * velocity);
-      scene.disks.spin.push_back(motion.spin[side]);
+      const double share = (side == 0 ? 1.0 : -1.0) * pair.mass[1 - side] / massSum;
+      addDisk(scene.disks, pair, side, centre + share * apart, share * velocity, motion.spin[side]);
     }
   }
   return scene;
@@ -60,6 +104,11 @@ CollidingPair pairOf(const Disks& disks, std::size_t i, std::size_t j) {
           {disks.inertia[i], disks.inertia[j]}};
 }
 
+CollidingPair onPlane(const Disks& disks, std::size_t i) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {{disks.radius[i], 0.0}, {disks.mass[i], inf}, {disks.inertia[i], inf}, true};
+}
+
 /// When a free flight from `apart` reached `reach` for the last time, ≤ 0 [s]. An engine that lets
 /// disks part a hair outside contact never had them at `reach`: then the closest approach of the
 /// flight line is the best instant there is.
@@ -70,10 +119,32 @@ double timeOfParting(const Vec2& apart, const Vec2& velocity, double reach) {
   return (std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a;
 }
 
+std::vector<double> spinsOf(const Disks& disks, const Snapshot& after) {
+  return after.spin ? *after.spin : disks.spin;
+}
+
+/// The plane moves as prescribed, so only the disk's flight is looked at; the normal stays.
+std::optional<CollisionEnd> wallCollisionEnd(const Scene& scene, const Snapshot& after,
+                                             std::size_t disk, const CollisionStart& start) {
+  const Disks& disks = scene.disks;
+  const Vec2 wall = scene.bodies.front().motion.velocity;
+  const double reach = disks.radius[disk];
+  const double height = after.position[disk].x() - wall.x() * after.positionTime;
+  const Vec2 velocity = after.velocity[disk] - wall;
+  if (velocity.x() <= 0.0 || height < reach) return std::nullopt;
+  CollisionEnd end = endOf(onPlane(disks, disk), start,
+                           {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
+  const double parting = (reach - height) / velocity.x();
+  const double touch = (disks.position[disk].x() - reach) / (wall.x() - disks.velocity[disk].x());
+  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
+  return end;
+}
+
 }  // namespace
 
 std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
                                          std::size_t pair, const CollisionStart& start) {
+  if (!scene.bodies.empty()) return wallCollisionEnd(scene, after, pair, start);
   const std::size_t i = 2 * pair;
   const std::size_t j = i + 1;
   const Disks& disks = scene.disks;
@@ -83,14 +154,14 @@ std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& aft
   if (apart.dot(velocity) <= 0.0 || apart.norm() < reach) return std::nullopt;
   const double parting = timeOfParting(apart, velocity, reach);
   const Vec2 normal = (apart + parting * velocity).normalized();
-  const std::vector<double>& spin = after.spin ? *after.spin : disks.spin;
+  const std::vector<double> spin = spinsOf(disks, after);
   CollisionEnd end =
       endOf(pairOf(disks, i, j), start,
             {velocity.dot(normal), velocity.dot(perpendicular(normal)), {spin[i], spin[j]}});
   // The flight that brought them together, run backwards, parted them when they met.
   const double touch = -timeOfParting(disks.position[i] - disks.position[j],
                                       disks.velocity[j] - disks.velocity[i], reach);
-  if (scene.law.normal != NormalLaw::rigid) end.duration = after.positionTime + parting - touch;
+  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
   return end;
 }
 

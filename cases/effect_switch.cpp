@@ -48,8 +48,7 @@ std::string switchOff(Case& setup, Effect effect) {
 
 std::optional<EffectSwitch> tensionCut(const Case& setup) {
   const ContactLaw& law = setup.law;
-  if (law.normal != NormalLaw::linear || law.conventions.tension == Tension::cut || law.gn == 0.0)
-    return std::nullopt;
+  if (!law.soft() || law.conventions.tension == Tension::cut || law.gn == 0.0) return std::nullopt;
   EffectSwitch cut{"tension_cut",
                    "Normal forces below zero, near the end of a contact, are cut off: another law, "
                    "with a larger restitution.",

@@ -37,12 +37,15 @@ void refuseSections(const Reader& root, const auto& names, std::string_view kind
     if (root.has(name)) root.fail(name, fmt::format("has no part in a {} case", kind));
 }
 
-/// A soft contact must oscillate: e_n and t_c are defined by that.
+/// A linear contact must oscillate: e_n and t_c are defined by that.
 void checkDamping(const Reader& law, const Case& c) {
+  if (c.law.normal != NormalLaw::linear) return;
   const double mass = lightestReducedMass(c);
   const double critical = 2.0 * std::sqrt(c.law.kn * mass);
-  if (c.law.normal == NormalLaw::linear && !(c.law.gn < critical))
-    law.fail("gn", fmt::format("overdamps the lightest pair: must be < {:.4g} kg/s", critical));
+  const double used = withConstantDampers(c.law, mass).gn;
+  if (!(used < critical))
+    law.fail("gn", fmt::format("overdamps the lightest pair: must be < {:.4g}",
+                               c.law.gn * critical / used));
 }
 
 void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
@@ -74,6 +77,8 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   readAveraging(averaging, c.averaging);
   if (!c.run.dt && c.law.normal == NormalLaw::rigid)
     run.failMissing("dt", "a rigid law has no contact time");
+  if (!c.run.dt && c.law.stiffens())
+    run.failMissing("dt", "the contact time of this law depends on the speed of an impact");
   checkDamping(law, c);
   checkFit(cell, particles, c);
 }

@@ -107,6 +107,7 @@ void convertList(const Value& value, std::vector<Element>& target, const Constra
 }  // namespace
 
 bool Range::contains(double value) const {
+  if (std::isinf(value) && value > 0.0 && mayBeInfinite) return true;
   return std::isfinite(value) && (lowOpen ? value > low : value >= low) &&
          (highOpen ? value < high : value <= high);
 }

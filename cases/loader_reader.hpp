@@ -22,6 +22,7 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
   bool lowOpen = false, highOpen = false;  ///< whether the end itself is out
   std::string unit = {};
+  bool mayBeInfinite = false;
 
   bool contains(double value) const;
   std::string text() const;  ///< "> 0 m", ">= 1", "in (0, 1)"

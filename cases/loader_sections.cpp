@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
 #include "averaging/fields.hpp"
@@ -53,21 +57,61 @@ std::map<std::string, Margin> readMargins(Reader in, const std::vector<std::stri
   return margins;
 }
 
-/// Ψ_i as a number, a list, or { from, to, count } for equal steps.
-void requirePsi(Reader& in, std::vector<double>& psi) {
-  if (!in.isTable("psi")) return in.require("psi", psi, Range{});
+/// A number, a list, or { from, to, count } for equal steps.
+void requireSweep(Reader& in, std::string_view key, std::vector<double>& values,
+                  const Range& allowed) {
+  if (!in.isTable(key)) return in.require(key, values, allowed);
   double from = 0.0, to = 0.0;
   int count = 0;
-  Reader range = in.section("psi");
-  range.require("from", from, Range{});
-  range.require("to", to, Range{});
+  Reader range = in.section(key);
+  range.require("from", from, allowed);
+  range.require("to", to, allowed);
   range.require("count", count, between(2, 10'000));
   range.finish();
   if (!(to > from)) range.fail("to", fmt::format("must be > {} (from)", from));
-  for (int k = 0; k < count; ++k) psi.push_back(from + (to - from) * k / (count - 1));
+  for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
 }
 
-/// One number for both bodies, or two.
+/// Ψ_i, or the angle between velocity and normal whose tangent it is.
+void requirePsi(Reader& in, std::vector<double>& psi) {
+  if (!in.has("angle")) return requireSweep(in, "psi", psi, Range{});
+  if (in.has("psi")) in.fail("angle", "and psi, its tangent: give one of them");
+  requireSweep(in, "angle", psi, inside(-90.0, 90.0, "degrees"));
+  for (double& value : psi) value = std::tan(value * std::numbers::pi / 180.0);
+}
+
+/// v_n, or the whole speed that Ψ_i divides.
+void requireSpeeds(Reader& in, Collision& collision) {
+  if (!in.has("speed"))
+    return in.require("vn", collision.vn, positive("m/s, else the disks never meet"));
+  if (in.has("vn")) in.fail("speed", "and vn, its part along the normal: give one of them");
+  in.read("speed", collision.speed, positive("m/s, else the disks never meet"));
+}
+
+/// What the first disk meets: a second one, or a wall.
+void readWall(Reader& in, Collision& collision) {
+  static const std::vector<std::string> bodies = {"disk", "wall"};
+  std::string second = bodies.front();
+  in.read("second", second, bodies);
+  collision.wall = second == "wall";
+  std::vector<double> velocity;
+  in.read("wall_velocity", velocity, Range{});
+  if (in.has("wall_velocity")) {
+    if (!collision.wall) in.fail("wall_velocity", "only a wall has one (second = \"wall\")");
+    if (velocity.size() != 2)
+      in.fail("wall_velocity", "must be [along its normal, along it] in m/s");
+    collision.wallVelocity = {velocity[0], velocity[1]};
+  }
+  if (!collision.wall) return;
+  for (const char* const key : {"radius", "mass"})
+    if (const toml::node* node = in.take(key); node && node->is_array())
+      in.fail(key, "a wall has none: give the disk's alone");
+  if (collision.counterSpin != std::vector<double>{0.0})
+    in.fail("counter_spin", "a wall does not turn");
+}
+
+}  // namespace
+
 void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range) {
   std::vector<double> values;
   in.require(key, values, range);
@@ -76,8 +120,6 @@ void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Rang
   pair[0] = values.front();
   pair[1] = values.back();
 }
-
-}  // namespace
 
 void readBottom(Reader& in, BottomPlate& bottom) {
   in.require("mu", bottom.mu, atLeast(0.0));
@@ -169,20 +211,25 @@ void readRun(Reader& in, RunOptions& run) {
 
 void readCollision(Reader& in, Collision& collision) {
   requirePsi(in, collision.psi);
-  in.require("vn", collision.vn, positive("m/s, else the disks never meet"));
-  static const std::vector<std::string> approaches = {"spin", "oblique"};
+  requireSpeeds(in, collision);
+  static const std::vector<std::string> approaches = {"spin", "first_spin", "oblique"};
   std::string approach = approaches.front();
   in.read("approach", approach, approaches);
-  if (approach != approaches.front()) collision.approach = Approach::oblique;
+  collision.approach =
+      static_cast<Approach>(std::ranges::find(approaches, approach) - approaches.begin());
+  in.read("counter_spin", collision.counterSpin, Range{});
   requirePair(in, "radius", collision.radius, positive("m"));
   requirePair(in, "mass", collision.mass, positive("kg"));
+  readWall(in, collision);
   in.read("inertia_factor", collision.inertiaFactor, aboveZeroTo(1.0));
   in.read("steps_per_contact", collision.stepsPerContact, atLeast(2.0));
   in.read("start_phase", collision.startPhase, Range{});
   if (collision.startPhase < 0.0)
     in.fail("start_phase", "must be >= 0, else the disks overlap at the start");
   if (!(collision.startPhase < 1.0)) in.fail("start_phase", "must be < 1");
-  collision.margins = readMargins(in.section("margins"), {"psi_f", "e_n"});
+  collision.margins =
+      readMargins(in.section("margins"), {"psi_f", "beta", "e_n", "e_t", "centre_psi_f",
+                                          "rebound_angle", "spin", "duration", "max_overlap"});
   in.finish();
 }
 

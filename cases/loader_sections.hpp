@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "cases/case.hpp"
 #include "cases/loader_reader.hpp"
@@ -10,6 +11,9 @@ namespace crossgrain {
 
 // One function per section of a case file: reads every key, then checks what the section can tell
 // alone. All throw BadInput.
+
+/// One number for both bodies, or two.
+void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range);
 
 void readLaw(Reader& in, ContactLaw& law);
 void readBottom(Reader& in, BottomPlate& bottom);

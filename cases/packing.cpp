@@ -50,7 +50,7 @@ std::string packingHash(const Case& setup, int index, double dt) {
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
     text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
-  text += fmt::format("law {} {} {} {} {};", law.kn, law.gn, law.kt, law.gt, law.mu);
+  text += fmt::format("law {} {} {} {} {} {};", law.kn, law.kn3, law.gn, law.kt, law.gt, law.mu);
   if (setup.bottom)
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
                         setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,

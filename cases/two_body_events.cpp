@@ -25,19 +25,21 @@ double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
   return -drift / compliance(k);
 }
 
-/// d bound/dt, from df_n/dt = −k_n v_n − γ_n dv_n/dt and dv_n/dt = a·n + θ'² |x|.
+/// d bound/dt, from df_n/dt = −S v_n − γ_n dv_n/dt + γ_n′ v_n² and dv_n/dt = a·n + θ'² |x|.
 double TwoBodyProblem::boundRate(const State& s, const Kinematics& k) const {
   const State rate = derivative(s);
-  const double sideways = k.turning * k.distance;
-  const double acceleration = rate.vx * k.nx + rate.vy * k.ny + k.turning * sideways;
-  return bound(-law_.kn * k.normalVelocity - law_.gn * acceleration);
+  const double acceleration = rate.vx * k.nx + rate.vy * k.ny + k.turning * k.sideways;
+  const Slope gn = normalDamping(k.overlap);
+  return bound(-stiffness(k.overlap).value * k.normalVelocity - gn.value * acceleration +
+               gn.rate * k.normalVelocity * k.normalVelocity);
 }
 
-/// ξ that the law leaves behind while it slips.
+/// What the law leaves the spring with while it slips.
 double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
   const double force = bound(normalForce(k)) * phase_.side;
   const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
-  return -(springOnly ? force + law_.gt * k.tangentialVelocity : force) / law_.kt;
+  const double viscous = tangentialDamping(k.overlap).value * k.tangentialVelocity;
+  return -(springOnly ? force + viscous : force) / springUnit(k.overlap);
 }
 
 /// > 0 as long as the step after a slipping one slips again, in the limit of small steps: the force
@@ -46,23 +48,30 @@ double TwoBodyProblem::slippedSpring(const Kinematics& k) const {
 /// (SpringUpdate::after) does not see v_t in the step after a slip: it slips on while the bound
 /// falls, also against a v_t that would relax the spring. Where the bound rises it sticks and slips
 /// in turn, with a force that stays within a few steps' rise of the bound as long as the stretching
-/// is the faster.
+/// is the faster. A spring that keeps ξ while its stiffness follows the overlap has a force that
+/// grows with it.
 double TwoBodyProblem::slipGuard(const State& s, const Kinematics& k) const {
   const bool outside = law_.conventions.dashpot == Dashpot::outside;
   const bool springOnly = law_.conventions.springReset == SpringReset::springOnly;
-  const double damping = law_.gt * k.tangentialVelocity * phase_.side;
+  const double damping = tangentialDamping(k.overlap).value * k.tangentialVelocity * phase_.side;
   if (law_.gt > 0.0 && outside == springOnly) return outside ? damping : -damping;
 
-  double stretching = -law_.kt * k.tangentialVelocity * phase_.side;
+  const Slope stiffness = tangentialStiffness(k.overlap);
+  double stretching = -stiffness.value * k.tangentialVelocity * phase_.side;
   if (law_.conventions.springUpdate == SpringUpdate::after) stretching = std::max(stretching, 0.0);
+  if (!remembersForce() && stiffness.rate != 0.0)
+    stretching -= bound(normalForce(k)) * stiffness.rate / stiffness.value * k.normalVelocity;
   return stretching + (outside ? 0.0 : dashpotRate(s, k)) - boundRate(s, k);
 }
 
 /// The rate at which the dashpot's part of the tested force grows, towards `side`, in a contact
 /// that begins to stick at its bound.
 double TwoBodyProblem::dashpotRate(const State& s, const Kinematics& k) const {
+  const Slope gt = tangentialDamping(k.overlap);
   const double sticking = bound(normalForce(k)) * phase_.side;
-  return -law_.gt * compliance(k) * (sticking - holdingForce(s, k)) * phase_.side;
+  return (-gt.value * compliance(k) * (sticking - holdingForce(s, k)) +
+          gt.rate * k.normalVelocity * k.tangentialVelocity) *
+         phase_.side;
 }
 
 double TwoBodyProblem::tangentialGuard(const State& s) const {
@@ -72,7 +81,7 @@ double TwoBodyProblem::tangentialGuard(const State& s) const {
     case Phase::Tangential::none:
       return 1.0;
     case Phase::Tangential::damped:
-      return limit - law_.gt * std::abs(k.tangentialVelocity);
+      return limit - tangentialDamping(k.overlap).value * std::abs(k.tangentialVelocity);
     case Phase::Tangential::stick:
       return limit - std::abs(testedForce(k, s.spring));
     case Phase::Tangential::hold:
@@ -82,7 +91,8 @@ double TwoBodyProblem::tangentialGuard(const State& s) const {
   }
   const double opposing = stillness_ - phase_.side * k.tangentialVelocity;
   if (law_.tangential == TangentialLaw::coulomb || limit < 0.0) return opposing;
-  if (law_.tangential == TangentialLaw::viscous) return law_.gt * opposing - limit;
+  if (law_.tangential == TangentialLaw::viscous)
+    return tangentialDamping(k.overlap).value * opposing - limit;
   return slipGuard(s, k);
 }
 
@@ -124,7 +134,8 @@ void TwoBodyProblem::choosePhase(State& s) {
     const bool holds = std::abs(hold) <= limit;
     phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;
     phase_.side = sign(hold);
-  } else if (law_.tangential == TangentialLaw::viscous && law_.gt * std::abs(slip) <= limit) {
+  } else if (law_.tangential == TangentialLaw::viscous &&
+             tangentialDamping(k.overlap).value * std::abs(slip) <= limit) {
     phase_.tangential = Phase::Tangential::damped;
   } else if (law_.tangential == TangentialLaw::coulomb ||
              law_.tangential == TangentialLaw::viscous || limit < 0.0) {

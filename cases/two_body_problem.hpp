@@ -9,13 +9,14 @@
 
 namespace crossgrain {
 
-/// Relative position and velocity of i against j, both spins, tangential spring; and the account of
-/// the energy lost so far, as in EnergySplit.
+/// Relative position and velocity of i against j, both spins, what the tangential spring remembers
+/// (ξ, or its force with the sign of ξ); and the account of the energy lost so far, as in
+/// EnergySplit.
 struct State {
   double x, y, vx, vy, spinI, spinJ, spring;
-  double lostNormal, lostTangential, lostSliding;
+  double lostNormal, lostTangential, lostStiffening, lostSliding;
 };
-constexpr std::size_t dimension = 10;
+constexpr std::size_t dimension = 11;
 static_assert(sizeof(State) == dimension * sizeof(double));
 
 /// Between two events the right-hand side is smooth; a phase says which branch of the law holds.
@@ -28,46 +29,57 @@ struct Phase {
     hold     ///< Coulomb's law at v_t = 0: the force that keeps it there
   } tangential = Tangential::none;
   double side = 0.0;        ///< sign of f_t while it slips
-  bool compressive = true;  ///< k_n δ − γ_n v_n > 0
+  bool compressive = true;  ///< f_el − γ_n v_n > 0
 };
 
 struct Kinematics {
   double distance, nx, ny, overlap;
   double normalVelocity, tangentialVelocity;
-  double turning;  ///< rate at which the normal turns [rad/s]
+  double sideways;  ///< the centres' own velocity along s [m/s]
+  double turning;   ///< rate at which the normal turns [rad/s]
   double leverI, leverJ;
 };
 
-/// The planar collision of two disks in continuous time, one phase after another.
+/// A function of the overlap and its derivative.
+struct Slope {
+  double value, rate;
+};
+
+/// The planar collision of two disks, or of a disk and a plane, in continuous time, one
+/// phase after another.
 class TwoBodyProblem {
  public:
   TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair);
   CollisionEnd solve(const CollisionStart& start);
 
  private:
+  // How stiff a contact is and how much it damps
+  double elasticForce(double overlap) const;
+  Slope stiffness(double overlap) const;
+  Slope tangentialStiffness(double overlap) const;
+  Slope damping(double constant, const Slope& stiffness) const;
+  Slope normalDamping(double overlap) const { return damping(law_.gn, stiffness(overlap)); }
+  Slope tangentialDamping(double overlap) const {
+    return damping(law_.gt, tangentialStiffness(overlap));
+  }
+  /// What the spring's force is per unit of what it remembers.
+  double springUnit(double overlap) const {
+    return remembersForce() ? 1.0 : tangentialStiffness(overlap).value;
+  }
+  bool remembersForce() const { return law_.conventions.history == History::force; }
+
   // The law
   Kinematics kinematics(const State& s) const;
   double trialNormal(const Kinematics& k) const {
-    return law_.kn * k.overlap - law_.gn * k.normalVelocity;
+    return elasticForce(k.overlap) - normalDamping(k.overlap).value * k.normalVelocity;
   }
-  /// The share of the overlap that a disk's lever arm is short of its radius; `other` is its
-  /// partner.
-  double leverShare(int other) const {
-    switch (law_.conventions.leverArm) {
-      case LeverArm::radius:
-        return 0.0;
-      case LeverArm::contactPoint:
-        return pair_.radius[other] / reach_;
-      case LeverArm::overlapMiddle:
-        break;
-    }
-    return 0.5;
-  }
+  double leverShare(int other) const;
   double normalForce(const Kinematics& k) const;
   double bound(double normal) const;
   double testedForce(const Kinematics& k, double spring) const;
   double tangentialForce(const State& s, const Kinematics& k) const;
   double storedEnergy(const State& s) const;
+  double stiffeningLoss(const State& s, const Kinematics& k) const;
   State derivative(const State& s) const;
   CollisionEnd endAt(const State& s, const CollisionStart& start) const;
 
@@ -83,6 +95,10 @@ class TwoBodyProblem {
   void enterPhase(State& s);
   void choosePhase(State& s);
   void chooseSpringPhase(State& s, const Kinematics& k);
+
+  // Integration
+  double contactTime(double speed) const;
+  State firstTouch(const CollisionStart& start) const;
 
   static int rightHandSide(double t, const double y[], double dydt[], void* self);
 

@@ -107,7 +107,7 @@ namespace {
 /// places.
 Scene unplacedScene(const Case& setup) {
   if (setup.kind == CaseKind::collision)
-    return collisionScene(setup, sweepStarts(setup), collisionTimeSteps(setup).front());
+    return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
   Packing unplaced;
   unplaced.disks = diskKinds(setup.particles);
   return couetteScene(setup, unplaced, timeStep(setup));

@@ -26,7 +26,12 @@ json lawJson(const ContactLaw& law) {
   json options;
   for (const LawOption& option : lawOptions())
     options[std::string(option.name)] = option.values[option.get(law)];
-  options.update({{"kn", law.kn}, {"gn", law.gn}, {"kt", law.kt}, {"gt", law.gt}, {"mu", law.mu}});
+  options.update({{"kn", law.kn},
+                  {"kn3", law.kn3},
+                  {"gn", law.gn},
+                  {"kt", law.kt},
+                  {"gt", law.gt},
+                  {"mu", law.mu}});
   if (law.normal == NormalLaw::rigid) options.update({{"e_n", law.en}, {"e_t0", law.et0}});
   return options;
 }
@@ -39,12 +44,13 @@ json fineOracle(const Case& setup) {
     const int parts = k + 1 < psi.size() ? 4 : 1;
     for (int part = 0; part < parts; ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
-      const CollisionStart start{psi[k] + (next - psi[k]) * part / parts,
-                                 setup.collision.vn.front(), setup.collision.approach};
-      const OracleCurve one = oracleCurve(setup, {start});
-      if (!one.ends.front()) return json::array();
+      Case one = setup;
+      one.collision.psi = {psi[k] + (next - psi[k]) * part / parts};
+      const CollisionStart start = collisionStarts(one).front();
+      const OracleCurve curve = oracleCurve(setup, {start});
+      if (!curve.ends.front()) return json::array();
       line.push_back({{"psi_i", start.psi}, {"v_n", start.vn}});
-      describe(line.back(), one.ends.front(), "");
+      describe(line.back(), curve.ends.front(), "");
     }
   }
   return line;
@@ -117,19 +123,15 @@ void throwIfAllRefused(const std::vector<json>& curves) {
 json variantJson(const Sweep& sweep) {
   const Case& setup = *sweep.setup;
   const CollidingPair pair = collidingPair(setup);
-  const double reducedMass = pair.mass[0] * pair.mass[1] / (pair.mass[0] + pair.mass[1]);
-  const bool linear = setup.law.normal == NormalLaw::linear;
-  json variant = {
-      {"case", setup.name},
-      {"variant", setup.variant.empty() ? setup.name : setup.variant},
-      {"law", lawJson(setup.law)},
-      {"e_n_closed", linear ? restitutionOfLinearLaw(setup.law, reducedMass) : setup.law.en},
-      {"sticking", {{"e_t0", linear ? json(nullptr) : json(setup.law.et0)}}},
-      {"sliding_constant",
-       setup.law.mu > 0.0 ? json(slidingConstant(setup.law, pair)) : json(nullptr)},
-      {"oracle", fineOracle(setup)},
-      {"oracle_reason", sweep.oracle.reason},
-      {"curves", json::array()}};
+  json variant = {{"case", setup.name},
+                  {"variant", setup.variant.empty() ? setup.name : setup.variant},
+                  {"law", lawJson(setup.law)},
+                  {"e_n_closed", toJson(closedRestitution(setup.law, pair.reducedMass()))},
+                  {"sticking", {{"e_t0", setup.law.soft() ? json(nullptr) : json(setup.law.et0)}}},
+                  {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
+                  {"oracle", fineOracle(setup)},
+                  {"oracle_reason", sweep.oracle.reason},
+                  {"curves", json::array()}};
   return variant;
 }
 
@@ -148,7 +150,7 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   std::vector<Sweep> sweeps;
   for (const Case& setup : variants) {
     throwIfInterrupted();
-    Sweep sweep{&setup, sweepStarts(setup), {}, collisionTimeSteps(setup)};
+    Sweep sweep{&setup, collisionStarts(setup), {}, collisionTimeSteps(setup)};
     sweep.oracle = oracleCurve(setup, sweep.starts);
     sweeps.push_back(std::move(sweep));
   }

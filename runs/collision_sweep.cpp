@@ -15,14 +15,6 @@ namespace crossgrain {
 
 using nlohmann::json;
 
-std::vector<CollisionStart> sweepStarts(const Case& setup) {
-  std::vector<CollisionStart> starts;
-  for (const double vn : setup.collision.vn)
-    for (const double psi : setup.collision.psi)
-      starts.push_back({psi, vn, setup.collision.approach});
-  return starts;
-}
-
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
   OracleCurve curve;
   for (const CollisionStart& start : starts) {
@@ -60,6 +52,7 @@ void describe(json& point, const std::optional<CollisionEnd>& end, const std::st
   put("energy_after", of(&CollisionEnd::energyAfter));
   put("lost_normal_damping", lost(&EnergySplit::normalDamping));
   put("lost_tangential_damping", lost(&EnergySplit::tangentialDamping));
+  put("lost_stiffening", lost(&EnergySplit::stiffening));
   put("lost_sliding", lost(&EnergySplit::sliding));
   put("lost_stored", lost(&EnergySplit::stored));
   if (end && end->limitless) point["limitless" + suffix] = true;
@@ -67,16 +60,15 @@ void describe(json& point, const std::optional<CollisionEnd>& end, const std::st
 
 namespace {
 
-/// t_c of the case's pair; 0 for rigid disks [s].
+/// t_c of the case's pair, the shortest; 0 for rigid disks [s].
 double contactTimeOf(const Case& setup) {
-  return setup.law.normal == NormalLaw::linear ? contactTime(setup.law, lightestReducedMass(setup))
-                                               : 0.0;
+  return impactTimes(setup).shortest;
 }
 
 /// Long enough for every collision of the scene to be over: contacts last about t_c, a rigid
 /// engine's a few of its own steps.
 double sweepEnd(const Case& setup, double dt, double engineStep) {
-  const double contact = contactTimeOf(setup);
+  const double contact = impactTimes(setup).longest;
   return dt + 2.5 * contact + 20.0 * engineStep;
 }
 

@@ -11,9 +11,6 @@
 
 namespace crossgrain {
 
-/// Every collision of a case's sweep: all Ψ_i at each v_n.
-std::vector<CollisionStart> sweepStarts(const Case& setup);
-
 /// What the oracle says of each start; absent where the law has no limit of small steps.
 struct OracleCurve {
   std::vector<std::optional<CollisionEnd>> ends;

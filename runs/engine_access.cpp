@@ -84,7 +84,8 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
   checkEngineSections(setup);
   std::vector<EngineEntry> engines = selectEngines(names);
   if (setup.run.mirrors)
-    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+    for (const EngineEntry& mirror : mirrorsOf(engines))
+      if (mirror.mirrorsRigid != setup.law.soft()) engines.push_back(mirror);
   return engines;
 }
 

@@ -22,8 +22,8 @@ Vec2 vec2From(const json& pair) {
 }
 
 json toJson(const ContactLaw& law) {
-  json out = {{"kn", law.kn}, {"gn", law.gn}, {"kt", law.kt},  {"gt", law.gt},
-              {"mu", law.mu}, {"en", law.en}, {"et0", law.et0}};
+  json out = {{"kn", law.kn}, {"kn3", law.kn3}, {"gn", law.gn}, {"kt", law.kt},
+              {"gt", law.gt}, {"mu", law.mu},   {"en", law.en}, {"et0", law.et0}};
   for (const LawOption& option : lawOptions())
     out[std::string(option.name)] = lawOptionValue(law, option.name);
   return out;
@@ -32,6 +32,7 @@ json toJson(const ContactLaw& law) {
 ContactLaw lawFromJson(const json& in) {
   ContactLaw law;
   law.kn = in.at("kn");
+  law.kn3 = in.at("kn3");
   law.gn = in.at("gn");
   law.kt = in.at("kt");
   law.gt = in.at("gt");

@@ -92,7 +92,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     if (law.normal == Normal::hertz) motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
-    if (law.implicitDamping) motion.normalCompliance = law.halfStep * b.inverseMass[p];
+    if (seesCompliances(law)) motion.normalCompliance = complianceTime(law) * b.inverseMass[p];
     Real leverI = 0, leverJ = 0;
     if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
     if (law.rotation) {
@@ -100,11 +100,12 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
       leverJ = leverArm(law, b.radiusJ[p], b.radiusI[p], motion.overlap);
       motion.tangentialVelocity -= leverI * b.spinI[p] + leverJ * b.spinJ[p];
     }
-    if (law.implicitDamping) {
+    if (seesCompliances(law)) {
       motion.tangentialCompliance = motion.normalCompliance;
       if (law.rotation)
-        motion.tangentialCompliance += law.halfStep * (leverI * leverI * b.inverseInertiaI[p] +
-                                                       leverJ * leverJ * b.inverseInertiaJ[p]);
+        motion.tangentialCompliance +=
+            complianceTime(law) *
+            (leverI * leverI * b.inverseInertiaI[p] + leverJ * leverJ * b.inverseInertiaJ[p]);
     }
 
     Real spring = history ? b.spring[p] : Real(0);

@@ -73,6 +73,8 @@ Core<Real>::Core(Setup setup)
       reports_(partCount(setup)),
       touching_(partCount(setup)) {
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
+  if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
+    throw std::invalid_argument("impulses need semi-implicit Euler steps");
   const MotionEffects effects = motionEffects(setup);
   motion_ = kernels_.motion[indexOf(effects)];
   const std::size_t variant =

@@ -28,7 +28,7 @@ class Fnv1a {
 };
 
 void add(Fnv1a& to, const Law& law) {
-  to.addAll(law.kn3, static_cast<int>(law.normal), static_cast<int>(law.damper),
+  to.addAll(law.kn3, law.en, law.et0, static_cast<int>(law.normal), static_cast<int>(law.damper),
             static_cast<int>(law.history));
   to.addAll(law.kn, law.gn, law.kt, law.gt, law.mu, static_cast<int>(law.tangential),
             static_cast<int>(law.bound), law.cutTension, law.dashpotOutsideBound,

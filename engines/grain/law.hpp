@@ -8,7 +8,11 @@ namespace grain {
 enum class Normal {
   linear,  ///< k_n δ
   hertz,  ///< k_n √R₁₂ δ^(3/2), k_n = 4/3 E₁₂ [Pa]; the tangential stiffness is k_t √(R₁₂ δ)
-  polynomial  ///< k_n δ² + k_n3 δ³ [N/m², N/m³]
+  polynomial,  ///< k_n δ² + k_n3 δ³ [N/m², N/m³]
+  /// No elastic part: rigid disks, an impulse within the step that finds them touching and
+  /// approaching. Every contact for itself: where one disk meets several at once, their impulses
+  /// are not solved together. For semi-implicit Euler steps, in which f dt is an impulse.
+  impulse
 };
 /// What a dashpot's constant multiplies besides the velocity; S is f_el′(δ), or the tangential
 /// stiffness.
@@ -44,6 +48,8 @@ struct Law {
   double kt = 0.0;   ///< [N/m]; with Hertz 8 G₁₂ [Pa]
   double gt = 0.0;   ///< [kg/s] or as `damper` says
   double mu = 0.0;   ///< [-]
+  double en = 1.0;   ///< restitution of impulses, along the normal [-]
+  double et0 = 0.0;  ///< and along the tangent, while they stick [-]
   Normal normal = Normal::linear;
   Damper damper = Damper::constant;
   History history = History::displacement;
@@ -66,10 +72,10 @@ struct Law {
 /// Motion of one contact that the law sees.
 template <class Real>
 struct ContactMotion {
-  Real overlap;               ///< δ [m]
-  Real normalVelocity;        ///< v_n [m/s]
-  Real tangentialVelocity;    ///< v_t [m/s]
-  Real normalCompliance;      ///< dt/2 · (1/m_i + 1/m_j); read if damping is implicit [s/kg]
+  Real overlap;             ///< δ [m]
+  Real normalVelocity;      ///< v_n [m/s]
+  Real tangentialVelocity;  ///< v_t [m/s]
+  Real normalCompliance;  ///< dt/2 · (1/m_i + 1/m_j); read by implicit damping and impulses [s/kg]
   Real tangentialCompliance;  ///< dt/2 · (1/m_i + 1/m_j + l_i²/J_i + l_j²/J_j), likewise [s/kg]
   Real radius = 0;            ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
   Real mass = 0;              ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]

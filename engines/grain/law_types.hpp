@@ -7,7 +7,7 @@ namespace grain {
 /// The constants of a law, in the precision of the state.
 template <class Real>
 struct LawConstants {
-  Real kn, kn3, gn, kt, inverseKt, gt, mu;
+  Real kn, kn3, gn, kt, inverseKt, gt, mu, en, et0;
   Real dt;        ///< [s]
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
@@ -56,10 +56,22 @@ bool hasThesisConventions(const GeneralLaw<Real>& law) {
          !law.dashpotOutsideBound && !law.resetSpringOnly;
 }
 
-/// Whether a law asks for m₁₂ (and the compliances that follow from the inverse masses).
+/// Whether a law asks for the compliances of ContactMotion.
+template <class L>
+GRAIN_INLINE constexpr bool seesCompliances(const L& law) {
+  return law.implicitDamping || law.normal == Normal::impulse;
+}
+
+/// dt/2 in them. An impulse acts at t = 0 as at any time.
+template <class L>
+GRAIN_INLINE constexpr auto complianceTime(const L& law) {
+  return law.normal == Normal::impulse ? law.dt / 2 : law.halfStep;
+}
+
+/// Whether a law asks for inverse masses.
 template <class L>
 GRAIN_INLINE constexpr bool seesMasses(const L& law) {
-  return law.implicitDamping || law.damper == Damper::critical;
+  return seesCompliances(law) || law.damper == Damper::critical;
 }
 
 template <class Real>
@@ -72,6 +84,8 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
   to.gt = static_cast<Real>(law.gt);
   to.mu = static_cast<Real>(law.mu);
+  to.en = static_cast<Real>(law.en);
+  to.et0 = static_cast<Real>(law.et0);
   to.dt = static_cast<Real>(dt);
   to.halfStep = static_cast<Real>(0.5 * dt);
   to.normal = law.normal;
@@ -82,7 +96,7 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.lever = law.lever;
   to.stretch = law.stretch;
   to.cutTension = law.cutTension;
-  to.normalDamping = law.gn > 0.0;
+  to.normalDamping = law.gn > 0.0 || law.normal == Normal::impulse;  // both look at v_n
   to.implicitDamping = law.damping == Damping::implicit;
   to.dashpotOutsideBound = law.dashpotOutsideBound;
   to.resetSpringOnly = law.resetSpringOnly;

@@ -37,11 +37,12 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       motion.radius = disks.radius[i];
       if (law.damper == Damper::critical) motion.mass = Real(1) / disks.inverseMass[i];
       if (law.rotation) motion.tangentialVelocity -= lever * disks.spin[i];
-      if (law.implicitDamping) {
-        motion.normalCompliance = law.halfStep * disks.inverseMass[i];
+      if (seesCompliances(law)) {
+        motion.normalCompliance = complianceTime(law) * disks.inverseMass[i];
         motion.tangentialCompliance = motion.normalCompliance;
         if (law.rotation)
-          motion.tangentialCompliance += law.halfStep * lever * lever * disks.inverseInertia[i];
+          motion.tangentialCompliance +=
+              complianceTime(law) * lever * lever * disks.inverseInertia[i];
       }
       force = contactForce(law, motion, spring);
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;

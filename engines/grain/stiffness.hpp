@@ -12,6 +12,7 @@ template <class L, class Real>
 GRAIN_INLINE Real elasticForce(const L& law, const ContactMotion<Real>& contact) {
   const Real overlap = contact.overlap;
   if (law.normal == Normal::linear) return law.kn * overlap;
+  if (law.normal == Normal::impulse) return Real(0);
   if (law.normal == Normal::polynomial) return (law.kn + law.kn3 * overlap) * overlap * overlap;
   return law.kn * squareRoot(contact.radius * larger(overlap, Real(0))) * overlap;
 }
@@ -58,6 +59,7 @@ GRAIN_INLINE Real tangentialDamping(const L& law, const ContactMotion<Real>& con
 template <class L, class Real>
 Real storedEnergy(const L& law, const ContactMotion<Real>& contact, Real spring) {
   const Real overlap = contact.overlap;
+  if (law.normal == Normal::impulse) return Real(0);
   Real normal = Real(0.5) * law.kn * overlap * overlap;
   if (law.normal == Normal::hertz) normal = Real(0.4) * elasticForce(law, contact) * overlap;
   if (law.normal == Normal::polynomial)

@@ -12,7 +12,9 @@ class Law:
     def __init__(self, law):
         kind = law["tangential"]
         if law["normal"] != "linear":
-            raise Unsupported('has no rigid contacts, only normal = "linear"')
+            raise Unsupported('has only normal = "linear"')
+        if law["damper"] != "constant" and (law["gn"] > 0 or law["gt"] > 0):
+            raise Unsupported('has only damper = "constant"')
         if kind not in ("none", "spring", "spring_dashpot"):
             raise Unsupported(f'has tangential = none | spring | spring_dashpot, not "{kind}"')
         self.friction = kind != "none" and law["mu"] > 0

@@ -52,6 +52,7 @@ class Yade:
             },
             "law_options": {
                 "normal": ["linear"],
+                "damper": ["constant"],
                 "tangential": ["none", "spring", "spring_dashpot"],
                 "tension": ["cut"],
                 "coulomb_bound": ["compression"],

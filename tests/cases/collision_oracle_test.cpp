@@ -45,7 +45,7 @@ TEST(CollisionOracle, SlidingThroughoutIsTheAsymptoteOfTheCutLaw) {
     ContactLaw law = thesisLaw();
     law.tangential = TangentialLaw::coulomb;
     law.conventions.tension = tension;
-    const double constant = slidingConstant(law, smallPair());
+    const double constant = *slidingConstant(law, smallPair());
     EXPECT_NEAR(constant, 1.770, 5e-4);
     EXPECT_NEAR(oracleOutcome(law, smallPair(), {4.0, 1e-5}).psi, 4.0 - constant, 1e-5);
   }

@@ -95,7 +95,7 @@ TEST(CollisionQuantities, CentresAndContactPointAreDifferentQuantities) {
   // K c off the contact point, K = 3, and gives both disks a spin of c v_n/a (J = ½ m a²).
   ContactLaw law = thesisLaw();
   law.tangential = TangentialLaw::coulomb;
-  const double v = 1e-6, c = slidingConstant(law, smallPair()) / 3.0;
+  const double v = 1e-6, c = *slidingConstant(law, smallPair()) / 3.0;
   const CollisionEnd oblique = oracleOutcome(law, smallPair(), {4.0, v, Approach::oblique});
   EXPECT_NEAR(oblique.psi, 4.0 - 3.0 * c, 1e-5);
   EXPECT_NEAR(*oblique.beta, -oblique.psi / 4.0, 1e-15);

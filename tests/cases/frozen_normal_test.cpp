@@ -97,7 +97,7 @@ TEST(FrozenNormal, SlidingThroughoutIsTheAsymptoteOfTheCutLaw) {
       law.conventions.tension = tension;
       for (const CollidingPair& pair : {smallPair(), unequalPair()})
         EXPECT_NEAR(frozenNormalOutcome(law, pair, {4.0, 0.1}).psi,
-                    4.0 - slidingConstant(law, pair), 1e-12);
+                    4.0 - *slidingConstant(law, pair), 1e-12);
     }
 }
 

@@ -145,7 +145,7 @@ TEST_F(LoaderErrors, MissingKeysNameTheirSection) {
   expectMessages({
       {line(20, ""), "case.toml:17:1: particles.small_radius is missing"},
       {line(2, ""), "case.toml:1:1: case.kind is missing"},
-      {line(5, ""), "case.toml:3:1: law.gn is missing: an undamped law says 0 kg/s"},
+      {line(5, ""), "case.toml:3:1: law.gn is missing: an undamped law says 0"},
       {line(9, ""), "case.toml:3:1: law.tangential is missing: a frictionless law says none"},
       {soundCase.substr(0, soundCase.find("[particles]")),
        "case.toml: particles.small_radius is missing"},
@@ -178,9 +178,64 @@ TEST_F(LoaderErrors, LawsNeedWhatTheyUseAndNothingElse) {
       {withLine(line(9, "tangential = \"viscous\""), 8, "gt = 0"),
        "case.toml:8:6: law.gt = 0: a viscous law needs it > 0"},
       {line(5, "gn = 30"),
-       "case.toml:5:6: law.gn = 30: overdamps the lightest pair: must be < 0.4401 kg/s"},
+       "case.toml:5:6: law.gn = 30: overdamps the lightest pair: must be < 0.4401"},
       {line(5, "gn = 0.1\ne_n = 0.9"),
-       "case.toml:6:7: law.e_n = 0.9: only a rigid law takes it (law.normal is linear)"},
+       "case.toml:6:7: law.e_n = 0.9: a rigid law takes it, and a linear or Hertz law with damper "
+       "= "
+       "\"critical\""},
+  });
+}
+
+TEST_F(LoaderErrors, LawsThatStiffenHaveTheirOwnKeys) {
+  const std::string hertz =
+      "[case]\nkind = \"collision\"\n[collision]\npsi = 1\nvn = 1\nradius = 1\nmass = 1\n[law]\n"
+      "normal = \"hertz\"\ntangential = \"none\"\nyoung = 1e9\npoisson = 0.3\ngn = 0\n";  // 14 on
+  expectMessages({
+      {hertz, ""},
+      {withLine(hertz, 11, "young = [1e9, inf]"), ""},
+      {withLine(hertz, 13, "damper = \"critical\"\ne_n = 0.5"), ""},
+      {withLine(hertz, 11, ""), "case.toml:8:1: law.young is missing: Hertz' law needs it"},
+      {withLine(hertz, 11, "young = inf"),
+       "case.toml:11:9: law.young = inf: one of two bodies must give way"},
+      {withLine(hertz, 12, "poisson = 0.6"),
+       "case.toml:12:11: law.poisson = 0.6: must be in [0, 0.5]"},
+      {hertz + "kn = 5\n",
+       "case.toml:14:6: law.kn = 5: only a law that does not get it from young and poisson takes "
+       "it"},
+      {hertz + "e_n = 0.5\n",
+       "case.toml:14:7: law.e_n = 0.5: a rigid law takes it, and a linear or Hertz law with damper "
+       "= "
+       "\"critical\""},
+      {hertz + "damper = \"critical\"\ne_n = 0.5\n",
+       "case.toml:15:7: law.e_n = 0.5: and gn: give one of them"},
+      {withLine(hertz, 13, "damper = \"critical\"\ne_n = 0"),
+       "case.toml:14:7: law.e_n = 0: a soft law needs it > 0"},
+      {withLine(hertz, 9, "normal = \"polynomial\""),
+       "case.toml:11:9: law.young = 1000000000.0: only normal = \"hertz\" takes it"},
+      {withLine(withLine(withLine(hertz, 12, ""), 11, ""), 9, "normal = \"polynomial\""),
+       "case.toml:8:1: law.k2 is missing: a polynomial law needs it > 0"},
+  });
+}
+
+TEST_F(LoaderErrors, WallsHaveNeitherSizeNorSpin) {
+  expectMessages({
+      {collision(12, "mass = 0.275e-3\nsecond = \"wall\""), ""},
+      {collision(12, "mass = 0.275e-3\nsecond = \"wal\""),
+       "case.toml:13:10: collision.second = \"wal\": unknown name (did you mean wall?)"},
+      {collision(12, "mass = [0.275e-3, 1]\nsecond = \"wall\""),
+       "case.toml:12:8: collision.mass: a wall has none: give the disk's alone"},
+      {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\ncounter_spin = 1"),
+       "case.toml:14:16: collision.counter_spin = 1: a wall does not turn"},
+      {collision(12, "mass = 0.275e-3\nwall_velocity = [0, 1]"),
+       "case.toml:13:17: collision.wall_velocity: only a wall has one (second = \"wall\")"},
+      {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\nwall_velocity = 1"),
+       "case.toml:14:17: collision.wall_velocity = 1: must be [along its normal, along it] in m/s"},
+      {collision(9, "psi = 1\nangle = 45"),
+       "case.toml:10:9: collision.angle = 45: and psi, its tangent: give one of them"},
+      {collision(9, "angle = 90"),
+       "case.toml:9:9: collision.angle = 90: must be in (-90, 90) degrees"},
+      {collision(10, "vn = 1\nspeed = 1"),
+       "case.toml:11:9: collision.speed = 1: and vn, its part along the normal: give one of them"},
   });
 }
 
@@ -269,7 +324,7 @@ TEST_F(LoaderErrors, SweepsOfCollisions) {
       {collision(12, "mass = 0.275e-3\napproach = \"obligue\""),
        "case.toml:13:12: collision.approach = \"obligue\": unknown name (did you mean oblique?)"},
       {collision(5, "gn = 0.45"),
-       "case.toml:5:6: law.gn = 0.45: overdamps the lightest pair: must be < 0.4401 kg/s"},
+       "case.toml:5:6: law.gn = 0.45: overdamps the lightest pair: must be < 0.4401"},
   });
 }
 

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "adapters/law_options.hpp"
+#include "cases/collision_oracle.hpp"
+#include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
@@ -112,6 +114,24 @@ TEST(ShippedCases, Figure43HasFourLawsWithAndWithoutTension) {
   }
   EXPECT_EQ(cases[0].law.tangential, TangentialLaw::coulomb);
   EXPECT_EQ(cases[7].law.tangential, TangentialLaw::springDashpot);
+}
+
+TEST(ShippedCases, HertzGetsItsConstantsFromTheMaterials) {
+  // Test 2 of Chung and Ooi: E₁₂ = E/(1 − ν²) of an elastic sphere on a rigid wall.
+  const auto rigidWall = shipped("collision/chung-ooi-2.toml");
+  EXPECT_NEAR(rigidWall.front().law.kn, 4.0 / 3.0 * 70e9 / (1.0 - 0.09), 1.0);
+  EXPECT_TRUE(rigidWall.front().collision.wall);
+  // Test 4: both of one material, G₁₂ = E/(4 (1 + ν)(2 − ν)), k_t/k_n = 3 (1 − ν)/(2 − ν).
+  const auto oblique = shipped("collision/chung-ooi-4.toml");
+  const ContactLaw& law = oblique.front().law;
+  EXPECT_NEAR(law.kt, 8.0 * 380e9 / (4.0 * 1.23 * 1.77), 1e-3);
+  EXPECT_NEAR(law.kt / law.kn, 3.0 * 0.77 / 1.77, 1e-12);
+  EXPECT_NEAR(*closedRestitution(law, 1.0), 0.98, 1e-12);
+  const auto starts = collisionStarts(oblique.front());
+  ASSERT_EQ(starts.size(), 33u);
+  for (const CollisionStart& start : starts)
+    EXPECT_NEAR(start.vn * std::hypot(1.0, start.psi), 3.9, 1e-12);
+  EXPECT_NEAR(starts.front().psi, std::tan(5.0 * std::numbers::pi / 180.0), 1e-15);
 }
 
 TEST(ShippedCases, TheHardSphereHasTwoTangentialRestitutions) {

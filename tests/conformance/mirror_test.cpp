@@ -19,9 +19,7 @@ class MirrorConformance : public Conformance {
       if (const std::string why = peer->missing(); !why.empty()) GTEST_SKIP() << why;
     peer_ = startWorker(*peer);
     canPeer_ = peer_->capabilities();
-    const auto normal = canPeer_.lawOptions.find("normal");
-    if (normal != canPeer_.lawOptions.end() &&
-        std::ranges::find(normal->second, "linear") == normal->second.end())
+    if (rigid() != (followed(canPeer_, fullLaw()).normal == NormalLaw::rigid))
       GTEST_SKIP() << "its peer has another normal law";
   }
 
@@ -50,9 +48,12 @@ constexpr const char* turns = "roundings, and springs that turn to first or to h
 
 TEST_P(MirrorConformance, FollowsItsPeerThroughACollision) {
   Encounter pair = crookedEncounter();
+  // Box2D's position solver, which a mirror does not have, moves disks that overlap by more than
+  // its slop.
+  const double steps = rigid() ? 2000.0 : 50.0;
   for (const double obliqueness : {0.5, -1.0}) {
     pair.obliqueness = obliqueness;
-    if (const auto why = refusedByEither(encounterScene(pair, fullLaw(), 50.0)))
+    if (const auto why = refusedByEither(encounterScene(pair, fullLaw(), steps)))
       GTEST_SKIP() << *why;
     peer_->advance(Encounter::end);
     const Snapshot theirs = peer_->snapshot(ContactReport::none);
@@ -69,6 +70,7 @@ TEST_P(MirrorConformance, FollowsItsPeerThroughACollision) {
 /// Gravity and a moving wall act from the first step on. Only positions are compared: the two may
 /// show velocities of different times.
 TEST_P(MirrorConformance, FollowsItsPeerThroughAHeap) {
+  if (rigid()) GTEST_SKIP() << "solves no contacts together, as its peer does";
   Scene scene = busyScene(fullLaw());
   if (const auto why = refusedByEither(scene)) GTEST_SKIP() << *why;
   for (const double t : {0.01 * busyEnd, 0.1 * busyEnd, 0.5 * busyEnd}) {

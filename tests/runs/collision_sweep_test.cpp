@@ -32,7 +32,7 @@ TEST(CollisionSweep, ScoresTheWholeCurveInUnitsOfItsRange) {
   setup.collision.psi = {0.0, 1.0, 2.0, 3.0, 4.0};
   setup.collision.vn = {0.01};
   setup.collision.margins["psi_f"] = {0.01, false, "because"};
-  const auto starts = sweepStarts(setup);
+  const auto starts = collisionStarts(setup);
   const auto oracle = oracleCurve(setup, starts);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();

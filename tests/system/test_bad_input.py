@@ -244,10 +244,10 @@ class Unsupported(SystemTest):
 
     def test_lacking_law(self):
         done = self.run_program(
-            "collide", HARD_SPHERE, "--engines", "grain", "--out", self.out, "--quiet"
+            "collide", HARD_SPHERE, "--engines", "box2d-penalty", "--out", self.out, "--quiet"
         )
         self.assert_one_line(
-            done, BAD_INPUT, "grain", "hard-sphere.toml", "normal = linear, not rigid",
+            done, BAD_INPUT, "box2d-penalty", "hard-sphere.toml", "normal = linear, not rigid",
             'list "normal" under [run] may_differ',
         )  # fmt: skip
 
