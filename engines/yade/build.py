@@ -8,16 +8,14 @@ from yade import (
     Bo1_Sphere_Aabb,
     Bo1_Wall_Aabb,
     ForceResetter,
+    FrictMat,
     HarmonicMotionEngine,
     Ig2_Sphere_Sphere_ScGeom,
     Ig2_Wall_Sphere_ScGeom,
     InsertionSortCollider,
     InteractionLoop,
-    Ip2_ViscElMat_ViscElMat_ViscElPhys,
-    Law2_ScGeom_ViscElPhys_Basic,
     NewtonIntegrator,
     O,
-    ViscElMat,
     utils,
 )
 
@@ -94,7 +92,7 @@ def start_walls(bodies):
 
 def clump_about(centre, ids, spin):
     # A clump turns about its centre of mass: a hub that outweighs all else puts it at the centre.
-    heavy = O.materials.append(ViscElMat(density=1e40))
+    heavy = O.materials.append(FrictMat(density=1e40))
     hub = utils.sphere((*centre, 0), 1e-3, fixed=True, color=WHITE, material=heavy, mask=HUB_MASK)
     hub.bounded = False
     clump = O.bodies[O.bodies.clump([*ids, O.bodies.append(hub)], discretization=0)]
@@ -121,7 +119,7 @@ def oscillation(body, dt):
     return engine(1.0, 0.0), engine(shrink, w * dt / 2)
 
 
-def build_engines(bodies, dt, gravity, verlet_distance):
+def build_engines(law, bodies, dt, gravity, verlet_distance):
     """@return the integrator; O.engines is set"""
     moved = [
         oscillation(body, dt)
@@ -131,6 +129,10 @@ def build_engines(bodies, dt, gravity, verlet_distance):
         and body.disk_ids + body.plane_ids
     ]
     newton = NewtonIntegrator(damping=0, gravity=(*gravity, 0))
+    constants, force = law.functors
+    # noRatch would have springs stretched at another point than the one where forces act; hertzian
+    # makes a plane a sphere of 1e8 radii, not of one.
+    with_plane = Ig2_Wall_Sphere_ScGeom(noRatch=False, hertzian=True)
     O.engines = [
         ForceResetter(),
         *(exact for exact, _ in moved),
@@ -140,9 +142,9 @@ def build_engines(bodies, dt, gravity, verlet_distance):
             avoidSelfInteractionMask=WALL_MASK & ~DISK_MASK,
         ),
         InteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Wall_Sphere_ScGeom()],
-            [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
-            [Law2_ScGeom_ViscElPhys_Basic()],
+            [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), with_plane],
+            [constants],
+            [force],
         ),
         *(drift for _, drift in moved),
         newton,

@@ -1,13 +1,7 @@
-"""Reads the contacts of YADE's last step, with the forces that it applied.
-
-YADE keeps the spring's part of a tangential force but not the dashpot's, so that is computed here
-from the velocities that the law saw.
-"""
+"""Reads the contacts of YADE's last step, with the forces that it applied."""
 
 import numpy as np
 from yade import O
-
-AT_THE_BOUND = 1 - 1e-12  # a slipping contact's spring is scaled to the bound, up to rounding
 
 
 def xy(vectors):
@@ -35,20 +29,18 @@ def read_contacts(law, radius, first_plane, velocity, spin):
     first = np.array([i.id1 for i in interactions], int)
     second = np.array([i.id2 for i in interactions], int)
     geoms = [i.geom for i in interactions]
-    physs = [i.phys for i in interactions]
     normal = xy([g.normal for g in geoms])  # from the first to the second
     overlap = np.array([g.penetrationDepth for g in geoms], float)
-    pressure = np.array([p.Fn + p.Fv for p in physs], float).clip(min=0.0)
-    spring = xy([p.shearForce for p in physs])  # on the second
 
     tangent = turned(normal)
-    spring_length = np.hypot(spring[:, 0], spring[:, 1])
-    sliding = spring_length >= law.mu * pressure * AT_THE_BOUND
     # Arms reach to the contact point: the middle of the overlap, with a plane the plane.
     depth = np.where((first < first_plane) & (second < first_plane), 0.5, 1.0) * overlap
     slip = dot(velocity[first] - velocity[second], tangent)
     slip += spin[first] * (radius[first] - depth) + spin[second] * (radius[second] - depth)
-    tangential = dot(spring, tangent) + np.where(sliding, 0.0, law.gt * slip)
+    # Those on the second.
+    pressing, tangential, sliding = law.forces(
+        [i.phys for i in interactions], normal, tangent, slip
+    )
 
     forward = first < second
     return {
@@ -56,7 +48,7 @@ def read_contacts(law, radius, first_plane, velocity, spin):
         "contacts.j": ("i32", np.maximum(first, second)),
         "contacts.normal": ("f64", np.where(forward, -1.0, 1.0)[:, None] * normal),
         "contacts.overlap": ("f64", overlap),
-        "contacts.normal_force": ("f64", pressure + dot(spring, normal)),
+        "contacts.normal_force": ("f64", pressing),
         "contacts.tangential_force": ("f64", tangential),
         "contacts.sliding": ("u8", sliding & law.friction),
     }

@@ -1,20 +1,21 @@
-"""The contact law of a scene in YADE's terms: ViscElMat, Law2_ScGeom_ViscElPhys_Basic."""
-
-import math
+"""What YADE's contact laws have in common."""
 
 from protocol import Unsupported
-from yade import ViscElMat
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one tells a reader nothing
 
 
 class Law:
+    """A scene's constants. A law's own class adds
+
+    functors        of YADE: one that makes a pair's constants, one that makes its force
+    material()      of every body
+    coefficients()  what YADE made of a pair's constants, in the scene's terms
+    forces()        those of contacts
+    """
+
     def __init__(self, law):
         kind = law["tangential"]
-        if law["normal"] != "linear":
-            raise Unsupported('has only normal = "linear"')
-        if law["damper"] != "constant" and (law["gn"] > 0 or law["gt"] > 0):
-            raise Unsupported('has only damper = "constant"')
         if kind not in ("none", "spring", "spring_dashpot"):
             raise Unsupported(f'has tangential = none | spring | spring_dashpot, not "{kind}"')
         self.friction = kind != "none" and law["mu"] > 0
@@ -27,16 +28,16 @@ class Law:
                 "holds no tangential dashpot to the Coulomb bound without a spring (kt = 0)"
             )
 
-    def material(self):
-        # Two bodies' constants combine like springs in series: twice the pair's value for each.
-        # Their friction angles combine to the smaller one.
-        return ViscElMat(
-            kn=2 * self.kn,
-            cn=2 * self.gn,
-            ks=2 * self.kt,
-            cs=2 * self.gt,
-            frictionAngle=math.atan(self.mu),
-        )
+    def demand_damper(self, law, only):
+        if law["damper"] != only and (self.gn > 0 or self.gt > 0):
+            raise Unsupported(
+                f'has only damper = "{only}" with normal = "{law["normal"]}", '
+                f'not "{law["damper"]}"'
+            )
+
+    def scale_inertia(self, factor):
+        """Told when the masses are set to so many times what they were, which must not change a
+        force."""
 
     def effects(self, scene):
         called = {
@@ -49,19 +50,6 @@ class Law:
             "moving_walls": any(body["motion"]["kind"] != "fixed" for body in scene["bodies"]),
         }
         return [name for name, calls in called.items() if calls]
-
-
-def coefficients(phys):
-    """What YADE made of a pair's constants."""
-    return {
-        "kn": phys.kn,
-        "gn": phys.cn,
-        "kt": phys.ks,
-        "gt": phys.cs,
-        "mu": phys.tangensOfFrictionAngle,
-        "en": 0.0,
-        "et0": 0.0,
-    }
 
 
 def kinds_of_disks(radius, mass):

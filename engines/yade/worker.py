@@ -22,9 +22,12 @@ from yade import O, utils
 import build
 import protocol
 from contacts import read_contacts, xy, z
-from law import Law, coefficients, representative_pairs
+from law import representative_pairs
+from mindlin import Mindlin
 from motion import Body
+from viscoelastic import Viscoelastic
 
+LAWS = {"linear": Viscoelastic, "hertz": Mindlin}
 COUNT_EVERY = 100  # steps between two looks at the number of contacts
 
 
@@ -51,8 +54,8 @@ class Yade:
                 "bottom_spin_friction": "never",
             },
             "law_options": {
-                "normal": ["linear"],
-                "damper": ["constant"],
+                "normal": list(LAWS),
+                "damper": ["constant", "critical"],
                 "tangential": ["none", "spring", "spring_dashpot"],
                 "tension": ["cut"],
                 "coulomb_bound": ["compression"],
@@ -60,6 +63,7 @@ class Yade:
                 "spring_reset": ["total"],
                 "spring_update": ["before"],
                 "lever_arm": ["overlap_middle"],
+                "history": ["force"],
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
             },
@@ -80,7 +84,10 @@ class Yade:
         }
 
     def load(self, scene, arrays, settings):
-        self.law = Law(scene["law"])
+        normal = scene["law"]["normal"]
+        if normal not in LAWS:
+            raise protocol.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
+        self.law = LAWS[normal](scene["law"])
         self.bodies = [
             Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
             for b, body in enumerate(scene["bodies"])
@@ -104,7 +111,11 @@ class Yade:
             [arrays["disks.radius"], *(body.disk_radius for body in self.bodies)]
         )
         self.newton = build.build_engines(
-            self.bodies, self.dt, self.gravity, settings.get("verlet_distance", 0.2)
+            self.law,
+            self.bodies,
+            self.dt,
+            self.gravity,
+            settings.get("verlet_distance", 0.2),
         )
         realised = self.realised(scene)
         build.start_walls(self.bodies)
@@ -125,7 +136,8 @@ class Yade:
         for name, i, j in representative_pairs(
             radius[: self.disks], self.mass, wall_disks, planes
         ):
-            pairs.append({"pair": name, **coefficients(utils.createInteraction(i, j).phys)})
+            made = self.law.coefficients(utils.createInteraction(i, j))
+            pairs.append({"pair": name, **made, "en": 0.0, "et0": 0.0})
         O.interactions.clear()
         return {
             "engine": "yade",
@@ -172,6 +184,7 @@ class Yade:
         for state in self.states[: self.disks]:
             state.mass *= factor
             state.inertia *= factor
+        self.law.scale_inertia(factor)
 
     def change_radial_motion(self):
         for body, share in self.radial_changes.get(self.steps, []):
