@@ -10,7 +10,8 @@ namespace crossgrain {
 
 namespace {
 
-/// Law2_ScGeom_ViscElPhys_Basic and NewtonIntegrator (engines/yade/README.md).
+/// Law2_ScGeom_ViscElPhys_Basic or Law2_ScGeom_MindlinPhys_Mindlin, which share them, and
+/// NewtonIntegrator (engines/yade/README.md).
 std::map<std::string, std::string> yadeConventions() {
   return {{"tension", "cut"},
           {"coulomb_bound", "compression"},
@@ -18,6 +19,7 @@ std::map<std::string, std::string> yadeConventions() {
           {"spring_reset", "total"},
           {"spring_update", "before"},
           {"lever_arm", "overlap_middle"},
+          {"history", "force"},
           {"damping_velocity", "lagged"},
           {"integrator", "position_verlet"}};
 }
@@ -28,7 +30,7 @@ const std::vector<EngineEntry>& engineRegistry() {
   static const std::vector<EngineEntry> entries = {
       {"grain", "in-house: soft disks, every convention an option", makeGrain, {}, {}, ""},
       {"yade",
-       "YADE, its viscoelastic law on spheres held in a plane",
+       "YADE, its viscoelastic and Hertz-Mindlin laws on spheres held in a plane",
        {},
        yadeCommand,
        yadeMissing,

@@ -16,6 +16,12 @@ std::span<const ExpectedSkip> expectedSkips() {
       ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughACollision",
                    "its peer has another normal law"},
       ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughAHeap", "its peer has another normal law"},
+      ExpectedSkip{"grain-stiff", "FollowsItsPeerOnAPlane", "its peer has another normal law"},
+      ExpectedSkip{"grain-stiff", "FollowsItsPeerByHertzLaw", "its peer has another normal law"},
+      ExpectedSkip{"grain-as-box2d-penalty", "FollowsItsPeerByHertzLaw",
+                   "its peer has another normal law"},
+      ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerByHertzLaw",
+                   "its peer has another normal law"},
       ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerThroughAHeap",
                    "solves no contacts together"},
   };

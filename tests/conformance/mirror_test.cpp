@@ -38,51 +38,79 @@ class MirrorConformance : public Conformance {
     return std::nullopt;
   }
 
-  double allowed() const { return canPeer_.precisions.front() == Precision::float32 ? 1e-5 : 1e-6; }
+  void followThroughACollision(const ContactLaw& law) {
+    Encounter pair = crookedEncounter();
+    // Box2D's position solver, which a mirror does not have, moves disks that overlap by more than
+    // its slop.
+    const double steps = rigid() ? 2000.0 : 50.0;
+    for (const double obliqueness : {0.5, -1.0}) {
+      pair.obliqueness = obliqueness;
+      if (const auto why = refusedByEither(encounterScene(pair, law, steps))) GTEST_SKIP() << *why;
+      compareVelocities();
+    }
+  }
 
-  std::unique_ptr<Engine> peer_;
-  Capabilities canPeer_;
-};
+  /// Gravity and a moving wall act from the first step on. Only positions are compared: the two may
+  /// show velocities of different times.
+  void followThroughAHeap(const ContactLaw& law) {
+    if (rigid()) GTEST_SKIP() << "solves no contacts together, as its peer does";
+    if (const auto why = refusedByEither(busyScene(law))) GTEST_SKIP() << *why;
+    for (const double t : {0.01 * busyEnd, 0.1 * busyEnd, 0.5 * busyEnd}) {
+      peer_->advance(t);
+      const Snapshot theirs = peer_->snapshot(ContactReport::none);
+      const Snapshot ours = at(t);
+      ASSERT_EQ(ours.positionTime, theirs.positionTime);
+      for (std::size_t i = 0; i < ours.position.size(); ++i) {
+        EXPECT_TRUE(close(ours.position[i], theirs.position[i], {allowed() * radius, 0.0, turns}))
+            << "disk " << i << " at t = " << t << " s";
+      }
+    }
+  }
 
-constexpr const char* turns = "roundings, and springs that turn to first or to higher order";
-
-TEST_P(MirrorConformance, FollowsItsPeerThroughACollision) {
-  Encounter pair = crookedEncounter();
-  // Box2D's position solver, which a mirror does not have, moves disks that overlap by more than
-  // its slop.
-  const double steps = rigid() ? 2000.0 : 50.0;
-  for (const double obliqueness : {0.5, -1.0}) {
-    pair.obliqueness = obliqueness;
-    if (const auto why = refusedByEither(encounterScene(pair, fullLaw(), steps)))
-      GTEST_SKIP() << *why;
+  /// Of an encounter's end, when nothing touches.
+  void compareVelocities() {
     peer_->advance(Encounter::end);
     const Snapshot theirs = peer_->snapshot(ContactReport::none);
     const Snapshot ours = at(Encounter::end);
     const double unit = allowed() * Encounter::speed;
-    for (const int i : {0, 1}) {
+    for (std::size_t i = 0; i < ours.velocity.size(); ++i) {
       EXPECT_TRUE(close(ours.velocity[i], theirs.velocity[i], {unit, 0.0, turns}));
       EXPECT_TRUE(
           close(spinsOf(scene_, ours)[i], spinsOf(scene_, theirs)[i], {unit / radius, 0.0, turns}));
     }
   }
+
+  bool peerHasHertz() const {
+    return std::ranges::count(canPeer_.lawOptions.at("normal"), "hertz") > 0;
+  }
+
+  double allowed() const { return canPeer_.precisions.front() == Precision::float32 ? 1e-5 : 1e-6; }
+
+  static constexpr const char* turns = "roundings, and springs that turn to first or higher order";
+  std::unique_ptr<Engine> peer_;
+  Capabilities canPeer_;
+};
+
+TEST_P(MirrorConformance, FollowsItsPeerThroughACollision) {
+  followThroughACollision(fullLaw());
 }
 
-/// Gravity and a moving wall act from the first step on. Only positions are compared: the two may
-/// show velocities of different times.
 TEST_P(MirrorConformance, FollowsItsPeerThroughAHeap) {
-  if (rigid()) GTEST_SKIP() << "solves no contacts together, as its peer does";
-  Scene scene = busyScene(fullLaw());
-  if (const auto why = refusedByEither(scene)) GTEST_SKIP() << *why;
-  for (const double t : {0.01 * busyEnd, 0.1 * busyEnd, 0.5 * busyEnd}) {
-    peer_->advance(t);
-    const Snapshot theirs = peer_->snapshot(ContactReport::none);
-    const Snapshot ours = at(t);
-    ASSERT_EQ(ours.positionTime, theirs.positionTime);
-    for (std::size_t i = 0; i < ours.position.size(); ++i) {
-      EXPECT_TRUE(close(ours.position[i], theirs.position[i], {allowed() * radius, 0.0, turns}))
-          << "disk " << i << " at t = " << t << " s";
-    }
-  }
+  followThroughAHeap(fullLaw());
+}
+
+TEST_P(MirrorConformance, FollowsItsPeerOnAPlane) {
+  const double steps = rigid() ? 2000.0 : 50.0;
+  if (const auto why = refusedByEither(landingScene(fullLaw(), steps))) GTEST_SKIP() << *why;
+  compareVelocities();
+}
+
+TEST_P(MirrorConformance, FollowsItsPeerByHertzLaw) {
+  if (!peerHasHertz()) GTEST_SKIP() << "its peer has another normal law";
+  followThroughACollision(hertzLaw());
+  followThroughAHeap(hertzLaw());
+  if (const auto why = refusedByEither(landingScene(hertzLaw(), 50.0))) GTEST_SKIP() << *why;
+  compareVelocities();
 }
 
 std::vector<std::string> mirrors() {

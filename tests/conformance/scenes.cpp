@@ -19,6 +19,18 @@ ContactLaw fullLaw() {
   return law;
 }
 
+ContactLaw hertzLaw() {
+  ContactLaw law;
+  law.normal = NormalLaw::hertz;
+  law.damper = Damper::critical;
+  law.kn = 7e5;
+  law.gn = 0.3;
+  law.kt = 1.2 * law.kn;
+  law.gt = 0.2;
+  law.mu = 0.44;
+  return law;
+}
+
 ContactLaw frictionless(ContactLaw law) {
   law.tangential = TangentialLaw::none;
   law.mu = 0.0;
@@ -30,8 +42,8 @@ Scene emptyScene(const ContactLaw& law, double steps) {
   scene.name = "conformance";
   scene.law = law;
   ContactLaw soft = law;
-  soft.normal = NormalLaw::linear;
-  scene.dt = contactTime(soft, 0.5 * mass) / steps;
+  if (!law.soft()) soft.normal = NormalLaw::linear;
+  scene.dt = impactTime(soft, {0.5 * mass, 0.5 * radius, Encounter::speed}) / steps;
   return scene;
 }
 
@@ -85,6 +97,14 @@ Scene encounterScene(const Encounter& pair, const ContactLaw& law, double steps)
     addDisk(scene, pair.radii[k], pair.masses[k], share * apart,
             pair.drift - share * Vec2(Encounter::speed, 0.0), pair.spins[k]);
   }
+  return scene;
+}
+
+Scene landingScene(const ContactLaw& law, double steps) {
+  Scene scene = emptyScene(law, steps);
+  scene.bodies = {planeWall({0.0, -1e-3}, {0.0, 1.0})};
+  const double height = radius - 1e-3 + Encounter::gap;
+  addDisk(scene, radius, mass, {0.0, height}, {0.05, -0.05}, 6.0);
   return scene;
 }
 

@@ -15,10 +15,15 @@ inline constexpr double mass = 0.275e-3;   ///< [kg]
 /// e_t0 = 0.3.
 ContactLaw fullLaw();
 
+/// Hertz' law with critical dampers, as deep at Encounter::speed as fullLaw(); bodies of Poisson's
+/// ratio 1/3.
+ContactLaw hertzLaw();
+
 /// The law without anything that could turn a disk.
 ContactLaw frictionless(ContactLaw law);
 
-/// A scene without disks; its time step resolves the contact of two small disks by `steps`.
+/// A scene without disks; its time step resolves the contact of two small disks by `steps`, at
+/// Encounter::speed where that matters.
 Scene emptyScene(const ContactLaw& law, double steps);
 
 /// A solid disk, J = ½ m a².
@@ -51,8 +56,11 @@ struct Encounter {
 /// An oblique impact of unequal disks that drift and spin: no symmetry hides a wrong sign.
 Encounter crookedEncounter();
 
-/// @param steps  time steps in one contact of the linear law
+/// @param steps  time steps in one contact of two small disks
 Scene encounterScene(const Encounter& pair, const ContactLaw& law, double steps);
+
+/// A disk that meets a plane at 45°, a little more slowly, and turns.
+Scene landingScene(const ContactLaw& law, double steps);
 
 /// Disks that are heaped on a turning wheel between posts: many contacts of all kinds but planes.
 /// There are some at busyEnd.

@@ -26,6 +26,20 @@ inline Scene emptyScene() {
   return scene;
 }
 
+/// Hertz' law between alike bodies, 1/E₁₂ = 2 (1 − ν²)/E, as stiff as the linear one where disks
+/// meet at 0.1 m/s.
+inline ContactLaw hertzLaw() {
+  ContactLaw law;
+  law.normal = NormalLaw::hertz;
+  law.damper = Damper::critical;
+  law.kn = 7e5;
+  law.kt = 1.2 * law.kn;  // ν = 1/3
+  law.gn = 0.3;
+  law.gt = 0.2;
+  law.mu = 0.44;
+  return law;
+}
+
 inline void addDisk(Scene& scene, double radius, double mass, Vec2 position, Vec2 velocity,
                     double spin = 0.0) {
   scene.disks.radius.push_back(radius);
@@ -58,8 +72,9 @@ inline Motion rotating(double omega) {
 }
 
 /// Disks pressed together by gravity onto a turning wheel and a floor that shakes.
-inline Scene crowdedScene() {
+inline Scene crowdedScene(const ContactLaw& law = emptyScene().law) {
   Scene scene = emptyScene();
+  scene.law = law;
   scene.gravity = {-1.0, -9.81};
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 5; ++column) {

@@ -94,16 +94,15 @@ TEST_F(YadeWorker, KeepsMomentumInAnObliqueCollision) {
 
 // Newton's second law ties velocities, which YADE integrates, to the contacts that the worker
 // reads.
-TEST_F(YadeWorker, ContactForcesAreThoseThatMovedTheDisks) {
-  const Scene scene = crowdedScene();
+void expectForcesThatMoveTheDisks(Engine& engine, const Scene& scene) {
   const std::size_t count = scene.disks.size();
-  engine_->load(scene, {});
+  engine.load(scene, {});
   std::size_t sliding = 0, sticking = 0, withWall = 0, withPlane = 0;
-  for (const int step : {1, 2, 1000, 2500, 4000, 6000}) {
-    engine_->advance((step - 1) * scene.dt);
-    const Snapshot before = engine_->snapshot(ContactReport::none);
-    engine_->advance(step * scene.dt);
-    const Snapshot after = engine_->snapshot(ContactReport::instant);
+  for (const int step : {1, 2, 1000, 2500, 4000, 5000, 6000}) {
+    engine.advance((step - 1) * scene.dt);
+    const Snapshot before = engine.snapshot(ContactReport::none);
+    engine.advance(step * scene.dt);
+    const Snapshot after = engine.snapshot(ContactReport::instant);
     EXPECT_DOUBLE_EQ(after.velocityTime, (step - 0.5) * scene.dt);
     EXPECT_DOUBLE_EQ(after.contactTime, (step - 1) * scene.dt);
 
@@ -147,6 +146,14 @@ TEST_F(YadeWorker, ContactForcesAreThoseThatMovedTheDisks) {
   EXPECT_GT(sticking, 3u);
   EXPECT_GT(withWall, 3u);
   EXPECT_GT(withPlane, 3u);
+}
+
+TEST_F(YadeWorker, ContactForcesAreThoseThatMovedTheDisks) {
+  expectForcesThatMoveTheDisks(*engine_, crowdedScene());
+}
+
+TEST_F(YadeWorker, ContactForcesOfHertzLawAreThoseThatMovedTheDisks) {
+  expectForcesThatMoveTheDisks(*engine_, crowdedScene(hertzLaw()));
 }
 
 // The wheel's torque from the contacts' own numbers: each acts at its contact point. Where the
