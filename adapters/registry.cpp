@@ -52,7 +52,8 @@ const std::vector<EngineEntry>& engineRegistry() {
        [] { return makeGrainMirror(yadeConventions()); },
        {},
        {},
-       "yade"},
+       "yade",
+       {"linear"}},
       {"grain-as-box2d-penalty",
        "the in-house engine held to the penalty engine's conventions",
        [] {
@@ -61,7 +62,8 @@ const std::vector<EngineEntry>& engineRegistry() {
        },
        {},
        {},
-       "box2d-penalty"},
+       "box2d-penalty",
+       {"linear"}},
       {"grain-as-box2d-impulse",
        "the in-house engine with impulses, as Box2D's solver has them for two disks",
        [] {
@@ -73,14 +75,15 @@ const std::vector<EngineEntry>& engineRegistry() {
        {},
        {},
        "box2d-impulse",
-       true},
+       {"rigid"}},
       // In the quick cell Box2D's solver holds about 20 times the pressure of the soft law.
       {"grain-stiff",
        "the in-house engine with contacts 25 times as stiff, towards rigid ones",
        [] { return makeStiffGrain(25.0); },
        {},
        {},
-       "box2d-impulse"},
+       "box2d-impulse",
+       {"linear"}},
   };
   return entries;
 }

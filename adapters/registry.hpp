@@ -21,9 +21,8 @@ struct EngineEntry {
   std::function<std::string()> missing;
   /// A mirror is the in-house engine set to a peer's conventions: that peer's name, else empty.
   std::string mirrors;
-  /// Of a mirror: whether it has soft contacts or rigid ones, so that it runs beside its peer where
-  /// the scene has them.
-  bool mirrorsRigid = false;
+  /// Of a mirror: the normal laws (lawOptionValue) of scenes in which it stands for that peer.
+  std::vector<std::string> mirrorsNormal = {};
 };
 
 /// All engines known to this build, in the order of the reports.

@@ -9,6 +9,7 @@
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
 #include "averaging/fields.hpp"
+#include "cases/collision_quantities.hpp"
 #include "cases/loader_document.hpp"
 
 namespace crossgrain {
@@ -28,6 +29,12 @@ std::vector<std::string> deviationNames() {
 std::vector<std::string> fieldNames() {
   std::vector<std::string> names;
   for (const FieldSpec& field : fieldTable()) names.emplace_back(field.name);
+  return names;
+}
+
+std::vector<std::string> quantityNames() {
+  std::vector<std::string> names;
+  for (const CollisionQuantity& quantity : collisionQuantities()) names.emplace_back(quantity.name);
   return names;
 }
 
@@ -227,9 +234,7 @@ void readCollision(Reader& in, Collision& collision) {
   if (collision.startPhase < 0.0)
     in.fail("start_phase", "must be >= 0, else the disks overlap at the start");
   if (!(collision.startPhase < 1.0)) in.fail("start_phase", "must be < 1");
-  collision.margins =
-      readMargins(in.section("margins"), {"psi_f", "beta", "e_n", "e_t", "centre_psi_f",
-                                          "rebound_angle", "spin", "duration", "max_overlap"});
+  collision.margins = readMargins(in.section("margins"), quantityNames());
   in.finish();
 }
 

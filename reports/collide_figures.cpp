@@ -1,59 +1,36 @@
+#include "reports/collide_figures.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
-#include "reports/collide_figures.hpp"
 #include "reports/figures.hpp"
 
 namespace crossgrain::reports {
-
-std::vector<Point> pointsOf(const Json& rows, const char* x, const char* y) {
-  std::vector<Point> points;
-  for (const Json& row : rows) {
-    const auto px = number(row, x), py = number(row, y);
-    if (px && py) points.push_back({*px, *py, {}});
-  }
-  return points;
-}
-
-std::vector<const Json*> firstCurves(const Json& variant) {
-  std::vector<const Json*> curves;
-  std::set<std::string> seen;
-  for (const Json& curve : list(variant, "curves"))
-    if (!list(curve, "points").empty() && seen.insert(text(curve, "engine")).second)
-      curves.push_back(&curve);
-  return curves;
-}
-
-Range psiRange(const Json& variant) {
-  double largest = 0.0;
-  for (const Json& row : list(variant, "oracle"))
-    largest = std::max(largest, number(row, "psi_i").value_or(0.0));
-  for (const Json& curve : list(variant, "curves"))
-    for (const Json& point : list(curve, "points"))
-      largest = std::max(largest, number(point, "psi_i").value_or(0.0));
-  return {0.0, largest > 0.0 ? largest * 1.02 : 1.0};
-}
 
 namespace {
 
 const LineStyle asymptoteStyle{"#999999", 0, true};
 
-/// One line per approach speed of the oracle; only the first is in the key.
-std::vector<Curve> oracleCurves(const Json& variant) {
-  std::map<double, std::vector<Point>> bySpeed;
-  for (const Json& row : list(variant, "oracle")) {
-    const auto psi = number(row, "psi_i"), after = number(row, "psi_f");
-    if (psi && after) bySpeed[number(row, "v_n").value_or(0.0)].push_back({*psi, *after, {}});
+/// Points of a column; `stride` 1: all of them.
+std::vector<Point> pointsOf(const Json& table, const char* column, std::size_t stride) {
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < rowCount(table); k += stride) {
+    const auto x = at(table, "psi_i", k), y = at(table, column, k);
+    if (x && y) points.push_back({*x, *y, {}});
   }
-  std::vector<Curve> curves;
-  for (auto& [speed, points] : bySpeed)
-    curves.push_back(
-        {curves.empty() ? "oracle" : "", oracleStyle, Draw::lines, std::move(points), 3.0});
-  return curves;
+  return points;
+}
+
+double largestPsi(const Json& variant) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < rowCount(member(variant, "oracle")); ++k)
+    largest = std::max(largest, at(member(variant, "oracle"), "psi_i", k).value_or(0.0));
+  for (const Json& curve : list(variant, "curves"))
+    for (std::size_t k = 0; k < rowCount(member(curve, "points")); ++k)
+      largest = std::max(largest, at(member(curve, "points"), "psi_i", k).value_or(0.0));
+  return largest > 0.0 ? largest : 1.0;
 }
 
 /// Sticking Ψ_f = −e_t0 Ψ_i up to where it meets sliding Ψ_f = Ψ_i − K(1+e)µ (Luding 1998), and
@@ -71,7 +48,7 @@ std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
   if (constant) {
     const double begin = std::max(0.0, *constant - 0.7);
     if (begin < lastPsi)
-      curves.push_back({"asymptotes",
+      curves.push_back({"",
                         asymptoteStyle,
                         Draw::lines,
                         {{begin, begin - *constant, {}}, {lastPsi, lastPsi - *constant, {}}},
@@ -80,99 +57,100 @@ std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
   return curves;
 }
 
-/// Figure 4.3 of Lätzel (2003): each engine at the first of its time steps.
+/// Figure 4.3 of Lätzel (2003): each engine at the largest of its time steps.
 Panel sweepPanel(const Json& variant, const Styles& styles) {
-  Panel panel;
-  panel.xLabel = "Ψ_{i} = v_{t,i} / v_{n,i}";
-  panel.yLabel = "Ψ_{f} = v_{t,f} / v_{n,i}";
+  Panel panel = panelOver(variant, "Ψ_{f}");
   panel.level = 0.0;
-  panel.key = Key::topLeft;
-  panel.xRange = psiRange(variant);
   panel.curves = asymptotes(variant, panel.xRange->high);
-  for (Curve& curve : oracleCurves(variant)) panel.curves.push_back(std::move(curve));
-  for (const Json* curve : firstCurves(variant)) {
-    const std::string engine = text(*curve, "engine");
-    auto points = pointsOf(list(*curve, "points"), "psi_i", "psi_f");
-    if (points.empty()) continue;
-    panel.curves.push_back({engine, styles.at(engine), Draw::points, std::move(points), 1.0});
-  }
+  if (auto line = pointsOf(member(variant, "oracle"), "psi_f", 1); !line.empty())
+    panel.curves.push_back({"", oracleStyle, Draw::lines, std::move(line), 3.0});
+  for (const auto& [engine, style] : styles)
+    if (const Json* curve = coarsestCurve(variant, engine)) {
+      const Json& table = member(*curve, "points");
+      panel.curves.push_back(
+          {"", style, Draw::points, pointsOf(table, "psi_f", markStride(table)), 1.0});
+    }
   return panel;
 }
 
-/// |Ψ_f − Ψ_f,oracle|, one curve per engine and time step.
+/// |Ψ_f − Ψ_f,oracle| of each engine at the largest of its time steps.
 Panel errorPanel(const Json& variant, const Styles& styles) {
-  Panel panel;
-  panel.xLabel = "Ψ_{i}";
-  panel.yLabel = "|Ψ_{f} − Ψ_{f,oracle}|";
+  Panel panel = panelOver(variant, "|Ψ_{f} − oracle|");
   panel.logY = true;
-  panel.key = Key::none;
-  panel.xRange = psiRange(variant);
-  for (const Json& curve : list(variant, "curves")) {
-    const std::string engine = text(curve, "engine");
+  const Json& reference = member(variant, "reference");
+  for (const auto& [engine, style] : styles) {
+    const Json* curve = coarsestCurve(variant, engine);
+    if (!curve) continue;
+    const Json& table = member(*curve, "points");
     std::vector<Point> points;
-    for (const Json& point : list(curve, "points")) {
-      const auto psi = number(point, "psi_i"), found = number(point, "psi_f"),
-                 expected = number(point, "psi_f_reference");
+    for (std::size_t k = 0; k < rowCount(table); ++k) {
+      const auto psi = at(table, "psi_i", k), found = at(table, "psi_f", k),
+                 expected = at(reference, "psi_f", k);
       if (psi && found && expected) points.push_back({*psi, std::abs(*found - *expected), {}});
     }
     std::ranges::sort(points, {}, &Point::x);
-    if (!points.empty())
-      panel.curves.push_back(
-          {engine, styles.at(engine), Draw::linesAndPoints, std::move(points), 1.0});
+    panel.curves.push_back({"", style, Draw::lines, std::move(points), 1.2});
   }
   return panel;
 }
 
-/// "grain: order 1.02 ± 0.03"
-std::string orderInWords(const Json& order) {
-  const std::string error =
-      number(order, "stderr") ? fmt::format(" ± {:.2f}", *number(order, "stderr")) : std::string();
-  return fmt::format("{}: order {:.2f}{}", text(order, "engine"),
-                     number(order, "order").value_or(0.0), error);
-}
-
-/// The least-squares line of slope `order` through points in log–log: it goes through their mean.
-std::vector<Point> fittedLine(const std::vector<Point>& points, double order) {
-  double x = 0.0, y = 0.0;
-  for (const Point& p : points) {
-    x += std::log(p.x) / static_cast<double>(points.size());
-    y += std::log(p.y) / static_cast<double>(points.size());
-  }
-  std::vector<Point> line;
-  for (const Point& end : {points.front(), points.back()})
-    line.push_back({end.x, std::exp(y + order * (std::log(end.x) - x)), {}});
-  return line;
-}
-
-/// Rms error of a sweep against its time step and the order fitted to it; only engines that ran
-/// with several.
-Panel convergencePanel(const Json& results, const Json& variant, const Styles& styles) {
-  Panel panel;
-  panel.xLabel = "dt [s]";
-  panel.yLabel = "rms error / range of Ψ_{f}";
-  panel.logX = panel.logY = true;
-  panel.key = Key::outside;
-  std::map<std::string, std::map<double, double>> errors;
-  for (const Json& curve : list(variant, "curves")) {
-    const auto dt = number(curve, "dt"), error = number(member(curve, "score"), "rms_error");
-    if (dt && error && *dt > 0.0 && *error > 0.0) errors[text(curve, "engine")][*dt] = *error;
-  }
-  for (const Json& order : list(results, "orders")) {
-    const std::string engine = text(order, "engine");
-    const auto slope = number(order, "order");
-    const bool own = text(order, "variant") == text(variant, "variant") &&
-                     text(order, "case") == text(variant, "case");
-    if (!own || !slope || errors[engine].size() < 2) continue;
-    std::vector<Point> points;
-    for (const auto& [dt, error] : errors[engine]) points.push_back({dt, error, {}});
-    LineStyle line = styles.at(engine);
-    panel.curves.push_back({"", line, Draw::lines, fittedLine(points, *slope), 1.0});
-    panel.curves.push_back({orderInWords(order), line, Draw::points, std::move(points), 1.0});
-  }
+/// Keeps the place of a panel that there is nothing to draw in.
+Panel emptyPanel(const Json& variant, const char* why) {
+  Panel panel = panelOver(variant, why);
+  panel.yRange = Range{0.0, 1.0};
+  panel.curves.push_back({"", oracleStyle, Draw::lines, {{0.0, 0.0, {}}}, 1.0});
   return panel;
+}
+
+Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::string& name) {
+  Figure figure;
+  figure.name = name;
+  figure.title = "Tangential velocity after a collision against before, and its error";
+  for (const Json* variant : group.variants) {
+    Panel sweep = sweepPanel(*variant, styles);
+    if (!hasPoints(sweep)) continue;
+    figure.panels.push_back(std::move(sweep));
+    Panel error = errorPanel(*variant, styles);
+    if (!hasPoints(error)) error = emptyPanel(*variant, "no error: no oracle, or no run");
+    figure.panels.push_back(std::move(error));
+  }
+  figure.caption =
+      "Ψ_f = v_t/v_n of the contact point after against Ψ_i before, and its distance from the "
+      "oracle (log axis), every engine at the largest of its time steps. Grey: the oracle; dashed "
+      "grey: hard disks, sticking and sliding.";
+  arrange(figure, 4, group.variants.size());
+  return figure;
 }
 
 }  // namespace
+
+Panel panelOver(const Json& variant, const char* yLabel) {
+  Panel panel;
+  panel.name = text(variant, "variant");
+  panel.xLabel = "Ψ_{i}";
+  panel.yLabel = yLabel;
+  panel.key = Key::none;
+  panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};
+  return panel;
+}
+
+std::size_t markStride(const Json& table) {
+  return std::max<std::size_t>(1, (rowCount(table) + 13) / 14);
+}
+
+void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
+  for (Panel& panel : figure.panels)
+    std::erase_if(panel.curves, [&](const Curve& curve) {
+      Panel alone;
+      alone.logY = panel.logY;
+      alone.curves = {curve};
+      return !hasPoints(alone);  // gnuplot would complain
+    });
+  const int panels = static_cast<int>(figure.panels.size());
+  figure.columns = std::max(1, std::min(panelsInLine, panels));
+  figure.panelWidth = 1240 / std::max(figure.columns, variants == 1 ? 2 : 3);
+  figure.panelHeight = variants == 1 ? 320 : 235;
+}
 
 std::vector<Figure> collideFigures(const Json& results) {
   const std::vector<LineStyle> order = engineStyles(results);
@@ -185,22 +163,11 @@ std::vector<Figure> collideFigures(const Json& results) {
 
   std::vector<Figure> figures;
   std::size_t index = 0;
-  for (const Json& variant : list(results, "variants")) {
-    Figure figure;
-    figure.name = fmt::format("collision_{}", ++index);
-    figure.title = "Tangential velocity after a collision against before, and its error";
-    for (Panel panel : {sweepPanel(variant, styles), errorPanel(variant, styles),
-                        convergencePanel(results, variant, styles)})
-      if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
-    if (figure.panels.empty()) continue;
-    figure.caption =
-        "Left: every engine at the first of its time steps. Further panels: every time step, one "
-        "curve each; and the rms error against the time step, with the order fitted to it.";
-    figure.columns = static_cast<int>(figure.panels.size());
-    figure.panelWidth = 420;
-    figures.push_back(std::move(figure));
-    Figure quantities = quantitiesFigure(variant, styles, figures.back().name + "_quantities");
-    if (!quantities.panels.empty()) figures.push_back(std::move(quantities));
+  for (const CaseGroup& group : casesOf(results)) {
+    const std::string name = fmt::format("collision_{}", ++index);
+    for (Figure& figure : std::vector{curvesFigure(group, styles, name),
+                                      energyFigure(group, styles, name + "_energy")})
+      if (!figure.panels.empty()) figures.push_back(std::move(figure));
   }
   return figures;
 }

@@ -2,29 +2,28 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
+#include "reports/collide_table.hpp"
 #include "reports/figure.hpp"
-#include "reports/json_view.hpp"
 
-/// What the plots of a collision sweep share.
+/// What the plots of collisions share.
 namespace crossgrain::reports {
 
 using Styles = std::map<std::string, LineStyle>;  ///< by engine
 
 inline const LineStyle oracleStyle{"#999999", 0, false};
 
-/// The points of rows where both members are numbers.
-std::vector<Point> pointsOf(const Json& rows, const char* x, const char* y);
+/// An axis over Ψ_i for a variant, with its name above.
+Panel panelOver(const Json& variant, const char* yLabel);
 
-/// The first curve of every engine that has points: that of its first time step.
-std::vector<const Json*> firstCurves(const Json& variant);
+/// Every `stride`-th row's share in the plot: a curve of marks has at most about 14.
+std::size_t markStride(const Json& table);
 
-/// The largest Ψ_i of a variant and a little more.
-Range psiRange(const Json& variant);
+/// Where the energy of a case's collisions went: the oracle's account and every engine's at the
+/// largest of its time steps. @param name  of the figure's files
+Figure energyFigure(const CaseGroup& group, const Styles& styles, const std::string& name);
 
-/// Quantities beyond Ψ_f: β of the contact point, the centres' tangential velocity, and where the
-/// energy went. @param name  of the figure's files
-Figure quantitiesFigure(const Json& variant, const Styles& styles, const std::string& name);
+/// A grid of small panels; one variant's have more room.
+void arrange(Figure& figure, int panelsInLine, std::size_t variants);
 
 }  // namespace crossgrain::reports

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 
+#include "reports/collide_scores.hpp"
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
 #include "reports/page.hpp"
@@ -11,159 +13,73 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Columns = std::map<std::string, Json>;  ///< engine → {colour, dashed}
-
-Columns columnsByName(const std::vector<EngineResults>& engines) {
-  Columns columns;
-  for (const Json& column : columnsView(engines)) columns[text(column, "name")] = column;
-  return columns;
-}
-
-std::optional<double> meanRestitution(const Json& curve) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Json& point : list(curve, "points"))
-    if (const auto value = number(point, "e_n")) {
-      sum += *value;
-      ++count;
-    }
-  if (count == 0) return std::nullopt;
-  return sum / count;
-}
-
-std::string verdictOf(const Json& curve) {
-  const std::string status = text(curve, "status");
-  const std::string verdict = text(member(curve, "score"), "verdict");
-  return verdict.empty() ? status : verdict;
-}
-
-Json scoreRow(const Json& curve, const Columns& columns) {
-  const Json& score = member(curve, "score");
-  const std::string verdict = verdictOf(curve);
-  const bool held = verdict == "held", judged = held || verdict == "fell short";
-  const auto style = columns.find(text(curve, "engine"));
-  Json cells = {readableSetting(number(curve, "dt")),
-                readableSetting(number(curve, "steps_per_contact")),
-                std::to_string(list(curve, "points").size()),
-                readable(meanRestitution(curve)),
-                readable(number(score, "max_error")),
-                readable(number(score, "rms_error")),
-                readable(number(score, "e_n_error")),
-                readableSetting(number(score, "limit"))};
-  return {{"engine", text(curve, "engine")},
-          {"colour", style == columns.end() ? "#999999" : text(style->second, "colour")},
-          {"dashed", style != columns.end() && member(style->second, "dashed") == Json(true)},
-          {"cells", std::move(cells)},
-          {"verdict", (held     ? "✓ "
-                       : judged ? "✗ "
-                                : "– ") +
-                          verdict},
-          {"class", held     ? "agree"
-                    : judged ? "disagree"
-                             : "undecided"},
-          {"reason", text(curve, "reason")}};
-}
-
-/// HTML: "normal linear, tangential spring dashpot; e_n = 0.341 closed form; …"
-std::string factsOf(const Json& variant) {
-  std::vector<std::string> law;
-  for (const auto& [option, value] : member(variant, "law").items())
+/// HTML: "Law: normal linear, tangential spring dashpot, …" of what all variants share.
+std::string lawOf(const CaseGroup& group) {
+  std::vector<std::string> shared;
+  for (const auto& [option, value] : member(*group.variants.front(), "law").items()) {
+    const bool same =
+        std::ranges::all_of(group.variants, [&, &option = option, &value = value](const Json* v) {
+          return member(member(*v, "law"), option) == value;
+        });
+    if (!same) continue;
     if (value.is_string())
-      law.push_back(spaced(option) + " " + spaced(value.get<std::string>()));
+      shared.push_back(spaced(option) + " " + spaced(value.get<std::string>()));
     else if (const auto constant = number(value))
-      law.push_back(spaced(option) + " " + readableSetting(constant));
-  std::string facts = fmt::format("Law: {}.", fmt::join(law, ", "));
-  if (const auto e = number(variant, "e_n_closed"))
-    facts += " Closed form of the normal restitution: " + readable(e) + ".";
-  if (const auto e = number(member(variant, "sticking"), "e_t0"))
-    facts += " Sticking: Ψ_f = −" + readable(e) + " Ψ_i.";
-  if (const auto constant = number(variant, "sliding_constant"))
-    facts += " Sliding: Ψ_f = Ψ_i − " + readable(constant) + ".";
-  std::vector<double> limitless;
-  for (const Json& row : list(variant, "oracle"))
-    if (member(row, "limitless") == Json(true))
-      limitless.push_back(number(row, "psi_i").value_or(0));
-  if (!limitless.empty())
-    facts += " Between Ψ_i = " + readable(limitless.front()) + " and " +
-             readable(limitless.back()) +
-             " the law's outcome goes on varying with the time step, however small: the oracle "
-             "gives one "
-             "of a narrow family.";
-  return mathHtml(facts);
+      shared.push_back(spaced(option) + " " + readableSetting(constant));
+  }
+  return mathHtml(fmt::format("Law of all variants: {}.", fmt::join(shared, ", ")));
 }
 
-/// "case: variant" where the results hold several cases.
-std::string variantName(const Json& results, const Json& variant) {
-  std::string name = text(variant, "variant");
-  if (name.empty()) name = "the case itself";
-  const std::string own = text(variant, "case");
-  const bool several = !own.empty() && own != text(member(results, "case"), "name");
-  return !several || own == name ? name : own + ": " + name;
+/// Empty, or where the law has no limit of small time steps.
+std::string limitsOf(const CaseGroup& group) {
+  std::vector<std::string> ranges;
+  for (const Json* variant : group.variants) {
+    const Json& oracle = member(*variant, "oracle");
+    std::vector<double> psi;
+    for (std::size_t k = 0; k < rowCount(oracle); ++k)
+      if (element(list(oracle, "limitless"), k) == Json(true))
+        psi.push_back(at(oracle, "psi_i", k).value_or(0.0));
+    if (!psi.empty())
+      ranges.push_back(
+          fmt::format("{}: {}{}", text(*variant, "variant"), readable(psi.front()),
+                      psi.front() == psi.back() ? std::string() : " to " + readable(psi.back())));
+    if (const std::string reason = text(*variant, "oracle_reason"); !reason.empty())
+      ranges.push_back(text(*variant, "variant") + ": " + reason);
+  }
+  if (ranges.empty()) return {};
+  return fmt::format(
+      "Here the outcome goes on varying with the time step, however small, and the oracle gives "
+      "one "
+      "of a narrow family, or none (variant: Ψ): {}.",
+      fmt::join(ranges, "; "));
 }
 
-Json variantViews(const Json& results, const Illustrations& shown, const Columns& columns) {
+Json caseViews(const Json& results, const std::vector<CaseGroup>& groups,
+               const std::vector<EngineResults>& engines, const Illustrations& shown) {
   Json views = Json::array();
-  for (const Json& variant : list(results, "variants")) {
-    const std::string id = fmt::format("collision_{}", views.size() + 1);
-    Json scores = Json::array();
-    for (const Json& curve : list(variant, "curves")) scores.push_back(scoreRow(curve, columns));
-    Json figures = Json::array();
-    for (Json& figure : figureViews(shown, "collision_"))
-      if (text(figure, "file") == id || text(figure, "file") == id + "_quantities")
-        figures.push_back(std::move(figure));
-    views.push_back({{"id", id},
-                     {"name", variantName(results, variant)},
-                     {"facts", factsOf(variant)},
-                     {"figures", std::move(figures)},
-                     {"scores", std::move(scores)}});
+  for (const CaseGroup& group : groups) {
+    const std::string figure = fmt::format("collision_{}", views.size() + 1);
+    Json curves = Json::array(), energies = Json::array();
+    for (Json& view : figureViews(shown, "collision_")) {
+      if (text(view, "file") == figure)
+        curves.push_back(std::move(view));
+      else if (text(view, "file") == figure + "_energy")
+        energies.push_back(std::move(view));
+    }
+    Json mirrors = mirrorRows(group, engines);
+    views.push_back({{"id", fmt::format("case_{}", views.size() + 1)},
+                     {"name", group.name},
+                     {"law", lawOf(group)},
+                     {"limits", limitsOf(group)},
+                     {"curves", std::move(curves)},
+                     {"energies", std::move(energies)},
+                     {"variants", variantRows(results, group, engines)},
+                     {"hasMirrors", !mirrors.empty()},
+                     {"mirrors", std::move(mirrors)},
+                     {"heads", scoreHeads(group)},
+                     {"scores", scoreRows(group)}});
   }
   return views;
-}
-
-Json orderRows(const Json& results) {
-  Json rows = Json::array();
-  for (const Json& order : list(results, "orders")) {
-    std::map<double, std::string> errors;  // by time step, coarse last
-    for (const auto& [dt, error] : member(order, "error_at").items()) {
-      const double step = std::strtod(dt.c_str(), nullptr);
-      errors[step] = readable(number(error)) + " at " + readableSetting(step) + " s";
-    }
-    std::vector<std::string> words;
-    for (const auto& [step, error] : errors) words.push_back(error);
-    rows.push_back({{"variant", variantName(results, order)},
-                    {"engine", text(order, "engine")},
-                    {"order", readable(number(order, "order"), number(order, "stderr"))},
-                    {"errors", fmt::format("{}", fmt::join(words, ", "))}});
-  }
-  return rows;
-}
-
-/// One row per variant: its place on the page and, engine by engine, how many of its sweeps held.
-Json indexRows(const Json& results, const std::vector<EngineResults>& engines) {
-  Json rows = Json::array();
-  for (const Json& variant : list(results, "variants")) {
-    std::map<std::string, std::pair<int, int>> counts;  // held, judged
-    for (const Json& curve : list(variant, "curves")) {
-      const std::string verdict = verdictOf(curve);
-      auto& [held, judged] = counts[text(curve, "engine")];
-      held += verdict == "held";
-      judged += verdict == "held" || verdict == "fell short";
-    }
-    Json cells = Json::array();
-    for (const EngineResults& engine : engines) {
-      const auto [held, judged] = counts[engine.name];
-      const bool all = held == judged;
-      cells.push_back(
-          {{"text", judged == 0 ? "–" : fmt::format("{} {}/{}", all ? "✓" : "✗", held, judged)},
-           {"class", judged == 0 ? "undecided"
-                     : all       ? "agree"
-                                 : "disagree"}});
-    }
-    rows.push_back({{"id", fmt::format("collision_{}", rows.size() + 1)},
-                    {"name", variantName(results, variant)},
-                    {"cells", std::move(cells)}});
-  }
-  return rows;
 }
 
 Json engineRows(const std::vector<EngineResults>& engines) {
@@ -176,20 +92,22 @@ Json engineRows(const std::vector<EngineResults>& engines) {
 
 void addSummary(Json& view, const Json& results, const std::vector<EngineResults>& engines) {
   std::map<std::string, std::map<std::string, std::size_t>> counts;
-  std::size_t held = 0, short_ = 0;
+  std::size_t held = 0, fellShort = 0;
   for (const Json& variant : list(results, "variants"))
     for (const Json& curve : list(variant, "curves")) {
       const std::string verdict = verdictOf(curve);
       ++counts[text(curve, "engine")][verdict];
       held += verdict == "held";
-      short_ += verdict == "fell short";
+      fellShort += verdict == "fell short";
     }
-  view["lead"] = held + short_ == 0 ? "No sweep could be judged."
-                                    : fmt::format("{} of {} held to the oracle within {} limit.",
-                                                  held, counted(held + short_, "judged sweep"),
-                                                  held + short_ == 1 ? "its" : "their");
+  const std::size_t judged = held + fellShort;
+  view["lead"] = judged == 0
+                     ? "No sweep could be judged."
+                     : fmt::format("{} of {} held to the oracle within {} limit.", held,
+                                   counted(judged, "judged sweep"), judged == 1 ? "its" : "their");
   view["sentences"] = Json::array();
   for (const EngineResults& engine : engines) {
+    if (!engine.mirrors.empty()) continue;
     std::vector<std::string> words;
     for (const auto& [verdict, count] : counts[engine.name])
       words.push_back(fmt::format("{} {}", count, verdict));
@@ -211,13 +129,12 @@ std::string collidePage(const Json& results, const Illustrations& shown) {
       if (member(curve, "realised").is_object())
         realised.push_back({text(curve, "engine"), &member(curve, "realised")});
 
+  const std::vector<CaseGroup> groups = casesOf(results);
   Json view = commonView(results, shown);
   addSummary(view, results, engines);
   view["engines"] = engineRows(engines);
-  view["variants"] = variantViews(results, shown, columnsByName(engines));
-  view["index"] = indexRows(results, engines);
-  view["orders"] = orderRows(results);
-  view["hasOrders"] = !view["orders"].empty();
+  view["matrix"] = matrixRows(groups, engines);
+  view["cases"] = caseViews(results, groups, engines, shown);
   addDetails(view, results, realised);
   view["files"] = "Beside this page: results.json (everything) and collisions.csv.";
   return render("report_collide.html", view);

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "reports/collide_table.hpp"
+
 namespace crossgrain::reports {
 
 namespace {
@@ -70,7 +72,7 @@ std::vector<std::string> seriesColumns(const Json& results) {
 }
 
 /// Quantities of a collision beyond the restitutions, as in results.json, and their units.
-constexpr std::array<std::pair<const char*, const char*>, 14> furtherQuantities = {{
+constexpr std::array<std::pair<const char*, const char*>, 15> furtherQuantities = {{
     {"beta", ""},
     {"centre_psi_f", ""},
     {"e_t", ""},
@@ -85,13 +87,8 @@ constexpr std::array<std::pair<const char*, const char*>, 14> furtherQuantities 
     {"lost_tangential_damping", "_J"},
     {"lost_sliding", "_J"},
     {"lost_stored", "_J"},
+    {"lost_tangential", "_J"},
 }};
-
-/// A variant's own case where the results hold several.
-std::string caseOf(const Json& results, const Json& variant) {
-  const std::string own = text(variant, "case");
-  return own.empty() ? text(member(results, "case"), "name") : own;
-}
 
 std::string furtherColumns() {
   std::string columns;
@@ -100,12 +97,10 @@ std::string furtherColumns() {
   return columns;
 }
 
-/// Empty cells for a row without a point.
-std::string furtherCells(const Json& point) {
+std::string furtherCells(const Json& points, const Json& reference, std::size_t k) {
   std::string cells;
   for (const auto& [name, unit] : furtherQuantities)
-    for (const char* suffix : {"", "_reference"})
-      cells += "," + cell(number(point, fmt::format("{}{}", name, suffix).c_str()));
+    for (const Json* table : {&points, &reference}) cells += "," + cell(at(*table, name, k));
   return cells;
 }
 
@@ -115,26 +110,25 @@ std::string collisionsCsv(const Json& results) {
   std::string table =
       "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
       furtherColumns() + "\n";
-  const auto add = [&](std::string binding, const Json& point) {
-    binding.pop_back();
-    table += binding + furtherCells(point) + "\n";
-  };
-  const std::optional<double> absent;
   for (const Json& variant : list(results, "variants")) {
     const std::string name = caseOf(results, variant);
     const std::string label = text(variant, "variant");
+    const Json& reference = member(variant, "reference");
     for (const Json& curve : list(variant, "curves")) {
-      const std::string engine = text(curve, "engine");
-      const auto dt = number(curve, "dt");
-      for (const Json& point : list(curve, "points"))
-        add(row(engine, name, label, number(point, "psi_i"), number(point, "v_n"),
-                number(point, "e_n"), number(point, "psi_f"), number(point, "e_n_reference"),
-                number(point, "psi_f_reference"), dt, text(point, "status")),
-            point);
-      if (list(curve, "points").empty())
-        add(row(engine, name, label, absent, absent, absent, absent, absent, absent, dt,
-                text(curve, "status")),
-            Json::object());
+      const Json& points = member(curve, "points");
+      const auto add = [&](std::size_t k, const Json& expected, const std::string& status) {
+        std::string line =
+            row(text(curve, "engine"), name, label, at(points, "psi_i", k), at(points, "v_n", k),
+                at(points, "e_n", k), at(points, "psi_f", k), at(expected, "e_n", k),
+                at(expected, "psi_f", k), number(curve, "dt"), status);
+        line.pop_back();
+        table += line + furtherCells(points, expected, k) + "\n";
+      };
+      for (std::size_t k = 0; k < rowCount(points); ++k) {
+        const Json& status = element(list(points, "status"), k);
+        add(k, reference, status.is_string() ? status.get<std::string>() : std::string());
+      }
+      if (rowCount(points) == 0) add(0, Json(), text(curve, "status"));
     }
   }
   return table;

@@ -39,6 +39,7 @@ enum class Key { none, topRight, topLeft, outside };
 
 struct Panel {
   std::string title;
+  std::string name;  ///< in the title's place, and may be the user's words: printed as it is
   std::string xLabel, yLabel;
   std::optional<Range> xRange, yRange;
   bool logX = false, logY = false;  ///< points that are not positive are left out

@@ -172,9 +172,9 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
   std::string script = fmt::format(
       "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n"
       "  {}\n  {}\n  set xrange {}\n  set yrange {}\n",
-      quoted(panel.title), quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key),
-      panel.logX ? "set" : "unset", panel.logY ? "set" : "unset",
-      ticks('x', panel.xTicks, panel.logX),
+      panel.name.empty() ? quoted(panel.title) : quoted(panel.name) + " noenhanced",
+      quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key), panel.logX ? "set" : "unset",
+      panel.logY ? "set" : "unset", ticks('x', panel.xTicks, panel.logX),
       ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
       rangeText(panel.xRange), rangeText(range));
   if (!panel.rows.empty()) script += "  " + rowNames(panel, firstInLine) + "\n";

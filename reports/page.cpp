@@ -9,6 +9,7 @@
 #include "reports/base64.hpp"
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
+#include "reports/svg.hpp"
 #include "reports/templates.hpp"
 
 namespace crossgrain::reports {
@@ -39,7 +40,7 @@ Json imageView(const Illustrations& shown, const std::string& file, const std::s
                const std::string& caption) {
   const auto svg = readFile(shown.plots / (file + ".svg"));
   if (!svg) return nullptr;
-  return {{"file", file}, {"alt", alt}, {"caption", caption}, {"image", base64(*svg)}};
+  return {{"file", file}, {"alt", alt}, {"caption", caption}, {"image", base64(compactSvg(*svg))}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
@@ -36,24 +35,20 @@ json lawJson(const ContactLaw& law) {
   return options;
 }
 
-/// The oracle on a grid four times finer than the sweep's, for a smooth line.
+/// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
 json fineOracle(const Case& setup) {
-  json line = json::array();
   const auto& psi = setup.collision.psi;
-  for (std::size_t k = 0; k < psi.size(); ++k) {
-    const int parts = k + 1 < psi.size() ? 4 : 1;
-    for (int part = 0; part < parts; ++part) {
+  const auto parts = std::max<std::size_t>(1, 80 / psi.size());
+  std::vector<CollisionStart> starts;
+  Case one = setup;
+  for (std::size_t k = 0; k < psi.size(); ++k)
+    for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
-      Case one = setup;
-      one.collision.psi = {psi[k] + (next - psi[k]) * part / parts};
-      const CollisionStart start = collisionStarts(one).front();
-      const OracleCurve curve = oracleCurve(setup, {start});
-      if (!curve.ends.front()) return json::array();
-      line.push_back({{"psi_i", start.psi}, {"v_n", start.vn}});
-      describe(line.back(), curve.ends.front(), "");
+      const double share = static_cast<double>(part) / static_cast<double>(parts);
+      one.collision.psi = {psi[k] + (next - psi[k]) * share};
+      starts.push_back(collisionStarts(one).front());
     }
-  }
-  return line;
+  return columnsOf(starts, outcomesOf(oracleCurve(setup, starts)));
 }
 
 struct Sweep {
@@ -61,23 +56,45 @@ struct Sweep {
   std::vector<CollisionStart> starts;
   OracleCurve oracle;
   std::vector<double> steps;
+
+  /// Whether an engine takes part: mirrors only where the case wants them.
+  bool wants(const EngineEntry& entry, const std::vector<std::string>& named) const {
+    if (entry.mirrors.empty() || isNamed(named, entry)) return true;
+    return setup->run.mirrors && standsForItsPeer(entry, setup->law);
+  }
 };
+
+/// The engines of any of the cases, those named first. @throws BadInput
+std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
+                                       const std::vector<std::string>& names) {
+  std::vector<EngineEntry> engines = selectEngines(names);
+  for (const Case& setup : variants) checkEngineSections(setup);
+  if (std::ranges::any_of(variants, [](const Case& setup) { return setup.run.mirrors; }))
+    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  return engines;
+}
 
 /// All sweeps of one engine in one worker. Failures end up in the curve that failed; the worker is
 /// started again for the next one. @throws BadInput, Interrupted
-void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const RunStore& store,
+void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps,
+               const std::vector<std::string>& named, const RunStore& store,
                const std::function<void(double)>& progress, std::vector<json>& curves) {
   std::unique_ptr<Engine> engine;
-  std::size_t total = 0, done = 0;
-  for (const Sweep& sweep : sweeps) total += sweep.steps.size();
+  std::size_t total = 0, done = 0, planned = 0;
+  for (const Sweep& sweep : sweeps)
+    if (sweep.wants(entry, named)) total += sweep.steps.size();
   for (const Sweep& sweep : sweeps) {
     json list = json::array();
-    for (const double dt : sweep.steps) {
+    const std::vector<double> steps =
+        sweep.wants(entry, named) ? sweep.steps : std::vector<double>();
+    planned += steps.size();
+    for (const double dt : steps) {
       throwIfInterrupted();
       try {
         if (!engine)
           engine = startEngine(entry, store.scratch(entry.name), sweep.setup->run.timeout);
-        json curve = runSweep(*engine, entry, *sweep.setup, dt, sweep.starts, sweep.oracle);
+        json curve = runSweep(*engine, entry, *sweep.setup, dt, sweep.starts, sweep.oracle,
+                              dt == std::ranges::max(steps));
         // An engine that keeps its own step has nothing new to say at another of the case's.
         const bool known = std::ranges::any_of(
             list, [&](const json& earlier) { return earlier["dt"] == curve["dt"]; });
@@ -94,17 +111,15 @@ void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps, const
                         {"status", refused ? "refused" : "failed"},
                         {"reason", error.what()},
                         {"realised", nullptr},
-                        {"points", json::array()},
-                        {"score",
-                         {{"max_error", nullptr},
-                          {"rms_error", nullptr},
-                          {"e_n_error", nullptr},
-                          {"verdict", "not judged"},
-                          {"limit", nullptr}}}});
+                        {"points", json::object()},
+                        {"score", noScore()}});
         if (!refused) engine.reset();
+        // What a law lacks, it lacks at every time step.
+        if (refused) break;
       }
       progress(static_cast<double>(++done) / static_cast<double>(total));
     }
+    done = planned;
     curves.push_back(std::move(list));
   }
 }
@@ -131,6 +146,7 @@ json variantJson(const Sweep& sweep) {
                   {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
                   {"oracle", fineOracle(setup)},
                   {"oracle_reason", sweep.oracle.reason},
+                  {"reference", columnsOf(sweep.starts, outcomesOf(sweep.oracle))},
                   {"curves", json::array()}};
   return variant;
 }
@@ -139,8 +155,7 @@ json variantJson(const Sweep& sweep) {
 
 json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
   const auto started = std::chrono::steady_clock::now();
-  const std::vector<EngineEntry> engines = enginesFor(variants.front(), command.engines);
-  for (const Case& setup : variants) checkEngineSections(setup);
+  const std::vector<EngineEntry> engines = enginesForAny(variants, command.engines);
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
@@ -162,7 +177,7 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
     // Workers in another language start slowly, so they go first.
     tasks.push_back({engines[e].command ? 2.0 : 1.0, [&, e] {
                        runEngine(
-                           engines[e], sweeps, store,
+                           engines[e], sweeps, command.engines, store,
                            [&](double f) { progress.update(e, engines[e].name, f); }, curves[e]);
                        progress.finish(e, engines[e].name + ": done");
                      }});

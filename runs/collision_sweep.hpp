@@ -7,6 +7,7 @@
 #include "cases/case.hpp"
 #include "cases/collision_oracle.hpp"
 #include "cases/collision_scene.hpp"
+#include "runs/collision_score.hpp"
 #include "runs/engine_access.hpp"
 
 namespace crossgrain {
@@ -18,18 +19,18 @@ struct OracleCurve {
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
 
-/// Puts what is known of a collision's end into a row of results.json, each name followed by
-/// `suffix`; null where absent.
-void describe(nlohmann::json& row, const std::optional<CollisionEnd>& end,
-              const std::string& suffix);
+Outcomes outcomesOf(const OracleCurve& oracle);
+
+/// A table of results.json, {name: [one value per start]}: Ψ_i, v_n and all that is known of the
+/// outcomes; null where one has none, and no column where all have none.
+nlohmann::json columnsOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
 /// One engine on one sweep: an entry of results.json's "curves".
+/// @param look  step by step at the contacts, for the largest overlap and the energy's whereabouts,
+///              where the engine has contacts to look at; the outcome is the same
 /// @throws EngineFailure, UnsupportedScene, BadInput
 nlohmann::json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
-                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle);
-
-/// The order of convergence p of a curve's rms error ∝ dt^p, from two or more time steps:
-/// an entry of results.json's "orders". @param curves  of one engine and one variant
-std::optional<nlohmann::json> convergenceOrder(const std::vector<const nlohmann::json*>& curves);
+                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
+                        bool look);
 
 }  // namespace crossgrain

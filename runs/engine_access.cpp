@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/bad_input.hpp"
@@ -80,12 +81,17 @@ std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
   return mirrors;
 }
 
+bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law) {
+  return std::ranges::find(mirror.mirrorsNormal, lawOptionValue(law, "normal")) !=
+         mirror.mirrorsNormal.end();
+}
+
 std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names) {
   checkEngineSections(setup);
   std::vector<EngineEntry> engines = selectEngines(names);
   if (setup.run.mirrors)
     for (const EngineEntry& mirror : mirrorsOf(engines))
-      if (mirror.mirrorsRigid != setup.law.soft()) engines.push_back(mirror);
+      if (standsForItsPeer(mirror, setup.law)) engines.push_back(mirror);
   return engines;
 }
 

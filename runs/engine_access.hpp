@@ -24,6 +24,9 @@ void checkEngineSections(const Case& setup);
 /// The mirrors in the registry whose peer is among `engines`.
 std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines);
 
+/// Whether a mirror is one in a scene of this law.
+bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law);
+
 /// The engines named and, if the case wants them, their mirrors. @throws BadInput like
 /// selectEngines() and checkEngineSections()
 std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names);

@@ -60,12 +60,14 @@ TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   const Json results = Json::parse(R"({
     "case": {"name": "walton"},
-    "variants": [{"variant": "soft, cut", "curves": [
-      {"engine": "one", "dt": 2e-5, "status": "finished", "points": [
-        {"psi_i": 0.5, "v_n": 1e-4, "e_n": 0.25, "psi_f": -0.125, "e_n_reference": 0.5,
-         "psi_f_reference": null, "status": "ok", "beta": 0.25, "duration_reference": 2e-3,
-         "lost_stored_reference": 1e-9}]},
-      {"engine": "two", "dt": null, "status": "failed", "points": []}]}]})");
+    "variants": [{"variant": "soft, cut",
+      "reference": {"psi_i": [0.5], "e_n": [0.5], "psi_f": [null], "duration": [2e-3],
+                    "lost_stored": [1e-9]},
+      "curves": [
+      {"engine": "one", "dt": 2e-5, "status": "finished", "points":
+        {"psi_i": [0.5], "v_n": [1e-4], "e_n": [0.25], "psi_f": [-0.125], "status": ["ok"],
+         "beta": [0.25]}},
+      {"engine": "two", "dt": null, "status": "failed", "points": {}}]}]})");
   EXPECT_EQ(collisionsCsv(results),
             "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status,"
             "beta,beta_reference,centre_psi_f,centre_psi_f_reference,e_t,e_t_reference,"
@@ -75,10 +77,11 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
             "energy_after_J,energy_after_reference_J,"
             "lost_normal_damping_J,lost_normal_damping_reference_J,"
             "lost_tangential_damping_J,lost_tangential_damping_reference_J,"
-            "lost_sliding_J,lost_sliding_reference_J,lost_stored_J,lost_stored_reference_J\n"
+            "lost_sliding_J,lost_sliding_reference_J,lost_stored_J,lost_stored_reference_J,"
+            "lost_tangential_J,lost_tangential_reference_J\n"
             "one,walton,\"soft, cut\",0.5,0.0001,0.25,-0.125,0.5,,2e-05,ok,"
-            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09\n"
-            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
+            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09,,\n"
+            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
 }
 
 TEST(Csv, QuotesCommasAndQuotesInNames) {

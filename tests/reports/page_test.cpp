@@ -5,6 +5,7 @@
 
 #include "cases/files.hpp"
 #include "reports/report.hpp"
+#include "reports/svg.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 
@@ -138,11 +139,37 @@ TEST(ComparePage, BarsOfOnePackingAreLabelledConditional) {
 
 TEST(CollidePage, ScoresHeldAndFellShort) {
   EXPECT_TRUE(has(collided().page, "10 of 14 judged sweeps held to the oracle"));
-  EXPECT_TRUE(has(collided().page, "<td class=\"agree why\"><b>✓ held</b></td>"));
-  EXPECT_TRUE(has(collided().page, "<td class=\"disagree why\"><b>✗ fell short</b></td>"));
+  // The matrix: of the sample's first engine, 0.5 × 12/50² of the range at the coarsest step, and
+  // Ψ_f of the impulse engine half of 0.03 where the limit is 0.01.
+  EXPECT_TRUE(has(collided().page, "<td class=\"change agree\"><b>✓ 6 of 6</b></td>"));
   EXPECT_TRUE(has(collided().page,
-                  "<td class=\"undecided why\"><b>– not judged</b><br><small>worker hung &lt;120 "
-                  "s&gt;</small></td>"));
+                  "<td class=\"change disagree\"><b>✗ 0 of 2</b><small>Ψ<sub>f</sub> 1.5 × its "
+                  "limit</small></td>"));
+  EXPECT_TRUE(has(collided().page, "<b>✗ failed</b><small>worker hung &lt;120 s&gt;</small>"));
+  EXPECT_TRUE(has(collided().page, "Ψ<sub>f</sub> 0.0024, order 2.00\u00a0±\u00a00.01"));
+}
+
+TEST(CollidePage, EveryScoreIsThere) {
+  // 2 variants × (3 + 3 + 1) curves and one that failed; one quantity.
+  const std::string& page = collided().page;
+  std::size_t rows = 0;
+  for (auto place = page.find("<table class=\"scores\">");
+       (place = page.find("<tr><td>", place)) != std::string::npos &&
+       place < page.find("id=\"engines\"");
+       ++place)
+    ++rows;
+  EXPECT_EQ(rows, 2u * 7u + 1u);
+  EXPECT_TRUE(has(page, "<td class=\"n agree\">✓ 0.0024<small>0.0012</small></td>"));
+}
+
+TEST(Svg, IsShortenedWithoutTouchingWords) {
+  const std::string head = "<?xml version=\"1.0\"?>\n<svg><defs><path d='M0.25,1.33'/></defs>";
+  EXPECT_EQ(
+      reports::compactSvg(head +
+                          "\n<g fill=\"none\" stroke-linecap=\"butt\">\n</g>\n"
+                          "\t<path stroke='rgb( 68,  0, 255)'  d='M118.76,3.04 L2.00,-0.51  '/>\n"
+                          "<text>n1.25 of 0.125</text></svg>"),
+      head + "<path stroke='#4400ff' d='M118.8,3 L2,-0.5'/><text>n1.25 of 0.125</text></svg>");
 }
 
 TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {
@@ -159,11 +186,12 @@ TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {
       const bool data = std::string(kind) == ".dat";
       EXPECT_TRUE(!data || !has(*content, "nan")) << name;
     }
-  for (const char* name : {"collision_1.svg", "collision_2.pdf"})
+  for (const char* name : {"collision_1.svg", "collision_1.pdf"})
     EXPECT_GT(fs::file_size(collided().folder.path() / "plots" / name), 1000u) << name;
   for (const char* name : {"origins_1_grain.svg", "origins_1_grain.pdf", "forces_2_yade.svg"})
     EXPECT_GT(fs::file_size(plots / name), 1000u) << name;
-  EXPECT_FALSE(fs::exists(plots / "gnuplot.log")) << "gnuplot had something to say";
+  for (const fs::path& folder : {plots, collided().folder.path() / "plots"})
+    EXPECT_FALSE(fs::exists(folder / "gnuplot.log")) << "gnuplot had something to say";
 }
 
 TEST(Report, IsTheSameWhenRebuilt) {

@@ -149,8 +149,28 @@ class Collide(ResultsTest):
         self.assertEqual(["a", "b"], list(dict.fromkeys(row["case"] for row in rows)))
         self.assertEqual(2 * 8 * 2 * 3, len(rows))
         page = (self.out / "report.html").read_text()
-        for words in ("a: coulomb-cut", "b: spring-tension", 'href="#collision_16"'):
+        for words in ('href="#case_2"', '<h2 id="case_2">b</h2>', "spring-tension"):
             self.assertIn(words, page)
+
+    def test_mirrors_run_in_the_cases_that_want_them(self):
+        folder = self.folder / "mirrored"
+        folder.mkdir()
+        for name, mirrors in (("a", "false"), ("b", "true")):
+            (folder / f"{name}.toml").write_text(
+                f'[case]\nextends = "{COLLISION}"\n[run]\nmirrors = {mirrors}\n'
+                "[collision]\npsi = [0.5, 2.0]\nsteps_per_contact = 50\n"
+            )
+        self.assert_status(
+            self.run_program("collide", folder, "--engines", "box2d-penalty", "--out", self.out),
+            HELD, FELL_SHORT,
+        )  # fmt: skip
+        ran = {(row["case"], row["engine"]) for row in self.rows("collisions.csv")}
+        mirror = "grain-as-box2d-penalty"
+        self.assertEqual(
+            {("a", "box2d-penalty"), ("b", "box2d-penalty"), ("b", mirror)}, ran
+        )
+        # Of the one that ran where it was wanted the page can tell model from implementation.
+        self.assertEqual(1, (self.out / "report.html").read_text().count("Model or implementation?"))
 
     def collide(self, case, engines, *arguments):
         return self.run_program(

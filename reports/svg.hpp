@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace crossgrain::reports {
+
+/// A drawing of gnuplot's in about half the bytes, looking the same: numbers to a tenth of a pixel,
+/// short colours, no empty groups, no blanks between elements.
+std::string compactSvg(const std::string& svg);
+
+}  // namespace crossgrain::reports
