@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -105,7 +106,7 @@ void stiffen(ContactLaw& law, double factor) {
 
 class GrainEngine : public Engine {
  public:
-  GrainEngine(std::map<std::string, std::string> conventions, double stiffness)
+  GrainEngine(LawConventionSets conventions, double stiffness)
       : conventions_(std::move(conventions)), stiffness_(stiffness) {}
 
   Capabilities capabilities() const override {
@@ -116,7 +117,7 @@ class GrainEngine : public Engine {
       can.lawOptions[std::string(option.name)] = {option.values.begin(), option.values.end()};
     // A mirror of soft contacts has nothing to say of rigid ones, and the other way round.
     if (!conventions_.empty() || stiffness_ != 1.0) std::erase(can.lawOptions["normal"], "rigid");
-    for (const auto& [name, value] : conventions_) can.lawOptions[name] = {value};
+    for (const auto& [name, values] : conventions_) can.lawOptions[name] = values;
     can.precisions = {Precision::float64, Precision::float32};
     can.slidingFlags = true;
     can.checkpoints = true;
@@ -138,7 +139,9 @@ class GrainEngine : public Engine {
       throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
                                    : "has rigid contacts only, normal = \"rigid\"");
     ContactLaw law = scene.law;
-    for (const auto& [name, value] : conventions_) setLawOption(law, name, value);
+    for (const auto& [name, values] : conventions_)
+      if (std::ranges::find(values, lawOptionValue(law, name)) == values.end())
+        setLawOption(law, name, values.front());
     // An impulse is a force within one step of the scheme in which a kick precedes its drift.
     if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
@@ -258,7 +261,7 @@ class GrainEngine : public Engine {
   bool has(NormalLaw normal) const {
     const bool rigid = normal == NormalLaw::rigid;
     if (const auto only = conventions_.find("normal"); only != conventions_.end())
-      return rigid == (only->second == "rigid");
+      return rigid == (only->second.front() == "rigid");
     return !rigid || (conventions_.empty() && stiffness_ == 1.0);
   }
 
@@ -290,7 +293,7 @@ class GrainEngine : public Engine {
     return contacts;
   }
 
-  std::map<std::string, std::string> conventions_;
+  LawConventionSets conventions_;
   double stiffness_;
   std::vector<WallBody> bodies_;
   bool spins_ = false;  ///< whether snapshots tell them; blocked ones are zero
@@ -304,12 +307,12 @@ std::unique_ptr<Engine> makeGrain() {
   return makeGrainMirror({});
 }
 
-std::unique_ptr<Engine> makeGrainMirror(std::map<std::string, std::string> conventions) {
+std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions) {
   return std::make_unique<GrainEngine>(std::move(conventions), 1.0);
 }
 
 std::unique_ptr<Engine> makeStiffGrain(double factor) {
-  return std::make_unique<GrainEngine>(std::map<std::string, std::string>{}, factor);
+  return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
 }
 
 }  // namespace crossgrain

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "adapters/engine.hpp"
 
@@ -10,10 +12,13 @@ namespace crossgrain {
 /// The in-house engine.
 std::unique_ptr<Engine> makeGrain();
 
-/// The in-house engine held to a peer's conventions (law option → value): where it follows the
-/// peer, what remains between the scene's law and the peer is the model's; where it does not,
-/// somebody's implementation is at fault.
-std::unique_ptr<Engine> makeGrainMirror(std::map<std::string, std::string> conventions);
+/// Law option → the values that an engine has, its own choice first.
+using LawConventionSets = std::map<std::string, std::vector<std::string>>;
+
+/// The in-house engine held to a peer's conventions: where it follows the peer, what remains
+/// between the scene's law and the peer is the model's; where it does not, somebody's
+/// implementation is at fault.
+std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
 
 /// The in-house engine with contacts `factor` times as stiff, for peers with rigid ones: k_n and
 /// k_t grow by it, γ_n and γ_t by its root, so that restitutions stay, and the time step shrinks by

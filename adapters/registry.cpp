@@ -12,16 +12,16 @@ namespace {
 
 /// Law2_ScGeom_ViscElPhys_Basic or Law2_ScGeom_MindlinPhys_Mindlin, which share them, and
 /// NewtonIntegrator (engines/yade/README.md).
-std::map<std::string, std::string> yadeConventions() {
-  return {{"tension", "cut"},
-          {"coulomb_bound", "compression"},
-          {"dashpot", "outside"},
-          {"spring_reset", "total"},
-          {"spring_update", "before"},
-          {"lever_arm", "overlap_middle"},
-          {"history", "force"},
-          {"damping_velocity", "lagged"},
-          {"integrator", "position_verlet"}};
+LawConventionSets yadeConventions() {
+  return {{"tension", {"cut"}},
+          {"coulomb_bound", {"compression"}},
+          {"dashpot", {"outside"}},
+          {"spring_reset", {"total"}},
+          {"spring_update", {"before"}},
+          {"lever_arm", {"overlap_middle"}},
+          {"history", {"force"}},
+          {"damping_velocity", {"lagged"}},
+          {"integrator", {"position_verlet"}}};
 }
 
 }  // namespace
@@ -53,12 +53,14 @@ const std::vector<EngineEntry>& engineRegistry() {
        {},
        {},
        "yade",
-       {"linear"}},
+       {"linear", "hertz"}},
       {"grain-as-box2d-penalty",
        "the in-house engine held to the penalty engine's conventions",
        [] {
-         return makeGrainMirror(
-             {{"integrator", "semi_implicit_euler"}, {"damping_velocity", "lagged"}});
+         return makeGrainMirror({{"integrator", {"semi_implicit_euler"}},
+                                 {"damping_velocity", {"lagged"}},
+                                 {"spring_update", {"after", "before"}},
+                                 {"lever_arm", {"radius", "contact_point"}}});
        },
        {},
        {},
@@ -67,10 +69,10 @@ const std::vector<EngineEntry>& engineRegistry() {
       {"grain-as-box2d-impulse",
        "the in-house engine with impulses, as Box2D's solver has them for two disks",
        [] {
-         return makeGrainMirror({{"normal", "rigid"},
-                                 {"integrator", "semi_implicit_euler"},
-                                 {"damping_velocity", "lagged"},
-                                 {"lever_arm", "overlap_middle"}});
+         return makeGrainMirror({{"normal", {"rigid"}},
+                                 {"integrator", {"semi_implicit_euler"}},
+                                 {"damping_velocity", {"lagged"}},
+                                 {"lever_arm", {"overlap_middle"}}});
        },
        {},
        {},

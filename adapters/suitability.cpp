@@ -72,6 +72,17 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
   return found;
 }
 
+ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
+  for (const auto& [option, values] : can.lawOptions) {
+    // What the constants mean hangs on these: an engine that lacks the law converts it, or refuses.
+    if (option == "normal" || option == "tangential" || option == "damper") continue;
+    if (values.empty()) continue;
+    if (std::ranges::find(values, lawOptionValue(law, option)) == values.end())
+      setLawOption(law, option, values.front());
+  }
+  return law;
+}
+
 Adapted adaptScene(const Capabilities& can, const Scene& scene,
                    const std::vector<std::string>& mayDiffer) {
   Adapted adapted{scene, {}};
@@ -86,6 +97,7 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
       for (const Effect effect : allEffects)
         if (toString(effect) == mismatch.name) removeEffect(adapted.scene, effect);
   }
+  adapted.scene.law = lawAsRun(can, adapted.scene.law);
   // Double is what a scene says where nobody chose: an engine of floats that runs it tells its
   // rounding itself.
   const bool has = std::ranges::find(can.precisions, scene.precision) != can.precisions.end();

@@ -17,6 +17,9 @@ struct Mismatch {
 /// Everything in the scene that the engine cannot do as written. Empty: it can run it faithfully.
 std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
 
+/// The law with the conventions that the engine has in place of those it lacks: its first of each.
+ContactLaw lawAsRun(const Capabilities& can, ContactLaw law);
+
 /// The scene as this engine may run it: what it cannot do, and `mayDiffer` lists, is changed to
 /// what the engine has, each change a deviation. A precision that the engine lacks is no reason to
 /// refuse: it runs in its own.

@@ -37,12 +37,15 @@ std::optional<double> closedRestitution(const ContactLaw& law, double reducedMas
   if (!law.soft()) return law.en;
   if (law.normal == NormalLaw::linear) return restitutionOfLinearLaw(law, reducedMass);
   if (law.gn == 0.0) return 1.0;
-  const bool tension = law.conventions.tension == Tension::allow;
-  if (law.normal != NormalLaw::hertz || law.damper != Damper::critical || !tension)
-    return std::nullopt;
-  const double share = law.gn / (2.0 * std::sqrt(5.0 / 6.0));  // of critical damping
-  if (!(share < 1.0)) return std::nullopt;
-  return std::exp(-std::numbers::pi * share / std::sqrt(1.0 - share * share));
+  if (law.normal != NormalLaw::hertz || law.damper != Damper::critical) return std::nullopt;
+  // δ^(5/4) in a time that runs as δ^(1/4) is a linear oscillator of ω₀ = 1 and η = this share of
+  // critical damping; its force is zero where Hertz' is.
+  ContactLaw oscillator;
+  oscillator.kn = 1.0;
+  oscillator.gn = 2.0 * law.gn / (2.0 * std::sqrt(5.0 / 6.0));
+  oscillator.conventions.tension = law.conventions.tension;
+  if (!(oscillator.gn < 2.0)) return std::nullopt;
+  return restitutionOfLinearLaw(oscillator, 1.0);
 }
 
 std::optional<double> slidingConstant(const ContactLaw& law, const CollidingPair& pair) {

@@ -27,8 +27,8 @@ CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
 double restitutionOfLinearLaw(const ContactLaw& law, double reducedMass);
 
 /// The same of any law where it has a closed form: rigid and undamped ones, and Hertz' with
-/// critical dampers and tension, exp(−π β/√(1 − β²)) with β = γ_n/(2 √(5/6)) (Antypov and Elliott
-/// 2011).
+/// critical dampers, which is that of a linear law with the share β = γ_n/(2 √(5/6)) of critical
+/// damping: exp(−π β/√(1 − β²)) where tension is allowed (Antypov and Elliott 2011).
 std::optional<double> closedRestitution(const ContactLaw& law, double reducedMass);
 
 /// The constant of the sliding asymptote Ψ_f = Ψ_i − constant: (1 + 1/q)(1 + e) µ with e of the cut

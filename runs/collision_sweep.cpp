@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adapters/law_options.hpp"
+#include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
 #include "cases/time_step.hpp"
 #include "runs/collision_look.hpp"
@@ -125,16 +126,6 @@ double contactTimeOf(const Case& setup) {
 double sweepEnd(const Case& setup, double dt, double engineStep) {
   const double contact = impactTimes(setup).longest;
   return dt + 2.5 * contact + 20.0 * engineStep;
-}
-
-/// The law with the conventions that the engine has in place of those it lacks.
-ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
-  for (const auto& [option, values] : can.lawOptions) {
-    const std::string wanted = lawOptionValue(law, option);
-    if (!values.empty() && std::ranges::find(values, wanted) == values.end())
-      setLawOption(law, option, values.front());
-  }
-  return law;
 }
 
 /// The sweep's outcomes; those of a run that is looked at also with overlaps and work.

@@ -74,6 +74,10 @@ TEST(HertzOracle, CriticalDampersGiveTheWantedRestitutionAtAnySpeed) {
       EXPECT_NEAR(oracleOutcome(law, glass.withItsLike(), {0.0, speed}).en, e, 1e-9);
       EXPECT_NEAR(*closedRestitution(law, 1.0), e, 1e-14);
     }
+    law.conventions.tension = Tension::cut;
+    EXPECT_NEAR(oracleOutcome(law, glass.withItsLike(), {0.0, 20.0}).en,
+                *closedRestitution(law, 1.0), 1e-9);
+    law.conventions.tension = Tension::allow;
   }
 }
 

@@ -314,7 +314,8 @@ TEST_F(LoaderErrors, SweepsOfCollisions) {
        "case.toml:14:1: unknown key collision.margins.anything_else_at_all (there are: psi_f, e_n, "
        "beta, e_t, centre_psi_f, rebound_angle, spin_i, spin_j, duration, max_overlap, "
        "energy_lost, "
-       "lost_normal_damping, lost_tangential, lost_tangential_damping, lost_sliding, lost_stored)"},
+       "lost_normal_damping, lost_tangential, lost_tangential_damping, lost_stiffening, "
+       "lost_sliding, lost_stored)"},
       {collision(9, "psi = []"), "case.toml:9:7: collision.psi: must not be empty"},
       {collision(9, "psi = { from = 0, to = 4 }"), "case.toml:9:7: collision.psi.count is missing"},
       {collision(9, "psi = { from = 0, to = 4, count = 1 }"),
