@@ -3,7 +3,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,18 +27,30 @@ double TwoBodyProblem::contactTime(double speed) const {
   return impactTime(law_, {pair_.reducedMass(), pair_.reducedRadius(), speed});
 }
 
-/// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later.
-/// The forces of that time are below rounding.
+/// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later,
+/// or where positions can tell an overlap. The forces of that time are below rounding, or below
+/// 1e-7 of the whole for overlaps of 1e-8 of the reach.
 State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   const PairMotion touch = motionBefore(pair_, start);
   State state{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0, 0.0,
               0.0,    0.0, 0.0};
   if (!law_.stiffens()) return state;
-  const double later = 1e-12 * contactTime(start.vn);
+  const double visible = 64.0 * std::numeric_limits<double>::epsilon() * reach_;
+  const double later = std::max(1e-12 * contactTime(start.vn), visible / start.vn);
   state.x += later * state.vx;
   state.y += later * state.vy;
   if (!remembersForce()) state.spring = later * kinematics(state).tangentialVelocity;
   return state;
+}
+
+/// What a force changes by where the distance is rounded [N].
+double TwoBodyProblem::roundingOfForce(const State& s) const {
+  const Kinematics k = kinematics(s);
+  const Slope kt = tangentialStiffness(k.overlap);
+  const double stretch = remembersForce() ? 0.0 : std::abs(s.spring);
+  return std::numeric_limits<double>::epsilon() * reach_ *
+         (stiffness(k.overlap).value + normalDamping(k.overlap).rate * std::abs(k.normalVelocity) +
+          kt.rate * stretch + tangentialDamping(k.overlap).rate * std::abs(k.tangentialVelocity));
 }
 
 CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
@@ -57,8 +71,14 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
                           nullptr, nullptr, &system);
     return to;
   };
-  /// The last step's error of the relative velocity, in units of the speed.
-  const auto errorOfStep = [&] { return std::hypot(error[2], error[3]) / start.vn; };
+  /// The last step's error of the relative velocity and of the energies lost, in units of what was
+  /// there.
+  const double energy = energyOf(pair_, motionBefore(pair_, start));
+  const auto errorOfStep = [&] {
+    double sum = std::hypot(error[2], error[3]) / start.vn;
+    for (std::size_t k = dimension - 4; k < dimension; ++k) sum += std::abs(error[k]) / energy;
+    return sum;
+  };
   /// When within h a guard that is > 0 at first no longer is.
   const auto timeOf = [&](const auto& guard, const State& from, double h) {
     double before = 0.0, after = h;
@@ -72,9 +92,18 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
 
   // Steps of t_c/400 leave rk8pd's own error far below rounding where the law is smooth; where it
-  // is not, at the ends of a contact that stiffens, they shrink. Events cut them short.
-  const double fullStep = contactTime / 400.0, shortest = 1e-15 * contactTime;
-  constexpr double allowed = 1e-14;
+  // is not, at the ends of a contact that stiffens, they shrink until it is again, to a thousandth
+  // of the time in which the overlap comes or goes at most, which is fine enough for any power of
+  // it. Events cut steps short.
+  const double fullStep = contactTime / 400.0;
+  const auto shortest = [&](const State& from) {
+    const Kinematics k = kinematics(from);
+    return std::min(fullStep, 1e-3 * k.overlap / std::abs(k.normalVelocity));
+  };
+  /// Errors below this are those of rounded positions, which a force sees.
+  const auto allowed = [&](const State& from, double h) {
+    return 1e-14 + 4.0 * h * roundingOfForce(from) * inverseMass_ / start.vn;
+  };
   double wanted = law_.stiffens() ? 1e-12 * contactTime : fullStep;
   constexpr int mostSteps = 100000;
   double duration = 0.0, maxOverlap = 0.0;
@@ -82,11 +111,12 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
     double h = wanted;
     State next = stepFrom(now, h);
     if (law_.stiffens()) {
-      if (errorOfStep() > allowed && h > shortest) {
+      if (errorOfStep() > allowed(now, h) && h > shortest(now)) {
         wanted = 0.5 * h;
         continue;
       }
-      wanted = std::min(fullStep, errorOfStep() < 1e-3 * allowed ? 2.0 * h : h);
+      const double grown = errorOfStep() < 0.01 * allowed(now, h) ? 2.0 * h : h;
+      wanted = std::min(fullStep, std::max(grown, shortest(next)));
     }
     const bool event = !(phaseLasts(next) > 0.0);
     if (event) {
@@ -130,6 +160,12 @@ void requireContinuousLimit(const ContactLaw& law) {
   if (dashpot && how.springReset == SpringReset::springOnly &&
       how.springUpdate == SpringUpdate::after)
     jumps = "spring_reset = \"spring_only\" with spring_update = \"after\"";
+  if (dashpot && law.normal == NormalLaw::hertz && how.history == History::displacement &&
+      how.springReset == SpringReset::springOnly)
+    throw std::invalid_argument(
+        "spring_reset = \"spring_only\" with history = \"displacement\": as k_t goes to 0 the "
+        "spring "
+        "that balances the dashpot is stretched without bound; there is no oracle for it");
   if (jumps)
     throw std::invalid_argument(std::string(jumps) +
                                 " has no limit of small time steps to score against");

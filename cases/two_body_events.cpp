@@ -59,8 +59,8 @@ double TwoBodyProblem::slipGuard(const State& s, const Kinematics& k) const {
   const Slope stiffness = tangentialStiffness(k.overlap);
   double stretching = -stiffness.value * k.tangentialVelocity * phase_.side;
   if (law_.conventions.springUpdate == SpringUpdate::after) stretching = std::max(stretching, 0.0);
-  if (!remembersForce() && stiffness.rate != 0.0)
-    stretching -= bound(normalForce(k)) * stiffness.rate / stiffness.value * k.normalVelocity;
+  if (!remembersForce())
+    stretching += phase_.side * slippedSpring(k) * stiffness.rate * k.normalVelocity;
   return stretching + (outside ? 0.0 : dashpotRate(s, k)) - boundRate(s, k);
 }
 

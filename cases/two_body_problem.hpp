@@ -99,6 +99,7 @@ class TwoBodyProblem {
   // Integration
   double contactTime(double speed) const;
   State firstTouch(const CollisionStart& start) const;
+  double roundingOfForce(const State& s) const;
 
   static int rightHandSide(double t, const double y[], double dydt[], void* self);
 

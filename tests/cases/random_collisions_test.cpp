@@ -2,36 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "adapters/grain.hpp"
 #include "cases/collision_oracle.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/frozen_normal.hpp"
 #include "cases/time_step.hpp"
+#include "tests/cases/random_draw.hpp"
 
 namespace {
 
 using namespace crossgrain;
-
-/// Draws of the same bits everywhere: the standard's distributions may differ between libraries.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : bits_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(bits_() >> 11) * 0x1p-53);
-  }
-  double logarithmic(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  template <class T, std::size_t N>
-  T oneOf(const T (&values)[N]) {
-    return values[bits_() % N];
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 /// A pair with radii up to 1 : 10 and masses up to 1 : 1000, and a law with e_n from 0.05 to 1 (of
 /// the uncut law), k_t/k_n from 0.1 to 1.5, µ from 0 to 2.
