@@ -2,80 +2,141 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+
+#include "averaging/field_formulas.hpp"
 
 namespace crossgrain {
 
+SpringConstants springConstants(const ContactLaw& law) {
+  SpringConstants springs;
+  if (law.normal != NormalLaw::linear) return springs;
+  const bool spring =
+      law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot;
+  if (law.kn > 0.0) springs.kn = law.kn;
+  if (spring && law.kt > 0.0) springs.kt = law.kt;
+  return springs;
+}
+
+Linear BinView::operator[](Moment which) const {
+  Linear moment(at(means_[slot_], which));
+  moment.slopes = {{slot_ * momentCount + static_cast<std::size_t>(which), 1.0}};
+  return moment;
+}
+
+Linear BinView::slope(Linear (*field)(const BinView&)) const {
+  const auto slope = coordinates_.slope(slot_);
+  if (!slope) return std::numeric_limits<double>::quiet_NaN();
+  Linear sum;
+  for (const auto& [slot, factor] : slope->terms)
+    sum = sum + factor * field(BinView(coordinates_, means_, slot, springs_));
+  return sum;
+}
+
+Linear BinView::overRadius(const Linear& x) const {
+  const auto slope = coordinates_.slope(slot_);
+  return x / (slope ? slope->radius : std::numeric_limits<double>::quiet_NaN());
+}
+
 namespace {
+
+using Bin = const BinView&;
+using formulas::azimuthalVelocity;
+
+/// Fourier coefficient k of the outward normals' density p(α) = (1 + Σ a_k cos kα + b_k sin kα)/2π:
+/// twice the mean of cos kα or sin kα over contacts, weighted with the disk's volume.
+Linear cos2(Bin b) {
+  return 2.0 * (b[Moment::fabricRR] - b[Moment::fabricPP]) / b[Moment::contacts];
+}
+Linear sin2(Bin b) {
+  return 4.0 * b[Moment::fabricRP] / b[Moment::contacts];
+}
+
+Linear twiceMean(Bin b, Moment harmonic) {
+  return 2.0 * b[harmonic] / b[Moment::contacts];
+}
 
 std::vector<FieldSpec> makeTable() {
   using enum Moment;
-  using enum FieldForm;
+  using namespace formulas;
   const auto kinematics = Needs::kinematics;
-  const auto contact = Needs::contacts;
+  const auto normalSpring = Needs::normalSpring;
+  const auto tangentialSpring = Needs::tangentialSpring;
   return {
-      {"volume_fraction", "1", "Σ w V / V_ring", kinematics, perVolume, {volume, wallVolume}},
-      {"azimuthal_velocity", "m/s", "Σ w V v_φ / Σ w V", kinematics, ratio, {velocityP, volume}},
-      {"radial_velocity", "m/s", "Σ w V v_r / Σ w V", kinematics, ratio, {velocityR, volume}},
-      {"spin", "rad/s", "Σ w V ω / Σ w V", Needs::spin, ratio, {Moment::spin, volume}},
-      {"stress_rr", "N/m²", "−Σ w Σ_c f_r l_r / V_ring", contact, perVolume, {stressRR}},
-      {"stress_pp", "N/m²", "−Σ w Σ_c f_φ l_φ / V_ring", contact, perVolume, {stressPP}},
-      {"stress_rp", "N/m²", "−Σ w Σ_c f_r l_φ / V_ring", contact, perVolume, {stressRP}},
-      {"stress_pr", "N/m²", "−Σ w Σ_c f_φ l_r / V_ring", contact, perVolume, {stressPR}},
-      {"dynamic_stress_rr", "N/m²", "Σ w m v_r v_r / V_ring", kinematics, perVolume, {dynamicRR}},
-      {"dynamic_stress_pp", "N/m²", "Σ w m v_φ v_φ / V_ring", kinematics, perVolume, {dynamicPP}},
-      {"dynamic_stress_rp", "N/m²", "Σ w m v_r v_φ / V_ring", kinematics, perVolume, {dynamicRP}},
-      {"fabric_trace", "1", "Σ w V C / V_ring", contact, perVolume, {fabricRR, fabricPP}},
-      {"fabric_deviator",
-       "1",
-       "F_max − F_min of F = Σ w V Σ_c n⊗n / V_ring",
-       contact,
-       deviator,
-       {fabricRR, fabricPP, fabricRP}},
-      {"fabric_rr", "1", "Σ w V Σ_c n_r n_r / V_ring", contact, perVolume, {fabricRR}},
-      {"fabric_pp", "1", "Σ w V Σ_c n_φ n_φ / V_ring", contact, perVolume, {fabricPP}},
-      {"fabric_rp", "1", "Σ w V Σ_c n_r n_φ / V_ring", contact, perVolume, {fabricRP}},
-      {"coordination", "1", "Σ w V C / Σ w V", contact, ratio, {contacts, volume}},
-      {"density", "kg/m³", "Σ w m / V_ring", kinematics, perVolume, {mass}},
+      // clang-format off
+      {"volume_fraction", "1", "Σ w V / V_ring", kinematics, [](Bin b) { return b.perVolume(volume) + b.perVolume(wallVolume); }},
+      {"azimuthal_velocity", "m/s", "Σ w V v_φ / Σ w V", kinematics, azimuthalVelocity},
+      {"radial_velocity", "m/s", "Σ w V v_r / Σ w V", kinematics, [](Bin b) { return b[velocityR] / b[volume]; }},
+      {"spin", "rad/s", "Σ w V ω / Σ w V", Needs::spin, [](Bin b) { return b[Moment::spin] / b[volume]; }},
+      {"stress_rr", "N/m²", "−Σ w Σ_c f_r l_r / V_ring", Needs::contacts, [](Bin b) { return stress(b).rr; }},
+      {"stress_pp", "N/m²", "−Σ w Σ_c f_φ l_φ / V_ring", Needs::contacts, [](Bin b) { return stress(b).pp; }},
+      {"stress_rp", "N/m²", "−Σ w Σ_c f_r l_φ / V_ring", Needs::contacts, [](Bin b) { return stress(b).rp; }},
+      {"stress_pr", "N/m²", "−Σ w Σ_c f_φ l_r / V_ring", Needs::contacts, [](Bin b) { return stress(b).pr; }},
+      {"dynamic_stress_rr", "N/m²", "Σ w m v_r v_r / V_ring", kinematics, [](Bin b) { return dynamicStress(b).rr; }},
+      {"dynamic_stress_pp", "N/m²", "Σ w m v_φ v_φ / V_ring", kinematics, [](Bin b) { return dynamicStress(b).pp; }},
+      {"dynamic_stress_rp", "N/m²", "Σ w m v_r v_φ / V_ring", kinematics, [](Bin b) { return dynamicStress(b).rp; }},
+      {"fabric_trace", "1", "Σ w V C / V_ring", Needs::contacts, [](Bin b) { return trace(fabric(b)); }},
+      {"fabric_deviator", "1", "F_max − F_min of F = Σ w V Σ_c n⊗n / V_ring", Needs::contacts, [](Bin b) { return deviator(fabric(b)); }},
+      {"fabric_rr", "1", "Σ w V Σ_c n_r n_r / V_ring", Needs::contacts, [](Bin b) { return fabric(b).rr; }},
+      {"fabric_pp", "1", "Σ w V Σ_c n_φ n_φ / V_ring", Needs::contacts, [](Bin b) { return fabric(b).pp; }},
+      {"fabric_rp", "1", "Σ w V Σ_c n_r n_φ / V_ring", Needs::contacts, [](Bin b) { return fabric(b).rp; }},
+      {"coordination", "1", "Σ w V C / Σ w V", Needs::contacts, [](Bin b) { return b[Moment::contacts] / b[volume]; }},
+      {"density", "kg/m³", "Σ w m / V_ring", kinematics, [](Bin b) { return b.perVolume(mass); }},
+      {"fabric_angle", "rad", "major axis of F, from r towards φ", Needs::contacts, [](Bin b) { return axis(fabric(b)); }},
+      {"stress_trace", "N/m²", "σ_rr + σ_φφ", Needs::contacts, [](Bin b) { return trace(stress(b)); }},
+      {"stress_deviator", "N/m²", "σ_max − σ_min of sym σ", Needs::contacts, [](Bin b) { return deviator(stress(b)); }},
+      {"stress_angle", "rad", "major axis of sym σ, from r towards φ", Needs::contacts, [](Bin b) { return axis(stress(b)); }},
+      {"stress_antisymmetric", "N/m²", "(σ_φr − σ_rφ)/2, −Σ w J ω̇ / 2V_ring where nothing else turns the disks", Needs::contacts, [](Bin b) { return 0.5 * (stress(b).pr - stress(b).rp); }},
+      {"fluctuation_stress_rr", "N/m²", "Σ w m (v_r − u_r)² / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).rr; }},
+      {"fluctuation_stress_pp", "N/m²", "Σ w m (v_φ − u_φ)² / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).pp; }},
+      {"fluctuation_stress_rp", "N/m²", "Σ w m (v_r − u_r)(v_φ − u_φ) / V_ring", kinematics, [](Bin b) { return fluctuationStress(b).rp; }},
+      {"rotational_stress", "N/m²", "Σ w J ω² / 2V_ring, isotropic", Needs::spin, [](Bin b) { return b.perVolume(spinEnergy); }},
+      {"full_stress_rr", "N/m²", "σ_rr + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).rr; }},
+      {"full_stress_pp", "N/m²", "σ_φφ + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).pp; }},
+      {"full_stress_rp", "N/m²", "(σ_rφ + σ_φr)/2 + dynamic", Needs::contacts, [](Bin b) { return fullStress(b).rp; }},
+      {"strain_rr", "1", "ε_rr of ε = (πh/V_ring) Σ w Σ_c δ n⊗l · F⁻¹", Needs::contacts, [](Bin b) { return strain(b).rr; }},
+      {"strain_pp", "1", "ε_φφ", Needs::contacts, [](Bin b) { return strain(b).pp; }},
+      {"strain_rp", "1", "ε_rφ", Needs::contacts, [](Bin b) { return strain(b).rp; }},
+      {"strain_pr", "1", "ε_φr", Needs::contacts, [](Bin b) { return strain(b).pr; }},
+      {"strain_trace", "1", "ε_rr + ε_φφ", Needs::contacts, [](Bin b) { return trace(strain(b)); }},
+      {"strain_deviator", "1", "ε_max − ε_min of sym ε", Needs::contacts, [](Bin b) { return deviator(strain(b)); }},
+      {"strain_angle", "rad", "major axis of sym ε, from r towards φ", Needs::contacts, [](Bin b) { return axis(strain(b)); }},
+      {"bulk_modulus", "N/m²", "E = tr σ / tr ε of the moving disks", Needs::contacts, bulkModulus},
+      {"shear_modulus", "N/m²", "G = dev σ / dev ε of the moving disks", Needs::contacts, shearModulus},
+      {"modulus_ratio", "1", "G* = G / E", Needs::contacts, [](Bin b) { return shearModulus(b) / bulkModulus(b); }},
+      {"mean_field_modulus", "N/m²", "k_n tr F / 2πh", normalSpring, meanFieldModulus},
+      {"predicted_stress_rr", "N/m²", "ε₀E[1 + G* ε₁ cos 2φ]", normalSpring, [](Bin b) { return predictedStress(b).rr; }},
+      {"predicted_stress_pp", "N/m²", "ε₀E[1 − G* ε₁ cos 2φ]", normalSpring, [](Bin b) { return predictedStress(b).pp; }},
+      {"predicted_stress_rp", "N/m²", "ε₀E G* ε₁ sin 2φ", normalSpring, [](Bin b) { return predictedStress(b).rp; }},
+      {"couple_stress_zr", "N/m", "−Σ w Σ_c (l × f)_z l_r / V_ring", Needs::contacts, [](Bin b) { return b.perVolume(coupleR); }},
+      {"couple_stress_zp", "N/m", "−Σ w Σ_c (l × f)_z l_φ / V_ring", Needs::contacts, [](Bin b) { return b.perVolume(coupleP); }},
+      {"curvature_zr", "m", "κ_zr of κ = (πh/V_ring) Σ w Σ_c (l × Δ)⊗l · F⁻¹", tangentialSpring, [](Bin b) { return curvature(b).first; }},
+      {"curvature_zp", "m", "κ_zφ", tangentialSpring, [](Bin b) { return curvature(b).second; }},
+      {"torque_resistance", "N/m²", "M_zr / κ_zr", tangentialSpring, [](Bin b) { return b.perVolume(coupleR) / curvature(b).first; }},
+      {"velocity_gradient", "1/s", "∂v_φ/∂r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity); }},
+      {"shear_rate", "1/s", "∂v_φ/∂r − v_φ/r", kinematics, [](Bin b) { return b.slope(azimuthalVelocity) - b.overRadius(azimuthalVelocity(b)); }},
+      {"continuum_rotation", "rad/s", "½(∂v_φ/∂r + v_φ/r)", kinematics, [](Bin b) { return 0.5 * (b.slope(azimuthalVelocity) + b.overRadius(azimuthalVelocity(b))); }},
+      {"excess_rotation", "rad/s", "spin − ½(∂v_φ/∂r + v_φ/r)", Needs::spin, [](Bin b) { return b[Moment::spin] / b[volume] - 0.5 * (b.slope(azimuthalVelocity) + b.overRadius(azimuthalVelocity(b))); }},
+      {"contact_cos_2", "1", "2 Σ w V Σ_c cos 2α / Σ w V C", Needs::contacts, cos2},
+      {"contact_sin_2", "1", "2 Σ w V Σ_c sin 2α / Σ w V C", Needs::contacts, sin2},
+      {"contact_cos_4", "1", "2 Σ w V Σ_c cos 4α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, cos4); }},
+      {"contact_sin_4", "1", "2 Σ w V Σ_c sin 4α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, sin4); }},
+      {"contact_cos_6", "1", "2 Σ w V Σ_c cos 6α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, cos6); }},
+      {"contact_sin_6", "1", "2 Σ w V Σ_c sin 6α / Σ w V C", Needs::contacts, [](Bin b) { return twiceMean(b, sin6); }},
+      {"contact_amplitude_2", "1", "length of (cos, sin) of order 2", Needs::contacts, [](Bin b) { return length(cos2(b), sin2(b)); }},
+      {"contact_amplitude_4", "1", "length of (cos, sin) of order 4", Needs::contacts, [](Bin b) { return length(twiceMean(b, cos4), twiceMean(b, sin4)); }},
+      {"contact_amplitude_6", "1", "length of (cos, sin) of order 6", Needs::contacts, [](Bin b) { return length(twiceMean(b, cos6), twiceMean(b, sin6)); }},
+      {"contact_axis_4", "rad", "angle of (cos, sin) of order 4, over 4", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos4), twiceMean(b, sin4)) / 4.0; }},
+      {"contact_axis_6", "rad", "angle of (cos, sin) of order 6, over 6", Needs::contacts, [](Bin b) { return direction(twiceMean(b, cos6), twiceMean(b, sin6)) / 6.0; }},
+      // clang-format on
   };
 }
 
-FieldValue perVolume(const FieldSpec& field, const Moments& moments, double volume) {
-  FieldValue result;
-  for (const Moment moment : field.moments) {
-    result.value += at(moments, moment) / volume;
-    at(result.gradient, moment) = 1.0 / volume;
-  }
-  return result;
-}
-
-FieldValue ratio(const FieldSpec& field, const Moments& moments) {
-  const double denominator = at(moments, field.moments[1]);
-  FieldValue result;
-  result.value = at(moments, field.moments[0]) / denominator;
-  at(result.gradient, field.moments[0]) = 1.0 / denominator;
-  at(result.gradient, field.moments[1]) = -result.value / denominator;
-  return result;
-}
-
-/// √((F_rr − F_φφ)² + 4 F_rφ²), the difference of the eigenvalues. Where it is 0 it has a kink and
-/// the gradient is left 0.
-FieldValue deviator(const FieldSpec& field, const Moments& moments, double volume) {
-  const double difference = at(moments, field.moments[0]) - at(moments, field.moments[1]);
-  const double mixed = 2.0 * at(moments, field.moments[2]);
-  const double length = std::hypot(difference, mixed);
-  FieldValue result;
-  result.value = length / volume;
-  if (length == 0.0) return result;
-  at(result.gradient, field.moments[0]) = difference / length / volume;
-  at(result.gradient, field.moments[1]) = -difference / length / volume;
-  at(result.gradient, field.moments[2]) = 2.0 * mixed / length / volume;
-  return result;
-}
-
 bool measuresFilling(const FieldSpec& field) {
-  return field.moments[0] == Moment::volume || field.moments[0] == Moment::mass;
+  return field.name == "volume_fraction" || field.name == "density";
 }
 
 }  // namespace
@@ -86,26 +147,20 @@ std::span<const FieldSpec> fieldTable() {
 }
 
 const FieldSpec& fieldSpec(std::string_view name) {
-  for (const FieldSpec& field : fieldTable())
-    if (field.name == name) return field;
-  throw std::invalid_argument(fmt::format("averaging: there is no field \"{}\"", name));
+  const auto found = std::ranges::find(fieldTable(), name, &FieldSpec::name);
+  if (found == fieldTable().end())
+    throw std::invalid_argument(fmt::format("averaging: there is no field \"{}\"", name));
+  return *found;
 }
 
-std::optional<FieldValue> evaluate(const FieldSpec& field, const Moments& moments, double volume) {
-  const bool empty = !(at(moments, Moment::volume) > 0.0);
-  if (empty && !measuresFilling(field)) return std::nullopt;
-  switch (field.form) {
-    case FieldForm::perVolume:
-      return perVolume(field, moments, volume);
-    case FieldForm::ratio:
-      return ratio(field, moments);
-    case FieldForm::deviator:
-      return deviator(field, moments, volume);
-  }
-  throw std::invalid_argument("averaging: not a form of field");
+std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin) {
+  if (bin.isEmpty() && !measuresFilling(field)) return std::nullopt;
+  Linear result = field.formula(bin);
+  if (!std::isfinite(result.value)) return std::nullopt;
+  return result;
 }
 
-bool available(const FieldSpec& field, const Snapshot& snapshot) {
+bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringConstants& springs) {
   switch (field.needs) {
     case Needs::kinematics:
       return true;
@@ -113,6 +168,10 @@ bool available(const FieldSpec& field, const Snapshot& snapshot) {
       return snapshot.spin.has_value();
     case Needs::contacts:
       return snapshot.contacts.has_value();
+    case Needs::normalSpring:
+      return snapshot.contacts && springs.kn;
+    case Needs::tangentialSpring:
+      return snapshot.contacts && springs.kt;
   }
   throw std::invalid_argument("averaging: not a need");
 }

@@ -1,32 +1,74 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "adapters/scene.hpp"
+#include "averaging/coordinates.hpp"
+#include "averaging/linear.hpp"
 #include "averaging/moments.hpp"
 
 namespace crossgrain {
 
-/// What a snapshot must hold for a field to exist.
-enum class Needs { kinematics, spin, contacts };
-
-/// How a field is made from a bin's moments.
-enum class FieldForm {
-  perVolume,  ///< Σ of its moments / volume of the ring
-  ratio,      ///< its first moment / its second
-  deviator    ///< F_max − F_min of the tensor (rr, φφ, rφ) / volume of the ring
+/// What a field needs beside positions and velocities.
+enum class Needs {
+  kinematics,  ///< no more
+  spin,
+  contacts,
+  normalSpring,     ///< contacts, and a scene whose law has a constant k_n
+  tangentialSpring  ///< contacts, and a scene whose law has a constant k_t
 };
 
-/// One field: its name and unit as in profiles.csv, and its defining sum.
+/// Stiffnesses of the scene's law that some fields are made with; absent where it has none.
+struct SpringConstants {
+  std::optional<double> kn, kt;  ///< [N/m]
+};
+SpringConstants springConstants(const ContactLaw& law);
+
+/// One bin as its fields see it: moments of it and of its neighbours, and the scene's constants.
+class BinView {
+ public:
+  /// @param means  moments per slot  @pre slot is no overflow; the arguments outlive the view
+  BinView(const Coordinates& coordinates, std::span<const Moments> means, std::size_t slot,
+          SpringConstants springs = {})
+      : coordinates_(coordinates), means_(means), slot_(slot), springs_(springs) {}
+
+  /// A moment; its index among all is slot · momentCount + moment.
+  Linear operator[](Moment which) const;
+
+  /// Σ w Q / V
+  Linear perVolume(Moment which) const { return (*this)[which] / volume(); }
+
+  bool isEmpty() const { return !((*this)[Moment::volume].value > 0.0); }
+  double volume() const { return coordinates_.volume(slot_); }
+  double height() const { return coordinates_.height(); }
+  double kn() const { return springs_.kn.value(); }
+  double kt() const { return springs_.kt.value(); }
+
+  /// Derivative of a field along the first direction, and a field divided by the radius; NaN where
+  /// the coordinate has no slope or a neighbour no value.
+  Linear slope(Linear (*field)(const BinView&)) const;
+  Linear overRadius(const Linear& x) const;
+
+ private:
+  const Coordinates& coordinates_;
+  std::span<const Moments> means_;
+  std::size_t slot_;
+  SpringConstants springs_;
+};
+
+/// One field: its name and unit as in profiles.csv, its defining sum as text and as formula. Where
+/// there is nothing to measure the formula is not finite (0/0), and the field absent.
 struct FieldSpec {
   std::string_view name;
   std::string_view unit;
   std::string_view definition;
   Needs needs;
-  FieldForm form;
-  std::vector<Moment> moments;
+  Linear (*formula)(const BinView&);
 };
 
 /// All fields in the order of profiles.csv.
@@ -35,17 +77,11 @@ std::span<const FieldSpec> fieldTable();
 /// @throws std::invalid_argument if there is no field of that name
 const FieldSpec& fieldSpec(std::string_view name);
 
-/// A field's value and how it answers to small changes of each moment.
-struct FieldValue {
-  double value = 0.0;
-  Moments gradient{};
-};
+/// The field in a bin. Absent where there is nothing to measure: in a bin without disks everything
+/// but volume_fraction and density, which are 0.
+std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin);
 
-/// The field in a ring of that volume [m³] that holds these moments. Absent where there is nothing
-/// to measure: in a ring without disks everything but volume_fraction and density, which are 0.
-std::optional<FieldValue> evaluate(const FieldSpec& field, const Moments& moments, double volume);
-
-/// Whether the snapshot holds what the field needs.
-bool available(const FieldSpec& field, const Snapshot& snapshot);
+/// Whether the snapshot and the scene hold what the field needs.
+bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringConstants& springs);
 
 }  // namespace crossgrain

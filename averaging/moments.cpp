@@ -4,18 +4,44 @@
 
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace crossgrain {
 
 namespace {
 
+/// Where the four components of a stress tensor go.
+struct StressMoments {
+  Moment rr, pp, rp, pr;
+};
+constexpr StressMoments ofDisks = {Moment::stressRR, Moment::stressPP, Moment::stressRP,
+                                   Moment::stressPR};
+constexpr StressMoments ofWalls = {Moment::wallStressRR, Moment::wallStressPP, Moment::wallStressRP,
+                                   Moment::wallStressPR};
+
 /// Adds weight · (stress tensor turned into (r, φ)).
-void addStress(const Eigen::Matrix2d& stress, const Vec2& er, double weight, Moments& moments) {
+void addStress(const Eigen::Matrix2d& stress, const Vec2& er, double weight,
+               const StressMoments& into, Moments& moments) {
   const Vec2 ep = perpendicular(er);
-  at(moments, Moment::stressRR) += weight * er.dot(stress * er);
-  at(moments, Moment::stressPP) += weight * ep.dot(stress * ep);
-  at(moments, Moment::stressRP) += weight * er.dot(stress * ep);
-  at(moments, Moment::stressPR) += weight * ep.dot(stress * er);
+  at(moments, into.rr) += weight * er.dot(stress * er);
+  at(moments, into.pp) += weight * ep.dot(stress * ep);
+  at(moments, into.rp) += weight * er.dot(stress * ep);
+  at(moments, into.pr) += weight * ep.dot(stress * er);
+}
+
+/// Product of complex numbers: (cos, sin) of the sum of two angles.
+Vec2 turned(const Vec2& a, const Vec2& b) {
+  return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()};
+}
+
+/// The same of the difference.
+Vec2 turnedBack(const Vec2& a, const Vec2& b) {
+  return turned(a, Vec2(b.x(), -b.y()));
+}
+
+Vec2 forceOnFirst(const Contacts& contacts, std::size_t c) {
+  const Vec2& n = contacts.normal[c];
+  return contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
 }
 
 void requireLength(const char* what, std::size_t got, std::size_t wanted) {
@@ -24,79 +50,88 @@ void requireLength(const char* what, std::size_t got, std::size_t wanted) {
         fmt::format("averaging: the snapshot has {} {}, the scene has {}", got, what, wanted));
 }
 
+void distribute(const Moments& moments, const Shares& shares, std::vector<Moments>& sums) {
+  for (const auto& [slot, w] : shares)
+    for (std::size_t q = 0; q < momentCount; ++q) sums[slot][q] += w * moments[q];
+}
+
 }  // namespace
 
-MomentSums::MomentSums(const Rings& rings, const Scene& scene, bool countWallDisks)
-    : rings_(rings),
+MomentSums::MomentSums(std::shared_ptr<const Coordinates> coordinates,
+                       const std::vector<Weight>& weights, const Scene& scene, bool countWallDisks)
+    : coordinates_(std::move(coordinates)),
       radius_(scene.disks.radius),
       mass_(scene.disks.mass),
+      inertia_(scene.disks.inertia),
       planes_(scene.planeCount()),
       countWallDisks_(countWallDisks) {
   for (const WallBody& body : scene.bodies)
     radius_.insert(radius_.end(), body.diskRadius.begin(), body.diskRadius.end());
+  for (const Weight& weight : weights) sharings_.emplace_back(*coordinates_, weight);
 }
 
-void MomentSums::compute(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
-                         std::vector<std::vector<Moments>>& sums) {
+void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Moments>>& sums) {
   check(snapshot);
-  sums.resize(methods.size());
-  for (std::vector<Moments>& bins : sums) bins.assign(rings_.slots(), Moments{});
-
+  sums.resize(sharings_.size());
+  for (std::vector<Moments>& bins : sums) bins.assign(coordinates_->slots(), Moments{});
   contactSums_.assign(radius_.size(), ContactSums{});
   if (snapshot.contacts) sumContacts(*snapshot.contacts);
-  for (std::size_t p = 0; p < mass_.size(); ++p)
-    distribute(momentsOf(snapshot, p), snapshot.position[p].norm(), radius_[p], methods, sums);
 
-  if (snapshot.contacts) addWallStress(snapshot, methods, sums);
+  for (std::size_t p = 0; p < mass_.size(); ++p) {
+    const Vec2& x = snapshot.position[p];
+    const Vec2 er = coordinates_->firstDirection(x);
+    const Moments moments = momentsOf(snapshot, p, er);
+    Moments withStress = moments;
+    addStress(contactSums_[p].stress, er, 1.0, ofDisks, withStress);
+    for (std::size_t k = 0; k < sharings_.size(); ++k)
+      distribute(sharings_[k].weight().alongBranch() ? moments : withStress,
+                 sharings_[k].ofDisk(x, radius_[p]), sums[k]);
+  }
+  for (std::size_t k = 0; k < sharings_.size(); ++k) {
+    addWalls(snapshot, sharings_[k], sums[k]);
+    if (snapshot.contacts && sharings_[k].weight().alongBranch())
+      addBranches(snapshot, sharings_[k], sums[k]);
+  }
+}
 
-  if (!countWallDisks_) return;
+void MomentSums::addWalls(const Snapshot& snapshot, Sharing& sharing,
+                          std::vector<Moments>& sums) const {
+  if (!countWallDisks_ && !snapshot.contacts) return;
   for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
-    Moments moments{};
+    const Vec2& x = snapshot.wallPosition[w];
     const double a = radius_[mass_.size() + w];
-    at(moments, Moment::wallVolume) = std::numbers::pi * a * a * rings_.height();
-    distribute(moments, snapshot.wallPosition[w].norm(), a, methods, sums);
-  }
-}
-
-namespace {
-
-/// The weights of a wall disk's part in the cell: what reaches into the overflow bins is given to
-/// the rings. A disk that reaches no ring stays where it is.
-void keepInCell(const Rings& rings, double r, double a, BinWeights& weights) {
-  const auto last = [&] { return weights.first + static_cast<int>(weights.fraction.size()) - 1; };
-  const bool reachesRing =
-      r + a > rings.innerRadius() && r - a < rings.outerRadius() && !weights.fraction.empty();
-  if (!reachesRing) return;
-  double kept = 0.0;
-  for (int bin = weights.first; bin <= last(); ++bin) {
-    double& fraction = weights.fraction[static_cast<std::size_t>(bin - weights.first)];
-    if (bin < 0 || bin >= rings.count()) fraction = 0.0;
-    kept += fraction;
-  }
-  if (kept > 0.0) {
-    for (double& fraction : weights.fraction) fraction /= kept;
-  } else {  // all or nothing by its centre, which lies on the wall
-    weights.first = r < rings.centre(0) ? 0 : rings.count() - 1;
-    weights.fraction.assign(1, 1.0);
-  }
-}
-
-}  // namespace
-
-void MomentSums::addWallStress(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
-                               std::vector<std::vector<Moments>>& sums) {
-  for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
+    if (countWallDisks_)
+      for (const auto& [slot, share] : sharing.ofDisk(x, a))
+        at(sums[slot], Moment::wallVolume) +=
+            share * std::numbers::pi * a * a * coordinates_->height();
     const ContactSums& contacts = contactSums_[mass_.size() + w];
-    const double r = snapshot.wallPosition[w].norm();
-    if (contacts.count == 0.0 || r == 0.0) continue;
-    const Vec2 er = snapshot.wallPosition[w] / r;
-    const double a = radius_[mass_.size() + w];
-    for (std::size_t k = 0; k < methods.size(); ++k) {
-      binWeights(rings_, methods[k], r, a, weights_);
-      keepInCell(rings_, r, a, weights_);
-      for (std::size_t b = 0; b < weights_.fraction.size(); ++b)
-        addStress(contacts.stress, er, weights_.fraction[b],
-                  sums[k][rings_.slot(weights_.first + static_cast<int>(b))]);
+    if (contacts.count == 0.0 || sharing.weight().alongBranch()) continue;
+    const Vec2 er = coordinates_->firstDirection(x);
+    for (const auto& [slot, share] : sharing.ofWallDisk(x, a))
+      addStress(contacts.stress, er, share, ofWalls, sums[slot]);
+  }
+}
+
+void MomentSums::addBranches(const Snapshot& snapshot, Sharing& sharing,
+                             std::vector<Moments>& sums) const {
+  const Contacts& contacts = *snapshot.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Vec2& n = contacts.normal[c];
+    const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();
+    for (const bool first : {true, false}) {
+      const auto p = static_cast<std::size_t>(first ? contacts.i[c] : contacts.j[c]);
+      if (p >= radius_.size()) continue;  // a plane
+      const bool wall = p >= mass_.size();
+      const double a = radius_[p];
+      const Vec2& x = wall ? snapshot.wallPosition[p - mass_.size()] : snapshot.position[p];
+      const Vec2 branch = (first ? -a : a) * n;
+      for (const auto& [place, part] : branchPoints(a, sharing.weight().width)) {
+        const Vec2 point = x + place * branch;
+        const Vec2 er = coordinates_->firstDirection(point);
+        for (const auto& [slot, share] :
+             wall ? sharing.ofWallPoint(point, x, a) : sharing.ofPoint(point))
+          addStress(forceNormal, er, a * part * share, wall ? ofWalls : ofDisks, sums[slot]);
+      }
     }
   }
 }
@@ -125,61 +160,76 @@ void MomentSums::check(const Snapshot& snapshot) const {
 
 void MomentSums::sumContacts(const Contacts& contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto i = static_cast<std::size_t>(contacts.i[c]);
-    const auto j = static_cast<std::size_t>(contacts.j[c]);
     const Vec2& n = contacts.normal[c];
-    const Vec2 forceOnI =
-        contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
     // Disk i has f and l = −a n, disk j has −f and l = +a n: the same −f⊗l but for the radius.
-    const Eigen::Matrix2d forceNormal = forceOnI * n.transpose();
-    const Eigen::Matrix2d normalNormal = n * n.transpose();
-    for (const std::size_t p : {i, j}) {
-      if (p >= radius_.size()) continue;
-      contactSums_[p].stress += radius_[p] * forceNormal;
-      contactSums_[p].fabric += normalNormal;
-      contactSums_[p].count += 1.0;
+    const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();
+    const Vec2 two = turned(n, n), four = turned(two, two), six = turned(four, two);
+    const double overlap = contacts.overlap[c];
+    double side = -1.0;  // l = side · a n; (l × f)_z = −a f_t on both sides
+    for (const auto id : {contacts.i[c], contacts.j[c]}) {
+      const auto p = static_cast<std::size_t>(id);
+      if (p < radius_.size()) {
+        const double a = radius_[p];
+        ContactSums& sums = contactSums_[p];
+        sums.stress += a * forceNormal;
+        sums.couple += side * a * a * contacts.tangentialForce[c] * n;
+        sums.harmonic2 += two;
+        sums.harmonic4 += four;
+        sums.harmonic6 += six;
+        sums.overlapHarmonic += a * overlap * two;
+        sums.overlap += a * overlap;
+        sums.count += 1.0;
+      }
+      side = 1.0;
     }
   }
 }
 
-Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p) const {
-  const double distance = snapshot.position[p].norm();
-  const Vec2 er = distance > 0.0 ? Vec2(snapshot.position[p] / distance) : Vec2(Vec2::UnitX());
+Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec2& er) const {
   const Vec2 ep = perpendicular(er);
   const double m = mass_[p];
-  const double volume = std::numbers::pi * radius_[p] * radius_[p] * rings_.height();
+  const double volume = std::numbers::pi * radius_[p] * radius_[p] * coordinates_->height();
   const double vr = snapshot.velocity[p].dot(er);
   const double vp = snapshot.velocity[p].dot(ep);
-  const auto& [stress, fabric, count] = contactSums_[p];
+  const ContactSums& sums = contactSums_[p];
 
   Moments moments{};
   at(moments, Moment::volume) = volume;
   at(moments, Moment::mass) = m;
+  at(moments, Moment::momentumR) = m * vr;
+  at(moments, Moment::momentumP) = m * vp;
   at(moments, Moment::velocityR) = volume * vr;
   at(moments, Moment::velocityP) = volume * vp;
-  if (snapshot.spin) at(moments, Moment::spin) = volume * (*snapshot.spin)[p];
-  addStress(stress, er, 1.0, moments);
   at(moments, Moment::dynamicRR) = m * vr * vr;
   at(moments, Moment::dynamicPP) = m * vp * vp;
   at(moments, Moment::dynamicRP) = m * vr * vp;
-  at(moments, Moment::fabricRR) = volume * er.dot(fabric * er);
-  at(moments, Moment::fabricPP) = volume * ep.dot(fabric * ep);
-  at(moments, Moment::fabricRP) = volume * er.dot(fabric * ep);
-  at(moments, Moment::contacts) = volume * count;
-  return moments;
-}
-
-void MomentSums::distribute(const Moments& moments, double r, double a,
-                            const std::vector<WeightMethod>& methods,
-                            std::vector<std::vector<Moments>>& sums) {
-  for (std::size_t k = 0; k < methods.size(); ++k) {
-    binWeights(rings_, methods[k], r, a, weights_);
-    Moments* bin = &sums[k][rings_.slot(weights_.first)];
-    for (const double w : weights_.fraction) {
-      for (std::size_t q = 0; q < momentCount; ++q) (*bin)[q] += w * moments[q];
-      ++bin;
-    }
+  if (snapshot.spin) {
+    const double spin = (*snapshot.spin)[p];
+    at(moments, Moment::spin) = volume * spin;
+    at(moments, Moment::spinEnergy) = 0.5 * inertia_[p] * spin * spin;
   }
+  if (sums.count == 0.0) return moments;
+
+  const Vec2 two = turned(er, er), four = turned(two, two), six = turned(four, two);
+  const Vec2 harmonic2 = turnedBack(sums.harmonic2, two);
+  const Vec2 harmonic4 = turnedBack(sums.harmonic4, four);
+  const Vec2 harmonic6 = turnedBack(sums.harmonic6, six);
+  const Vec2 overlap = turnedBack(sums.overlapHarmonic, two);
+  at(moments, Moment::coupleR) = sums.couple.dot(er);
+  at(moments, Moment::coupleP) = sums.couple.dot(ep);
+  // n⊗n = ½(1 + cos 2α), ½(1 − cos 2α), ½ sin 2α
+  at(moments, Moment::fabricRR) = 0.5 * volume * (sums.count + harmonic2.x());
+  at(moments, Moment::fabricPP) = 0.5 * volume * (sums.count - harmonic2.x());
+  at(moments, Moment::fabricRP) = 0.5 * volume * harmonic2.y();
+  at(moments, Moment::contacts) = volume * sums.count;
+  at(moments, Moment::overlapRR) = 0.5 * (sums.overlap + overlap.x());
+  at(moments, Moment::overlapPP) = 0.5 * (sums.overlap - overlap.x());
+  at(moments, Moment::overlapRP) = 0.5 * overlap.y();
+  at(moments, Moment::cos4) = volume * harmonic4.x();
+  at(moments, Moment::sin4) = volume * harmonic4.y();
+  at(moments, Moment::cos6) = volume * harmonic6.x();
+  at(moments, Moment::sin6) = volume * harmonic6.y();
+  return moments;
 }
 
 }  // namespace crossgrain

@@ -1,39 +1,57 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
-#include "averaging/rings.hpp"
+#include "averaging/coordinates.hpp"
 #include "averaging/weights.hpp"
 
 namespace crossgrain {
 
 /// The sums over disks that every field is made of. Each is Σ_p w_p Q_p over the moving disks, with
-/// w the disk's fraction in the bin, V = π a² h its volume and m its mass. Vectors and tensors are
-/// turned into (r, φ) at each disk's own angle (Lätzel 2003, section 5.1).
+/// w the disk's fraction in the bin, V = π a² h its volume, m its mass and J its moment of inertia.
+/// Vectors and tensors are turned into the coordinate's directions, (r, φ) for rings, at each
+/// disk's own place (Lätzel 2003, section 5.1).
 enum class Moment : std::size_t {
-  volume,      ///< V [m³]
-  wallVolume,  ///< V of wall disks, only if asked for [m³]
-  mass,        ///< m [kg]
-  velocityR,   ///< V v_r [m⁴/s]
-  velocityP,   ///< V v_φ [m⁴/s]
-  spin,        ///< V ω [m³/s]
-  stressRR,    ///< −Σ_c f_r l_r [N m]; first index force, second branch (= face normal)
-  stressPP,    ///< −Σ_c f_φ l_φ [N m]
-  stressRP,    ///< −Σ_c f_r l_φ [N m]
-  stressPR,    ///< −Σ_c f_φ l_r [N m]
-  dynamicRR,   ///< m v_r v_r [N m]
-  dynamicPP,   ///< m v_φ v_φ [N m]
-  dynamicRP,   ///< m v_r v_φ [N m]
-  fabricRR,    ///< V Σ_c n_r n_r [m³]
-  fabricPP,    ///< V Σ_c n_φ n_φ [m³]
-  fabricRP,    ///< V Σ_c n_r n_φ [m³]
-  contacts     ///< V C, C the disk's number of contacts, those with walls included [m³]
+  volume,        ///< V [m³]
+  wallVolume,    ///< V of wall disks, only if asked for [m³]
+  mass,          ///< m [kg]
+  momentumR,     ///< m v_r [kg m/s]
+  momentumP,     ///< m v_φ [kg m/s]
+  velocityR,     ///< V v_r [m⁴/s]
+  velocityP,     ///< V v_φ [m⁴/s]
+  spin,          ///< V ω [m³/s]
+  spinEnergy,    ///< ½ J ω² [N m]
+  stressRR,      ///< −Σ_c f_r l_r [N m]; first index force, second branch (= face normal)
+  stressPP,      ///< −Σ_c f_φ l_φ [N m]
+  stressRP,      ///< −Σ_c f_r l_φ [N m]
+  stressPR,      ///< −Σ_c f_φ l_r [N m]
+  wallStressRR,  ///< −Σ_c f_r l_r of wall disks [N m]
+  wallStressPP,
+  wallStressRP,
+  wallStressPR,
+  coupleR,    ///< −Σ_c (l × f)_z l_r [N m²]
+  coupleP,    ///< −Σ_c (l × f)_z l_φ [N m²]
+  dynamicRR,  ///< m v_r v_r [N m]
+  dynamicPP,  ///< m v_φ v_φ [N m]
+  dynamicRP,  ///< m v_r v_φ [N m]
+  fabricRR,   ///< V Σ_c n_r n_r [m³]
+  fabricPP,   ///< V Σ_c n_φ n_φ [m³]
+  fabricRP,   ///< V Σ_c n_r n_φ [m³]
+  contacts,   ///< V C, C the disk's number of contacts, those with walls included [m³]
+  overlapRR,  ///< Σ_c Δ_r l_r, Δ = δ n with n along l: the overlap as a displacement [m²]
+  overlapPP,  ///< Σ_c Δ_φ l_φ [m²]
+  overlapRP,  ///< Σ_c Δ_r l_φ [m²]
+  cos4,       ///< V Σ_c cos 4α, α the angle of l from the first direction [m³]
+  sin4,       ///< V Σ_c sin 4α [m³]
+  cos6,       ///< V Σ_c cos 6α [m³]
+  sin6        ///< V Σ_c sin 6α [m³]
 };
 
-inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::contacts) + 1;
+inline constexpr std::size_t momentCount = static_cast<std::size_t>(Moment::sin6) + 1;
 
 /// One number for each Moment.
 using Moments = std::array<double, momentCount>;
@@ -55,42 +73,48 @@ inline double at(const Moments& moments, Moment which) {
 /// that it reaches into, and nothing of it to the overflow bins. Without it the rings at the walls
 /// miss the force on its way from the contact to the wall, a sixth of the torque for wall disks of
 /// a sixth of the ring's width. All other sums are those of the moving disks; planes have no share.
+///
+/// Line methods put all sums where the kernel about the disk's centre lies, but for stress: that
+/// lies along l, turned into the directions of each point of it.
 class MomentSums {
  public:
+  /// @param coordinates  kept as long as this lives
   /// @param countWallDisks also sums wallVolume; use with an area method, since wall disks are
   ///        centred on R_i and R_o, where all-or-nothing is decided by rounding
-  MomentSums(const Rings& rings, const Scene& scene, bool countWallDisks = false);
+  /// @throws std::invalid_argument for a line method without a width
+  MomentSums(std::shared_ptr<const Coordinates> coordinates, const std::vector<Weight>& weights,
+             const Scene& scene, bool countWallDisks = false);
 
-  /// Per bin (Rings::slot) the moments under each method. Moments that the snapshot has no data
-  /// for stay zero: ask Snapshot whether they mean anything.
+  /// Per weight, per slot the moments. Moments that the snapshot has no data for stay zero: ask
+  /// Snapshot whether they mean anything.
   /// @throws std::invalid_argument if the snapshot does not fit the scene
-  void compute(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
-               std::vector<std::vector<Moments>>& sums);
+  void compute(const Snapshot& snapshot, std::vector<std::vector<Moments>>& sums);
 
  private:
-  /// Sums over one disk's contacts, in the laboratory frame.
+  /// Sums over one disk's contacts, in the laboratory frame. A vector of cos and sin of 2α turns
+  /// like a tensor.
   struct ContactSums {
     Eigen::Matrix2d stress = Eigen::Matrix2d::Zero();  ///< −Σ f⊗l [N m]
-    Eigen::Matrix2d fabric = Eigen::Matrix2d::Zero();  ///< Σ n⊗n
+    Vec2 couple = Vec2::Zero();                        ///< −Σ (l × f)_z l [N m²]
+    Vec2 harmonic2 = Vec2::Zero(), harmonic4 = Vec2::Zero(), harmonic6 = Vec2::Zero();
+    Vec2 overlapHarmonic = Vec2::Zero();  ///< Σ δ a (cos 2α, sin 2α) [m²]
+    double overlap = 0.0;                 ///< Σ δ a [m²]
     double count = 0.0;
   };
 
   void check(const Snapshot& snapshot) const;
   void sumContacts(const Contacts& contacts);
-  Moments momentsOf(const Snapshot& snapshot, std::size_t disk) const;
-  void addWallStress(const Snapshot& snapshot, const std::vector<WeightMethod>& methods,
-                     std::vector<std::vector<Moments>>& sums);
-  void distribute(const Moments& moments, double r, double a,
-                  const std::vector<WeightMethod>& methods,
-                  std::vector<std::vector<Moments>>& sums);
+  Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
+  void addWalls(const Snapshot& snapshot, Sharing& sharing, std::vector<Moments>& sums) const;
+  void addBranches(const Snapshot& snapshot, Sharing& sharing, std::vector<Moments>& sums) const;
 
-  Rings rings_;
+  std::shared_ptr<const Coordinates> coordinates_;
+  std::vector<Sharing> sharings_;
   std::vector<double> radius_;  ///< of moving disks, then of wall disks [m]
-  std::vector<double> mass_;
+  std::vector<double> mass_, inertia_;
   std::size_t planes_;
   bool countWallDisks_;
   std::vector<ContactSums> contactSums_;
-  BinWeights weights_;
 };
 
 }  // namespace crossgrain

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -9,67 +10,95 @@
 
 namespace crossgrain {
 
-ProfileAccumulator::ProfileAccumulator(Rings rings, std::vector<WeightMethod> methods,
-                                       const Scene& scene, bool countWallDisks)
-    : rings_(std::move(rings)),
-      methods_(std::move(methods)),
-      sums_(rings_, scene, countWallDisks) {}
+namespace {
+
+/// All moments of all slots as one row of numbers, in the order of Linear's indices.
+std::span<const double> flat(const std::vector<Moments>& moments) {
+  static_assert(sizeof(Moments) == momentCount * sizeof(double));
+  return {moments.front().data(), moments.size() * momentCount};
+}
+
+/// Each index once.
+std::vector<std::pair<std::size_t, double>> collected(
+    std::vector<std::pair<std::size_t, double>> slopes) {
+  std::ranges::sort(slopes, {}, &std::pair<std::size_t, double>::first);
+  std::vector<std::pair<std::size_t, double>> result;
+  for (const auto& [index, slope] : slopes)
+    if (!result.empty() && result.back().first == index)
+      result.back().second += slope;
+    else
+      result.emplace_back(index, slope);
+  return result;
+}
+
+}  // namespace
+
+ProfileAccumulator::ProfileAccumulator(std::shared_ptr<const Coordinates> coordinates,
+                                       std::vector<Weight> weights, const Scene& scene,
+                                       bool countWallDisks)
+    : coordinates_(std::move(coordinates)),
+      weights_(std::move(weights)),
+      springs_(springConstants(scene.law)),
+      sums_(coordinates_, weights_, scene, countWallDisks),
+      series_(weights_.size(), BlockSeries(coordinates_->slots() * momentCount)) {}
 
 void ProfileAccumulator::add(const Snapshot& snapshot) {
   std::vector<const FieldSpec*> fields;
   for (const FieldSpec& field : fieldTable())
-    if (available(field, snapshot)) fields.push_back(&field);
-  if (!series_.empty() && fields != fields_)
+    if (available(field, snapshot, springs_)) fields.push_back(&field);
+  if (snapshots_ > 0 && fields != fields_)
     throw std::invalid_argument(fmt::format(
         "averaging: the snapshot at {} s {} spin and {} contacts, unlike the ones before it; "
         "all snapshots of one average must hold the same",
         snapshot.positionTime, snapshot.spin ? "has" : "lacks",
         snapshot.contacts ? "has" : "lacks"));
-  std::vector<std::vector<Moments>> bins;
-  sums_.compute(snapshot, methods_, bins);
-  series_.push_back(std::move(bins));
+  sums_.compute(snapshot, momentary_);
+  for (std::size_t k = 0; k < series_.size(); ++k) series_[k].add(flat(momentary_[k]));
+  ++snapshots_;
   fields_ = std::move(fields);
 }
 
-std::vector<Moments> ProfileAccumulator::meanMoments(std::size_t method) const {
-  std::vector<Moments> mean(rings_.slots(), Moments{});
-  for (const auto& snapshot : series_)
-    for (std::size_t slot = 0; slot < mean.size(); ++slot)
-      for (std::size_t q = 0; q < momentCount; ++q) mean[slot][q] += snapshot[method][slot][q];
-  for (Moments& moments : mean)
-    for (double& moment : moments) moment /= static_cast<double>(series_.size());
-  return mean;
+std::vector<Moments> ProfileAccumulator::meanMoments(std::size_t weight) const {
+  const std::vector<double> means = series_[weight].means();
+  std::vector<Moments> result(coordinates_->slots());
+  for (std::size_t slot = 0; slot < result.size(); ++slot)
+    std::copy_n(means.begin() + static_cast<std::ptrdiff_t>(slot * momentCount), momentCount,
+                result[slot].begin());
+  return result;
 }
 
 std::vector<Profile> ProfileAccumulator::profiles() const {
   std::vector<Profile> result;
-  if (series_.empty()) return result;
-  for (std::size_t method = 0; method < methods_.size(); ++method) {
-    const std::vector<Moments> mean = meanMoments(method);
-    for (const FieldSpec* field : fields_) result.push_back(profile(method, *field, mean));
+  if (snapshots_ == 0) return result;
+  for (std::size_t weight = 0; weight < weights_.size(); ++weight) {
+    const std::vector<Moments> mean = meanMoments(weight);
+    for (const FieldSpec* field : fields_) result.push_back(profile(weight, *field, mean));
   }
   return result;
 }
 
-Profile ProfileAccumulator::profile(std::size_t method, const FieldSpec& field,
+Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
                                     const std::vector<Moments>& mean) const {
   Profile result;
-  result.method = toString(methods_[method]);
+  result.method = toString(weights_[weight].method);
   result.field = field.name;
   result.unit = field.unit;
-  std::vector<double> residual(series_.size());
-  for (int ring = 0; ring < rings_.count(); ++ring) {
-    const std::size_t slot = rings_.slot(ring);
-    const auto value = evaluate(field, mean[slot], rings_.volume(ring));
+  const BlockSeries& series = series_[weight];
+  const std::span<const double> means = flat(mean);
+  std::vector<double> residual(series.blocks());
+  for (std::size_t slot = 0; slot < mean.size(); ++slot) {
+    if (coordinates_->isOverflow(slot)) continue;
+    const auto value = evaluate(field, BinView(*coordinates_, mean, slot, springs_));
     result.mean.push_back(value ? std::optional(value->value) : std::nullopt);
     result.standardError.emplace_back();
     result.nEff.emplace_back();
     result.dof.emplace_back();
-    if (!value) continue;
-    for (std::size_t t = 0; t < series_.size(); ++t) {
-      residual[t] = 0.0;
-      for (std::size_t q = 0; q < momentCount; ++q)
-        residual[t] += value->gradient[q] * (series_[t][method][slot][q] - mean[slot][q]);
+    if (!value || residual.empty()) continue;
+    const auto slopes = collected(value->slopes);
+    for (std::size_t b = 0; b < residual.size(); ++b) {
+      residual[b] = 0.0;
+      for (const auto& [index, slope] : slopes)
+        residual[b] += slope * (series.blockMean(b, index) - means[index]);
     }
     const MeanEstimate estimate = estimateMean(residual);
     if (!estimate.standardError) continue;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "averaging/block_series.hpp"
 #include "averaging/fields.hpp"
 #include "averaging/moments.hpp"
 #include "averaging/rings.hpp"
@@ -11,7 +14,8 @@
 
 namespace crossgrain {
 
-/// One field against the radius, under one method: time means over a run, one entry per ring.
+/// One field against the radius, under one method: time means over a run, one entry per ring (or
+/// bin, in the order of slots, overflow left out).
 struct Profile {
   std::string method;  ///< "slicing", …
   std::string field;   ///< as in profiles.csv
@@ -28,36 +32,46 @@ struct Profile {
 ///
 /// The time mean of a field is the field of the time-mean moments: a velocity is ⟨Σ w V v⟩/⟨Σ w V⟩
 /// and not the mean of the rings' momentary velocities, and fabric_deviator that of the mean fabric
-/// tensor. Its error comes from the series Σ_q ∂field/∂moment_q (moment_q(t) − ⟨moment_q⟩); for a
-/// ratio that is (numerator − mean·denominator)/⟨denominator⟩.
+/// tensor. Its error comes from the series Σ_q ∂field/∂moment_q (moment_q(t) − ⟨moment_q⟩), over
+/// the moments of all bins that the field is made of; for a ratio that is (numerator −
+/// mean·denominator)/⟨denominator⟩. Memory does not grow with the number of snapshots
+/// (BlockSeries).
 class ProfileAccumulator {
  public:
   /// @param countWallDisks adds the wall disks' area in the rings to volume_fraction; off in the
   ///        thesis' labels ν̄ (see MomentSums)
-  ProfileAccumulator(Rings rings, std::vector<WeightMethod> methods, const Scene& scene,
-                     bool countWallDisks = false);
+  ProfileAccumulator(std::shared_ptr<const Coordinates> coordinates, std::vector<Weight> weights,
+                     const Scene& scene, bool countWallDisks = false);
+
+  /// Over rings.
+  ProfileAccumulator(const Rings& rings, std::vector<Weight> weights, const Scene& scene,
+                     bool countWallDisks = false)
+      : ProfileAccumulator(std::make_shared<Rings>(rings), std::move(weights), scene,
+                           countWallDisks) {}
 
   /// @throws std::invalid_argument if the snapshot does not fit the scene, or has spin or contacts
   ///         where earlier ones had none (or the other way round)
   void add(const Snapshot& snapshot);
 
-  std::size_t snapshots() const { return series_.size(); }
-  const Rings& rings() const { return rings_; }
+  std::size_t snapshots() const { return snapshots_; }
 
   /// Every field that the snapshots have data for, method by method. Empty before the first add.
   std::vector<Profile> profiles() const;
 
-  /// Time-mean moments per bin (Rings::slot), overflow included, of the method of that index.
-  std::vector<Moments> meanMoments(std::size_t method) const;
+  /// Time-mean moments per slot, overflow included, of the weight of that index.
+  std::vector<Moments> meanMoments(std::size_t weight) const;
 
  private:
-  Profile profile(std::size_t method, const FieldSpec& field,
+  Profile profile(std::size_t weight, const FieldSpec& field,
                   const std::vector<Moments>& mean) const;
 
-  Rings rings_;
-  std::vector<WeightMethod> methods_;
+  std::shared_ptr<const Coordinates> coordinates_;
+  std::vector<Weight> weights_;
+  SpringConstants springs_;
   MomentSums sums_;
-  std::vector<std::vector<std::vector<Moments>>> series_;  ///< snapshot, method, bin
+  std::vector<BlockSeries> series_;              ///< per weight, of all moments of all slots
+  std::vector<std::vector<Moments>> momentary_;  ///< of the last snapshot
+  std::size_t snapshots_ = 0;
   std::vector<const FieldSpec*> fields_;  ///< those that the snapshots have data for
 };
 

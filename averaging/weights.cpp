@@ -1,92 +1,107 @@
 #include "averaging/weights.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gsl/gsl_integration.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
-#include <utility>
 
 namespace crossgrain {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, WeightMethod>, 3> methodNames = {
-    {{"slicing", WeightMethod::slicing},
-     {"straight_cut", WeightMethod::straightCut},
-     {"centre", WeightMethod::centre}}};
-
-/// x − sin x cos x for x in [0, π], given p = tan(x/2): the area of the segment of a unit circle
-/// that subtends the angle 2x.
-double segment(double p) {
-  if (p < 0.05) {
-    // (y − sin y)/2 with y = 2x: the difference would cancel, its series does not.
-    const double y = 4.0 * std::atan(p);
-    const double y2 = y * y;
-    return y * y2 / 12.0 *
-           (1.0 - y2 / 20.0 * (1.0 - y2 / 42.0 * (1.0 - y2 / 72.0 * (1.0 - y2 / 110.0))));
-  }
-  if (std::isinf(p)) return std::numbers::pi;
-  const double q = 1.0 + p * p;
-  return 2.0 * std::atan(p) - 2.0 * p * (1.0 - p * p) / (q * q);
+/// The discs that make up a kernel of width w.
+std::vector<std::pair<double, double>> kernelDiscs(const Weight& weight) {
+  if (weight.method == WeightMethod::lineHeaviside) return {{weight.width, 1.0}};
+  constexpr std::size_t nodes = 6;
+  gsl_integration_fixed_workspace* rule = gsl_integration_fixed_alloc(
+      gsl_integration_fixed_laguerre, nodes, 0.0, 1.0, /*alpha=*/1.0, 0.0);
+  std::vector<std::pair<double, double>> discs;
+  for (std::size_t k = 0; k < nodes; ++k)
+    discs.emplace_back(weight.width * std::sqrt(gsl_integration_fixed_nodes(rule)[k]),
+                       gsl_integration_fixed_weights(rule)[k]);
+  gsl_integration_fixed_free(rule);
+  return discs;
 }
 
 }  // namespace
 
 std::string_view toString(WeightMethod method) {
-  for (const auto& [name, value] : methodNames)
-    if (value == method) return name;
-  throw std::invalid_argument("weights: not a method");
+  return weightNames.at(static_cast<std::size_t>(method));
 }
 
 WeightMethod weightMethod(std::string_view name) {
-  for (const auto& [known, value] : methodNames)
-    if (known == name) return value;
-  throw std::invalid_argument(fmt::format(
-      "weights: unknown method \"{}\"; there are slicing, straight_cut and centre", name));
+  const auto found = std::ranges::find(weightNames, name);
+  if (found == weightNames.end())
+    throw std::invalid_argument(fmt::format("weights: unknown method \"{}\"; there are {}", name,
+                                            fmt::join(weightNames, ", ")));
+  return static_cast<WeightMethod>(found - weightNames.begin());
 }
 
-double commonArea(double r, double a, double R) {
-  const double pi = std::numbers::pi;
-  // Twice s−R, s−r, s−a and s of the triangle with sides r, a, R; R − r first, it is the small one.
-  const double beyondEdge = a - (R - r);
-  const double beforeEdge = a + (R - r);
-  const double clearOfOrigin = (r - a) + R;
-  if (beyondEdge <= 0.0) return pi * a * a;
-  if (beforeEdge <= 0.0) return 0.0;
-  if (clearOfOrigin <= 0.0) return pi * R * R;
-  const double perimeter = r + a + R;
-  const double halfAtOrigin = std::sqrt(beforeEdge * beyondEdge / (perimeter * clearOfOrigin));
-  const double halfAtCentre = std::sqrt(beforeEdge * clearOfOrigin / (perimeter * beyondEdge));
-  return R * R * segment(halfAtOrigin) + a * a * segment(halfAtCentre);
+Sharing::Sharing(const Coordinates& coordinates, const Weight& weight)
+    : coordinates_(coordinates), weight_(weight) {
+  if (!weight.alongBranch()) return;
+  if (!std::isfinite(weight.width) || !(weight.width > 0.0))
+    throw std::invalid_argument(fmt::format("weights: {} needs a kernel width above 0, got {} m",
+                                            toString(weight.method), weight.width));
+  discs_ = kernelDiscs(weight);
 }
 
-double straightCutArea(double r, double a, double R) {
-  const double phi = std::acos(std::clamp((r - R) / a, -1.0, 1.0));
-  return a * a * (phi - std::sin(phi) * std::cos(phi));
-}
-
-void binWeights(const Rings& rings, WeightMethod method, double r, double a, BinWeights& weights) {
-  weights.fraction.clear();
-  if (method == WeightMethod::centre) {
-    weights.first = rings.binOf(r);
-    weights.fraction.push_back(1.0);
-    return;
+const Shares& Sharing::ofDisk(const Vec2& x, double a) {
+  if (weight_.method == WeightMethod::centre)
+    shares_.assign(1, {coordinates_.slotAt(x), 1.0});
+  else if (!weight_.alongBranch())
+    coordinates_.discShares(
+        x, a, weight_.method == WeightMethod::slicing ? Edges::exact : Edges::straight, shares_);
+  else {
+    shares_.clear();
+    for (const auto& [radius, part] : discs_) {
+      coordinates_.discShares(x, radius, Edges::exact, disc_);
+      for (const Share& share : disc_) shares_.push_back({share.slot, part * share.fraction});
+    }
   }
-  const auto areaWithin = method == WeightMethod::slicing ? commonArea : straightCutArea;
-  const double area = std::numbers::pi * a * a;
-  weights.first = rings.binOf(std::max(r - a, 0.0));
-  double before = 0.0;
-  // Differences of one rising sequence that ends at the whole area: they add up to 1.
-  for (int outer = weights.first + 1; outer <= rings.count() && rings.edge(outer) < r + a;
-       ++outer) {
-    const double within = areaWithin(r, a, rings.edge(outer)) / area;
-    weights.fraction.push_back(std::max(within - before, 0.0));
-    before = std::max(within, before);
-  }
-  weights.fraction.push_back(std::max(1.0 - before, 0.0));
+  return shares_;
+}
+
+const Shares& Sharing::ofWallDisk(const Vec2& x, double a) {
+  ofDisk(x, a);
+  return keepInCell(x, a);
+}
+
+const Shares& Sharing::ofWallPoint(const Vec2& point, const Vec2& centre, double a) {
+  ofDisk(point, a);
+  return keepInCell(centre, a);
+}
+
+const Shares& Sharing::keepInCell(const Vec2& x, double a) {
+  const auto keep = [&](Shares& shares) {
+    double kept = 0.0;
+    for (const Share& share : shares)
+      if (!coordinates_.isOverflow(share.slot)) kept += share.fraction;
+    if (!(kept > 0.0)) return false;
+    std::erase_if(shares, [&](const Share& s) { return coordinates_.isOverflow(s.slot); });
+    for (Share& share : shares) share.fraction /= kept;
+    return true;
+  };
+  if (keep(shares_)) return shares_;
+  // All or nothing by a point on the wall, which rounding may have put outside.
+  coordinates_.discShares(x, a, Edges::exact, disc_);
+  if (keep(disc_))
+    shares_.assign(1, {std::ranges::max_element(disc_, {}, &Share::fraction)->slot, 1.0});
+  return shares_;
+}
+
+std::vector<BranchPoint> branchPoints(double length, double width) {
+  const double node = std::sqrt(0.6);
+  const int pieces = std::max(1, static_cast<int>(std::ceil(length / width)));
+  std::vector<BranchPoint> points;
+  for (int k = 0; k < pieces; ++k)
+    for (const auto& [x, part] :
+         {std::pair{-node, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {node, 5.0 / 18.0}})
+      points.push_back({(k + 0.5 * (1.0 + x)) / pieces, part / pieces});
+  return points;
 }
 
 }  // namespace crossgrain

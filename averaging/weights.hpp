@@ -1,43 +1,88 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "averaging/rings.hpp"
+#include "averaging/coordinates.hpp"
 
 namespace crossgrain {
 
-/// How a disk is shared out among the bins.
+/// How a disk, and the force along a branch, is shared out among the bins.
 enum class WeightMethod {
-  slicing,      ///< exact area fraction, from the circle–circle intersection
-  straightCut,  ///< area fraction with the rings' edges taken as straight (Lätzel 2003, Eq. 5.4)
-  centre        ///< all to the bin that holds the centre (Lätzel 2003, Eq. 5.3)
+  slicing,       ///< exact area fraction of the disk
+  straightCut,   ///< area fraction with the bins' edges taken as straight (Lätzel 2003, Eq. 5.4)
+  centre,        ///< all to the bin that holds the centre (Lätzel 2003, Eq. 5.3)
+  lineGaussian,  ///< kernel about the centre, and stress along the branch (Goldhirsch 2010, Eq. 25)
+  lineHeaviside  ///< the same with another kernel
 };
 
-/// The name used in case files and CSV: "slicing", "straight_cut", "centre".
+/// The names used in case files and CSV, in enum order.
+inline constexpr std::array<std::string_view, 5> weightNames = {"slicing", "straight_cut", "centre",
+                                                                "line_gaussian", "line_heaviside"};
+
 std::string_view toString(WeightMethod method);
 
 /// @throws std::invalid_argument saying which names there are
 WeightMethod weightMethod(std::string_view name);
 
-/// Fractions w of one disk in consecutive bins; they add up to 1 over all bins, overflow included.
-/// Meant to be used again for the next disk: its memory is kept.
-struct BinWeights {
-  int first = 0;                 ///< bin of fraction[0]
-  std::vector<double> fraction;  ///< of the bins first, first + 1, … [-]
+/// A method and what it needs. The kernels of width w are exp(−r²/w²)/(πw²) and the disc of radius
+/// w over its area (Goldhirsch 2010, Granular Matter 12:239).
+struct Weight {
+  WeightMethod method;
+  double width = 0.0;  ///< w of a line method's kernel [m]; the others have none
+
+  Weight(WeightMethod how, double w = 0.0) : method(how), width(w) {}
+
+  /// Whether stress is spread along the branches and not over the disk.
+  bool alongBranch() const {
+    return method == WeightMethod::lineGaussian || method == WeightMethod::lineHeaviside;
+  }
 };
 
-/// The weights of a disk of radius a [m] whose centre is at distance r [m] from the origin.
-void binWeights(const Rings& rings, WeightMethod method, double r, double a, BinWeights& weights);
+/// Shares out disks and branches of one coordinate by one weight; keeps its memory.
+///
+/// A Gaussian is a mixture of discs, ∫ u e^{−u} (disc of radius w√u) du. Six of them,
+/// Gauss–Laguerre nodes, stand for it: coordinates need to know nothing but how they cut a disc,
+/// and shares stay positive and add up to 1. All moments ⟨r²ᵏ⟩ of the kernel up to k = 10 are
+/// exact.
+class Sharing {
+ public:
+  /// @throws std::invalid_argument for a line method without a positive width
+  Sharing(const Coordinates& coordinates, const Weight& weight);
 
-/// Area common to a disk of radius a at distance r from the origin and the disk of radius R about
-/// the origin [m²]. Exact closed form, in half-angles of the triangle (r, a, R) so that it keeps
-/// its relative accuracy near tangency and for R ≫ a.
-double commonArea(double r, double a, double R);
+  const Weight& weight() const { return weight_; }
 
-/// Area of that disk on the near side of a straight line at distance R from the origin [m²]
-/// (a² (φ − sin φ cos φ), cos φ = (r − R)/a clamped to [−1, 1]; Lätzel 2003, Eq. 5.4).
-double straightCutArea(double r, double a, double R);
+  /// A disk of radius a [m] about x.
+  const Shares& ofDisk(const Vec2& x, double a);
+
+  /// Of a wall disk: its part in the cell. What reaches into the overflow is given to the bins that
+  /// the disk reaches; a disk that reaches none stays where it is.
+  const Shares& ofWallDisk(const Vec2& x, double a);
+
+  /// The same for a point of a wall disk's branch.
+  const Shares& ofWallPoint(const Vec2& point, const Vec2& centre, double a);
+
+  /// The kernel about a point of a branch.
+  const Shares& ofPoint(const Vec2& point) { return ofDisk(point, 0.0); }
+
+ private:
+  const Shares& keepInCell(const Vec2& x, double a);
+
+  const Coordinates& coordinates_;
+  Weight weight_;
+  std::vector<std::pair<double, double>> discs_;  ///< radius and part of the kernel's discs
+  Shares shares_, disc_;
+};
+
+/// Points along a branch, from the disk's centre (0) to the contact (1), and their parts of it.
+struct BranchPoint {
+  double place, part;
+};
+
+/// Three-point Gauss–Legendre rules in pieces no longer than the kernel's width.
+std::vector<BranchPoint> branchPoints(double length, double width);
 
 }  // namespace crossgrain

@@ -53,9 +53,10 @@ struct Margin {
 
 struct Averaging {
   int rings = 20;
-  std::vector<std::string> methods = {"slicing"};  ///< "slicing" | "straight_cut" | "centre"
-  double settleRotations = 0.25;                   ///< after hand-over, not averaged
-  double rotations = 1.0;                          ///< averaged
+  std::vector<std::string> methods = {"slicing"};  ///< as in weightNames
+  double lineWidth = 0.5;         ///< kernel width of line methods, in units of d [-]
+  double settleRotations = 0.25;  ///< after hand-over, not averaged
+  double rotations = 1.0;         ///< averaged
   int snapshotsPerRotation = 400;
   double confidence = 0.95;
   std::map<std::string, Margin> margins;  ///< by field name as in profiles.csv

@@ -122,8 +122,16 @@ void Hdf5File::writeAttribute(const std::string& name, const std::string& value)
   check(attribute < 0 ? -1 : H5Awrite(attribute, type, value.c_str()), name);
 }
 
+bool Hdf5File::holds(const std::string& path) const {
+  // HDF5 asks for every group on the way by itself.
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file_, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
 std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const {
-  if (H5Lexists(file_, path.c_str(), H5P_DEFAULT) <= 0) return std::nullopt;
+  if (!holds(path)) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
   const Handle space(H5Dget_space(set));
   constexpr hssize_t most = 1'000'000'000;  // a damaged file may claim any size

@@ -36,6 +36,8 @@ class Hdf5File {
   /// Writes what create() began. @throws OutputError
   void save();
 
+  bool holds(const std::string& path) const;
+
   /// The whole array, row by row; absent if the file has none of that name.
   std::optional<std::vector<double>> read(const std::string& path) const;
   std::optional<double> readAttribute(const std::string& name) const;

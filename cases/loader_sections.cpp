@@ -9,6 +9,7 @@
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
 #include "averaging/fields.hpp"
+#include "averaging/weights.hpp"
 #include "cases/collision_quantities.hpp"
 #include "cases/loader_document.hpp"
 
@@ -184,9 +185,10 @@ void readPreparation(Reader& in, Preparation& preparation) {
 }
 
 void readAveraging(Reader& in, Averaging& averaging) {
-  static const std::vector<std::string> methods = {"slicing", "straight_cut", "centre"};
+  static const std::vector<std::string> methods(weightNames.begin(), weightNames.end());
   in.read("rings", averaging.rings, between(1, 10'000));
   in.read("method", averaging.methods, methods);
+  in.read("line_width", averaging.lineWidth, positive());
   in.read("settle_rotations", averaging.settleRotations, atLeast(0.0));
   in.read("rotations", averaging.rotations, positive());
   in.read("snapshots_per_rotation", averaging.snapshotsPerRotation, between(1, 1'000'000));

@@ -22,6 +22,7 @@ enum ExitStatus {
 struct CommandLine {
   RunCommand run;
   std::vector<std::filesystem::path> inputs;  ///< case files, or result folders
+  std::filesystem::path snapshots;            ///< file to average
   std::vector<std::string> overrides;         ///< --set
   bool quick = false;
   bool strict = false;
@@ -35,6 +36,8 @@ int listEngines(const CommandLine& line);
 int checkCase(const CommandLine& line);
 int collide(const CommandLine& line);
 int compare(const CommandLine& line);
+int average(const CommandLine& line);
+int rev(const CommandLine& line);
 int effects(const CommandLine& line);
 int rebuildReports(const CommandLine& line);
 int serveEngine(const std::string& name);

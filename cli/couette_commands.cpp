@@ -7,8 +7,10 @@
 #include "cases/loader.hpp"
 #include "cli/commands.hpp"
 #include "reports/report.hpp"
+#include "runs/average.hpp"
 #include "runs/compare.hpp"
 #include "runs/effects.hpp"
+#include "runs/rev.hpp"
 
 namespace crossgrain {
 
@@ -30,12 +32,12 @@ json peerRows(const json& results) {
   return rows;
 }
 
-Case onlyCase(const CommandLine& line, CaseKind kind, const char* command) {
+Case onlyCase(const CommandLine& line, const char* command) {
   if (line.inputs.size() != 1)
     throw BadInput(fmt::format("{} takes one case file, not {}", command, line.inputs.size()));
   const fs::path& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (cases.front().kind != kind)
+  if (cases.front().kind != CaseKind::couette)
     throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
@@ -54,10 +56,21 @@ void printFailures(const json& rows) {
       fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
 }
 
+/// What the commands that only average leave and print.
+int averaged(const CommandLine& line, const json& results) {
+  writeReport(results, line.run.out);
+  if (line.json)
+    fmt::print("{}\n", (line.run.out / "results.json").string());
+  else
+    fmt::print("{} snapshots averaged\nreport: {}\n", results["averaging"]["snapshots"].get<int>(),
+               (line.run.out / "report.html").string());
+  return exitHeld;
+}
+
 }  // namespace
 
 int compare(const CommandLine& line) {
-  const Case setup = onlyCase(line, CaseKind::couette, "compare");
+  const Case setup = onlyCase(line, "compare");
   const json results = compareEngines(setup, line.run);
   writeReport(results, line.run.out);
 
@@ -82,6 +95,16 @@ int compare(const CommandLine& line) {
   if (failed > 0) return exitEngineFailed;
   if (disagree > 0 || (line.strict && undecided > 0)) return exitFellShort;
   return exitHeld;
+}
+
+int average(const CommandLine& line) {
+  const Case setup = onlyCase(line, "average");
+  return averaged(line, averageSnapshots(setup, line.snapshots, line.run.commandLine));
+}
+
+int rev(const CommandLine& line) {
+  const Case setup = onlyCase(line, "rev");
+  return averaged(line, revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet));
 }
 
 namespace {
@@ -111,7 +134,7 @@ void printLeg(const json& leg) {
 }  // namespace
 
 int effects(const CommandLine& line) {
-  const Case setup = onlyCase(line, CaseKind::couette, "effects");
+  const Case setup = onlyCase(line, "effects");
   TimingPlan plan;
   if (line.quick) plan.seconds = 0.02;
   const json results = measureEffects(setup, line.run, plan);

@@ -32,18 +32,31 @@ void addOverrides(CLI::App& command, CommandLine& line) {
       ->allow_extra_args(false);
 }
 
-/// What all commands that run engines have.
-void addRun(CLI::App& command, CommandLine& line) {
-  addEngines(command, line)->required();
+/// What all commands that leave results have.
+void addResults(CLI::App& command, CommandLine& line) {
   addOverrides(command, line);
   command.add_option("--out", line.run.out, "folder for results: new, or of an earlier run")
       ->required()
       ->check([](const std::string& out) { return out.empty() ? "is empty" : ""; });
+  command.add_flag("--json", line.json, "print the path of results.json only, for scripts");
+}
+
+/// What all commands that average a file of snapshots have.
+void addSnapshots(CLI::App& command, CommandLine& line) {
+  command.add_option("snapshots", line.snapshots, "HDF5 file of snapshots")->required();
+  command.add_option("case", line.inputs, "case file: the cell, the law, how to average")
+      ->required();
+  addResults(command, line);
+}
+
+/// What all commands that run engines have.
+void addRun(CLI::App& command, CommandLine& line) {
+  addEngines(command, line)->required();
+  addResults(command, line);
   constexpr int mostJobs = 4096;
   command.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
       ->check(CLI::Range(1, mostJobs));
   command.add_flag("--quiet", line.run.quiet, "no progress");
-  command.add_flag("--json", line.json, "print the path of results.json only, for scripts");
 }
 
 /// What all commands that run engines on packings have.
@@ -108,6 +121,17 @@ int run(int argc, char** argv) {
   addRun(*switching, line);
   addPackings(*switching, line, seed);
 
+  CLI::App* averaging = addCommand(
+      app, "average", "average snapshots of a file, of a run or of any other source",
+      "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged");
+  addSnapshots(*averaging, line);
+
+  CLI::App* elements =
+      addCommand(app, "rev", "every field against ring width, under every weight",
+                 "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev");
+  addSnapshots(*elements, line);
+  elements->add_flag("--quiet", line.run.quiet, "no progress");
+
   CalibrationRequest calibration;
   CLI::App* calibrations = addCommand(
       app, "calibrate", "law constants from wanted restitution and contact time, and back",
@@ -127,8 +151,8 @@ int run(int argc, char** argv) {
   serve->add_option("engine", served)->required();
 
   // CLI11 would only say that some subcommand is required.
-  const std::vector<std::string> names = {"engines", "check",     "collide", "compare",
-                                          "effects", "calibrate", "report"};
+  const std::vector<std::string> names = {"engines", "check",     "collide", "compare", "effects",
+                                          "average", "calibrate", "rev",     "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
@@ -147,6 +171,8 @@ int run(int argc, char** argv) {
   if (collisions->parsed()) return collide(line);
   if (comparison->parsed()) return compare(line);
   if (switching->parsed()) return effects(line);
+  if (averaging->parsed()) return average(line);
+  if (elements->parsed()) return rev(line);
   if (calibrations->parsed()) return calibrate(line, calibration);
   if (report->parsed()) return rebuildReports(line);
   return serveEngine(served);

@@ -221,4 +221,23 @@ std::string effectsCsv(const Json& results) {
   return table;
 }
 
+std::string revCsv(const Json& results) {
+  std::string table = "engine,method,field,r_m,width_over_d,mean,stderr,unit\n";
+  const std::string engine = text(results, "engine");
+  for (const Json& curve : list(results, "curves"))
+    for (std::size_t k = 0; k < list(curve, "width").size(); ++k)
+      table += row(engine, text(curve, "method"), text(curve, "field"), number(curve, "r"),
+                   number(list(curve, "width")[k]), number(element(list(curve, "mean"), k)),
+                   number(element(list(curve, "stderr"), k)), text(curve, "unit"));
+  return table;
+}
+
+std::string revMeetingsCsv(const Json& results) {
+  std::string table = "method,field,near_d,width_over_d,difference\n";
+  for (const Json& meeting : list(results, "meetings"))
+    table += row(text(meeting, "method"), text(meeting, "field"), number(meeting, "near"),
+                 number(meeting, "width"), number(meeting, "difference"));
+  return table;
+}
+
 }  // namespace crossgrain::reports

@@ -31,4 +31,11 @@ std::string agreementCsv(const Json& results);
 /// One row per field and ring; a leg that has none is one row with its status.
 std::string effectsCsv(const Json& results);
 
+/// engine,method,field,r_m,width_over_d,mean,stderr,unit
+std::string revCsv(const Json& results);
+
+/// method,field,near_d,width_over_d,difference: near which width the method comes closest to
+/// slicing, and the root mean square of what is then between them, in units of slicing's.
+std::string revMeetingsCsv(const Json& results);
+
 }  // namespace crossgrain::reports

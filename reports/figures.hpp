@@ -21,6 +21,9 @@ std::vector<Figure> collideFigures(const Json& results);
 /// and changes; effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const Json& results);
 
+/// Plots of fields against ring width: rev_FIELD.
+std::vector<Figure> revFigures(const Json& results);
+
 /// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
 using IsFaint = std::function<bool(const EngineResults&, const std::string& field)>;
 

@@ -36,6 +36,11 @@ Kind kindOf(const Json& results) {
     return {{{"collisions.csv", collisionsCsv}}, collideFigures, noPictures, collidePage};
   if (kind == kindEffects)
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+  if (kind == kindRev)
+    return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
+            revFigures,
+            noPictures,
+            revPage};
   return {
       {{"profiles.csv", profilesCsv}, {"series.csv", seriesCsv}, {"agreement.csv", agreementCsv}},
       compareFigures,

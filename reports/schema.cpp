@@ -1,7 +1,9 @@
 #include "reports/schema.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "cases/bad_input.hpp"
@@ -15,9 +17,10 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = text(results, "kind");
-  if (kind != kindCompare && kind != kindCollide && kind != kindEffects)
-    throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of \"{}\", \"{}\" or \"{}\"",
-                               where, kind, kindCompare, kindCollide, kindEffects));
+  const auto known = {kindCompare, kindCollide, kindEffects, kindRev};
+  if (std::ranges::find(known, kind) == known.end())
+    throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
+                               kind, fmt::join(known, "\", \"")));
 }
 
 std::string toText(const nlohmann::json& results) {

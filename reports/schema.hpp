@@ -12,6 +12,7 @@ inline constexpr std::string_view schemaVersion = "crossgrain-results-1";
 inline constexpr std::string_view kindCompare = "compare";
 inline constexpr std::string_view kindCollide = "collide";
 inline constexpr std::string_view kindEffects = "effects";
+inline constexpr std::string_view kindRev = "rev";
 
 /// @throws BadInput, beginning with where, unless schema and kind are ones that are known here
 void checkSchema(const nlohmann::json& results, const std::string& where);

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "adapters/worker/json.hpp"
-#include "averaging/global.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
+#include "runs/couette_series.hpp"
 #include "runs/couette_summary.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/picture.hpp"
@@ -26,39 +26,16 @@ Rings ringsOf(const Case& setup) {
                setup.cell.height, 2.0 * setup.particles.smallRadius);
 }
 
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
+  const double width = 2.0 * setup.particles.smallRadius * setup.averaging.lineWidth;
+  std::vector<Weight> weights;
+  for (const std::string& name : names) weights.emplace_back(weightMethod(name), width);
+  return weights;
+}
+
 double rotationTime(const Case& setup) {
   return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
 }
-
-namespace {
-
-/// Numbers of the whole cell over time.
-class Series {
- public:
-  Series(const Case& setup, const Scene& scene) : setup_(setup), scene_(scene) {}
-
-  void add(const Snapshot& now) {
-    const GlobalNumbers numbers = globalNumbers(scene_, now);
-    rows_["t_s"].push_back(now.positionTime);
-    rows_["wheel_torque"].push_back(toJson(drivingTorque(scene_, now, wheelName)));
-    rows_["outer_pressure"].push_back(
-        toJson(radialPressure(scene_, now, ringName, setup_.cell.outerRadius, setup_.cell.height)));
-    rows_["kinetic_energy"].push_back(numbers.kineticEnergy);
-    rows_["coordination"].push_back(toJson(numbers.coordination));
-    rows_["max_overlap"].push_back(toJson(numbers.maxOverlap));
-    rows_["mean_overlap"].push_back(toJson(numbers.meanOverlap));
-    rows_["sliding_fraction"].push_back(toJson(numbers.slidingFraction));
-  }
-
-  const json& rows() const { return rows_; }
-
- private:
-  const Case& setup_;
-  const Scene& scene_;
-  json rows_;
-};
-
-}  // namespace
 
 json runCouette(const CouetteRun& run, const std::function<void(double)>& progress) {
   const Case& setup = *run.setup;
@@ -102,11 +79,9 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
   if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
 
-  std::vector<WeightMethod> methods;
-  for (const std::string& name : setup.averaging.methods) methods.push_back(weightMethod(name));
-  ProfileAccumulator profiles(ringsOf(setup), methods, scene);
-  Series series(setup, scene);
-  SnapshotFile kept(run.snapshots, scene, samples, setup.run.keepSnapshots);
+  ProfileAccumulator profiles(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene);
+  CouetteSeries series(setup, scene);
+  SnapshotFile kept(run.snapshots, run.entry.name, scene, samples, setup.run.keepSnapshots);
   json picture;
   const double pictureTime = std::min(0.5 * rotation, end);
   int taken = 0;
@@ -133,20 +108,14 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
     stats.wallSeconds += before->wallSeconds;
     stats.cpuSeconds += before->cpuSeconds;
   }
-  const std::vector<Profile> averaged = profiles.profiles();
   json result = {{"engine", run.entry.name},
                  {"packing", run.packingIndex},
                  {"status", "finished"},
                  {"reason", ""},
                  {"realised", toJson(loaded.realised)},
                  {"stats", statsJson(stats)},
-                 {"series", series.rows()},
                  {"picture", picture}};
-  result["profiles"] = json::array();
-  for (const Profile& profile : averaged) result["profiles"].push_back(toJson(profile));
-  result["head"] = headNumbers(setup, averaged, series.rows(), loaded.realised);
-  result["fits"] = couetteFits(setup, averaged);
-  result["checks"] = couetteChecks(setup, averaged, series.rows());
+  addAverages(setup, profiles.profiles(), series.rows(), loaded.realised, result);
   return result;
 }
 

@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "averaging/rings.hpp"
+#include "averaging/weights.hpp"
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 #include "runs/engine_access.hpp"
@@ -13,6 +15,9 @@ namespace crossgrain {
 
 /// The rings that a Couette case averages over.
 Rings ringsOf(const Case& setup);
+
+/// Weights of these names, with the case's kernel width.
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
 
 /// Seconds of one rotation of the wheel.
 double rotationTime(const Case& setup);

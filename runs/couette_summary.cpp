@@ -92,7 +92,7 @@ json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const 
   const auto rr = ringMean(profiles, "stress_rr", 0);
   const auto rp = ringMean(profiles, "stress_rp", 0);
   if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
-  if (setup.law.normal == NormalLaw::linear && !setup.particles.file)
+  if (realised.dt > 0.0 && setup.law.normal == NormalLaw::linear && !setup.particles.file)
     stepShare = realised.dt / contactTime(setup.law, lightestReducedMass(setup));
   return {number("inertial_number", inertialNumber(setup, profiles)),
           number("kn_over_p", stiffness),
@@ -182,6 +182,16 @@ json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, cons
          {"stderr", {toJson(radial->standardError.back())}}});
   }
   return checks;
+}
+
+void addAverages(const Case& setup, const std::vector<Profile>& profiles, const json& series,
+                 const Realised& realised, json& run) {
+  run["profiles"] = json::array();
+  for (const Profile& profile : profiles) run["profiles"].push_back(toJson(profile));
+  run["series"] = series;
+  run["head"] = headNumbers(setup, profiles, series, realised);
+  run["fits"] = couetteFits(setup, profiles);
+  run["checks"] = couetteChecks(setup, profiles, series);
 }
 
 }  // namespace crossgrain

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "cases/hdf5_file.hpp"
+#include <utility>
+
+#include "cases/files.hpp"
+#include "runs/snapshot_layout.hpp"
+#include "runs/snapshot_xdmf.hpp"
 
 namespace crossgrain {
 namespace {
@@ -18,12 +22,57 @@ void writeContacts(Hdf5File& out, const std::string& path, const Contacts& conta
   out.write(path + "/overlap", contacts.overlap);
   out.write(path + "/normal_force", contacts.normalForce);
   out.write(path + "/tangential_force", contacts.tangentialForce);
+  if (!contacts.sliding.empty())
+    out.write(path + "/sliding",
+              std::vector<std::int32_t>(contacts.sliding.begin(), contacts.sliding.end()));
+}
+
+/// One row per body; force and torque where every body has them.
+void writeBodies(Hdf5File& out, const std::string& path, const std::vector<BodySnapshot>& bodies) {
+  std::vector<Vec2> centre, velocity, force;
+  std::vector<double> angle, spin, torque;
+  for (const BodySnapshot& body : bodies) {
+    centre.push_back(body.centre);
+    velocity.push_back(body.velocity);
+    angle.push_back(body.angle);
+    spin.push_back(body.angularVelocity);
+    if (body.force) force.push_back(*body.force);
+    if (body.torque) torque.push_back(*body.torque);
+  }
+  writeVectors(out, path + "/centre", centre);
+  out.write(path + "/angle", angle);
+  writeVectors(out, path + "/velocity", velocity);
+  out.write(path + "/angular_velocity", spin);
+  if (force.size() == bodies.size()) writeVectors(out, path + "/force", force);
+  if (torque.size() == bodies.size()) out.write(path + "/torque", torque);
+}
+
+void writeSnapshot(Hdf5File& out, const std::string& group, const Snapshot& now) {
+  out.write(group + "/time",
+            std::vector{now.positionTime, now.velocityTime, now.contactTime, now.contactInterval});
+  writeVectors(out, group + "/position", now.position);
+  writeVectors(out, group + "/velocity", now.velocity);
+  if (now.spin) out.write(group + "/spin", *now.spin);
+  writeVectors(out, group + "/wall_position", now.wallPosition);
+  if (!now.bodies.empty()) writeBodies(out, group + "/bodies", now.bodies);
+  if (now.energies)
+    out.write(group + "/energies", std::vector{now.energies->kinetic, now.energies->elastic});
+  if (now.contacts) writeContacts(out, group + "/contacts", *now.contacts);
 }
 
 }  // namespace
 
-SnapshotFile::SnapshotFile(std::filesystem::path file, const Scene& scene, int samples, int keep)
-    : file_(std::move(file)), scene_(scene), samples_(samples), keep_(keep) {}
+std::string snapshotGroup(std::size_t k) {
+  return fmt::format("/snapshot-{:03d}", k);
+}
+
+SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene,
+                           int samples, int keep)
+    : file_(std::move(file)),
+      engine_(std::move(engine)),
+      scene_(scene),
+      samples_(samples),
+      keep_(keep) {}
 
 void SnapshotFile::offer(const Snapshot& snapshot, int k) {
   // Kept are those with which ⌊k·keep/samples⌋ grows: evenly spaced, the last one among them.
@@ -34,25 +83,24 @@ void SnapshotFile::offer(const Snapshot& snapshot, int k) {
 void SnapshotFile::close() {
   if (kept_.empty()) return;
   Hdf5File out = Hdf5File::create(file_);
+  out.writeAttribute("engine", engine_);
   out.write("/disks/radius", scene_.disks.radius);
   out.write("/disks/mass", scene_.disks.mass);
   out.write("/disks/inertia", scene_.disks.inertia);
   std::vector<double> wallRadius;
-  for (const WallBody& body : scene_.bodies)
-    wallRadius.insert(wallRadius.end(), body.diskRadius.begin(), body.diskRadius.end());
-  out.write("/walls/radius", wallRadius);
-  for (std::size_t k = 0; k < kept_.size(); ++k) {
-    const Snapshot& now = kept_[k];
-    const std::string group = fmt::format("/snapshot-{:03d}", k);
-    out.write(group + "/time", std::vector{now.positionTime, now.velocityTime, now.contactTime,
-                                           now.contactInterval});
-    writeVectors(out, group + "/position", now.position);
-    writeVectors(out, group + "/velocity", now.velocity);
-    if (now.spin) out.write(group + "/spin", *now.spin);
-    writeVectors(out, group + "/wall_position", now.wallPosition);
-    if (now.contacts) writeContacts(out, group + "/contacts", *now.contacts);
+  std::vector<std::int32_t> wallBody;
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const std::vector<double>& radii = scene_.bodies[b].diskRadius;
+    wallRadius.insert(wallRadius.end(), radii.begin(), radii.end());
+    wallBody.insert(wallBody.end(), radii.size(), static_cast<std::int32_t>(b));
   }
+  out.write("/walls/radius", wallRadius);
+  out.write("/walls/body", wallBody);
+  for (std::size_t k = 0; k < kept_.size(); ++k) writeSnapshot(out, snapshotGroup(k), kept_[k]);
   out.save();
+  std::filesystem::path xdmf = file_;
+  writeFile(xdmf.replace_extension(".xdmf"),
+            snapshotXdmf(file_.filename().string(), wallRadius.size(), kept_));
 }
 
 }  // namespace crossgrain

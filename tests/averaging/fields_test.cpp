@@ -13,19 +13,13 @@ namespace crossgrain {
 namespace {
 
 using test::Instant;
+using test::valueOf;
 
 constexpr double pi = std::numbers::pi;
 
 /// Two rings 1–2 m and 2–3 m of height 0.5 m.
 Rings twoRings() {
   return {1.0, 3.0, 2, 0.5, 0.2};
-}
-
-double valueOf(const char* field, const Rings& rings, const std::vector<Moments>& moments,
-               int ring) {
-  const auto value = evaluate(fieldSpec(field), moments[rings.slot(ring)], rings.volume(ring));
-  EXPECT_TRUE(value.has_value()) << field;
-  return value ? value->value : 0.0;
 }
 
 /// Disk 0 in ring 0 and disk 1 in ring 1, on the x axis, pushing on each other with 5 N; disk 1
@@ -116,8 +110,9 @@ TEST(Fields, StressOfAWallDiskOnTheEdgeStaysInTheCell) {
   cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);
   const Rings rings = twoRings();
   const auto moments = test::momentsOf(rings, cell);
-  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::stressRR), 5.0 * 0.3, 1e-15);
-  EXPECT_EQ(at(moments[rings.slot(rings.insideBin())], Moment::stressRR), 0.0);
+  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::stressRR), 5.0 * 0.2, 1e-15);
+  EXPECT_NEAR(at(moments[rings.slot(0)], Moment::wallStressRR), 5.0 * 0.1, 1e-15);
+  EXPECT_EQ(at(moments[rings.slot(rings.insideBin())], Moment::wallStressRR), 0.0);
 }
 
 TEST(Fields, NothingIsLostWithTheOverflowBins) {
@@ -146,8 +141,8 @@ TEST(Fields, NothingIsLostWithTheOverflowBins) {
     EXPECT_GT(overflow, 0.01 * area);  // the scene does reach beyond both walls
     double rebuilt = overflow;         // Σ ν·(ring area) + overflow
     for (int ring = 0; ring < rings.count(); ++ring)
-      rebuilt +=
-          valueOf("volume_fraction", rings, moments, ring) * rings.volume(ring) / rings.height();
+      rebuilt += valueOf("volume_fraction", rings, moments, ring) * rings.ringVolume(ring) /
+                 rings.height();
     EXPECT_NEAR(rebuilt / area, 1.0, 1e-12);
   }
 }
@@ -190,7 +185,7 @@ TEST(Fields, AnEmptyRingHasAVolumeFractionAndNothingElse) {
   const Rings rings = twoRings();
   const auto moments = test::momentsOf(rings, instant);
   for (const FieldSpec& field : fieldTable()) {
-    const auto value = evaluate(field, moments[rings.slot(1)], rings.volume(1));
+    const auto value = evaluate(field, BinView(rings, moments, rings.slot(1), {1.0, 1.0}));
     const bool filling = field.name == "volume_fraction" || field.name == "density";
     EXPECT_EQ(value.has_value(), filling) << field.name;
     if (value) {
@@ -199,36 +194,100 @@ TEST(Fields, AnEmptyRingHasAVolumeFractionAndNothingElse) {
   }
 }
 
-TEST(Fields, GradientsMatchFiniteDifferences) {
+TEST(Fields, SlopesMatchFiniteDifferences) {
   const Rings rings = test::thesisRings();
-  const Moments moments = test::momentsOf(rings, test::randomInstant(5, 500))[rings.slot(7)];
+  const SpringConstants springs{352.1, 267.1};
+  const auto moments = test::momentsOf(rings, test::randomInstant(5, 2000));
+  const std::size_t slot = rings.slot(7);
   for (const FieldSpec& field : fieldTable()) {
-    const auto here = evaluate(field, moments, rings.volume(7));
+    const auto here = evaluate(field, BinView(rings, moments, slot, springs));
     ASSERT_TRUE(here) << field.name;
-    for (const Moment q : field.moments) {
-      const double step = 1e-6 * at(moments, Moment::volume);
-      Moments up = moments, down = moments;
-      at(up, q) += step;
-      at(down, q) -= step;
-      const double slope = (evaluate(field, up, rings.volume(7))->value -
-                            evaluate(field, down, rings.volume(7))->value) /
-                           (2.0 * step);
-      // Central differences: relative truncation 1e-12 and rounding 1e-10 in these units.
-      EXPECT_NEAR(at(here->gradient, q), slope, 1e-6 * std::abs(slope) + 1e-9) << field.name;
-    }
+    Moments slopes[3] = {};  // of the ring and its two neighbours
+    for (const auto& [index, slope] : here->slopes)
+      slopes[index / momentCount - slot + 1][index % momentCount] += slope;
+    for (std::size_t neighbour = 0; neighbour < 3; ++neighbour)
+      for (std::size_t q = 0; q < momentCount; ++q) {
+        // 1e-5 of the moment itself, or of a scale where it is 0.
+        const double step = 1e-5 * std::max(std::abs(moments[slot + neighbour - 1][q]), 1e-9);
+        auto up = moments, down = moments;
+        up[slot + neighbour - 1][q] += step;
+        down[slot + neighbour - 1][q] -= step;
+        const double change = (evaluate(field, BinView(rings, up, slot, springs))->value -
+                               evaluate(field, BinView(rings, down, slot, springs))->value) /
+                              2.0;
+        // Central differences: truncation 1e-10, rounding 1e-16 of the value, per step of 1e-5.
+        EXPECT_NEAR(slopes[neighbour][q] * step, change,
+                    1e-5 * std::abs(change) + 1e-13 * std::abs(here->value))
+            << field.name << " moment " << q;
+      }
   }
 }
 
 TEST(Fields, NamesAreTheContractOfTheCsv) {
-  const std::vector<std::string_view> names = {"volume_fraction",   "azimuthal_velocity",
-                                               "radial_velocity",   "spin",
-                                               "stress_rr",         "stress_pp",
-                                               "stress_rp",         "stress_pr",
-                                               "dynamic_stress_rr", "dynamic_stress_pp",
-                                               "dynamic_stress_rp", "fabric_trace",
-                                               "fabric_deviator",   "fabric_rr",
-                                               "fabric_pp",         "fabric_rp",
-                                               "coordination",      "density"};
+  const std::vector<std::string_view> names = {"volume_fraction",
+                                               "azimuthal_velocity",
+                                               "radial_velocity",
+                                               "spin",
+                                               "stress_rr",
+                                               "stress_pp",
+                                               "stress_rp",
+                                               "stress_pr",
+                                               "dynamic_stress_rr",
+                                               "dynamic_stress_pp",
+                                               "dynamic_stress_rp",
+                                               "fabric_trace",
+                                               "fabric_deviator",
+                                               "fabric_rr",
+                                               "fabric_pp",
+                                               "fabric_rp",
+                                               "coordination",
+                                               "density",
+                                               "fabric_angle",
+                                               "stress_trace",
+                                               "stress_deviator",
+                                               "stress_angle",
+                                               "stress_antisymmetric",
+                                               "fluctuation_stress_rr",
+                                               "fluctuation_stress_pp",
+                                               "fluctuation_stress_rp",
+                                               "rotational_stress",
+                                               "full_stress_rr",
+                                               "full_stress_pp",
+                                               "full_stress_rp",
+                                               "strain_rr",
+                                               "strain_pp",
+                                               "strain_rp",
+                                               "strain_pr",
+                                               "strain_trace",
+                                               "strain_deviator",
+                                               "strain_angle",
+                                               "bulk_modulus",
+                                               "shear_modulus",
+                                               "modulus_ratio",
+                                               "mean_field_modulus",
+                                               "predicted_stress_rr",
+                                               "predicted_stress_pp",
+                                               "predicted_stress_rp",
+                                               "couple_stress_zr",
+                                               "couple_stress_zp",
+                                               "curvature_zr",
+                                               "curvature_zp",
+                                               "torque_resistance",
+                                               "velocity_gradient",
+                                               "shear_rate",
+                                               "continuum_rotation",
+                                               "excess_rotation",
+                                               "contact_cos_2",
+                                               "contact_sin_2",
+                                               "contact_cos_4",
+                                               "contact_sin_4",
+                                               "contact_cos_6",
+                                               "contact_sin_6",
+                                               "contact_amplitude_2",
+                                               "contact_amplitude_4",
+                                               "contact_amplitude_6",
+                                               "contact_axis_4",
+                                               "contact_axis_6"};
   ASSERT_EQ(fieldTable().size(), names.size());
   for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(fieldTable()[k].name, names[k]);
   EXPECT_THROW(fieldSpec("viscosity"), std::invalid_argument);

@@ -1,6 +1,9 @@
 #include "tests/averaging/scenes.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
@@ -44,6 +47,8 @@ Instant randomInstant(std::uint64_t seed, int disks) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::normal_distribution<double> normal;
   Instant instant;
+  instant.scene.law.kn = 352.1;
+  instant.scene.law.kt = 267.1;
   for (int p = 0; p < disks; ++p) {
     const double r = 0.095 + 0.165 * unit(generator);
     const double angle = 2.0 * std::numbers::pi * unit(generator);
@@ -71,11 +76,31 @@ Instant randomInstant(std::uint64_t seed, int disks) {
   return instant;
 }
 
-std::vector<Moments> momentsOf(const Rings& rings, const Instant& instant, WeightMethod method,
-                               bool countWallDisks) {
+std::vector<Moments> momentsOf(const Coordinates& coordinates, const Instant& instant,
+                               Weight weight, bool countWallDisks) {
+  // The sums keep what they share; here the caller's coordinates outlive them.
+  const std::shared_ptr<const Coordinates> borrowed(&coordinates, [](const Coordinates*) {});
   std::vector<std::vector<Moments>> sums;
-  MomentSums(rings, instant.scene, countWallDisks).compute(instant.snapshot, {method}, sums);
+  MomentSums(borrowed, {weight}, instant.scene, countWallDisks).compute(instant.snapshot, sums);
   return sums[0];
+}
+
+double fieldIn(std::size_t slot, const char* field, const Coordinates& coordinates,
+               const std::vector<Moments>& moments, SpringConstants springs) {
+  const auto value = evaluate(fieldSpec(field), BinView(coordinates, moments, slot, springs));
+  EXPECT_TRUE(value.has_value()) << field;
+  return value ? value->value : std::nan("");
+}
+
+double valueOf(const char* field, const Rings& rings, const std::vector<Moments>& moments, int ring,
+               SpringConstants springs) {
+  return fieldIn(rings.slot(ring), field, rings, moments, springs);
+}
+
+double total(const std::vector<Moments>& moments, Moment which) {
+  double sum = 0.0;
+  for (const Moments& bin : moments) sum += at(bin, which);
+  return sum;
 }
 
 }  // namespace crossgrain::test

@@ -5,6 +5,7 @@
 
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
+#include "averaging/fields.hpp"
 #include "averaging/moments.hpp"
 #include "averaging/rings.hpp"
 #include "averaging/weights.hpp"
@@ -31,9 +32,19 @@ struct Instant {
 /// contacts (disk with disk, disk with a wall body of two wall disks). No mechanics: only sums.
 Instant randomInstant(std::uint64_t seed, int disks);
 
-/// The moments under one method.
-std::vector<Moments> momentsOf(const Rings& rings, const Instant& instant,
-                               WeightMethod method = WeightMethod::slicing,
-                               bool countWallDisks = false);
+/// The moments under one weight, per slot.
+std::vector<Moments> momentsOf(const Coordinates& coordinates, const Instant& instant,
+                               Weight weight = WeightMethod::slicing, bool countWallDisks = false);
+
+/// A field in one slot; a failure, and NaN, where it is absent.
+double fieldIn(std::size_t slot, const char* field, const Coordinates& coordinates,
+               const std::vector<Moments>& moments, SpringConstants springs = {});
+
+/// The same in ring k of rings.
+double valueOf(const char* field, const Rings& rings, const std::vector<Moments>& moments, int ring,
+               SpringConstants springs = {});
+
+/// Σ over all slots of one moment
+double total(const std::vector<Moments>& moments, Moment which);
 
 }  // namespace crossgrain::test

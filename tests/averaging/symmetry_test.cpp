@@ -12,8 +12,11 @@ namespace {
 
 using test::Instant;
 
-const std::vector<WeightMethod> allMethods = {WeightMethod::slicing, WeightMethod::straightCut,
-                                              WeightMethod::centre};
+const std::vector<Weight> allWeights = {WeightMethod::slicing,
+                                        WeightMethod::straightCut,
+                                        WeightMethod::centre,
+                                        {WeightMethod::lineGaussian, 0.003},
+                                        {WeightMethod::lineHeaviside, 0.003}};
 
 Eigen::Matrix2d turn(double angle) {
   return Eigen::Rotation2Dd(angle).toRotationMatrix();
@@ -33,7 +36,7 @@ Instant mapped(const Instant& instant, const Eigen::Matrix2d& map) {
 }
 
 std::vector<Profile> profilesOf(const Instant& instant) {
-  ProfileAccumulator accumulator(test::thesisRings(), allMethods, instant.scene);
+  ProfileAccumulator accumulator(test::thesisRings(), allWeights, instant.scene);
   accumulator.add(instant.snapshot);
   return accumulator.profiles();
 }
@@ -60,9 +63,33 @@ TEST(Symmetry, RotationChangesNothing) {
 TEST(Symmetry, ReflectionFlipsWhatHasOneAzimuthalIndex) {
   const Instant instant = test::randomInstant(7, 3000);
   const Eigen::Matrix2d mirror = Eigen::Vector2d(1.0, -1.0).asDiagonal();
-  expectSame(
-      profilesOf(instant), profilesOf(mapped(instant, mirror)),
-      {"azimuthal_velocity", "spin", "stress_rp", "stress_pr", "dynamic_stress_rp", "fabric_rp"});
+  expectSame(profilesOf(instant), profilesOf(mapped(instant, mirror)),
+             {"azimuthal_velocity",
+              "spin",
+              "stress_rp",
+              "stress_pr",
+              "dynamic_stress_rp",
+              "fabric_rp",
+              "fabric_angle",
+              "stress_angle",
+              "stress_antisymmetric",
+              "fluctuation_stress_rp",
+              "full_stress_rp",
+              "strain_rp",
+              "strain_pr",
+              "strain_angle",
+              "predicted_stress_rp",
+              "couple_stress_zr",
+              "curvature_zr",
+              "velocity_gradient",
+              "shear_rate",
+              "continuum_rotation",
+              "excess_rotation",
+              "contact_sin_2",
+              "contact_sin_4",
+              "contact_sin_6",
+              "contact_axis_4",
+              "contact_axis_6"});
 }
 
 TEST(Symmetry, TheOrderOfAPairDoesNotMatter) {

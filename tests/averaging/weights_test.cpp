@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "averaging/areas.hpp"
 #include "averaging/rings.hpp"
 #include "tests/averaging/scenes.hpp"
 
@@ -49,15 +50,23 @@ double areaByQuadrature(double r, double a, double R) {
   return area;
 }
 
-double sumOf(const BinWeights& weights) {
-  return std::accumulate(weights.fraction.begin(), weights.fraction.end(), 0.0);
+/// The weights of a disk on the x axis.
+Shares sharesOf(const Rings& rings, Weight weight, double r, double a) {
+  return Sharing(rings, weight).ofDisk({r, 0.0}, a);
 }
 
-/// The fraction in one bin, 0 if the weights do not reach it.
-double fractionIn(const BinWeights& weights, int bin) {
-  const int k = bin - weights.first;
-  const bool reached = k >= 0 && k < static_cast<int>(weights.fraction.size());
-  return reached ? weights.fraction[static_cast<std::size_t>(k)] : 0.0;
+double sumOf(const Shares& shares) {
+  double sum = 0.0;
+  for (const Share& share : shares) sum += share.fraction;
+  return sum;
+}
+
+/// The fraction in one ring, or overflow bin.
+double fractionIn(const Rings& rings, const Shares& shares, int bin) {
+  double sum = 0.0;
+  for (const Share& share : shares)
+    if (share.slot == rings.slot(bin)) sum += share.fraction;
+  return sum;
 }
 
 TEST(Rings, EdgesVolumesAndCoordinate) {
@@ -68,9 +77,9 @@ TEST(Rings, EdgesVolumesAndCoordinate) {
   EXPECT_DOUBLE_EQ(rings.centre(1), 0.175);
   EXPECT_DOUBLE_EQ(rings.rTilde(1), 3.75);
   // 2π r Δr h, the thesis' form, is the same number.
-  EXPECT_NEAR(rings.volume(1), 2.0 * pi * 0.175 * 0.05 * 0.5, 1e-16);
+  EXPECT_NEAR(rings.ringVolume(1), 2.0 * pi * 0.175 * 0.05 * 0.5, 1e-16);
   double whole = 0.0;
-  for (int k = 0; k < 4; ++k) whole += rings.volume(k);
+  for (int k = 0; k < 4; ++k) whole += rings.ringVolume(k);
   EXPECT_NEAR(whole, pi * (0.09 - 0.01) * 0.5, 1e-15);
 }
 
@@ -92,8 +101,7 @@ TEST(Rings, RefusesWhatIsNoRing) {
 }
 
 TEST(Weights, NamesGoBothWays) {
-  for (const char* name : {"slicing", "straight_cut", "centre"})
-    EXPECT_EQ(toString(weightMethod(name)), name);
+  for (const std::string_view name : weightNames) EXPECT_EQ(toString(weightMethod(name)), name);
   EXPECT_THROW(weightMethod("slices"), std::invalid_argument);
 }
 
@@ -140,20 +148,20 @@ TEST(CommonArea, RisesWithTheRadius) {
 TEST(Weights, AddUpToOneForEveryMethod) {
   std::mt19937_64 generator(2);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  BinWeights weights;
   for (const int count : {1, 20, 150}) {
     const Rings rings = test::thesisRings(count);
-    for (int k = 0; k < 3000; ++k) {
+    for (int k = 0; k < 1000; ++k) {
       const double r = 0.3 * unit(generator);
       const double a = 0.06 * unit(generator) + 1e-6;
       for (const auto method :
-           {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre}) {
-        binWeights(rings, method, r, a, weights);
-        EXPECT_NEAR(sumOf(weights), 1.0, 1e-14);
-        EXPECT_GE(weights.first, rings.insideBin());
-        EXPECT_LE(weights.first + static_cast<int>(weights.fraction.size()) - 1,
-                  rings.outsideBin());
-        for (const double w : weights.fraction) EXPECT_GE(w, 0.0);
+           {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre,
+            WeightMethod::lineGaussian, WeightMethod::lineHeaviside}) {
+        const Shares shares = sharesOf(rings, {method, 0.003}, r, a);
+        EXPECT_NEAR(sumOf(shares), 1.0, 1e-14);
+        for (const Share& share : shares) {
+          EXPECT_GE(share.fraction, 0.0);
+          EXPECT_LT(share.slot, rings.slots());
+        }
       }
     }
   }
@@ -161,40 +169,37 @@ TEST(Weights, AddUpToOneForEveryMethod) {
 
 TEST(Weights, DiskCutByThreeRings) {
   const Rings rings(0.1, 0.2, 10, 0.006, 0.0074);
-  BinWeights weights;
-  binWeights(rings, WeightMethod::slicing, 0.145, 0.012, weights);  // covers 0.133 … 0.157
-  ASSERT_EQ(weights.first, 3);
-  ASSERT_EQ(weights.fraction.size(), 3u);
+  const Shares weights =
+      sharesOf(rings, WeightMethod::slicing, 0.145, 0.012);  // covers 0.133 … 0.157
+  ASSERT_EQ(weights.size(), 3u);
   const double disk = pi * 0.012 * 0.012;
   const double upTo14 = areaByQuadrature(0.145, 0.012, 0.14);
   const double upTo15 = areaByQuadrature(0.145, 0.012, 0.15);
-  EXPECT_NEAR(weights.fraction[0], upTo14 / disk, 1e-10);
-  EXPECT_NEAR(weights.fraction[1], (upTo15 - upTo14) / disk, 1e-10);
-  EXPECT_NEAR(weights.fraction[2], 1.0 - upTo15 / disk, 1e-10);
+  EXPECT_NEAR(fractionIn(rings, weights, 3), upTo14 / disk, 1e-10);
+  EXPECT_NEAR(fractionIn(rings, weights, 4), (upTo15 - upTo14) / disk, 1e-10);
+  EXPECT_NEAR(fractionIn(rings, weights, 5), 1.0 - upTo15 / disk, 1e-10);
 }
 
 TEST(Weights, RingsInsideOneDisk) {
   // The disk reaches over the origin: the wheel's hole and the first rings lie inside it whole.
   const Rings rings(0.01, 0.05, 4, 0.006, 0.0074);
-  BinWeights weights;
-  binWeights(rings, WeightMethod::slicing, 0.005, 0.04, weights);
+  const Shares weights = sharesOf(rings, WeightMethod::slicing, 0.005, 0.04);
   const double disk = 0.04 * 0.04;
-  EXPECT_NEAR(fractionIn(weights, -1), 0.01 * 0.01 / disk, 1e-15);
-  EXPECT_NEAR(fractionIn(weights, 0), (0.02 * 0.02 - 0.01 * 0.01) / disk, 1e-15);
-  EXPECT_NEAR(fractionIn(weights, 1), (0.03 * 0.03 - 0.02 * 0.02) / disk, 1e-15);
+  EXPECT_NEAR(fractionIn(rings, weights, -1), 0.01 * 0.01 / disk, 1e-15);
+  EXPECT_NEAR(fractionIn(rings, weights, 0), (0.02 * 0.02 - 0.01 * 0.01) / disk, 1e-15);
+  EXPECT_NEAR(fractionIn(rings, weights, 1), (0.03 * 0.03 - 0.02 * 0.02) / disk, 1e-15);
   EXPECT_NEAR(sumOf(weights), 1.0, 1e-15);
 }
 
 TEST(Weights, HalfADiskOnTheWallLiesOutside) {
   // Centre on R_i: a straight edge would halve it, the curved one leaves a little more outside R_i.
   const Rings rings = test::thesisRings();
-  BinWeights weights;
-  binWeights(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125, weights);
-  EXPECT_NEAR(fractionIn(weights, -1), 0.5, 1e-13);
-  binWeights(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125, weights);
+  const Shares straight = sharesOf(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125);
+  EXPECT_NEAR(fractionIn(rings, straight, -1), 0.5, 1e-13);
+  const Shares weights = sharesOf(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125);
   // The arc bends away from its tangent at the centre by y²/2R; over −a … a that is a³/3R of πa².
   const double cap = 0.00125 / (3.0 * pi * rings.innerRadius());
-  EXPECT_NEAR(0.5 - fractionIn(weights, -1), cap, 0.02 * cap);
+  EXPECT_NEAR(0.5 - fractionIn(rings, weights, -1), cap, 0.02 * cap);
 }
 
 TEST(Weights, StraightCutIsTheFormulaOfTheThesis) {
@@ -205,24 +210,23 @@ TEST(Weights, StraightCutIsTheFormulaOfTheThesis) {
   const double phiOuter = std::acos((rings.edge(6) - r) / a);
   const double slice = pi - phiInner + std::sin(phiInner) * std::cos(phiInner) - phiOuter +
                        std::sin(phiOuter) * std::cos(phiOuter);
-  BinWeights weights;
-  binWeights(rings, WeightMethod::straightCut, r, a, weights);
-  EXPECT_NEAR(fractionIn(weights, 5), slice / pi, 1e-14);
+  const Shares weights = sharesOf(rings, WeightMethod::straightCut, r, a);
+  EXPECT_NEAR(fractionIn(rings, weights, 5), slice / pi, 1e-14);
 }
 
 TEST(Weights, StraightCutIsWithinOnePerCentInTheThesisCell) {
   // Lätzel 2003, section 5.2: "well below one per-cent in all situations considered here".
   const Rings rings = test::thesisRings(20);
-  BinWeights exact, straight;
   double worst = 0.0;
   for (const double a : {0.0037, 0.004495})
     for (int k = 0; k <= 4000; ++k) {
       const double r = rings.innerRadius() + a +
                        (rings.outerRadius() - rings.innerRadius() - 2.0 * a) * k / 4000;
-      binWeights(rings, WeightMethod::slicing, r, a, exact);
-      binWeights(rings, WeightMethod::straightCut, r, a, straight);
+      const Shares exact = sharesOf(rings, WeightMethod::slicing, r, a);
+      const Shares straight = sharesOf(rings, WeightMethod::straightCut, r, a);
       for (int bin = -1; bin <= rings.count(); ++bin)
-        worst = std::max(worst, std::abs(fractionIn(exact, bin) - fractionIn(straight, bin)));
+        worst = std::max(
+            worst, std::abs(fractionIn(rings, exact, bin) - fractionIn(rings, straight, bin)));
     }
   RecordProperty("worst_fraction", std::to_string(worst));
   EXPECT_LT(worst, 0.01);

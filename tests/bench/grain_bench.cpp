@@ -6,8 +6,8 @@
 #include <chrono>
 #include <map>
 
-#include "cases/preparation.hpp"
 #include "tests/bench/packings.hpp"
+#include "tests/bench/packings_option.hpp"
 #include "tests/bench/stream.hpp"
 #include "tests/bench/traffic.hpp"
 
@@ -194,24 +194,11 @@ void registerAll() {
   }
 }
 
-/// Takes --packings=DIR out of the arguments.
-void readFolder(int& argc, char** argv) {
-  packingFolder = packingCacheFile("").parent_path();
-  constexpr std::string_view option = "--packings=";
-  for (int k = 1; k < argc; ++k) {
-    if (!std::string_view(argv[k]).starts_with(option)) continue;
-    packingFolder = std::string_view(argv[k]).substr(option.size());
-    std::move(argv + k + 1, argv + argc, argv + k);
-    --argc;
-    return;
-  }
-}
-
 }  // namespace
 }  // namespace crossgrain::bench
 
 int main(int argc, char** argv) {
-  crossgrain::bench::readFolder(argc, argv);
+  crossgrain::bench::packingFolder = crossgrain::bench::takePackingFolder(argc, argv);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   crossgrain::bench::registerAll();

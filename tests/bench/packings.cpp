@@ -202,14 +202,18 @@ Case scaledCase(std::size_t disks) {
   return setup;
 }
 
-grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder) {
+Packing packed(std::size_t disks, const std::filesystem::path& folder) {
   const Case setup = scaledCase(disks);
   const std::filesystem::path file = folder / fmt::format("bench-packing-1-{}.h5", disks);
   if (!std::filesystem::exists(file)) {
     fmt::print(stderr, "preparing {} disks, kept in {}\n", disks, file.string());
     writePacking(makePacking(setup, disks), file);
   }
-  return grainSetup(setup, readPacking(file, setup));
+  return readPacking(file, setup);
+}
+
+grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder) {
+  return grainSetup(scaledCase(disks), packed(disks, folder));
 }
 
 }  // namespace crossgrain::bench

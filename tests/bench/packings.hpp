@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cases/case.hpp"
+#include "cases/packing.hpp"
 #include "engines/grain/simulation.hpp"
 
 namespace crossgrain::bench {
@@ -24,6 +25,9 @@ Case scaledCase(std::size_t disks);
 /// Unlike a real packing it has no shear band, no chains of force that shear built up and next to
 /// no motion in the bulk, so the list of neighbours is rebuilt for the disks at the wheel alone.
 /// README.md has the contacts per disk of both.
+Packing packed(std::size_t disks, const std::filesystem::path& folder);
+
+/// The same as a scene of the in-house engine.
 grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder);
 
 }  // namespace crossgrain::bench

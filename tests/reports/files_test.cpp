@@ -107,8 +107,8 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
                            "\"crossgrain-results-1\"");
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
   EXPECT_EQ(message(), file +
-                           ": has kind \"dance\", a report is made of \"compare\", "
-                           "\"collide\" or \"effects\"");
+                           ": has kind \"dance\", a report is made of one of \"compare\", "
+                           "\"collide\", \"effects\", \"rev\"");
 }
 
 }  // namespace

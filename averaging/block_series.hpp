@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace crossgrain {
+
+/// A long time series of many numbers at a time in bounded memory: sums over blocks of equal
+/// length. When all blocks are full, pairs are merged and blocks get twice as long.
+///
+/// What the error of a mean needs survives the merging. Its variance is that of the block means
+/// over their number, times twice their correlation time; blocks shorter than the correlation time
+/// keep it visible, longer ones are independent, and both give the same error. Samples after the
+/// last whole block, less than 1/256 of the series, count in the mean and not in the error. The
+/// number of independent samples cannot come out larger than the number of blocks.
+class BlockSeries {
+ public:
+  static constexpr std::size_t mostBlocks = 512;
+
+  /// @param width numbers per sample
+  explicit BlockSeries(std::size_t width) : width_(width), partial_(width, 0.0) {}
+
+  /// @pre sample has `width` numbers
+  void add(std::span<const double> sample);
+
+  std::size_t samples() const { return blocks() * blockLength_ + inPartial_; }
+  std::size_t blocks() const { return width_ == 0 ? 0 : sums_.size() / width_; }
+  std::size_t blockLength() const { return blockLength_; }
+
+  /// Mean of one block. @pre block < blocks()
+  double blockMean(std::size_t block, std::size_t column) const {
+    return sums_[block * width_ + column] / static_cast<double>(blockLength_);
+  }
+
+  /// Means over all samples. @pre samples() > 0
+  std::vector<double> means() const;
+
+ private:
+  void mergePairs();
+
+  std::size_t width_;
+  std::size_t blockLength_ = 1;
+  std::size_t inPartial_ = 0;
+  std::vector<double> partial_;
+  std::vector<double> sums_;  ///< block by block
+};
+
+}  // namespace crossgrain

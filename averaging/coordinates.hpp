@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "adapters/vec2.hpp"
+
+namespace crossgrain {
+
+/// The part of something that one bin gets.
+struct Share {
+  std::size_t slot;
+  double fraction;
+};
+using Shares = std::vector<Share>;
+
+/// How a bin's edges cut a disc: as they are, or straightened (Lätzel 2003, Eq. 5.4).
+enum class Edges { exact, straight };
+
+/// ∂/∂x₁ at a bin as a sum over bins, Σ fraction · field [1/m], and the bin's radius of curvature.
+struct Slope {
+  Shares terms;
+  double radius;  ///< r of a ring's centre [m]
+};
+
+/// Where averages are taken: bins, and two directions at every point. Weights and fields know no
+/// more than this, so a new coordinate is a class of its own.
+///
+/// Bins are places ("slots") in an array. Some are overflow: with them nothing is lost, sums over
+/// all slots are sums over all disks.
+class Coordinates {
+ public:
+  virtual ~Coordinates() = default;
+
+  virtual std::size_t slots() const = 0;
+  virtual bool isOverflow(std::size_t slot) const = 0;
+
+  /// h of the disks, normal to the plane [m]
+  virtual double height() const = 0;
+  /// Of a bin that is no overflow [m³]
+  virtual double volume(std::size_t slot) const = 0;
+
+  virtual std::size_t slotAt(const Vec2& x) const = 0;
+
+  /// Unit vector along the first direction at x, e_r for rings. The second is z × it.
+  virtual Vec2 firstDirection(const Vec2& x) const = 0;
+
+  /// The area fractions of a disc of radius a [m] about x, in rising order of slots; they add up
+  /// to 1. Whatever was in `shares` is dropped.
+  virtual void discShares(const Vec2& x, double a, Edges edges, Shares& shares) const = 0;
+
+  /// Absent where the coordinate has no derivative to offer.
+  virtual std::optional<Slope> slope(std::size_t slot) const = 0;
+};
+
+}  // namespace crossgrain

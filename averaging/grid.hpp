@@ -1,0 +1,34 @@
+#pragma once
+
+#include "averaging/coordinates.hpp"
+
+namespace crossgrain {
+
+/// A Cartesian grid of nx × ny equal cells; directions are x and y everywhere. One cell over
+/// everything gives whole-cell averages. Slot 0 is the overflow, cell (i, j) is slot 1 + i + nx j.
+class Grid : public Coordinates {
+ public:
+  /// @param low, high  corners [m]  @param height h of the disks [m]
+  /// @throws std::invalid_argument naming the value that is out of range
+  Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height);
+
+  std::size_t slot(int i, int j) const { return static_cast<std::size_t>(1 + i + nx_ * j); }
+
+  std::size_t slots() const override { return static_cast<std::size_t>(nx_ * ny_) + 1; }
+  bool isOverflow(std::size_t slot) const override { return slot == 0; }
+  double height() const override { return height_; }
+  double volume(std::size_t) const override { return cell_.prod() * height_; }
+  std::size_t slotAt(const Vec2& x) const override;
+  Vec2 firstDirection(const Vec2&) const override { return Vec2::UnitX(); }
+  /// Straight edges are exact here: both kinds of cut are one.
+  void discShares(const Vec2& x, double a, Edges edges, Shares& shares) const override;
+  /// Absent: a gradient in the plane needs both directions, and fields know but the first.
+  std::optional<Slope> slope(std::size_t) const override { return std::nullopt; }
+
+ private:
+  Vec2 low_, cell_;
+  int nx_, ny_;
+  double height_;
+};
+
+}  // namespace crossgrain

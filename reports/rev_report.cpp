@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "reports/csv.hpp"
+#include "reports/figures.hpp"
+#include "reports/labels.hpp"
+#include "reports/numbers.hpp"
+#include "reports/page.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+struct MethodStyle {
+  std::string_view name;
+  LineStyle style;
+};
+
+/// Okabe and Ito 2008
+const std::array<MethodStyle, 5>& methodStyles() {
+  static const std::array<MethodStyle, 5> styles = {{{"slicing", {"#000000", 7, false}},
+                                                     {"straight_cut", {"#56b4e9", 5, true}},
+                                                     {"centre", {"#d55e00", 9, false}},
+                                                     {"line_gaussian", {"#009e73", 11, false}},
+                                                     {"line_heaviside", {"#cc79a7", 13, true}}}};
+  return styles;
+}
+
+/// The fields that are drawn; the table and the CSV file have all.
+constexpr std::array<std::pair<const char*, const char*>, 6> drawnFields = {
+    {{"volume_fraction", "ν"},
+     {"azimuthal_velocity", "v_{φ} [m/s]"},
+     {"spin", "S [rad/s]"},
+     {"fabric_trace", "tr F"},
+     {"stress_rr", "σ_{rr} [N/m^{2}]"},
+     {"stress_pr", "σ_{φr} [N/m^{2}]"}}};
+
+Curve drawnCurve(const Json& curve, const MethodStyle& method) {
+  Curve drawn{spaced(method.name), method.style, Draw::linesAndPoints, {}, 1.2};
+  for (std::size_t k = 0; k < list(curve, "width").size(); ++k) {
+    const auto width = number(list(curve, "width")[k]);
+    const auto mean = number(element(list(curve, "mean"), k));
+    if (width && mean) drawn.points.push_back({*width, *mean, {}});
+  }
+  return drawn;
+}
+
+Figure fieldFigure(const Json& results, const std::string& field, const std::string& label) {
+  std::set<double> radii;
+  for (const Json& curve : list(results, "curves"))
+    if (const auto r = number(curve, "r")) radii.insert(*r);
+  Figure figure{fmt::format("rev_{}", field),
+                fmt::format("{} against ring width", spaced(field)),
+                fmt::format("{}: rings of width Δr about each radius.", spaced(field)),
+                {},
+                2};
+  for (const double r : radii) {
+    Panel panel;
+    panel.title = fmt::format("r = {:.4g} m", r);
+    panel.xLabel = "Δr / d";
+    panel.yLabel = label;
+    panel.logX = true;
+    for (const MethodStyle& method : methodStyles())
+      for (const Json& curve : list(results, "curves"))
+        if (text(curve, "field") == field && text(curve, "method") == method.name &&
+            number(curve, "r") == r)
+          panel.curves.push_back(drawnCurve(curve, method));
+    panel.key = figure.panels.empty() ? Key::outside : Key::none;
+    if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::string percent(std::optional<double> fraction) {
+  return fraction ? fmt::format("{:.2g}", 100.0 * *fraction) : absentText;
+}
+
+/// A row per field: where centre and line averages come closest to slicing near d and 2 d.
+Json meetingRows(const Json& results) {
+  Json rows = Json::array();
+  for (const auto& [field, label] : drawnFields) {
+    Json cells = Json::array();
+    for (const char* method : {"centre", "line_gaussian", "line_heaviside"})
+      for (const double near : {1.0, 2.0})
+        for (const Json& row : list(results, "meetings"))
+          if (text(row, "field") == field && text(row, "method") == method &&
+              number(row, "near") == near)
+            cells.push_back(fmt::format("{:.2f} ({} %)", number(row, "width").value_or(0.0),
+                                        percent(number(row, "difference"))));
+    if (!cells.empty()) rows.push_back({{"field", fieldLabel(field)}, {"cells", cells}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Figure> revFigures(const Json& results) {
+  std::vector<Figure> figures;
+  for (const auto& [field, label] : drawnFields)
+    if (Figure figure = fieldFigure(results, field, label); !figure.panels.empty())
+      figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::string revPage(const Json& results, const Illustrations& shown) {
+  Json view = commonView(results, shown);
+  const Json& averaging = member(results, "averaging");
+  view["lead"] =
+      fmt::format("{} snapshots of {}, averaged in rings of widths from d/10 to 4 d.",
+                  readableCount(number(averaging, "snapshots")), text(results, "engine"));
+  view["sentences"] = {fmt::format("Kernels of the line methods have the width w = {} d.",
+                                   readableSetting(number(averaging, "line_width")))};
+  view["figures"] = figureViews(shown, "rev_");
+  view["meetings"] = meetingRows(results);
+  view["files"] =
+      "Beside this page: results.json (everything), rev.csv (every field, weight and width) and "
+      "rev_meetings.csv.";
+  return render("report_rev.html", view);
+}
+
+}  // namespace crossgrain::reports

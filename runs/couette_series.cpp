@@ -1,0 +1,26 @@
+#include "runs/couette_series.hpp"
+
+#include "averaging/global.hpp"
+#include "cases/couette.hpp"
+#include "runs/records.hpp"
+
+namespace crossgrain {
+
+void CouetteSeries::add(const Snapshot& now) {
+  const GlobalNumbers numbers = globalNumbers(scene_, now);
+  rows_["t_s"].push_back(now.positionTime);
+  rows_["wheel_torque"].push_back(toJson(drivingTorque(scene_, now, wheelName)));
+  // Snapshots of another source may lack the walls: no disks of a ring, no pressure on it.
+  const auto pressure =
+      now.wallPosition.empty()
+          ? std::nullopt
+          : radialPressure(scene_, now, ringName, setup_.cell.outerRadius, setup_.cell.height);
+  rows_["outer_pressure"].push_back(toJson(pressure));
+  rows_["kinetic_energy"].push_back(numbers.kineticEnergy);
+  rows_["coordination"].push_back(toJson(numbers.coordination));
+  rows_["max_overlap"].push_back(toJson(numbers.maxOverlap));
+  rows_["mean_overlap"].push_back(toJson(numbers.meanOverlap));
+  rows_["sliding_fraction"].push_back(toJson(numbers.slidingFraction));
+}
+
+}  // namespace crossgrain

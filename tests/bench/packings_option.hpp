@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+
+#include "cases/preparation.hpp"
+
+namespace crossgrain::bench {
+
+/// Takes --packings=DIR out of a benchmark's arguments: where packings are kept, else the folder of
+/// the harness' own.
+inline std::filesystem::path takePackingFolder(int& argc, char** argv) {
+  constexpr std::string_view option = "--packings=";
+  for (int k = 1; k < argc; ++k) {
+    if (!std::string_view(argv[k]).starts_with(option)) continue;
+    const std::filesystem::path folder = std::string_view(argv[k]).substr(option.size());
+    std::move(argv + k + 1, argv + argc, argv + k);
+    --argc;
+    return folder;
+  }
+  return packingCacheFile("").parent_path();
+}
+
+}  // namespace crossgrain::bench
