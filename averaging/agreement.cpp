@@ -14,6 +14,7 @@ namespace {
 
 constexpr int fewestPackings = 4;
 constexpr int mostPackings = 10000;
+constexpr double longestRuns = 1000.0;
 
 /// t of the upper tail `level`, P − 1 degrees of freedom.
 double upperQuantile(double level, int packings) {
@@ -50,6 +51,32 @@ double pWithin(double difference, double standardError, double margin, int packi
   return std::min(p, 1.0);
 }
 
+/// The smallest |difference| that pWithin() puts at the level or below. One tail of the two alone
+/// bounds it from below, both tails alike from above.
+double criticalDifference(double standardError, double margin, double level, int packings) {
+  double low = margin + upperQuantile(level, packings) * standardError;
+  double high = margin + upperQuantile(0.5 * level, packings) * standardError;
+  for (int k = 0; k < 12; ++k) {
+    const double middle = 0.5 * (low + high);
+    (pWithin(middle, standardError, margin, packings) <= level ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Share of the differences' variance that stems from the runs' finite length.
+std::optional<double> withinShareOf(const PairedSample& sample, const EnsembleMean& mean) {
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& variance : sample.withinVariance)
+    if (variance) {
+      sum += *variance;
+      ++count;
+    }
+  const double all = *mean.standardError * *mean.standardError * mean.packings;
+  if (count == 0 || all == 0.0) return std::nullopt;
+  return std::min(sum / count / all, 1.0);
+}
+
 PairedComparison describe(const PairedSample& sample, double alpha) {
   const std::vector<double> differences = pairedDifferences(sample);
   PairedComparison result;
@@ -63,6 +90,7 @@ PairedComparison describe(const PairedSample& sample, double alpha) {
   const double half = upperQuantile(alpha, result.packings) * *result.standardError;
   result.low = result.difference - half;
   result.high = result.difference + half;
+  result.withinShare = withinShareOf(sample, *mean);
   if (result.packings >= fewestPackings)
     result.pDisagree =
         pWithin(result.difference, *result.standardError, sample.margin, result.packings);
@@ -83,18 +111,25 @@ std::size_t adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
   return tests.size();
 }
 
-/// Packings beyond P until the interval at `level` fits into the room between mean and margin, if
-/// mean and scatter stay as they are.
-std::optional<int> packingsWanted(const PairedComparison& c, double margin, double alpha,
-                                  std::size_t tests) {
-  const int atLeast = std::max(fewestPackings - c.packings, 0);
-  if (!c.standardError) return atLeast;
-  const double room = std::abs(margin - std::abs(c.difference));
+/// What a comparison lacks for a verdict if mean and scatter stay as they are: the interval at
+/// `level` must fit into the room between mean and margin.
+struct Lacking {
+  double room;
+  double level;
+};
+
+Lacking lacking(const PairedComparison& c, double margin, double alpha, std::size_t tests) {
   const bool couldAgree = std::abs(c.difference) < margin;
-  const double level =
-      couldAgree ? alpha : alpha / static_cast<double>(std::max(tests, std::size_t{1}));
+  return {std::abs(margin - std::abs(c.difference)),
+          couldAgree ? alpha : alpha / static_cast<double>(std::max(tests, std::size_t{1}))};
+}
+
+std::optional<int> packingsWanted(const PairedComparison& c, const Lacking& lack) {
+  if (!c.standardError) return std::max(fewestPackings - c.packings, 0);
   const double sd = *c.standardError * std::sqrt(c.packings);
-  const auto fits = [&](int n) { return upperQuantile(level, n) * sd / std::sqrt(n) <= room; };
+  const auto fits = [&](int n) {
+    return upperQuantile(lack.level, n) * sd / std::sqrt(n) <= lack.room;
+  };
   if (!fits(mostPackings)) return std::nullopt;
   int tooFew = std::max(c.packings, fewestPackings) - 1;
   int enough = mostPackings;
@@ -103,6 +138,15 @@ std::optional<int> packingsWanted(const PairedComparison& c, double margin, doub
     (fits(middle) ? enough : tooFew) = middle;
   }
   return std::max(enough - c.packings, 1);
+}
+
+/// se²(1 − w + w/R) = (room/t)² solved for R.
+std::optional<double> longerRunsWanted(const PairedComparison& c, const Lacking& lack) {
+  if (c.packings < fewestPackings || !c.withinShare) return std::nullopt;
+  const double ratio = lack.room / upperQuantile(lack.level, c.packings) / *c.standardError;
+  const double left = ratio * ratio - (1.0 - *c.withinShare);
+  if (!(left * longestRuns > *c.withinShare)) return std::nullopt;
+  return std::max(*c.withinShare / left, 1.0);
 }
 
 }  // namespace
@@ -150,10 +194,41 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
       c.verdict = Verdict::agree;
     else if (c.pDisagree && *c.pDisagree <= alpha)
       c.verdict = Verdict::disagree;
-    else
-      c.morePackings = packingsWanted(c, margin, alpha, tests);
+    else {
+      const Lacking lack = lacking(c, margin, alpha, tests);
+      c.morePackings = packingsWanted(c, lack);
+      c.longerRuns = longerRunsWanted(c, lack);
+    }
   }
   return result;
+}
+
+std::optional<double> smallestDetectable(double standardError, int packings, double margin,
+                                         double level, double power) {
+  if (packings < fewestPackings) return std::nullopt;
+  if (standardError == 0.0) return margin;
+  // Equally likely values of the sample's standard error, and what is significant with each.
+  constexpr int quantiles = 50;
+  const double dof = packings - 1;
+  std::vector<double> critical;
+  for (int k = 0; k < quantiles; ++k)
+    critical.push_back(criticalDifference(
+        standardError * std::sqrt(gsl_cdf_chisq_Pinv((k + 0.5) / quantiles, dof) / dof), margin,
+        level, packings));
+  const auto detected = [&](double truth) {
+    double sum = 0.0;
+    for (const double bound : critical)
+      sum += gsl_cdf_ugaussian_P((truth - bound) / standardError) +
+             gsl_cdf_ugaussian_P((-truth - bound) / standardError);
+    return sum / quantiles;
+  };
+  double low = margin;
+  double high = critical.back() + 5.0 * standardError;
+  for (int k = 0; k < 30; ++k) {
+    const double middle = 0.5 * (low + high);
+    (detected(middle) >= power ? high : low) = middle;
+  }
+  return high;
 }
 
 std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
@@ -165,8 +240,9 @@ std::optional<double> smallestSignificant(double standardError, int packings, st
 
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {
   FieldVerdict result;
-  bool telling = true;
+  bool telling = true, lengthTelling = true;
   int most = 0;
+  double longest = 1.0;
   for (const auto& ring : rings) {
     if (!ring) continue;
     ++result.compared;
@@ -175,13 +251,17 @@ FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings
     if (ring->verdict != Verdict::undecided) continue;
     telling = telling && ring->morePackings;
     most = std::max(most, ring->morePackings.value_or(0));
+    lengthTelling = lengthTelling && ring->longerRuns;
+    longest = std::max(longest, ring->longerRuns.value_or(1.0));
   }
   if (result.disagreeing > 0)
     result.verdict = Verdict::disagree;
   else if (result.compared > 0 && result.agreeing == result.compared)
     result.verdict = Verdict::agree;
-  else if (result.compared > 0 && telling)
-    result.morePackings = most;
+  else if (result.compared > 0) {
+    if (telling) result.morePackings = most;
+    if (lengthTelling) result.longerRuns = longest;
+  }
   return result;
 }
 

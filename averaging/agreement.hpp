@@ -27,6 +27,9 @@ struct PairedSample {
   std::vector<std::optional<double>> reference;  ///< per packing
   std::vector<std::optional<double>> other;      ///< per packing, in the same order
   double margin = 0.0;  ///< largest |other − reference| that still counts as agreement, ≥ 0
+  /// Per packing the variance of other − reference that the two runs' finite length brings, the
+  /// sum of their squared within-run errors; empty if nobody knows.
+  std::vector<std::optional<double>> withinVariance;
 };
 
 /// What the paired differences other − reference of one ring say.
@@ -38,7 +41,11 @@ struct PairedComparison {
   std::optional<double> low, high;  ///< (1 − 2α) confidence interval of the difference
   std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for P < 4
   Verdict verdict = Verdict::undecided;
+  std::optional<double> withinShare;  ///< of the differences' variance, due to finite runs, 0 … 1
   std::optional<int> morePackings;  ///< undecided: about how many would decide; absent: no telling
+  /// Undecided: runs that many times as long would decide it on the same packings, as the within
+  /// share shrinks with their length and the rest stays; absent: they would not, or no telling.
+  std::optional<double> longerRuns;
 };
 
 /// Verdicts on a family of tests (rings and fields of one comparison), α = 1 − confidence:
@@ -54,6 +61,13 @@ struct PairedComparison {
 std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
                                                            double confidence);
 
+/// The smallest true mean difference that a t test of |µ| ≤ margin at `level` rejects with this
+/// power: over the scatter of the sample's own standard deviation (χ² of P − 1) and mean, which for
+/// margin 0 is the noncentral t distribution. Absent for fewer than 4 packings.
+/// @param standardError  σ/√P of the mean difference, taken for the true one
+std::optional<double> smallestDetectable(double standardError, int packings, double margin,
+                                         double level, double power = 0.9);
+
 /// The smallest mean paired difference that would be significant in a family of that many two-sided
 /// tests whose false alarms are held to 1 − confidence (Holm's first step, which is Bonferroni's).
 /// Absent for fewer than 4 packings. @param standardError  of the mean difference over packings
@@ -65,6 +79,7 @@ struct FieldVerdict {
   Verdict verdict = Verdict::undecided;
   int compared = 0, agreeing = 0, disagreeing = 0;  ///< rings
   std::optional<int> morePackings;                  ///< the most that any undecided ring asks for
+  std::optional<double> longerRuns;                 ///< likewise; absent if any of them cannot tell
 };
 
 /// Agree iff every compared ring agrees, disagree if any ring disagrees, else undecided.

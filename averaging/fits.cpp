@@ -20,8 +20,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Correlation of amplitude and phase beyond which their linearised errors mean nothing: the valley
-/// of equal χ² is bent. (In the other laws a correlation is only an extrapolation.)
+/// Correlation of a parameter with the phase beyond which their linearised errors mean nothing: the
+/// valley of equal χ² is bent. (Of amplitude and decay length it is only an extrapolation to x =
+/// 0.)
 constexpr double inseparable = 0.95;
 
 /// A law y = Σ_k c_k g_k(x; q), linear but for the shape q. The best of a grid of q starts the fit.
@@ -119,10 +120,11 @@ std::string objection(const Law& law, const WeightedPoints& points,
                       const NonlinearSolution& solution, const Fit& fit) {
   for (const FitParameter& p : fit.parameters)
     if (!determined(p)) return fmt::format("the points do not determine {}", p.name);
-  if (law.periods.back() > 0.0 && solution.strongestCorrelation > inseparable)
-    return fmt::format("the points cannot tell {} from {} (correlation {:.3f})",
-                       law.names[solution.correlated[0]], law.names[solution.correlated[1]],
-                       solution.strongestCorrelation);
+  if (law.periods.back() > 0.0)
+    for (std::size_t k = 0; k + 1 < law.names.size(); ++k)
+      if (const double both = std::abs(solution.correlationWithLast[k]); both > inseparable)
+        return fmt::format("the points cannot tell {} from {} (correlation {:.3f})", law.names[k],
+                           law.names.back(), both);
   const FitParameter& shape = fit.parameters[law.shapeIndex];
   if (shape.value < law.shapes.front() || shape.value > law.shapes.back())
     return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is looked at",

@@ -138,15 +138,11 @@ NonlinearSolution solveNonlinear(
     solution.parameters.push_back(gsl_vector_get(best, k));
     solution.standardErrors.push_back(std::sqrt(gsl_matrix_get(covariance.get(), k, k)));
   }
+  const std::size_t last = unknowns - 1;
   for (std::size_t k = 0; k < unknowns; ++k)
-    for (std::size_t l = 0; l < k; ++l) {
-      const double correlation = std::abs(gsl_matrix_get(covariance.get(), k, l)) /
-                                 (solution.standardErrors[k] * solution.standardErrors[l]);
-      if (!(correlation > solution.strongestCorrelation)) continue;
-      solution.strongestCorrelation = correlation;
-      solution.correlated[0] = l;
-      solution.correlated[1] = k;
-    }
+    solution.correlationWithLast.push_back(
+        gsl_matrix_get(covariance.get(), k, last) /
+        (solution.standardErrors[k] * solution.standardErrors[last]));
   return solution;
 }
 

@@ -31,10 +31,8 @@ std::optional<LinearSolution> solveLinear(const WeightedPoints& points,
 
 struct NonlinearSolution {
   std::vector<double> parameters;
-  std::vector<double> standardErrors;  ///< from the covariance with the weights as given
-  /// Largest |correlation| of two parameters' errors, and which two they are.
-  double strongestCorrelation = 0.0;
-  std::size_t correlated[2] = {0, 0};
+  std::vector<double> standardErrors;       ///< from the covariance with the weights as given
+  std::vector<double> correlationWithLast;  ///< of each parameter's error with the last one's
   double chi2 = 0.0;
   std::string reason;  ///< why it failed; empty if it did not
 };

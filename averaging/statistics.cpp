@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace crossgrain {
@@ -13,34 +16,42 @@ namespace crossgrain {
 namespace {
 
 constexpr std::size_t fewestSamples = 4;
-constexpr double windowInTau = 5.0;
-constexpr double shortestInTau = 10.0;
+constexpr double tausPerMode = 8.0;
+constexpr std::size_t mostModes = 8;
 
 double autocovariance(std::span<const double> deviation, std::size_t lag) {
   double sum = 0.0;
   for (std::size_t t = 0; t + lag < deviation.size(); ++t) sum += deviation[t] * deviation[t + lag];
-  return sum / static_cast<double>(deviation.size() - lag);
+  return sum / static_cast<double>(deviation.size());
 }
 
-struct Correlation {
-  double tau = 0.5;
-  std::size_t window = 0;
-  bool resolved = false;
-};
-
-/// Sums ρ until the window is five times the sum, or the series is too short for what was summed.
-Correlation correlationOf(std::span<const double> deviation, double variance) {
-  const double n = static_cast<double>(deviation.size());
-  Correlation result;
-  while (static_cast<double>(result.window) < windowInTau * result.tau) {
-    ++result.window;
-    result.tau += autocovariance(deviation, result.window) / variance;
-    if (shortestInTau * result.tau > n || 2 * result.window >= deviation.size()) return result;
+/// Sums of two neighbouring lags, as long as they are positive, and none above the one before it
+/// (Geyer 1992, section 3.3). No series is worth more than its length here.
+double correlationTime(std::span<const double> deviation, double variance) {
+  double sum = -0.5;
+  double last = std::numeric_limits<double>::infinity();
+  for (std::size_t lag = 0; lag + 1 < deviation.size() / 2; lag += 2) {
+    const double pair = autocovariance(deviation, lag) + autocovariance(deviation, lag + 1);
+    if (!(pair > 0.0)) break;
+    last = std::min(last, pair / variance);
+    sum += last;
   }
-  // Anticorrelation can push the sum to 0 and below; no series is worth more than its length here.
-  result.tau = std::max(result.tau, 0.5);
-  result.resolved = true;
-  return result;
+  return std::max(sum, 0.5);
+}
+
+/// Square of the cosine coefficient of mode k, by the recurrence cos(n+1)θ = 2 cos θ cos nθ −
+/// cos(n−1)θ.
+double modePower(std::span<const double> deviation, std::size_t k) {
+  const double n = static_cast<double>(deviation.size());
+  const double step = std::numbers::pi * static_cast<double>(k) / n;
+  double now = std::cos(0.5 * step);
+  double before = now;  // cos(−½θ)
+  double sum = 0.0;
+  for (const double x : deviation) {
+    sum += x * now;
+    before = std::exchange(now, 2.0 * std::cos(step) * now - before);
+  }
+  return 2.0 / n * sum * sum;
 }
 
 }  // namespace
@@ -63,19 +74,16 @@ MeanEstimate estimateMean(std::span<const double> series) {
   std::vector<double> deviation(series.begin(), series.end());
   for (double& x : deviation) x -= result.mean;
   const double variance = autocovariance(deviation, 0);
-  const Correlation correlation = correlationOf(deviation, variance);
-  result.tau = correlation.tau;
-  result.resolved = correlation.resolved;
-  if (!result.resolved) {
-    result.standardError = std::sqrt(variance * n / (n - 1.0));
-    return result;
-  }
-  const double window = 2.0 * static_cast<double>(correlation.window) + 1.0;
-  const double tau = correlation.tau * (1.0 + window / n);
-  result.tau = tau;
-  result.nEff = std::max(n / (2.0 * tau), 1.0);
-  result.dof = std::max(n / window, 1.0);
-  result.standardError = std::sqrt(variance / result.nEff);
+  result.tau = correlationTime(deviation, variance);
+  const auto modes = static_cast<std::size_t>(
+      std::clamp(n / (tausPerMode * result.tau), 1.0, static_cast<double>(mostModes)));
+  double density = 0.0;
+  for (std::size_t k = 1; k <= modes; ++k) density += modePower(deviation, k);
+  density /= static_cast<double>(modes);
+  result.dof = static_cast<double>(modes);
+  result.resolved = modes > 1;
+  if (result.resolved) result.nEff = n / (2.0 * result.tau);
+  result.standardError = std::sqrt(density / n);
   return result;
 }
 

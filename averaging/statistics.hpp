@@ -9,20 +9,23 @@ namespace crossgrain {
 struct MeanEstimate {
   double mean = 0.0;
   std::optional<double> standardError;  ///< absent with fewer than 4 samples
-  double nEff = 0.0;      ///< independent samples the series is worth, 1 … its length
+  double nEff = 0.0;                    ///< independent samples the series is worth: N/2τ, or 1
   double tau = 0.0;       ///< integrated autocorrelation time, ½ + Σ ρ(t) [samples]
   double dof = 0.0;       ///< degrees of freedom of the error itself, for Student's t
-  bool resolved = false;  ///< the series spans at least 10 τ; otherwise see below
+  bool resolved = false;  ///< the series spans at least 16 τ; otherwise nEff and dof are 1
 };
 
-/// Mean with an error that accounts for autocorrelation: variance·2τ/N, where τ is summed up to the
-/// first window W ≥ 5τ (Madras & Sokal 1988), with Wolff's (2004) correction
-/// 1 + (2W + 1)/N for the subtracted mean. The error's own scatter, variance 2(2W + 1)/N
-/// (Madras & Sokal 1988, appendix C), gives dof = N/(2W + 1).
+/// Mean with an error that accounts for autocorrelation.
 ///
-/// A series shorter than 10 τ cannot tell its own correlation: it counts as one sample, with nEff =
-/// dof = 1 and the scatter of the whole series as its error. A series that never changes is one
-/// sample with error 0.
+/// The variance of the mean is the spectral density at frequency 0 over N, and that is the mean
+/// square of the K slowest cosine coefficients √(2/N) Σ_t x_t cos(πk(t + ½)/N), k = 1 … K: nearly
+/// independent normal numbers, hence Student's t with dof = K (Müller 2007; Lazarus, Lewis, Stock &
+/// Watson 2018, "equal-weighted cosine"). K = N/8τ, at least 1 and at most 8: few slow modes see
+/// slow parts of the series that a window of a few τ misses, at the price of a somewhat wider bar
+/// (t of 8 degrees of freedom is 2.31, of many 1.96). τ comes from Geyer's (1992) initial monotone
+/// sequence. A drift over the whole series is thus one sample with the scatter of all as its error.
+/// A series that never changes is one sample with error 0. averaging/README.md says how often these
+/// bars cover.
 /// @pre series is not empty
 MeanEstimate estimateMean(std::span<const double> series);
 

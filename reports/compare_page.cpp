@@ -20,7 +20,9 @@ const Json& fitOf(const EngineResults& engine, const std::string& name) {
 
 Json fitCell(const Json& fit) {
   const auto value = number(fit, "value");
+  const auto chi2 = number(fit, "chi2_per_dof");
   return {{"value", readable(value, number(fit, "stderr"))},
+          {"chi2", value && chi2 ? "χ²/dof " + readable(chi2) : std::string()},
           {"reason", value ? std::string() : text(fit, "reason")}};
 }
 
@@ -110,6 +112,8 @@ void addFigures(Json& view, const Engines& engines, const Illustrations& shown) 
   view["checks"] = figureViews(shown, "check_");
   view["hasChecks"] = !view["checks"].empty() || view["hasNumberChecks"] == Json(true);
   view["series"] = figureViews(shown, "series_");
+  view["distributions"] = figureViews(shown, "distribution_");
+  view["hasDistributions"] = !view["distributions"].empty();
   view["hasSeries"] = !view["series"].empty();
 }
 
@@ -134,7 +138,8 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   addDetails(view, results, realised);
   view["packings"] = packingRows(results);
   view["files"] =
-      "Beside this page: results.json (everything), profiles.csv, series.csv and agreement.csv.";
+      "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv "
+      "and agreement.csv.";
   return render("report_compare.html", view);
 }
 

@@ -44,8 +44,9 @@ std::string packingOf(const Json& run) {
   return packing.is_number_integer() ? packing.dump() : std::string();
 }
 
+/// @param bars  what the standard errors are of
 std::string profileRows(const Json& results, const std::string& engine, const std::string& packing,
-                        const Json& profiles) {
+                        const std::string& bars, const Json& profiles) {
   const Json& rings = member(results, "rings");
   const Json& radius = list(rings, "r");
   std::string rows;
@@ -55,7 +56,8 @@ std::string profileRows(const Json& results, const std::string& engine, const st
                   number(radius[ring]), number(element(list(rings, "r_tilde"), ring)),
                   number(element(list(profile, "mean"), ring)),
                   number(element(list(profile, "stderr"), ring)),
-                  number(element(list(profile, "n_eff"), ring)), text(profile, "unit"));
+                  number(element(list(profile, "n_eff"), ring)), text(profile, "unit"), bars,
+                  number(element(list(profile, "dof"), ring)));
   return rows;
 }
 
@@ -135,11 +137,62 @@ std::string collisionsCsv(const Json& results) {
 }
 
 std::string profilesCsv(const Json& results) {
-  std::string table = "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit\n";
+  std::string table =
+      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof\n";
   for (const Json& run : list(results, "runs"))
-    table += profileRows(results, text(run, "engine"), packingOf(run), list(run, "profiles"));
+    table += profileRows(results, text(run, "engine"), packingOf(run), "within_run",
+                         list(run, "profiles"));
   for (const Json& ensemble : list(results, "ensemble"))
-    table += profileRows(results, text(ensemble, "engine"), "all", list(ensemble, "profiles"));
+    table += profileRows(results, text(ensemble, "engine"), "all", "packings",
+                         list(ensemble, "profiles"));
+  return table;
+}
+
+namespace {
+
+std::string distributionRows(const std::string& engine, const std::string& packing,
+                             const std::string& bars, const Json& distributions) {
+  std::string rows;
+  for (const Json& distribution : distributions) {
+    const std::string quantity = text(distribution, "quantity");
+    const auto ring = number(distribution, "ring");
+    const std::string place = ring ? fmt::format("{:.0f}", *ring + 1.0) : "all";
+    const Json& axes = list(distribution, "axes");
+    const auto edge = [&](std::size_t axis, std::size_t index) -> std::optional<double> {
+      const auto low = number(element(axes, axis), "low");
+      if (!low) return std::nullopt;
+      return *low + static_cast<double>(index) * *number(axes[axis], "width");
+    };
+    const auto across = static_cast<std::size_t>(number(element(axes, 0), "count").value_or(1.0));
+    const Json& density = list(distribution, "density");
+    for (std::size_t k = 0; k < density.size(); ++k) {
+      const auto value = number(density[k]);
+      if (!value || *value == 0.0) continue;
+      const std::size_t column = k % across, line = k / across;
+      rows += row(engine, packing, quantity, place, edge(0, column), edge(0, column + 1), value,
+                  number(element(list(distribution, "stderr"), k)), edge(1, line),
+                  edge(1, line + 1), bars);
+    }
+    if (const auto outside = number(distribution, "outside"); outside && *outside > 0.0) {
+      const std::optional<double> absent;
+      rows += row(engine, packing, quantity, place, absent, absent, outside, absent, absent, absent,
+                  bars);
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string distributionsCsv(const Json& results) {
+  std::string table =
+      "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n";
+  for (const Json& run : list(results, "runs"))
+    table += distributionRows(text(run, "engine"), packingOf(run), "within_run",
+                              list(run, "distributions"));
+  for (const Json& ensemble : list(results, "ensemble"))
+    table += distributionRows(text(ensemble, "engine"), "all", "packings",
+                              list(ensemble, "distributions"));
   return table;
 }
 
@@ -162,18 +215,22 @@ std::string seriesCsv(const Json& results) {
 }
 
 std::string agreementCsv(const Json& results) {
-  std::string table = "a,b,field,ring,difference,stderr,low,high,margin,verdict\n";
+  std::string table =
+      "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,"
+      "more_packings,more_rotations\n";
   const std::optional<double> absent;
   for (const Json& entry : list(results, "agreement")) {
     const std::string a = text(entry, "a"), b = text(entry, "b"), field = text(entry, "field");
     table += row(a, b, field, std::string("all"), absent, absent, absent, absent, absent,
-                 text(entry, "verdict"));
+                 text(entry, "verdict"), number(entry, "detects"), absent, absent,
+                 number(entry, "more_packings"), number(entry, "more_rotations"));
     for (const Json& ring : list(entry, "rings")) {
       const auto index = number(ring, "ring");
       if (!index) continue;
       table += row(a, b, field, static_cast<std::size_t>(*index) + 1, number(ring, "difference"),
                    number(ring, "stderr"), number(ring, "low"), number(ring, "high"),
-                   number(ring, "margin"), text(ring, "verdict"));
+                   number(ring, "margin"), text(ring, "verdict"), number(ring, "detects"),
+                   number(ring, "within_share"), number(ring, "packings"), absent, absent);
     }
   }
   return table;

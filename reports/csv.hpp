@@ -13,15 +13,23 @@ namespace crossgrain::reports {
 /// One row per collision; a sweep without any is one row with its status and no numbers.
 std::string collisionsCsv(const Json& results);
 
-/// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit
-/// packing is an index or "all", the mean over packings.
+/// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof
+/// packing is an index, its stderr_kind "within_run", or "all", the mean over packings, "packings".
 std::string profilesCsv(const Json& results);
+
+/// engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind
+/// One row per cell that holds anything; packing and stderr_kind as in profiles.csv, ring "all" for
+/// the whole cell (the joint distribution: within one d of the wheel), low_2 and high_2 of joint
+/// ones. What lies beyond the bins is one row without edges; its density is
+/// its share.
+std::string distributionsCsv(const Json& results);
 
 /// engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,max_overlap,
 /// sliding_fraction, then further series that the results hold, by name.
 std::string seriesCsv(const Json& results);
 
-/// a,b,field,ring,difference,stderr,low,high,margin,verdict
+/// a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,
+/// more_packings,more_rotations
 /// ring "all" is the verdict on the field.
 std::string agreementCsv(const Json& results);
 

@@ -42,7 +42,7 @@ Kind kindOf(const Json& results) {
             noPictures,
             revPage};
   return {
-      {{"profiles.csv", profilesCsv}, {"series.csv", seriesCsv}, {"agreement.csv", agreementCsv}},
+      {{"profiles.csv", profilesCsv}, {"series.csv", seriesCsv}, {"agreement.csv", agreementCsv}, {"distributions.csv", distributionsCsv}},
       compareFigures,
       comparePictures,
       comparePage};

@@ -25,11 +25,15 @@ json ensembleRow(json row, const Numbers& perPacking) {
 json ensembleRows(const std::vector<const json*>& runs, const char* list) {
   json rows = json::array();
   for (const json& first : (*runs.front())[list]) {
-    Numbers perPacking;
+    Numbers perPacking, chi2;
     for (const json* run : runs)
       for (const json& row : (*run)[list])
-        if (row["name"] == first["name"]) perPacking.push_back(optionalNumber(row["value"]));
+        if (row["name"] == first["name"]) {
+          perPacking.push_back(optionalNumber(row["value"]));
+          chi2.push_back(optionalNumber(row.value("chi2_per_dof", json())));
+        }
     json row = ensembleRow(first, perPacking);
+    if (const auto mean = ensembleMean(chi2)) row["chi2_per_dof"] = mean->mean;
     if (row["value"].is_number()) row["reason"] = "";
     rows.push_back(row);
   }
@@ -44,19 +48,52 @@ json ensembleProfile(const std::vector<const json*>& runs, const json& like) {
     for (std::size_t ring = 0; ring < perRing.size(); ++ring)
       perRing[ring].push_back(ring < mean.size() ? mean[ring] : std::nullopt);
   }
-  Numbers mean, error, count;
+  Numbers mean, error, count, dof;
   for (const Numbers& packings : perRing) {
     const auto ensemble = ensembleMean(packings);
     mean.push_back(ensemble ? std::optional(ensemble->mean) : std::nullopt);
     error.push_back(ensemble ? ensemble->standardError : std::nullopt);
     count.push_back(ensemble ? std::optional<double>(ensemble->packings) : std::nullopt);
+    dof.push_back(ensemble && ensemble->standardError
+                      ? std::optional<double>(ensemble->packings - 1)
+                      : std::nullopt);
   }
-  return profileJson(like["method"], like["field"], like["unit"], mean, error, count);
+  json result = profileJson(like["method"], like["field"], like["unit"], mean, error, count);
+  result["dof"] = toJson(dof);
+  return result;
+}
+
+/// Densities cell by cell, over packings. Bins are the same in all runs of a case.
+json ensembleDistribution(const std::vector<const json*>& runs, json like) {
+  const auto cells = like["density"].size();
+  std::vector<Numbers> perCell(cells);
+  Numbers outside;
+  double samples = 0.0;
+  for (const json* run : runs)
+    for (const json& other : run->value("distributions", json::array())) {
+      if (other["quantity"] != like["quantity"] || other["ring"] != like["ring"]) continue;
+      for (std::size_t cell = 0; cell < cells; ++cell)
+        perCell[cell].push_back(optionalNumber(other["density"][cell]));
+      outside.push_back(optionalNumber(other["outside"]));
+      samples += other["samples"].get<double>();
+    }
+  Numbers mean, error;
+  for (const Numbers& packings : perCell) {
+    const auto ensemble = ensembleMean(packings);
+    mean.push_back(ensemble->mean);
+    error.push_back(ensemble->standardError);
+  }
+  like["density"] = toJson(mean);
+  like["stderr"] = toJson(error);
+  like["outside"] = ensembleMean(outside)->mean;
+  like["samples"] = samples;
+  return like;
 }
 
 /// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
+/// @param detects  the smallest difference that such a test finds, on its own scale
 json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison& found,
-              const Margin& margin) {
+              const Margin& margin, std::optional<double> detects) {
   const auto bound = [&](const std::optional<double>& value) {
     return value ? json(inUnit(ring, *value)) : json(nullptr);
   };
@@ -69,9 +106,26 @@ json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison&
           {"low", bound(found.low)},
           {"high", bound(found.high)},
           {"margin", margin.relative ? margin.value * ring.reference : margin.value},
+          {"detects", bound(detects)},
+          {"within_share", toJson(found.withinShare)},
           {"scale", ring.logarithmic ? "logarithmic" : "linear"},
           {"packings", found.packings},
           {"verdict", toString(found.verdict)}};
+}
+
+std::optional<double> detectable(const TestedRing& ring, const PairedComparison& found,
+                                 double level) {
+  if (!found.standardError) return std::nullopt;
+  return smallestDetectable(*found.standardError, found.packings, ring.sample.margin, level);
+}
+
+/// What a difference in all rings must at least be to be found: the ring that shows it best.
+json smallestOf(const json& rings) {
+  json smallest = nullptr;
+  for (const json& ring : rings)
+    if (ring["detects"].is_number() && (smallest.is_null() || ring["detects"] < smallest))
+      smallest = ring["detects"];
+  return smallest;
 }
 
 json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair) {
@@ -95,12 +149,23 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
     const std::size_t rings = std::min(ours.size(), theirs.size());
     if (rings == 0) continue;
     fields.push_back({name, &margin, tested.size(), rings});
-    for (std::size_t ring = 0; ring < rings; ++ring)
+    const auto ourError = fieldByRing(reference, method, name, packings, "stderr");
+    const auto theirError = fieldByRing(other, method, name, packings, "stderr");
+    for (std::size_t ring = 0; ring < rings; ++ring) {
       tested.push_back(testedRing(margin, ours[ring], theirs[ring]));
+      if (ring < ourError.size() && ring < theirError.size())
+        addWithinVariance(tested.back(), ourError[ring], theirError[ring]);
+    }
   }
   std::vector<PairedSample> family;
   for (const TestedRing& ring : tested) family.push_back(ring.sample);
   const auto results = comparePaired(family, setup.averaging.confidence);
+
+  const auto tests =
+      std::ranges::count_if(results, [](const auto& ring) { return ring && ring->pDisagree; });
+  // Holm's first step: what is found there is found whatever the other rings are.
+  const double level =
+      (1.0 - setup.averaging.confidence) / static_cast<double>(std::max<std::ptrdiff_t>(tests, 1));
 
   json table = json::array();
   for (const Field& field : fields) {
@@ -109,7 +174,8 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
     json rows = json::array();
     for (std::size_t ring = 0; ring < field.rings; ++ring)
       if (rings[ring])
-        rows.push_back(ringJson(ring, tested[field.first + ring], *rings[ring], *field.margin));
+        rows.push_back(ringJson(ring, tested[field.first + ring], *rings[ring], *field.margin,
+                                detectable(tested[field.first + ring], *rings[ring], level)));
     table.push_back(
         {{"a", pair.reference},
          {"b", pair.other},
@@ -120,6 +186,10 @@ json pairAgreement(const Case& setup, const json& runs, const ComparedPair& pair
          {"margin_why", field.margin->why},
          {"verdict", toString(verdict.verdict)},
          {"more_packings", verdict.morePackings ? json(*verdict.morePackings) : json(nullptr)},
+         {"more_rotations", verdict.longerRuns
+                                ? json((*verdict.longerRuns - 1.0) * setup.averaging.rotations)
+                                : json(nullptr)},
+         {"detects", smallestOf(rows)},
          {"rings", rows}});
   }
   return table;
@@ -133,9 +203,13 @@ json ensembleOf(const json& runs, const std::string& engine, const std::string& 
   json profiles = json::array();
   for (const json& profile : (*finished.front())["profiles"])
     profiles.push_back(ensembleProfile(finished, profile));
+  json distributions = json::array();
+  for (const json& distribution : finished.front()->value("distributions", json::array()))
+    distributions.push_back(ensembleDistribution(finished, distribution));
   return {{"engine", engine},
           {"packings", finished.size()},
           {"profiles", profiles},
+          {"distributions", distributions},
           {"fits", ensembleRows(finished, "fits")},
           {"head", ensembleRows(finished, "head")}};
 }

@@ -9,6 +9,7 @@
 #include "runs/couette_series.hpp"
 #include "runs/couette_summary.hpp"
 #include "runs/interrupt.hpp"
+#include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
 
 namespace crossgrain {
@@ -21,12 +22,16 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
   const Scene& scene = reader.scene();
   ProfileAccumulator profiles(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene);
   CouetteSeries series(setup, scene);
+  DistributionAccumulator distributions(ringsOf(setup), scene, distributionScales(setup));
+  LayerSpin spin(ringsOf(setup), scene);
   for (std::size_t k = 0; k < reader.count(); ++k) {
     throwIfInterrupted();
     const Snapshot snapshot = reader.read(k);
     try {
       profiles.add(snapshot);
       series.add(snapshot);
+      distributions.add(snapshot);
+      spin.add(snapshot);
     } catch (const std::invalid_argument& misfit) {
       throw BadInput(fmt::format("{}, snapshot {}: {}", file.string(), k, misfit.what()));
     }
@@ -44,6 +49,8 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
                          {"reason", ""}}};
   json run = {{"engine", reader.engine()}, {"packing", 0}, {"status", "finished"}, {"reason", ""}};
   addAverages(setup, profiles.profiles(), series.rows(), Realised{}, run);
+  run["distributions"] = toJson(distributions.distributions());
+  for (const json& fit : spinFits(setup, spin)) run["fits"].push_back(fit);
   results["runs"] = {run};
   results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
                                   reader.count(), file.string())};

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "adapters/worker/json.hpp"
+#include "averaging/distributions.hpp"
+#include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
 #include "runs/couette_series.hpp"
@@ -81,6 +83,8 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
 
   ProfileAccumulator profiles(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene);
   CouetteSeries series(setup, scene);
+  DistributionAccumulator distributions(ringsOf(setup), scene, distributionScales(setup));
+  LayerSpin spin(ringsOf(setup), scene);
   SnapshotFile kept(run.snapshots, run.entry.name, scene, samples, setup.run.keepSnapshots);
   json picture;
   const double pictureTime = std::min(0.5 * rotation, end);
@@ -88,6 +92,8 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   const auto take = [&](const Snapshot& snapshot) {
     profiles.add(snapshot);
     series.add(snapshot);
+    distributions.add(snapshot);
+    spin.add(snapshot);
     kept.offer(snapshot, ++taken);
     if (run.packingIndex == 0 && picture.is_null() &&
         snapshot.positionTime >= pictureTime - interval)
@@ -116,6 +122,8 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
                  {"stats", statsJson(stats)},
                  {"picture", picture}};
   addAverages(setup, profiles.profiles(), series.rows(), loaded.realised, result);
+  result["distributions"] = toJson(distributions.distributions());
+  for (const json& fit : spinFits(setup, spin)) result["fits"].push_back(fit);
   return result;
 }
 

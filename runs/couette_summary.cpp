@@ -80,6 +80,11 @@ json number(const std::string& name, const std::optional<double>& value) {
 
 }  // namespace
 
+DistributionScales distributionScales(const Case& setup) {
+  return {setup.cell.omega * setup.cell.innerRadius,
+          1.0 / spinScale(ringsOf(setup), setup.cell.omega)};
+}
+
 json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const json& series,
                  const Realised& realised) {
   const double diameter = 2.0 * setup.particles.smallRadius;
@@ -140,6 +145,15 @@ json couetteFits(const Case& setup, const std::vector<Profile>& profiles) {
                     {"expected", nullptr}});
   }
   return fits;
+}
+
+json spinFits(const Case& setup, const LayerSpin& spin) {
+  const auto points = spin.points(spinScale(ringsOf(setup), setup.cell.omega));
+  if (points.empty()) return json::array();
+  const Fit fit = fitSpinOscillation(points);
+  return {fitJson(fit, "A", "spin_amplitude", "A of S d/(ΩD) = A exp(−B r̃) cos(π r̃ + φ)", "-", {}),
+          fitJson(fit, "B", "spin_decay", "B of the spin, inverse decay length", "1/d", {}),
+          fitJson(fit, "phi", "spin_phase", "phase φ of the spin", "rad", {})};
 }
 
 json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, const json& series) {

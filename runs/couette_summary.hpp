@@ -4,10 +4,15 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "averaging/distributions.hpp"
+#include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/case.hpp"
 
 namespace crossgrain {
+
+/// The wheel's surface speed and the spin that rolls on it, as the thesis scales distributions.
+DistributionScales distributionScales(const Case& setup);
 
 /// Adds to a run of results.json what follows from its averages: "profiles", "series", "head",
 /// "fits", "checks".
@@ -22,6 +27,9 @@ nlohmann::json headNumbers(const Case& setup, const std::vector<Profile>& profil
 
 /// Fits of one run's profiles and what theory or the thesis expects of them, as "fits".
 nlohmann::json couetteFits(const Case& setup, const std::vector<Profile>& profiles);
+
+/// The fit of the spin's oscillation from layer to layer, as further "fits".
+nlohmann::json spinFits(const Case& setup, const LayerSpin& spin);
 
 /// What must hold in a steady state, ring by ring, as "checks": the torque carried at every ring is
 /// the wheel's, σ_rr in the outermost ring is the pressure on the ring.

@@ -46,7 +46,7 @@ std::vector<Ring> ringsOf(const PairedRuns& runs, const json& method, const std:
   std::vector<Ring> rings;
   for (std::size_t ring = 0; ring < std::min(whole.size(), switched.size()); ++ring) {
     const auto mean = ensembleMean(whole[ring]);
-    rings.push_back({{whole[ring], switched[ring], 0.0},
+    rings.push_back({{whole[ring], switched[ring], 0.0, {}},
                      mean ? std::optional(mean->mean) : std::nullopt,
                      combined(wholeError[ring], switchedError[ring])});
   }

@@ -99,7 +99,7 @@ class EffectCampaign {
       results["ensemble"].push_back(std::move(ensemble));
     }
     for (json& run : results["runs"])  // what no part of this report shows; runs/ has it
-      for (const char* bulky : {"series", "picture"}) run.erase(bulky);
+      for (const char* bulky : {"series", "picture", "distributions"}) run.erase(bulky);
     return results;
   }
 

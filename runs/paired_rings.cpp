@@ -38,6 +38,7 @@ std::vector<Numbers> fieldByRing(const std::vector<const json*>& runs, const jso
   for (const json* run : runs) {
     const json* profile = profileOf(*run, method, field);
     if (!profile) continue;
+    if (!profile->contains(what)) continue;
     const Numbers mean = optionalNumbers((*profile)[what]);
     rings.resize(std::max(rings.size(), mean.size()), Numbers(packings));
     for (std::size_t ring = 0; ring < mean.size(); ++ring)
@@ -50,7 +51,8 @@ TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numb
   const auto mean = ensembleMean(reference);
   TestedRing ring;
   ring.reference = mean ? std::abs(mean->mean) : 0.0;
-  ring.sample = {reference, other, margin.relative ? margin.value * ring.reference : margin.value};
+  ring.sample = {
+      reference, other, margin.relative ? margin.value * ring.reference : margin.value, {}};
   const auto positive = [](const std::optional<double>& value) { return !value || *value > 0.0; };
   ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, positive) &&
                      std::ranges::all_of(other, positive);
@@ -60,6 +62,24 @@ TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numb
       if (value) value = std::log(*value);
   ring.sample.margin = std::log1p(margin.value);
   return ring;
+}
+
+void addWithinVariance(TestedRing& ring, const Numbers& referenceError, const Numbers& otherError) {
+  const auto variance = [&](const std::optional<double>& value, const std::optional<double>& error,
+                            double& sum) {
+    if (!value || !error) return false;
+    const double relative = ring.logarithmic ? *error / std::exp(*value) : *error;
+    sum += relative * relative;
+    return true;
+  };
+  const PairedSample& sample = ring.sample;
+  ring.sample.withinVariance.assign(sample.reference.size(), std::nullopt);
+  for (std::size_t k = 0; k < sample.reference.size(); ++k) {
+    double sum = 0.0;
+    if (variance(sample.reference[k], referenceError[k], sum) &&
+        variance(sample.other[k], otherError[k], sum))
+      ring.sample.withinVariance[k] = sum;
+  }
 }
 
 double inUnit(const TestedRing& ring, double value) {

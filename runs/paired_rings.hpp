@@ -43,6 +43,9 @@ struct TestedRing {
 
 TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numbers& other);
 
+/// Adds what the two runs of every packing say of their own errors, on the scale of the test.
+void addWithinVariance(TestedRing& ring, const Numbers& referenceError, const Numbers& otherError);
+
 /// A difference on the scale of the test as the difference that it makes in the field's unit.
 double inUnit(const TestedRing& ring, double value);
 

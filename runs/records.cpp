@@ -38,8 +38,27 @@ json profileJson(const std::string& method, const std::string& field, const std:
 }
 
 json toJson(const Profile& profile) {
-  return profileJson(profile.method, profile.field, profile.unit, profile.mean,
-                     profile.standardError, profile.nEff);
+  json result = profileJson(profile.method, profile.field, profile.unit, profile.mean,
+                            profile.standardError, profile.nEff);
+  result["dof"] = toJson(profile.dof);
+  return result;
+}
+
+json toJson(const std::vector<Distribution>& distributions) {
+  json list = json::array();
+  for (const Distribution& d : distributions) {
+    json axes = json::array();
+    for (const Bins& axis : d.axes)
+      axes.push_back({{"low", axis.low}, {"width", axis.width}, {"count", axis.count}});
+    list.push_back({{"quantity", d.quantity},
+                    {"ring", d.ring ? json(*d.ring) : json(nullptr)},
+                    {"axes", axes},
+                    {"density", d.density},
+                    {"stderr", d.standardError},
+                    {"outside", d.outside},
+                    {"samples", d.samples}});
+  }
+  return list;
 }
 
 json statsJson(const Stats& stats) {
@@ -62,18 +81,16 @@ std::vector<std::optional<double>> optionalNumbers(const json& list) {
 
 json fitJson(const Fit& fit, const std::string& parameter, const std::string& name,
              const std::string& label, const std::string& unit, std::optional<double> expected) {
-  json row = {{"name", name},
-              {"label", label},
-              {"unit", unit},
-              {"value", nullptr},
-              {"stderr", nullptr},
-              {"reason", fit.reason},
-              {"expected", toJson(expected)}};
+  json row = {{"name", name},         {"label", label},
+              {"unit", unit},         {"value", nullptr},
+              {"stderr", nullptr},    {"chi2_per_dof", nullptr},
+              {"reason", fit.reason}, {"expected", toJson(expected)}};
   if (!fit.converged) return row;
   const auto found = std::ranges::find(fit.parameters, parameter, &FitParameter::name);
   if (found == fit.parameters.end()) throw std::logic_error("no fit parameter " + parameter);
   row["value"] = found->value;
   row["stderr"] = toJson(found->standardError);
+  if (fit.weighted) row["chi2_per_dof"] = fit.chi2 / fit.dof;
   return row;
 }
 

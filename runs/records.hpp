@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "averaging/distributions.hpp"
 #include "averaging/fits.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/case.hpp"
@@ -16,6 +17,7 @@ namespace crossgrain {
 nlohmann::json toJson(const std::optional<double>& value);
 nlohmann::json toJson(const std::vector<std::optional<double>>& values);
 nlohmann::json toJson(const Profile& profile);
+nlohmann::json toJson(const std::vector<Distribution>& distributions);
 nlohmann::json statsJson(const Stats& stats);
 nlohmann::json profileJson(const std::string& method, const std::string& field,
                            const std::string& unit, const std::vector<std::optional<double>>& mean,
@@ -25,7 +27,7 @@ nlohmann::json profileJson(const std::string& method, const std::string& field,
 std::optional<double> optionalNumber(const nlohmann::json& value);
 std::vector<std::optional<double>> optionalNumbers(const nlohmann::json& list);
 
-/// One row of a run's fits: a parameter, or why there is none.
+/// One row of a run's fits: a parameter, or why there is none; χ²/dof where the points have errors.
 nlohmann::json fitJson(const Fit& fit, const std::string& parameter, const std::string& name,
                        const std::string& label, const std::string& unit,
                        std::optional<double> expected);

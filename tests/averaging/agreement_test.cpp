@@ -181,6 +181,48 @@ TEST(ComparePaired, LargeDifferencesAreFound) {
   EXPECT_GT(familyRate(Verdict::disagree, 30.0, 1.0, 500), 0.99);
 }
 
+TEST(SmallestDetectable, IsTheNoncentralT) {
+  // Two-sided t test at 5 %, 4 packings, power 90 %: noncentrality 5.0138 (root of
+  // P(|t_3(λ)| > 3.1824) = 0.9). Scales with σ.
+  EXPECT_NEAR(*smallestDetectable(1.0, 4, 0.0, 0.05), 5.0138, 0.03);
+  EXPECT_NEAR(*smallestDetectable(2.0, 4, 0.0, 0.05), 2.0 * 5.0138, 0.06);
+  // Many packings: a normal test, 1.960 + 1.282; with a margin that is wide, one-sided beyond it.
+  EXPECT_NEAR(*smallestDetectable(1.0, 10000, 0.0, 0.05), 3.242, 0.01);
+  EXPECT_NEAR(*smallestDetectable(1.0, 10000, 50.0, 0.05), 50.0 + 1.645 + 1.282, 0.01);
+  EXPECT_EQ(*smallestDetectable(0.0, 4, 0.5, 0.05), 0.5);
+  EXPECT_FALSE(smallestDetectable(1.0, 3, 0.0, 0.05));
+}
+
+TEST(SmallestDetectable, APlantedShiftIsFoundNineTimesOutOfTen) {
+  // 20 rings × 6 packings, scatter of a paired difference √2: the shift is planted in one ring.
+  const double detectable = *smallestDetectable(std::sqrt(2.0 / 6.0), 6, 1.0, 0.05 / 20.0);
+  std::mt19937_64 generator(17);
+  int found = 0;
+  constexpr int repeats = 4000;
+  for (int k = 0; k < repeats; ++k) {
+    auto family = randomFamily(generator, 20, 6, 0.0, 1.0);
+    for (auto& value : family[7].other) *value += detectable;
+    found += comparePaired(family, confidence)[7]->verdict == Verdict::disagree;
+  }
+  // Three binomial errors; Holm's later steps can only help.
+  EXPECT_NEAR(static_cast<double>(found) / repeats, 0.9, 3.0 * std::sqrt(0.09 / repeats));
+}
+
+TEST(ComparePaired, SaysWhetherLongerRunsWouldDecide) {
+  // ±1 on four packings: sd² = 4/3. The interval is t_3(0.95)·√(1/3) = 1.3587, the margin 1.
+  PairedSample sample = differing({1.0, -1.0, 1.0, -1.0}, 1.0);
+  EXPECT_FALSE(compareOne(sample).longerRuns);  // nobody knows the runs' own errors
+  sample.withinVariance.assign(4, 1.2);         // nine tenths of it
+  const PairedComparison c = compareOne(sample);
+  ASSERT_EQ(c.verdict, Verdict::undecided);
+  EXPECT_NEAR(c.withinShare.value(), 0.9, 1e-12);
+  // 1 − w + w/R = (1/1.3587)² = 0.5417.
+  EXPECT_NEAR(c.longerRuns.value(), 0.9 / (0.5417 - 0.1), 1e-3);
+  sample.withinVariance.assign(4, 0.4);  // packings make the rest: no run is long enough
+  EXPECT_FALSE(compareOne(sample).longerRuns);
+  EXPECT_TRUE(compareOne(sample).morePackings);
+}
+
 TEST(SmallestSignificant, IsTheQuantileOfTheWholeFamily) {
   // Student's t with 3 degrees of freedom, two-sided: 5 % at 3.182, 0.5 % at 7.453 (tables).
   EXPECT_NEAR(*smallestSignificant(2.0, 4, 1, 0.95), 2.0 * 3.182, 2e-3);

@@ -17,7 +17,8 @@ Json tiny() {
     "runs": [
       {"engine": "one", "packing": 0,
        "profiles": [{"method": "slicing", "field": "spin", "unit": "rad/s",
-                     "mean": [0.1, null], "stderr": [1e-30, null], "n_eff": [12.5, null]}],
+                     "mean": [0.1, null], "stderr": [1e-30, null], "n_eff": [12.5, null],
+                     "dof": [7, null]}],
        "series": {"t_s": [0.0, 0.25], "wheel_torque": [null, 2e-3], "kinetic_energy": [1, 2],
                   "zz_extra": [7, 8]}},
       {"engine": "a,\"b\"", "packing": 1, "profiles": [], "series": {}}],
@@ -26,19 +27,36 @@ Json tiny() {
                                       "mean": [0.30000000000000004, 2]}]}],
     "agreement": [
       {"a": "one", "b": "two", "field": "spin", "verdict": "undecided",
-       "rings": [{"ring": 0, "difference": -0.5, "stderr": 0.1, "low": -0.7, "high": -0.3,
-                  "margin": 0.56, "verdict": "agree"},
+       "more_packings": 3, "more_rotations": 1.5, "detects": 0.75, "rings": [{"ring": 0, "difference": -0.5, "stderr": 0.1, "low": -0.7, "high": -0.3,
+                  "margin": 0.56, "verdict": "agree", "detects": 0.75, "within_share": 0.5,
+                  "packings": 4},
                  {"ring": 1, "difference": 0.25, "stderr": null, "low": null, "high": null,
                   "margin": 0.56, "verdict": "undecided"}]}]})");
 }
 
 TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
   EXPECT_EQ(profilesCsv(tiny()),
-            "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit\n"
-            "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s\n"
-            "one,0,slicing,spin,2,0.2,1.5,,,,rad/s\n"
-            "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s\n"
-            "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s\n");
+            "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof\n"
+            "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s,within_run,7\n"
+            "one,0,slicing,spin,2,0.2,1.5,,,,rad/s,within_run,\n"
+            "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s,packings,\n"
+            "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s,packings,\n");
+}
+
+TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
+  const Json results = Json::parse(R"({
+    "runs": [{"engine": "one", "packing": 2, "distributions": [
+      {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
+       "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},
+      {"quantity": "joint", "ring": null, "samples": 4, "outside": 0,
+       "axes": [{"low": 0, "width": 1, "count": 2}, {"low": 10, "width": 2, "count": 1}],
+       "density": [0, 0.5], "stderr": []}]}]})");
+  EXPECT_EQ(distributionsCsv(results),
+            "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n"
+            "one,2,spin,1,-1,-0.5,0.25,0.125,,,within_run\n"
+            "one,2,spin,1,0,0.5,1.5,0.5,,,within_run\n"
+            "one,2,spin,1,,,0.125,,,,within_run\n"
+            "one,2,joint,all,1,2,0.5,,10,12,within_run\n");
 }
 
 TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
@@ -51,10 +69,11 @@ TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
 
 TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
   EXPECT_EQ(agreementCsv(tiny()),
-            "a,b,field,ring,difference,stderr,low,high,margin,verdict\n"
-            "one,two,spin,all,,,,,,undecided\n"
-            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree\n"
-            "one,two,spin,2,0.25,,,,0.56,undecided\n");
+            "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,"
+            "packings,more_packings,more_rotations\n"
+            "one,two,spin,all,,,,,,undecided,0.75,,,3,1.5\n"
+            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree,0.75,0.5,4,,\n"
+            "one,two,spin,2,0.25,,,,0.56,undecided,,,,,\n");
 }
 
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {

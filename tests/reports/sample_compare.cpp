@@ -225,12 +225,16 @@ Json agreement(const std::string& a, const std::string& b, const std::string& ki
                   {"low", value * (share - 0.07)},
                   {"high", value * (share + 0.07)},
                   {"margin", 0.25 * value},
+                  {"detects", 0.4 * value},
+                  {"within_share", 0.3},
+                  {"packings", 4},
                   {"verdict", verdict}};
-      if (!decided) row["stderr"] = row["low"] = row["high"] = nullptr;
+      if (!decided) row["detects"] = row["stderr"] = row["low"] = row["high"] = nullptr;
       entry["rings"].push_back(row);
     }
     entry["verdict"] = field;
     entry["more_packings"] = field == "undecided" ? Json(3) : Json(nullptr);
+    entry["more_rotations"] = field == "undecided" && decided ? Json(2.5) : Json(nullptr);
     all.push_back(entry);
   }
   return all;

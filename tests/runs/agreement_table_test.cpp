@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "averaging/agreement.hpp"
+
 namespace {
 
 using namespace crossgrain;
@@ -86,6 +88,29 @@ TEST(AgreementTable, RelativeMarginsOfASignChangingFieldAreLinear) {
   const json table =
       agreementOf(withMargin("spin", {0.25, true, "because"}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(ringOf(table)["scale"], "linear");
+}
+
+TEST(AgreementTable, SaysWhatItDetectsAndWhetherLongerRunsWouldHelp) {
+  // Differences ±1 on four packings, each run's own error 0.7: 0.98 of the variance 4/3 is within.
+  json runs = json::array();
+  for (const int packing : {0, 1, 2, 3}) {
+    runs.push_back(runOf("a", packing, "f", 100.0 * packing));
+    runs.push_back(runOf("b", packing, "f", 100.0 * packing + (packing % 2 == 0 ? 1.0 : -1.0)));
+    for (auto run = runs.end() - 2; run != runs.end(); ++run)
+      (*run)["profiles"][0]["stderr"] = {0.7};
+  }
+  Case setup = withMargin("f", {1.0, false, "because"});
+  setup.averaging.rotations = 3.0;
+  const json table = agreementOf(setup, runs, {{"a", "b", "peer", ""}});
+  EXPECT_EQ(table[0]["verdict"], "undecided");
+  const double share = 0.98 / (4.0 / 3.0);
+  EXPECT_NEAR(ringOf(table)["within_share"].get<double>(), share, 1e-12);
+  // (1 − w + w/R) must be (1/1.3587)²: R times as long (see ComparePaired).
+  const double longer = share / (std::pow(1.0 / 1.3587, 2) - (1.0 - share));
+  EXPECT_NEAR(table[0]["more_rotations"].get<double>(), (longer - 1.0) * 3.0, 0.01);
+  EXPECT_NEAR(ringOf(table)["detects"].get<double>(),
+              *smallestDetectable(std::sqrt(1.0 / 3.0), 4, 1.0, 0.05), 1e-12);
+  EXPECT_EQ(table[0]["detects"], ringOf(table)["detects"]);
 }
 
 TEST(AgreementTable, ThreePackingsDecideNothing) {

@@ -9,7 +9,7 @@ import unittest
 
 from harness import BAD_INPUT, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, SystemTest, settings
 
-PROFILES = "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit"
+PROFILES = "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof"
 SERIES = (
     "engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,max_overlap"
 )

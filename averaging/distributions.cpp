@@ -1,0 +1,171 @@
+#include "averaging/distributions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+namespace crossgrain {
+
+namespace {
+
+constexpr std::size_t mostBlocks = 32;
+constexpr std::size_t fewestBlocks = 8;
+
+// In units of the wheel's surface: a disk can at most be a little faster than that for long.
+const Bins radialBins{-0.5, 0.04, 25};
+const Bins azimuthalBins{-0.5, 0.04, 50};
+const Bins spinBins{-1.5, 0.06, 50};
+const Bins coordinationBins{-0.5, 1.0, 9};
+const Bins forceBins{0.0, 0.2, 50};
+
+constexpr std::size_t perRing = 3;
+
+double sumOf(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+}  // namespace
+
+std::size_t Bins::slot(double value) const {
+  if (value < low) return 0;
+  const double bin = std::floor((value - low) / width);
+  return static_cast<std::size_t>(std::min(bin, static_cast<double>(count))) + 1;
+}
+
+void BlockedCounts::count(std::size_t slot) {
+  current_[slot] += 1.0;
+}
+
+void BlockedCounts::endSnapshot() {
+  if (++inBlock_ < perBlock_) return;
+  blocks_.push_back(std::exchange(current_, std::vector<double>(current_.size())));
+  inBlock_ = 0;
+  if (blocks_.size() < mostBlocks) return;
+  for (std::size_t b = 0; b < mostBlocks / 2; ++b)
+    std::ranges::transform(blocks_[2 * b], blocks_[2 * b + 1], blocks_[b].begin(), std::plus());
+  blocks_.resize(mostBlocks / 2);
+  perBlock_ *= 2;
+}
+
+BlockedCounts::Shares BlockedCounts::shares() const {
+  Shares result;
+  result.mean = current_;  // counts, until they are divided
+  for (const auto& block : blocks_)
+    std::ranges::transform(result.mean, block, result.mean.begin(), std::plus());
+  result.total = sumOf(result.mean);
+  if (result.total == 0.0) return result;
+  for (double& share : result.mean) share /= result.total;
+  const double n = static_cast<double>(blocks_.size());
+  if (blocks_.size() < fewestBlocks) return result;
+  // A share is a ratio of two sums: its error comes from count − share·total, block by block.
+  const double perBlock = result.total / n;
+  result.standardError.assign(result.mean.size(), 0.0);
+  for (const auto& block : blocks_) {
+    const double total = sumOf(block);
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const double residual = (block[k] - result.mean[k] * total) / perBlock;
+      result.standardError[k] += residual * residual;
+    }
+  }
+  for (double& error : result.standardError) error = std::sqrt(error / (n * (n - 1.0)));
+  return result;
+}
+
+DistributionAccumulator::DistributionAccumulator(Rings rings, const Scene& scene,
+                                                 DistributionScales scales)
+    : rings_(std::move(rings)), scales_(scales), disks_(scene.disks.size()) {
+  for (int ring = 0; ring < rings_.count(); ++ring) {
+    collect("radial_velocity", ring, {radialBins});
+    collect("azimuthal_velocity", ring, {azimuthalBins});
+    collect("spin", ring, {spinBins});
+  }
+  joint_ = collect("azimuthal_velocity_and_spin", {}, {azimuthalBins, spinBins});
+  coordination_ = collect("coordination", {}, {coordinationBins});
+  normal_ = collect("normal_force", {}, {forceBins});
+  tangential_ = collect("tangential_force", {}, {forceBins});
+}
+
+std::size_t DistributionAccumulator::collect(const char* quantity, std::optional<int> ring,
+                                             std::vector<Bins> axes) {
+  std::size_t slots = 1;
+  for (const Bins& axis : axes) slots *= static_cast<std::size_t>(axis.count) + 2;
+  all_.push_back({quantity, ring, std::move(axes), BlockedCounts(slots)});
+  return all_.size() - 1;
+}
+
+void DistributionAccumulator::add(const Snapshot& snapshot) {
+  for (std::size_t disk = 0; disk < disks_; ++disk) addDisk(disk, snapshot);
+  if (snapshot.contacts) addContacts(*snapshot.contacts);
+  for (Collected& collected : all_) collected.counts.endSnapshot();
+}
+
+void DistributionAccumulator::addDisk(std::size_t disk, const Snapshot& snapshot) {
+  const Vec2& position = snapshot.position[disk];
+  const double r = position.norm();
+  const int ring = rings_.binOf(r);
+  if (ring == rings_.insideBin() || ring == rings_.outsideBin()) return;
+  const Vec2 radial = position / r;
+  const Vec2& velocity = snapshot.velocity[disk];
+  const std::size_t first = static_cast<std::size_t>(ring) * perRing;
+  const double azimuthal =
+      (radial.x() * velocity.y() - radial.y() * velocity.x()) / scales_.velocity;
+  const std::size_t azimuthalSlot = azimuthalBins.slot(azimuthal);
+  all_[first].counts.count(radialBins.slot(radial.dot(velocity) / scales_.velocity));
+  all_[first + 1].counts.count(azimuthalSlot);
+  if (!snapshot.spin) return;
+  const std::size_t spinSlot = spinBins.slot((*snapshot.spin)[disk] / scales_.spin);
+  all_[first + 2].counts.count(spinSlot);
+  if (r < rings_.innerRadius() + rings_.diameter())
+    all_[joint_].counts.count(azimuthalSlot + spinSlot * (azimuthalBins.count + 2));
+}
+
+void DistributionAccumulator::addContacts(const Contacts& contacts) {
+  std::vector<int> perDisk(disks_, 0);
+  double normal = 0.0, tangential = 0.0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (const std::int32_t id : {contacts.i[c], contacts.j[c]})
+      if (static_cast<std::size_t>(id) < disks_) ++perDisk[static_cast<std::size_t>(id)];
+    normal += contacts.normalForce[c] / static_cast<double>(contacts.size());
+    tangential += std::abs(contacts.tangentialForce[c]) / static_cast<double>(contacts.size());
+  }
+  for (const int count : perDisk) all_[coordination_].counts.count(coordinationBins.slot(count));
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (normal > 0.0) all_[normal_].counts.count(forceBins.slot(contacts.normalForce[c] / normal));
+    if (tangential > 0.0)
+      all_[tangential_].counts.count(
+          forceBins.slot(std::abs(contacts.tangentialForce[c]) / tangential));
+  }
+}
+
+std::vector<Distribution> DistributionAccumulator::distributions() const {
+  std::vector<Distribution> result;
+  for (const Collected& collected : all_)
+    if (Distribution found = distribution(collected); found.samples > 0.0)
+      result.push_back(std::move(found));
+  return result;
+}
+
+Distribution DistributionAccumulator::distribution(const Collected& collected) const {
+  const BlockedCounts::Shares shares = collected.counts.shares();
+  Distribution result{collected.quantity, collected.ring, collected.axes, {}, {}, 0.0,
+                      shares.total};
+  const bool joint = result.axes.size() > 1;
+  const auto across = static_cast<std::size_t>(result.axes[0].count);
+  const auto rows = static_cast<std::size_t>(joint ? result.axes[1].count : 1);
+  const double size = result.axes[0].width * (joint ? result.axes[1].width : 1.0);
+  for (std::size_t slot = 0; slot < shares.mean.size(); ++slot) {
+    const std::size_t column = slot % (across + 2), row = slot / (across + 2);
+    if (column == 0 || column > across || (joint && (row == 0 || row > rows))) {
+      result.outside += shares.mean[slot];
+      continue;
+    }
+    result.density.push_back(shares.mean[slot] / size);
+    if (!shares.standardError.empty())
+      result.standardError.push_back(shares.standardError[slot] / size);
+  }
+  return result;
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "reports/figures.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Engines = std::vector<EngineResults>;
+
+constexpr const char* speedAxis = "v_{φ} / (Ω R_{i})";
+constexpr const char* spinAxis = "S d / (Ω D)";
+
+/// That of an engine's averages, or null. @param ring  from 0; absent: the whole cell's
+const Json& distributionOf(const EngineResults& engine, const std::string& quantity,
+                           std::optional<double> ring) {
+  for (const Json& distribution : list(engine.averages(), "distributions"))
+    if (text(distribution, "quantity") == quantity && number(distribution, "ring") == ring)
+      return distribution;
+  static const Json none;
+  return none;
+}
+
+double centre(const Json& axis, std::size_t index) {
+  return number(axis, "low").value_or(0.0) +
+         (static_cast<double>(index) + 0.5) * number(axis, "width").value_or(1.0);
+}
+
+std::vector<Point> pointsOf(const Json& distribution) {
+  std::vector<Point> points;
+  const Json& axis = element(list(distribution, "axes"), 0);
+  const Json& density = list(distribution, "density");
+  for (std::size_t k = 0; k < density.size(); ++k)
+    if (const auto value = number(density[k]); value && *value > 0.0)
+      points.push_back({centre(axis, k), *value, number(element(list(distribution, "stderr"), k))});
+  return points;
+}
+
+Panel densityPanel(const Engines& engines, const std::string& quantity, std::optional<double> ring,
+                   const std::string& xLabel, bool logarithmic) {
+  Panel panel;
+  panel.xLabel = xLabel;
+  panel.yLabel = "probability density";
+  panel.logY = logarithmic;
+  panel.key = Key::none;
+  for (const EngineResults& engine : engines) {
+    Curve curve{engine.name, engine.style, Draw::linesAndPoints,
+                pointsOf(distributionOf(engine, quantity, ring)), 1.0};
+    if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+Figure figureOf(const std::string& name, const std::string& title, const std::string& caption,
+                std::vector<Panel> panels) {
+  Figure figure;
+  figure.name = "distribution_" + name;
+  figure.title = title;
+  figure.caption = caption;
+  for (Panel& panel : panels) {
+    if (!hasPoints(panel)) continue;
+    figure.panels.push_back(std::move(panel));
+  }
+  figure.columns = 3;
+  figure.panelWidth = 380;
+  figure.panelHeight = 300;
+  return figure;
+}
+
+/// Centres of the densest cells that together hold this share of what lies inside the bins.
+std::vector<Point> densest(const Json& joint, double share) {
+  const Json &across = element(list(joint, "axes"), 0), &up = element(list(joint, "axes"), 1);
+  const auto columns = static_cast<std::size_t>(number(across, "count").value_or(1.0));
+  const Json& density = list(joint, "density");
+  std::vector<std::size_t> order(density.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto at = [&](std::size_t cell) { return number(density[cell]).value_or(0.0); };
+  std::ranges::stable_sort(order, std::greater(), at);
+  double all = 0.0;
+  for (const std::size_t cell : order) all += at(cell);
+  std::vector<Point> points;
+  double held = 0.0;
+  for (const std::size_t cell : order) {
+    if (held >= share * all) break;
+    held += at(cell);
+    points.push_back({centre(across, cell % columns), centre(up, cell / columns), {}});
+  }
+  return points;
+}
+
+Panel jointPanel(const EngineResults& engine) {
+  const Json& joint = distributionOf(engine, "azimuthal_velocity_and_spin", {});
+  Panel panel;
+  panel.title = engine.name;
+  panel.xLabel = speedAxis;
+  panel.yLabel = spinAxis;
+  panel.xRange = Range{-0.3, 1.3};
+  panel.yRange = Range{-1.3, 0.7};
+  panel.key = Key::none;
+  if (!joint.is_object()) return panel;
+  LineStyle outer = engine.style, inner = engine.style;
+  outer.pointType = 6;  // open circles
+  inner.pointType = 7;  // filled
+  panel.curves.push_back({"", outer, Draw::points, densest(joint, 0.9), 1.0});
+  panel.curves.push_back({"", inner, Draw::points, densest(joint, 0.5), 1.0});
+  panel.curves.push_back({"", {}, Draw::lines, {{0.0, -1.0, {}}, {1.3, 0.3, {}}}, 1.0});
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Figure> distributionFigures(const Engines& engines) {
+  std::vector<Panel> joint;
+  for (const EngineResults& engine : engines)
+    if (engine.mirrors.empty()) joint.push_back(jointPanel(engine));
+  std::vector<Figure> figures = {
+      figureOf(
+          "velocities", "Distributions of velocities and spin at the wheel",
+          "Radial and azimuthal velocity and spin of single disks in ring 1, next to the wheel "
+          "(Lätzel 2003, section 6.4).",
+          {densityPanel(engines, "radial_velocity", 0.0, "v_{r} / (Ω R_{i})", true),
+           densityPanel(engines, "azimuthal_velocity", 0.0, speedAxis, true),
+           densityPanel(engines, "spin", 0.0, spinAxis, true)}),
+      figureOf("joint", "Joint distribution of velocity and spin at the wheel",
+               "Velocity and spin of the same disk, centres within one d of the wheel: the densest "
+               "cells that hold half of the samples (filled) and nine tenths (open). On the line "
+               "v_φ/(ΩR_i) = 1 + "
+               "S d/(ΩD) a disk rolls on the wheel.",
+               std::move(joint)),
+      figureOf("contacts", "Distributions of contact forces and numbers",
+               "Normal and tangential forces of all contacts over their means, and contacts per "
+               "disk.",
+               {densityPanel(engines, "normal_force", {}, "f_{n} / ⟨f_{n}⟩", true),
+                densityPanel(engines, "tangential_force", {}, "|f_{t}| / ⟨|f_{t}|⟩", true),
+                densityPanel(engines, "coordination", {}, "contacts per disk", false)})};
+  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  return figures;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,263 @@
+#include "tests/coverage/studies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
+#include "runs/paired_rings.hpp"
+#include "runs/records.hpp"
+
+namespace crossgrain::coverage {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* engineName = "grain";
+constexpr int shuffles = 20;
+
+/// Counts over shuffles of the packings; groups of one shuffle share none.
+struct Tally {
+  double hits = 0.0, trials = 0.0;
+
+  void add(bool hit) {
+    hits += hit;
+    ++trials;
+  }
+  double rate() const { return trials > 0.0 ? hits / trials : 0.0; }
+};
+
+std::vector<Numbers> ringsOfLeg(const Sample& sample, const std::string& leg,
+                                const std::string& field) {
+  return fieldByRing(finishedRuns(sample.runs, engineName, leg),
+                     sample.setup->averaging.methods.front(), field, sample.packings);
+}
+
+/// Indices of the packings that a leg has run, in an order of its own for every shuffle.
+std::vector<std::size_t> shuffled(const Sample& sample, const std::string& leg, int shuffle) {
+  std::vector<std::size_t> order;
+  for (const json* run : finishedRuns(sample.runs, engineName, leg))
+    order.push_back((*run)["packing"]);
+  std::mt19937_64 generator(static_cast<std::uint64_t>(shuffle));
+  std::ranges::shuffle(order, generator);
+  return order;
+}
+
+Numbers pick(const Numbers& values, const std::vector<std::size_t>& order, std::size_t first,
+             int group) {
+  Numbers picked;
+  for (int k = 0; k < group; ++k) picked.push_back(values[order[first + static_cast<size_t>(k)]]);
+  return picked;
+}
+
+/// All rings of all fields with a margin: one family, as `compare` has it.
+struct Family {
+  std::vector<std::string> field;
+  std::vector<int> ring;
+  std::vector<Margin> margin;
+  std::vector<Numbers> reference, other;
+};
+
+Family familyOf(const Sample& sample, const std::string& leg) {
+  Family family;
+  for (const auto& [field, margin] : sample.setup->averaging.margins) {
+    const auto reference = ringsOfLeg(sample, "", field), other = ringsOfLeg(sample, leg, field);
+    for (std::size_t ring = 0; ring < std::min(reference.size(), other.size()); ++ring) {
+      family.field.push_back(field);
+      family.ring.push_back(static_cast<int>(ring));
+      family.margin.push_back(margin);
+      family.reference.push_back(reference[ring]);
+      family.other.push_back(other[ring]);
+    }
+  }
+  return family;
+}
+
+std::vector<PairedSample> grouped(const Family& family, bool withMargins,
+                                  const std::vector<std::size_t>& order, std::size_t first,
+                                  std::size_t otherFirst, int group) {
+  std::vector<PairedSample> samples;
+  for (std::size_t k = 0; k < family.field.size(); ++k) {
+    Margin margin = family.margin[k];
+    if (!withMargins) margin.value = 0.0;
+    samples.push_back(testedRing(margin, pick(family.reference[k], order, first, group),
+                                 pick(family.other[k], order, otherFirst, group))
+                          .sample);
+  }
+  return samples;
+}
+
+double deviationOf(const TestedRing& ring) {
+  Numbers differences;
+  for (std::size_t k = 0; k < ring.sample.reference.size(); ++k)
+    if (ring.sample.reference[k] && ring.sample.other[k])
+      differences.emplace_back(*ring.sample.other[k] - *ring.sample.reference[k]);
+  const auto mean = ensembleMean(differences);
+  return *mean->standardError * std::sqrt(mean->packings);
+}
+
+}  // namespace
+
+double Rate::error() const {
+  return std::sqrt(value * (1.0 - value) / std::max(independent, 1));
+}
+
+std::vector<Rate> withinRuns(const Case& setup, const std::vector<json>& entries) {
+  struct Counts {
+    Tally whole, next;
+    double distance = 0.0, bar = 0.0;
+  };
+  std::map<std::pair<std::string, int>, Counts> counts;
+  std::map<int, const json*> whole;
+  std::map<int, std::map<int, const json*>> windows;
+  for (const json& entry : entries) {
+    const int packing = entry["packing"];
+    if (entry["rotations"] == setup.averaging.rotations)
+      windows[packing][entry["window"]] = &entry;
+    else
+      whole[packing] = &entry;
+  }
+  int independent = 0;
+  for (const auto& [packing, truth] : whole) {
+    independent += static_cast<int>(windows[packing].size());
+    for (const json& profile : (*truth)["profiles"]) {
+      const std::string field = profile["field"];
+      const Numbers mean = optionalNumbers(profile["mean"]);
+      for (std::size_t ring = 0; ring < mean.size(); ++ring) {
+        Counts& here = counts[{field, static_cast<int>(ring)}];
+        double before = 0.0, beforeError = 0.0, beforeDof = 0.0;
+        for (const auto& [window, entry] : windows[packing]) {
+          const json& part = *profileOf(*entry, profile["method"], field);
+          if (!mean[ring] || !part["stderr"][ring].is_number()) continue;
+          const double value = part["mean"][ring], error = part["stderr"][ring],
+                       dof = part["dof"][ring];
+          here.whole.add(std::abs(value - *mean[ring]) <= studentQuantile(0.95, dof) * error);
+          here.distance += (value - *mean[ring]) * (value - *mean[ring]);
+          here.bar += error * error;
+          if (window > 0) {
+            const double both = error * error + beforeError * beforeError;
+            // Welch's degrees of freedom
+            const double joint =
+                both * both / (std::pow(error, 4) / dof + std::pow(beforeError, 4) / beforeDof);
+            here.next.add(std::abs(value - before) <=
+                          studentQuantile(0.95, joint) * std::sqrt(both));
+          }
+          before = value;
+          beforeError = error;
+          beforeDof = dof;
+        }
+      }
+    }
+  }
+  std::vector<Rate> rates;
+  for (const auto& [key, here] : counts) {
+    const auto& [field, ring] = key;
+    rates.push_back({"within", "", field, ring, 1, independent, here.whole.rate()});
+    rates.push_back({"within_next", "", field, ring, 1, independent, here.next.rate()});
+    rates.push_back({"within_ratio", "", field, ring, 1, independent,
+                     std::sqrt(here.distance / std::max(here.bar, 1e-300))});
+  }
+  return rates;
+}
+
+std::vector<Rate> ensembles(const Sample& sample, int group) {
+  std::vector<Rate> rates;
+  const json& first = *finishedRuns(sample.runs, engineName).front();
+  for (const json& profile : first["profiles"]) {
+    const std::string field = profile["field"];
+    const auto rings = ringsOfLeg(sample, "", field);
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      const auto truth = ensembleMean(rings[ring]);
+      Tally tally;
+      int independent = 0;
+      for (int shuffle = 0; truth && shuffle < shuffles; ++shuffle) {
+        const auto order = shuffled(sample, "", shuffle);
+        independent = static_cast<int>(order.size()) / group;
+        for (int g = 0; g < independent; ++g) {
+          const auto mean =
+              ensembleMean(pick(rings[ring], order, static_cast<size_t>(g * group), group));
+          if (!mean || !mean->standardError) continue;
+          tally.add(std::abs(mean->mean - truth->mean) <=
+                    studentQuantile(0.95, mean->packings - 1) * *mean->standardError);
+        }
+      }
+      if (tally.trials > 0.0)
+        rates.push_back(
+            {"ensemble", "", field, static_cast<int>(ring), group, independent, tally.rate()});
+    }
+  }
+  return rates;
+}
+
+std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, int group) {
+  std::vector<Rate> rates;
+  const Family family = familyOf(sample, leg);
+  const double confidence = sample.setup->averaging.confidence;
+  const int span = leg.empty() ? 2 * group : group;
+  for (const bool withMargins : {false, true}) {
+    Tally any;
+    std::map<std::string, Tally> perField;
+    int independent = 0;
+    for (int shuffle = 0; shuffle < shuffles; ++shuffle) {
+      const auto order = shuffled(sample, leg, shuffle);
+      independent = static_cast<int>(order.size()) / span;
+      for (int g = 0; g < independent; ++g) {
+        const auto first = static_cast<std::size_t>(g * span);
+        const auto found = comparePaired(
+            grouped(family, withMargins, order, first,
+                    leg.empty() ? first + static_cast<std::size_t>(group) : first, group),
+            confidence);
+        bool anywhere = false;
+        std::map<std::string, bool> inField;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          const bool hit = found[k] && found[k]->verdict == Verdict::disagree;
+          anywhere |= hit;
+          inField[family.field[k]] |= hit;
+        }
+        any.add(anywhere);
+        for (const auto& [field, hit] : inField) perField[field].add(hit);
+      }
+    }
+    const std::string study = withMargins ? "disagree" : "disagree_0";
+    rates.push_back({study, leg, "any", {}, group, independent, any.rate()});
+    for (const auto& [field, tally] : perField)
+      rates.push_back({study, leg, field, {}, group, independent, tally.rate()});
+  }
+  return rates;
+}
+
+std::vector<Rate> power(const Sample& sample, int group) {
+  const Family family = familyOf(sample, "again");
+  const double confidence = sample.setup->averaging.confidence;
+  const double level = (1.0 - confidence) / static_cast<double>(family.field.size());
+  std::vector<Rate> rates;
+  for (std::size_t k = 0; k < family.field.size(); ++k) {
+    const TestedRing all = testedRing(family.margin[k], family.reference[k], family.other[k]);
+    const double shift =
+        *smallestDetectable(deviationOf(all) / std::sqrt(group), group, all.sample.margin, level);
+    Tally tally;
+    int independent = 0;
+    for (int shuffle = 0; shuffle < shuffles; ++shuffle) {
+      const auto order = shuffled(sample, "again", shuffle);
+      independent = static_cast<int>(order.size()) / group;
+      for (int g = 0; g < independent; ++g) {
+        const auto first = static_cast<std::size_t>(g * group);
+        auto samples = grouped(family, true, order, first, first, group);
+        for (auto& value : samples[k].other)
+          if (value) *value += shift;
+        tally.add(comparePaired(samples, confidence)[k]->verdict == Verdict::disagree);
+      }
+    }
+    rates.push_back(
+        {"power", "again", family.field[k], family.ring[k], group, independent, tally.rate()});
+    rates.push_back({"detects_ratio", "again", family.field[k], family.ring[k], group, independent,
+                     shift / all.sample.margin});
+  }
+  return rates;
+}
+
+}  // namespace crossgrain::coverage
