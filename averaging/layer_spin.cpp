@@ -25,11 +25,9 @@ void LayerSpin::add(const Snapshot& snapshot) {
   if (!snapshot.spin) return;
   for (std::size_t disk = 0; disk < radius_.size(); ++disk) {
     const double a = radius_[disk];
-    rings_.discShares(snapshot.position[disk], a, Edges::exact, shares_);
-    for (const Share& share : shares_) {
-      area_[share.slot] += share.fraction * a * a;
-      spin_[share.slot] += share.fraction * a * a * (*snapshot.spin)[disk];
-    }
+    const std::size_t slot = rings_.slotAt(snapshot.position[disk]);
+    area_[slot] += a * a;
+    spin_[slot] += a * a * (*snapshot.spin)[disk];
   }
 }
 

@@ -9,8 +9,9 @@
 
 namespace crossgrain {
 
-/// Mean spin ⟨Σ w V ω⟩/⟨Σ w V⟩ in rings three to a disk diameter, which is what it takes to see
-/// the oscillation from layer to layer (fitSpinOscillation). Exact slicing.
+/// Mean spin ⟨Σ V ω⟩/⟨Σ V⟩ in rings three to a disk diameter, which is what it takes to see
+/// the oscillation from layer to layer (fitSpinOscillation). Disks count where their centres are:
+/// slicing would smear a period of 2d over each disk's own d.
 class LayerSpin {
  public:
   /// @param cell  its walls and d are taken, its rings are not
@@ -25,8 +26,7 @@ class LayerSpin {
  private:
   Rings rings_;
   std::vector<double> radius_;
-  std::vector<double> area_, spin_;  ///< Σ w a² and Σ w a² ω per slot
-  Shares shares_;
+  std::vector<double> area_, spin_;  ///< Σ a² and Σ a² ω per slot
 };
 
 }  // namespace crossgrain
