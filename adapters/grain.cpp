@@ -10,6 +10,7 @@
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
+#include "adapters/suitability.hpp"
 #include "engines/grain/simulation.hpp"
 
 namespace crossgrain {
@@ -135,13 +136,12 @@ class GrainEngine : public Engine {
 
   Realised load(const Scene& scene, const Settings& settings) override {
     const bool rigid = !scene.law.soft();
-    if (!has(scene.law.normal))
+    const Capabilities can = capabilities();
+    const std::vector<std::string>& normals = can.lawOptions.at("normal");
+    if (std::ranges::find(normals, lawOptionValue(scene.law, "normal")) == normals.end())
       throw UnsupportedScene(rigid ? "has no rigid contacts, only soft ones"
                                    : "has rigid contacts only, normal = \"rigid\"");
-    ContactLaw law = scene.law;
-    for (const auto& [name, values] : conventions_)
-      if (std::ranges::find(values, lawOptionValue(law, name)) == values.end())
-        setLawOption(law, name, values.front());
+    ContactLaw law = lawAsRun(can, scene.law);
     // An impulse is a force within one step of the scheme in which a kick precedes its drift.
     if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
@@ -257,14 +257,6 @@ class GrainEngine : public Engine {
   }
 
  private:
-  /// Whether the engine, or the peer that this is a mirror of, has such contacts.
-  bool has(NormalLaw normal) const {
-    const bool rigid = normal == NormalLaw::rigid;
-    if (const auto only = conventions_.find("normal"); only != conventions_.end())
-      return rigid == (only->second.front() == "rigid");
-    return !rigid || (conventions_.empty() && stiffness_ == 1.0);
-  }
-
   static double setting(const Settings& settings, const std::string& name, double otherwise) {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : std::get<double>(found->second);

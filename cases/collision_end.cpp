@@ -1,6 +1,7 @@
 #include "cases/collision_end.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace crossgrain {
 
@@ -15,6 +16,19 @@ double CollidingPair::reducedRadius() const {
 double CollidingPair::tangentialCompliance() const {
   return 1.0 / mass[0] + 1.0 / mass[1] + radius[0] * radius[0] / inertia[0] +
          radius[1] * radius[1] / inertia[1];
+}
+
+CollidingPair diskOnWall(double radius, double mass, double inertia) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {{radius, 0.0}, {mass, inf}, {inertia, inf}, true};
+}
+
+double leverShare(LeverArm arm, const CollidingPair& pair, int side) {
+  if (arm == LeverArm::radius) return 0.0;
+  if (pair.plane) return side == 0 ? 1.0 : 0.0;
+  if (arm == LeverArm::contactPoint)
+    return pair.radius[1 - side] / (pair.radius[0] + pair.radius[1]);
+  return 0.5;
 }
 
 PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start) {

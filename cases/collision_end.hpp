@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "adapters/contact_law.hpp"
+
 namespace crossgrain {
 
 /// Two disks, free but for each other, or a disk and a plane wall that moves at a constant
@@ -17,6 +19,13 @@ struct CollidingPair {
   /// dv_t/dt of the contact point per tangential force, 1/m₁₂ + Σ a²/J = K/m₁₂ [1/kg]
   double tangentialCompliance() const;
 };
+
+/// A disk and a plane wall.
+CollidingPair diskOnWall(double radius, double mass, double inertia);
+
+/// The part of the overlap that the lever arm of body `side` (0 or 1) is short of its radius. A
+/// plane does not yield, nor turn.
+double leverShare(LeverArm arm, const CollidingPair& pair, int side);
 
 /// What gives the contact point its tangential velocity before a collision.
 enum class Approach {

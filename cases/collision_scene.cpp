@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace crossgrain {
 
 CollidingPair collidingPair(const Case& setup) {
   const Collision& c = setup.collision;
-  CollidingPair pair{};
-  pair.plane = c.wall;
-  if (c.wall) pair.mass[1] = pair.inertia[1] = std::numeric_limits<double>::infinity();
-  for (const int side : {0, 1}) {
-    if (c.wall && side == 1) continue;
-    pair.radius[side] = c.radius[side];
-    pair.mass[side] = c.mass[side];
-    pair.inertia[side] = c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
-  }
-  return pair;
+  const auto inertia = [&](int side) {
+    return c.inertiaFactor * c.mass[side] * c.radius[side] * c.radius[side];
+  };
+  if (c.wall) return diskOnWall(c.radius[0], c.mass[0], inertia(0));
+  return {{c.radius[0], c.radius[1]}, {c.mass[0], c.mass[1]}, {inertia(0), inertia(1)}};
 }
 
 std::vector<CollisionStart> collisionStarts(const Case& setup) {
@@ -104,11 +98,6 @@ CollidingPair pairOf(const Disks& disks, std::size_t i, std::size_t j) {
           {disks.inertia[i], disks.inertia[j]}};
 }
 
-CollidingPair onPlane(const Disks& disks, std::size_t i) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  return {{disks.radius[i], 0.0}, {disks.mass[i], inf}, {disks.inertia[i], inf}, true};
-}
-
 /// When a free flight from `apart` reached `reach` for the last time, ≤ 0 [s]. An engine that lets
 /// disks part a hair outside contact never had them at `reach`: then the closest approach of the
 /// flight line is the best instant there is.
@@ -119,7 +108,7 @@ double timeOfParting(const Vec2& apart, const Vec2& velocity, double reach) {
   return (std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a;
 }
 
-std::vector<double> spinsOf(const Disks& disks, const Snapshot& after) {
+const std::vector<double>& spinsOf(const Disks& disks, const Snapshot& after) {
   return after.spin ? *after.spin : disks.spin;
 }
 
@@ -132,8 +121,8 @@ std::optional<CollisionEnd> wallCollisionEnd(const Scene& scene, const Snapshot&
   const double height = after.position[disk].x() - wall.x() * after.positionTime;
   const Vec2 velocity = after.velocity[disk] - wall;
   if (velocity.x() <= 0.0 || height < reach) return std::nullopt;
-  CollisionEnd end = endOf(onPlane(disks, disk), start,
-                           {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
+  CollisionEnd end = endOf(diskOnWall(disks.radius[disk], disks.mass[disk], disks.inertia[disk]),
+                           start, {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
   const double parting = (reach - height) / velocity.x();
   const double touch = (disks.position[disk].x() - reach) / (wall.x() - disks.velocity[disk].x());
   if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
@@ -154,7 +143,7 @@ std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& aft
   if (apart.dot(velocity) <= 0.0 || apart.norm() < reach) return std::nullopt;
   const double parting = timeOfParting(apart, velocity, reach);
   const Vec2 normal = (apart + parting * velocity).normalized();
-  const std::vector<double> spin = spinsOf(disks, after);
+  const std::vector<double>& spin = spinsOf(disks, after);
   CollisionEnd end =
       endOf(pairOf(disks, i, j), start,
             {velocity.dot(normal), velocity.dot(perpendicular(normal)), {spin[i], spin[j]}});

@@ -110,7 +110,7 @@ void setRestitution(const Reader& in, ContactLaw& law) {
 }
 
 void settleSoft(Reader& in, ContactLaw& law) {
-  if (in.has("e_t0")) in.fail("e_t0", "only a rigid law takes it");
+  refuseKeys(in, {"e_t0"}, "a rigid law");
   if (in.has("e_n"))
     setRestitution(in, law);
   else if (!in.has("gn"))

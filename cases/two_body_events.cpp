@@ -21,7 +21,7 @@ double TwoBodyProblem::compliance(const Kinematics& k) const {
 /// is the rate at which the normal turns and l' = leverShare · v_n.
 double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
   const double drift = -k.turning * k.normalVelocity -
-                       k.normalVelocity * (leverShare(1) * s.spinI + leverShare(0) * s.spinJ);
+                       k.normalVelocity * (leverShare(0) * s.spinI + leverShare(1) * s.spinJ);
   return -drift / compliance(k);
 }
 

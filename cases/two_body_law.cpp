@@ -60,14 +60,6 @@ Slope TwoBodyProblem::damping(double constant, const Slope& stiffness) const {
   }
 }
 
-/// The share of the overlap that a disk's lever arm is short of its radius; `other` is its partner.
-double TwoBodyProblem::leverShare(int other) const {
-  if (law_.conventions.leverArm == LeverArm::radius) return 0.0;
-  if (pair_.plane) return other;  // the plane does not yield, nor turn
-  if (law_.conventions.leverArm == LeverArm::contactPoint) return pair_.radius[other] / reach_;
-  return 0.5;
-}
-
 Kinematics TwoBodyProblem::kinematics(const State& s) const {
   Kinematics k{};
   k.distance = pair_.plane ? s.x : std::hypot(s.x, s.y);
@@ -76,8 +68,8 @@ Kinematics TwoBodyProblem::kinematics(const State& s) const {
   k.overlap = reach_ - k.distance;
   k.leverI = pair_.radius[0];
   k.leverJ = pair_.radius[1];
-  k.leverI -= k.overlap * leverShare(1);
-  k.leverJ -= k.overlap * leverShare(0);
+  k.leverI -= k.overlap * leverShare(0);
+  k.leverJ -= k.overlap * leverShare(1);
   k.normalVelocity = s.vx * k.nx + s.vy * k.ny;
   k.sideways = -s.vx * k.ny + s.vy * k.nx;
   k.turning = pair_.plane ? 0.0 : k.sideways / k.distance;

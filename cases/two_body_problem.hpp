@@ -73,7 +73,9 @@ class TwoBodyProblem {
   double trialNormal(const Kinematics& k) const {
     return elasticForce(k.overlap) - normalDamping(k.overlap).value * k.normalVelocity;
   }
-  double leverShare(int other) const;
+  double leverShare(int side) const {
+    return crossgrain::leverShare(law_.conventions.leverArm, pair_, side);
+  }
   double normalForce(const Kinematics& k) const;
   double bound(double normal) const;
   double testedForce(const Kinematics& k, double spring) const;

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "averaging/profiles.hpp"
 #include "cases/bad_input.hpp"
+#include "runs/couette_averages.hpp"
 #include "runs/couette_head.hpp"
-#include "runs/couette_run.hpp"
-#include "runs/couette_series.hpp"
-#include "runs/couette_summary.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
@@ -20,18 +17,12 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
                       const std::string& commandLine) {
   const SnapshotReader reader(file, setup);
   const Scene& scene = reader.scene();
-  ProfileAccumulator profiles(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene);
-  CouetteSeries series(setup, scene);
-  DistributionAccumulator distributions(ringsOf(setup), scene, distributionScales(setup));
-  LayerSpin spin(ringsOf(setup), scene);
+  CouetteAverages averages(setup, scene);
   for (std::size_t k = 0; k < reader.count(); ++k) {
     throwIfInterrupted();
     const Snapshot snapshot = reader.read(k);
     try {
-      profiles.add(snapshot);
-      series.add(snapshot);
-      distributions.add(snapshot);
-      spin.add(snapshot);
+      averages.add(snapshot);
     } catch (const std::invalid_argument& misfit) {
       throw BadInput(fmt::format("{}, snapshot {}: {}", file.string(), k, misfit.what()));
     }
@@ -48,9 +39,7 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
                          {"status", "ran"},
                          {"reason", ""}}};
   json run = {{"engine", reader.engine()}, {"packing", 0}, {"status", "finished"}, {"reason", ""}};
-  addAverages(setup, profiles.profiles(), series.rows(), Realised{}, run);
-  run["distributions"] = toJson(distributions.distributions());
-  for (const json& fit : spinFits(setup, spin)) run["fits"].push_back(fit);
+  averages.describe(Realised{}, run);
   results["runs"] = {run};
   results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
                                   reader.count(), file.string())};

@@ -138,17 +138,16 @@ void throwIfAllRefused(const std::vector<json>& curves) {
 json variantJson(const Sweep& sweep) {
   const Case& setup = *sweep.setup;
   const CollidingPair pair = collidingPair(setup);
-  json variant = {{"case", setup.name},
-                  {"variant", setup.variant.empty() ? setup.name : setup.variant},
-                  {"law", lawJson(setup.law)},
-                  {"e_n_closed", toJson(closedRestitution(setup.law, pair.reducedMass()))},
-                  {"sticking", {{"e_t0", setup.law.soft() ? json(nullptr) : json(setup.law.et0)}}},
-                  {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
-                  {"oracle", fineOracle(setup)},
-                  {"oracle_reason", sweep.oracle.reason},
-                  {"reference", columnsOf(sweep.starts, outcomesOf(sweep.oracle))},
-                  {"curves", json::array()}};
-  return variant;
+  return {{"case", setup.name},
+          {"variant", setup.variant.empty() ? setup.name : setup.variant},
+          {"law", lawJson(setup.law)},
+          {"e_n_closed", toJson(closedRestitution(setup.law, pair.reducedMass()))},
+          {"sticking", {{"e_t0", setup.law.soft() ? json(nullptr) : json(setup.law.et0)}}},
+          {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
+          {"oracle", fineOracle(setup)},
+          {"oracle_reason", sweep.oracle.reason},
+          {"reference", columnsOf(sweep.starts, outcomesOf(sweep.oracle))},
+          {"curves", json::array()}};
 }
 
 }  // namespace

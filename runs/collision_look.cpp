@@ -39,27 +39,6 @@ class Motions {
   Known before_, now_;
 };
 
-/// The part of the overlap by which disk `own`'s lever arm is short of its radius.
-double leverShare(LeverArm arm, double own, double other) {
-  switch (arm) {
-    case LeverArm::radius:
-      return 0.0;
-    case LeverArm::contactPoint:
-      return other / (own + other);
-    case LeverArm::overlapMiddle:
-      break;
-  }
-  return 0.5;
-}
-
-bool onWall(const Scene& scene) {
-  return !scene.bodies.empty();
-}
-
-std::size_t pairCount(const Scene& scene) {
-  return onWall(scene) ? scene.disks.size() : scene.disks.size() / 2;
-}
-
 /// One contact at one time.
 struct Touch {
   double normalForce, tangentialForce, normalVelocity, slip;
@@ -70,26 +49,19 @@ Touch touchAt(const Contacts& contacts, std::size_t c, const WatchedRun& run,
               const Motions& motions, double time) {
   const auto i = static_cast<std::size_t>(contacts.i[c]);
   const auto j = static_cast<std::size_t>(contacts.j[c]);
-  const bool sliding = !contacts.sliding.empty() && contacts.sliding[c] != 0;
-  const double a = run.scene.disks.radius[i];
-  const LeverArm arm = run.law.conventions.leverArm;
-  const double fn = contacts.normalForce[c], ft = contacts.tangentialForce[c];
-  if (onWall(run.scene)) {  // which does not yield, nor turn
-    const double lever = arm == LeverArm::radius ? a : a - contacts.overlap[c];
-    const Vec2 velocity = motions.velocity(i, time) - run.scene.bodies.front().motion.velocity;
-    return {fn, ft, velocity.dot(contacts.normal[c]),
-            velocity.dot(perpendicular(contacts.normal[c])) - lever * motions.spin(i, time),
-            sliding};
-  }
-  const double b = run.scene.disks.radius[j];
-  const double leverI = a - leverShare(arm, a, b) * contacts.overlap[c];
-  const double leverJ = b - leverShare(arm, b, a) * contacts.overlap[c];
-  const Vec2 velocity = motions.velocity(i, time) - motions.velocity(j, time);
+  const bool wall = run.pair.plane;
+  const Vec2 velocity = motions.velocity(i, time) - (wall ? run.scene.bodies.front().motion.velocity
+                                                          : motions.velocity(j, time));
+  const auto lever = [&](int side) {
+    const double share = leverShare(run.law.conventions.leverArm, run.pair, side);
+    return run.pair.radius[side] - share * contacts.overlap[c];
+  };
+  const double turning =
+      lever(0) * motions.spin(i, time) + (wall ? 0.0 : lever(1) * motions.spin(j, time));
   const Vec2& normal = contacts.normal[c];
-  return {fn, ft, velocity.dot(normal),
-          velocity.dot(perpendicular(normal)) - leverI * motions.spin(i, time) -
-              leverJ * motions.spin(j, time),
-          sliding};
+  return {contacts.normalForce[c], contacts.tangentialForce[c], velocity.dot(normal),
+          velocity.dot(perpendicular(normal)) - turning,
+          !contacts.sliding.empty() && contacts.sliding[c] != 0};
 }
 
 /// In the tangential spring, as far as the force tells [J].
@@ -117,7 +89,8 @@ void addStep(ContactAccount& account, const Touch& touch, double stored, double 
 /// Sums what the contacts of one step did into the accounts.
 class Accountant {
  public:
-  explicit Accountant(const WatchedRun& run) : run_(run), accounts(pairCount(run.scene)) {
+  explicit Accountant(const WatchedRun& run)
+      : run_(run), accounts(run.scene.disks.size() / (run.pair.plane ? 1 : 2)) {
     if (!run.realised.pairs.empty()) pair_ = run.realised.pairs.front();
     // Euler's velocity of a step is the one that leads to its position, half a step before.
     if (run.realised.integrator == "semi_implicit_euler") velocityLag_ = 0.5 * run.realised.dt;
@@ -150,11 +123,11 @@ class Accountant {
   bool isOfAPair(std::size_t c) const {
     const std::int32_t i = pending_->i[c], j = pending_->j[c];
     const auto disks = static_cast<std::int32_t>(run_.scene.disks.size());
-    return onWall(run_.scene) ? i < disks && j >= disks : j == i + 1 && j < disks;
+    return run_.pair.plane ? i < disks && j >= disks : j == i + 1 && j < disks;
   }
   std::size_t pairOf(std::size_t c) const {
     const auto i = static_cast<std::size_t>(pending_->i[c]);
-    return onWall(run_.scene) ? i : i / 2;
+    return run_.pair.plane ? i : i / 2;
   }
   void sumPending() {
     if (!pending_) return;

@@ -19,8 +19,9 @@ struct ContactAccount {
 /// How an engine runs a sweep: what is needed to read its contacts.
 struct WatchedRun {
   const Scene&
-      scene;       ///< of collisionScene(): pair k is disks 2k and 2k + 1, or disk k and the wall
-  ContactLaw law;  ///< with the engine's own conventions
+      scene;  ///< of collisionScene(): pair k is disks 2k and 2k + 1, or disk k and the wall
+  CollidingPair pair;  ///< that all of them are
+  ContactLaw law;      ///< with the engine's own conventions
   const Realised& realised;
   bool slidingFlags = false;
 };

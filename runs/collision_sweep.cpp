@@ -116,11 +116,6 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
 
 namespace {
 
-/// t_c of the case's pair, the shortest; 0 for rigid disks [s].
-double contactTimeOf(const Case& setup) {
-  return impactTimes(setup).shortest;
-}
-
 /// Long enough for every collision of the scene to be over: contacts last about t_c, a rigid
 /// engine's a few of its own steps.
 double sweepEnd(const Case& setup, double dt, double engineStep) {
@@ -134,7 +129,8 @@ Outcomes runOutcomes(Engine& engine, const Case& setup, const Scene& scene,
                      bool look) {
   const double end = sweepEnd(setup, scene.dt, realised.dt);
   const Capabilities can = engine.capabilities();
-  const WatchedRun watched{scene, lawAsRun(can, scene.law), realised, can.slidingFlags};
+  const WatchedRun watched{scene, collidingPair(setup), lawAsRun(can, scene.law), realised,
+                           can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
   if (look && can.instantContacts)
     accounts = lookThrough(engine, watched, end);
@@ -163,7 +159,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
   json points = columnsOf(starts, found);
   for (const auto& outcome : found) points["status"].push_back(outcome ? "parted" : "not parted");
   const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
-  const double contact = contactTimeOf(setup);
+  const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
   return {{"engine", entry.name},
           {"dt", realised.dt},
           {"steps_per_contact", contact > 0.0 ? json(contact / realised.dt) : json(nullptr)},

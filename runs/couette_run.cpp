@@ -7,12 +7,8 @@
 #include <numbers>
 
 #include "adapters/worker/json.hpp"
-#include "averaging/distributions.hpp"
-#include "averaging/layer_spin.hpp"
-#include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
-#include "runs/couette_series.hpp"
-#include "runs/couette_summary.hpp"
+#include "runs/couette_averages.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/picture.hpp"
 #include "runs/records.hpp"
@@ -81,19 +77,13 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
   if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
 
-  ProfileAccumulator profiles(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene);
-  CouetteSeries series(setup, scene);
-  DistributionAccumulator distributions(ringsOf(setup), scene, distributionScales(setup));
-  LayerSpin spin(ringsOf(setup), scene);
+  CouetteAverages averages(setup, scene);
   SnapshotFile kept(run.snapshots, run.entry.name, scene, samples, setup.run.keepSnapshots);
   json picture;
   const double pictureTime = std::min(0.5 * rotation, end);
   int taken = 0;
   const auto take = [&](const Snapshot& snapshot) {
-    profiles.add(snapshot);
-    series.add(snapshot);
-    distributions.add(snapshot);
-    spin.add(snapshot);
+    averages.add(snapshot);
     kept.offer(snapshot, ++taken);
     if (run.packingIndex == 0 && picture.is_null() &&
         snapshot.positionTime >= pictureTime - interval)
@@ -121,9 +111,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
                  {"realised", toJson(loaded.realised)},
                  {"stats", statsJson(stats)},
                  {"picture", picture}};
-  addAverages(setup, profiles.profiles(), series.rows(), loaded.realised, result);
-  result["distributions"] = toJson(distributions.distributions());
-  for (const json& fit : spinFits(setup, spin)) result["fits"].push_back(fit);
+  averages.describe(loaded.realised, result);
   return result;
 }
 

@@ -198,14 +198,4 @@ json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, cons
   return checks;
 }
 
-void addAverages(const Case& setup, const std::vector<Profile>& profiles, const json& series,
-                 const Realised& realised, json& run) {
-  run["profiles"] = json::array();
-  for (const Profile& profile : profiles) run["profiles"].push_back(toJson(profile));
-  run["series"] = series;
-  run["head"] = headNumbers(setup, profiles, series, realised);
-  run["fits"] = couetteFits(setup, profiles);
-  run["checks"] = couetteChecks(setup, profiles, series);
-}
-
 }  // namespace crossgrain

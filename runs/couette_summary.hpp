@@ -14,11 +14,6 @@ namespace crossgrain {
 /// The wheel's surface speed and the spin that rolls on it, as the thesis scales distributions.
 DistributionScales distributionScales(const Case& setup);
 
-/// Adds to a run of results.json what follows from its averages: "profiles", "series", "head",
-/// "fits", "checks".
-void addAverages(const Case& setup, const std::vector<Profile>& profiles,
-                 const nlohmann::json& series, const Realised& realised, nlohmann::json& run);
-
 /// The dimensionless numbers that say what kind of flow a run was, as results.json's "head":
 /// inertial number, k_n/p, overlaps/d, sliding fraction, stress ratio at the wheel, dt/t_c,
 /// coordination.

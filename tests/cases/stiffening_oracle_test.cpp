@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "cases/collision_oracle.hpp"
 #include "cases/time_step.hpp"
@@ -22,8 +21,7 @@ struct Sphere {
     return {{radius, radius}, {mass(), mass()}, {inertia, inertia}};
   }
   CollidingPair onWall() const {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    return {{radius, 0.0}, {mass(), inf}, {0.4 * mass() * radius * radius, inf}, true};
+    return diskOnWall(radius, mass(), 0.4 * mass() * radius * radius);
   }
   /// Hertz' law with another body of this material, or (bodies = 1) a rigid one.
   ContactLaw law(int bodies = 2) const {
@@ -186,13 +184,11 @@ TEST(WallOracle, IsTheLimitOfAHugeHeavyDisk) {
   ContactLaw law = test::thesisLaw();
   law.conventions.springUpdate = SpringUpdate::midpoint;
   law.conventions.springReset = SpringReset::springOnly;
-  CollidingPair huge = test::smallPair(), wall = huge;
+  CollidingPair huge = test::smallPair();
+  const CollidingPair wall = diskOnWall(test::radius, test::mass, huge.inertia[0]);
   huge.radius[1] = 1e6 * test::radius;
   huge.mass[1] = 1e12 * test::mass;
   huge.inertia[1] = huge.mass[1] * huge.radius[1] * huge.radius[1];
-  wall.radius[1] = 0.0;
-  wall.mass[1] = wall.inertia[1] = std::numeric_limits<double>::infinity();
-  wall.plane = true;
   for (const LeverArm lever : {LeverArm::radius, LeverArm::contactPoint})
     for (const Approach approach : {Approach::firstSpin, Approach::oblique})
       for (const double psi : {0.5, 2.0}) {
@@ -210,10 +206,7 @@ TEST(WallOracle, IsTheLimitOfAHugeHeavyDisk) {
 TEST(WallOracle, SlidesByTheClosedForm) {
   ContactLaw law = test::thesisLaw();
   law.tangential = TangentialLaw::coulomb;
-  CollidingPair wall = test::smallPair();
-  wall.radius[1] = 0.0;
-  wall.mass[1] = wall.inertia[1] = std::numeric_limits<double>::infinity();
-  wall.plane = true;
+  const CollidingPair wall = diskOnWall(test::radius, test::mass, test::smallPair().inertia[0]);
   ContactLaw cut = law;
   cut.conventions.tension = Tension::cut;
   const double constant = 3.0 * (1.0 + restitutionOfLinearLaw(cut, test::mass)) * law.mu;

@@ -133,7 +133,7 @@ std::vector<double> spinsOf(const Scene& scene, const Snapshot& snapshot) {
 }
 
 double restitutionOf(const ContactLaw& law, double reducedMass) {
-  return law.normal == NormalLaw::rigid ? law.en : restitutionOfLinearLaw(law, reducedMass);
+  return closedRestitution(law, reducedMass).value();
 }
 
 }  // namespace crossgrain::conformance

@@ -111,7 +111,8 @@ TEST(Looking, WithoutSlidingFlagsThereIsOnlyTheSum) {
     const auto engine = makeGrain();
     const Realised realised = engine->load(scene, {});
     for (const auto& account :
-         lookThrough(*engine, {scene, scene.law, realised, flags}, 2.0 * test::contactTime)) {
+         lookThrough(*engine, {scene, collidingPair(setup), scene.law, realised, flags},
+                     2.0 * test::contactTime)) {
       ASSERT_TRUE(account);
       EXPECT_EQ(account->split.has_value(), flags);
       sums[flags ? 1 : 0].push_back(account->work.tangential);

@@ -216,16 +216,8 @@ TEST(GrainHertz, OnAPlaneTheRadiusIsTheSpheresOwn) {
   const Spheres aluminium{0.1, 70e9, 0.30, 2699.0, 0.2};
   // Rigid plane: E₁₂ = E/(1 − ν²). Chung and Ooi (2011), test 2: 49.7 µm, 11.37 kN.
   grain::Setup setup = headOn(aluminium, 732e-6 / 4000.0);
-  Disks& disks = setup.disks;
-  for (auto* values : {&disks.x, &disks.y, &disks.vx, &disks.vy, &disks.spin, &disks.radius,
-                       &disks.mass, &disks.inertia})
-    values->resize(1);
+  test::putOnPlane(setup);
   setup.law.kn = 4.0 / 3.0 * 70e9 / (1.0 - 0.09);
-  Wall wall;
-  wall.planes.push_back({0.0, 0.0, 1.0, 0.0});
-  wall.motion = [](double) { return WallState{}; };
-  wall.moves = false;
-  setup.walls.push_back(wall);
   Simulation simulation(setup);
   double deepest = 0.0, largest = 0.0;
   for (int k = 0; k < 4500; ++k) {

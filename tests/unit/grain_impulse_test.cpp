@@ -59,16 +59,8 @@ TEST(GrainImpulse, ActsOnceAndMoreFinelyTheShorterTheStep) {
 
 TEST(GrainImpulse, OnAPlaneTheDiskIsTheWholeMass) {
   grain::Setup setup = headOn(0.0);
-  for (auto* values :
-       {&setup.disks.x, &setup.disks.y, &setup.disks.vx, &setup.disks.vy, &setup.disks.spin,
-        &setup.disks.radius, &setup.disks.mass, &setup.disks.inertia})
-    values->resize(1);
+  test::putOnPlane(setup);
   setup.disks.vy = {0.5 * speed * 0.5};  // Ψ_i = 0.5: sticks
-  Wall wall;
-  wall.planes.push_back({0.0, 0.0, 1.0, 0.0});
-  wall.motion = [](double) { return WallState{}; };
-  wall.moves = false;
-  setup.walls.push_back(wall);
   Simulation simulation(setup);
   simulation.advance(10);
   EXPECT_NEAR(simulation.velocityX(0), en * 0.5 * speed, 1e-12);

@@ -72,6 +72,19 @@ inline grain::Setup collidingPair(double v, double impact, double spin, double d
   return setup;
 }
 
+/// Leaves the first disk alone, to the right of a fixed plane through the origin.
+inline void putOnPlane(grain::Setup& setup) {
+  grain::Disks& disks = setup.disks;
+  for (auto* values : {&disks.x, &disks.y, &disks.vx, &disks.vy, &disks.spin, &disks.radius,
+                       &disks.mass, &disks.inertia})
+    values->resize(1);
+  grain::Wall wall;
+  wall.planes.push_back({0.0, 0.0, 1.0, 0.0});
+  wall.motion = [](double) { return grain::WallState{}; };
+  wall.moves = false;
+  setup.walls.push_back(wall);
+}
+
 /// A loose heap of disks with random velocities and spins, so that many collide at once.
 inline grain::Setup crowd(int side, std::uint64_t seed, double dt) {
   grain::Setup setup;

@@ -1,0 +1,38 @@
+#include "runs/couette_averages.hpp"
+
+#include "runs/couette_run.hpp"
+#include "runs/couette_summary.hpp"
+#include "runs/records.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
+    : setup_(setup),
+      profiles_(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
+      series_(setup, scene),
+      distributions_(ringsOf(setup), scene, distributionScales(setup)),
+      spin_(ringsOf(setup), scene) {}
+
+void CouetteAverages::add(const Snapshot& snapshot) {
+  profiles_.add(snapshot);
+  series_.add(snapshot);
+  distributions_.add(snapshot);
+  spin_.add(snapshot);
+}
+
+void CouetteAverages::describe(const Realised& realised, json& run) const {
+  const std::vector<Profile> profiles = profiles_.profiles();
+  const json& series = series_.rows();
+  run["profiles"] = json::array();
+  for (const Profile& profile : profiles) run["profiles"].push_back(toJson(profile));
+  run["series"] = series;
+  run["head"] = headNumbers(setup_, profiles, series, realised);
+  run["fits"] = couetteFits(setup_, profiles);
+  for (const json& fit : spinFits(setup_, spin_)) run["fits"].push_back(fit);
+  run["checks"] = couetteChecks(setup_, profiles, series);
+  run["distributions"] = toJson(distributions_.distributions());
+}
+
+}  // namespace crossgrain
