@@ -1,8 +1,10 @@
 #include "averaging/distributions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -19,8 +21,25 @@ const Bins azimuthalBins{-0.5, 0.04, 50};
 const Bins spinBins{-1.5, 0.06, 50};
 const Bins coordinationBins{-0.5, 1.0, 9};
 const Bins forceBins{0.0, 0.2, 50};
+const Bins directionBins{-std::numbers::pi, std::numbers::pi / 18.0, 36};
 
-constexpr std::size_t perRing = 3;
+constexpr std::size_t perRing = 4;
+
+/// The bin of the angle of the unit vector (x, y), which in a quadrant is known from the sines of
+/// the bins' edges: an arc tangent for each contact would take as long as all fields.
+std::size_t directionSlot(double x, double y) {
+  static const auto sines = [] {
+    std::array<double, 9> edges{};
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      edges[k] = std::sin(static_cast<double>(k + 1) * directionBins.width);
+    return edges;
+  }();
+  std::size_t bins = 0;
+  for (const double sine : sines) bins += std::abs(y) >= sine ? 1 : 0;
+  const std::size_t slot =
+      y >= 0.0 ? (x >= 0.0 ? 18 + bins : 35 - bins) : (x >= 0.0 ? 17 - bins : bins);
+  return slot + 1;
+}
 
 double sumOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -75,11 +94,12 @@ BlockedCounts::Shares BlockedCounts::shares() const {
 
 DistributionAccumulator::DistributionAccumulator(Rings rings, const Scene& scene,
                                                  DistributionScales scales)
-    : rings_(std::move(rings)), scales_(scales), disks_(scene.disks.size()) {
+    : rings_(std::move(rings)), scales_(scales), disks_(scene.disks.size()), places_(disks_) {
   for (int ring = 0; ring < rings_.count(); ++ring) {
     collect("radial_velocity", ring, {radialBins});
     collect("azimuthal_velocity", ring, {azimuthalBins});
     collect("spin", ring, {spinBins});
+    collect("contact_direction", ring, {directionBins});
   }
   joint_ = collect("azimuthal_velocity_and_spin", {}, {azimuthalBins, spinBins});
   coordination_ = collect("coordination", {}, {coordinationBins});
@@ -105,8 +125,11 @@ void DistributionAccumulator::addDisk(std::size_t disk, const Snapshot& snapshot
   const Vec2& position = snapshot.position[disk];
   const double r = position.norm();
   const int ring = rings_.binOf(r);
+  Place& place = places_[disk] = Place{};
   if (ring == rings_.insideBin() || ring == rings_.outsideBin()) return;
   const Vec2 radial = position / r;
+  place.radial = radial;
+  place.ring = ring;
   const Vec2& velocity = snapshot.velocity[disk];
   const std::size_t first = static_cast<std::size_t>(ring) * perRing;
   const double azimuthal =
@@ -122,21 +145,35 @@ void DistributionAccumulator::addDisk(std::size_t disk, const Snapshot& snapshot
 }
 
 void DistributionAccumulator::addContacts(const Contacts& contacts) {
-  std::vector<int> perDisk(disks_, 0);
   double normal = 0.0, tangential = 0.0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    for (const std::int32_t id : {contacts.i[c], contacts.j[c]})
-      if (static_cast<std::size_t>(id) < disks_) ++perDisk[static_cast<std::size_t>(id)];
-    normal += contacts.normalForce[c] / static_cast<double>(contacts.size());
-    tangential += std::abs(contacts.tangentialForce[c]) / static_cast<double>(contacts.size());
+    addContactOf(contacts.i[c], -contacts.normal[c]);
+    addContactOf(contacts.j[c], contacts.normal[c]);
+    normal += contacts.normalForce[c];
+    tangential += std::abs(contacts.tangentialForce[c]);
   }
-  for (const int count : perDisk) all_[coordination_].counts.count(coordinationBins.slot(count));
+  normal /= static_cast<double>(contacts.size());
+  tangential /= static_cast<double>(contacts.size());
+  for (const Place& place : places_)
+    all_[coordination_].counts.count(coordinationBins.slot(place.contacts));
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (normal > 0.0) all_[normal_].counts.count(forceBins.slot(contacts.normalForce[c] / normal));
     if (tangential > 0.0)
       all_[tangential_].counts.count(
           forceBins.slot(std::abs(contacts.tangentialForce[c]) / tangential));
   }
+}
+
+void DistributionAccumulator::addContactOf(std::int32_t disk, const Vec2& outward) {
+  const auto p = static_cast<std::size_t>(disk);
+  if (p >= disks_) return;
+  Place& place = places_[p];
+  ++place.contacts;
+  if (place.ring < 0) return;
+  const double along = place.radial.dot(outward);
+  const double across = perpendicular(place.radial).dot(outward);
+  all_[static_cast<std::size_t>(place.ring) * perRing + 3].counts.count(
+      directionSlot(along, across));
 }
 
 std::vector<Distribution> DistributionAccumulator::distributions() const {

@@ -64,7 +64,9 @@ struct DistributionScales {
 /// Collects distributions over a run, snapshot by snapshot; nothing of a snapshot is kept.
 ///
 /// Per ring that holds a disk's centre, every disk counting once: `radial_velocity` and
-/// `azimuthal_velocity` in units of ΩR_i, `spin` in units of ΩD/d. For disks whose centre is within
+/// `azimuthal_velocity` in units of ΩR_i, `spin` in units of ΩD/d; and `contact_direction`, the
+/// angle of the outward normals of its contacts, those with walls included, from e_r towards e_φ in
+/// [−π, π) (Lätzel 2003, section 6.3). For disks whose centre is within
 /// one d of R_i: `azimuthal_velocity_and_spin`, joint (Lätzel 2003, Figs. 6.10 and 6.11). For the
 /// whole cell `coordination`, contacts of a disk, and of contacts `normal_force` and
 /// `tangential_force`, f_n and |f_t| over their means in the same snapshot. Absent where the
@@ -84,14 +86,23 @@ class DistributionAccumulator {
     BlockedCounts counts;
   };
 
+  /// Together: the partners of contacts are all over the memory.
+  struct Place {
+    Vec2 radial = Vec2::Zero();  ///< e_r
+    std::int32_t ring = -1;      ///< −1: none
+    std::int32_t contacts = 0;
+  };
+
   std::size_t collect(const char* quantity, std::optional<int> ring, std::vector<Bins> axes);
   void addDisk(std::size_t disk, const Snapshot& snapshot);
   void addContacts(const Contacts& contacts);
+  void addContactOf(std::int32_t disk, const Vec2& outward);
   Distribution distribution(const Collected& collected) const;
 
   Rings rings_;
   DistributionScales scales_;
   std::size_t disks_;
+  std::vector<Place> places_;  ///< of each disk in the last snapshot
   std::vector<Collected> all_;
   std::size_t joint_, coordination_, normal_, tangential_;  ///< places in all_; rings come first
 };

@@ -105,10 +105,14 @@ void MomentSums::addWalls(const Snapshot& snapshot, Sharing& sharing,
         at(sums[slot], Moment::wallVolume) +=
             share * std::numbers::pi * a * a * coordinates_->height();
     const ContactSums& contacts = contactSums_[mass_.size() + w];
-    if (contacts.count == 0.0 || sharing.weight().alongBranch()) continue;
+    if (contacts.count == 0.0) continue;
     const Vec2 er = coordinates_->firstDirection(x);
-    for (const auto& [slot, share] : sharing.ofWallDisk(x, a))
-      addStress(contacts.stress, er, share, ofWalls, sums[slot]);
+    for (const auto& [slot, share] : sharing.ofWallDisk(x, a)) {
+      at(sums[slot], Moment::wallCoupleR) += share * contacts.couple.dot(er);
+      at(sums[slot], Moment::wallCoupleP) += share * contacts.couple.dot(perpendicular(er));
+      if (!sharing.weight().alongBranch())
+        addStress(contacts.stress, er, share, ofWalls, sums[slot]);
+    }
   }
 }
 
@@ -158,8 +162,20 @@ void MomentSums::check(const Snapshot& snapshot) const {
   }
 }
 
+/// Neighbours in space are seldom neighbours in memory: from 10⁵ disks on a partner's sums are in
+/// no cache, and waiting for them would be most of the time.
+void MomentSums::fetch(std::int32_t disk) const {
+  const auto p = static_cast<std::size_t>(disk);
+  if (p >= radius_.size()) return;
+  const char* sums = reinterpret_cast<const char*>(&contactSums_[p]);
+  for (std::size_t line = 0; line < sizeof(ContactSums); line += 64)
+    __builtin_prefetch(sums + line, 1);
+}
+
 void MomentSums::sumContacts(const Contacts& contacts) {
+  constexpr std::size_t ahead = 16;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (c + ahead < contacts.size()) fetch(contacts.j[c + ahead]);
     const Vec2& n = contacts.normal[c];
     // Disk i has f and l = −a n, disk j has −f and l = +a n: the same −f⊗l but for the radius.
     const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();

@@ -33,8 +33,10 @@ enum class Moment : std::size_t {
   wallStressPP,
   wallStressRP,
   wallStressPR,
-  coupleR,    ///< −Σ_c (l × f)_z l_r [N m²]
-  coupleP,    ///< −Σ_c (l × f)_z l_φ [N m²]
+  coupleR,      ///< −Σ_c (l × f)_z l_r [N m²]
+  coupleP,      ///< −Σ_c (l × f)_z l_φ [N m²]
+  wallCoupleR,  ///< −Σ_c (l × f)_z l_r of wall disks [N m²]
+  wallCoupleP,
   dynamicRR,  ///< m v_r v_r [N m]
   dynamicPP,  ///< m v_φ v_φ [N m]
   dynamicRP,  ///< m v_r v_φ [N m]
@@ -68,11 +70,12 @@ inline double at(const Moments& moments, Moment which) {
 /// thesis (the overlap, 10⁻⁵ a, is not taken off). Both disks of a contact take part, each with its
 /// own l. Contacts count as the engine reports them, whatever their overlap.
 ///
-/// Wall disks carry stress too: the half of a wall disk that lies in the cell (Lätzel 2003, section
-/// 3.2, builds the walls of half disks) holds all of its contacts, so its −Σ f⊗l goes to the rings
-/// that it reaches into, and nothing of it to the overflow bins. Without it the rings at the walls
-/// miss the force on its way from the contact to the wall, a sixth of the torque for wall disks of
-/// a sixth of the ring's width. All other sums are those of the moving disks; planes have no share.
+/// Wall disks carry stress and couples too: the half of a wall disk that lies in the cell (Lätzel
+/// 2003, section 3.2, builds the walls of half disks) holds all of its contacts, so its −Σ f⊗l and
+/// −Σ (l × f) l go to the rings that it reaches into, and nothing of them to the overflow bins.
+/// Without it the rings at the walls miss the force on its way from the contact to the wall, a
+/// sixth of the torque for wall disks of a sixth of the ring's width. All other sums are those of
+/// the moving disks; planes have no share.
 ///
 /// Line methods put all sums where the kernel about the disk's centre lies, but for stress: that
 /// lies along l, turned into the directions of each point of it.
@@ -103,6 +106,7 @@ class MomentSums {
   };
 
   void check(const Snapshot& snapshot) const;
+  void fetch(std::int32_t disk) const;
   void sumContacts(const Contacts& contacts);
   Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
   void addWalls(const Snapshot& snapshot, Sharing& sharing, std::vector<Moments>& sums) const;

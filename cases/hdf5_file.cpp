@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "cases/files.hpp"
@@ -36,19 +38,24 @@ class Handle {
 
 std::unique_lock<std::mutex> lockLibrary() {
   std::unique_lock lock(libraryMutex);
+  // At the end of the program the library would try once more to write what a full disk did not
+  // take, and crash. Files are closed one by one; there is nothing left for it to do.
+  [[maybe_unused]] static const herr_t quiet = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions here, not print-outs
   return lock;
 }
 
 }  // namespace
 
-Hdf5File::Hdf5File(hid_t file, std::filesystem::path name, std::unique_lock<std::mutex> lock)
-    : lock_(std::move(lock)), file_(file), name_(std::move(name)) {}
+Hdf5File::Hdf5File(hid_t file, std::filesystem::path name, Place place,
+                   std::unique_lock<std::mutex> lock)
+    : lock_(std::move(lock)), file_(file), name_(std::move(name)), place_(place) {}
 
 Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : lock_(std::move(other.lock_)),
       file_(std::exchange(other.file_, -1)),
-      name_(std::move(other.name_)) {}
+      name_(std::move(other.name_)),
+      place_(other.place_) {}
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
@@ -61,11 +68,27 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file) {
   H5Pset_fapl_core(access, growth, /*backing_store=*/false);
   const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (id < 0) fail(file, "cannot be made in memory");
-  return {id, file, std::move(lock)};
+  return {id, file, Place::memory, std::move(lock)};
+}
+
+Hdf5File Hdf5File::append(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  const bool there = std::filesystem::exists(file);
+  // A lock would live on in worker processes that are started while the file is open.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(access, /*use=*/false, /*ignore when disabled=*/true);
+  const hid_t id = there ? H5Fopen(file.c_str(), H5F_ACC_RDWR, access)
+                         : H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access);
+  if (id < 0) {
+    H5Eclear2(H5E_DEFAULT);
+    throw OutputError(fmt::format("{}: cannot be written as an HDF5 file", file.string()));
+  }
+  return {id, file, Place::disk, std::move(lock)};
 }
 
 void Hdf5File::save() {
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "its end");
+  if (place_ == Place::disk) return;
   const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
   std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
   if (size <= 0 || H5Fget_file_image(file_, image.data(), image.size()) != size)
@@ -77,11 +100,15 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   auto lock = lockLibrary();
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) fail(file, "cannot be read as an HDF5 file");
-  return {id, file, std::move(lock)};
+  return {id, file, Place::disk, std::move(lock)};
 }
 
 void Hdf5File::check(herr_t status, const std::string& what) const {
-  if (status < 0) fail(name_, fmt::format("{} cannot be put into it", what));
+  const std::error_code cause(errno, std::generic_category());
+  if (status >= 0) return;
+  if (place_ == Place::memory) fail(name_, fmt::format("{} cannot be put into it", what));
+  H5Eclear2(H5E_DEFAULT);
+  throw OutputError(fmt::format("{}: cannot be written: {}", name_.string(), cause.message()));
 }
 
 void Hdf5File::writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,

@@ -57,9 +57,10 @@ std::string ringInWords(const Json& ring) {
 std::string moreInWords(const Json& entry) {
   const auto packings = number(entry, "more_packings"), rotations = number(entry, "more_rotations");
   if (text(entry, "verdict") != "undecided" || (!packings && !rotations)) return {};
-  if (!rotations) return "needs about " + morePackings(*packings) + "; longer runs would not do";
-  const std::string longer = fmt::format("{} more rotations of each run", readable(rotations));
-  return "needs about " + (packings ? morePackings(*packings) + ", or " + longer : longer);
+  if (!rotations) return "needs " + morePackings(*packings) + "; longer runs would not do";
+  const std::string longer =
+      fmt::format("about {} more rotations of each run", readable(rotations));
+  return "needs " + (packings ? morePackings(*packings) + ", or " + longer : longer);
 }
 
 /// The smallest difference that is found 9 times out of 10, in the best ring and in the worst.

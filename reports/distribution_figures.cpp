@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "reports/figures.hpp"
@@ -29,12 +31,13 @@ double centre(const Json& axis, std::size_t index) {
          (static_cast<double>(index) + 0.5) * number(axis, "width").value_or(1.0);
 }
 
-std::vector<Point> pointsOf(const Json& distribution) {
+/// @param empty  also bins that hold nothing, which a logarithmic axis cannot show
+std::vector<Point> pointsOf(const Json& distribution, bool empty) {
   std::vector<Point> points;
   const Json& axis = element(list(distribution, "axes"), 0);
   const Json& density = list(distribution, "density");
   for (std::size_t k = 0; k < density.size(); ++k)
-    if (const auto value = number(density[k]); value && *value > 0.0)
+    if (const auto value = number(density[k]); value && (empty || *value > 0.0))
       points.push_back({centre(axis, k), *value, number(element(list(distribution, "stderr"), k))});
   return points;
 }
@@ -48,7 +51,7 @@ Panel densityPanel(const Engines& engines, const std::string& quantity, std::opt
   panel.key = Key::none;
   for (const EngineResults& engine : engines) {
     Curve curve{engine.name, engine.style, Draw::linesAndPoints,
-                pointsOf(distributionOf(engine, quantity, ring)), 1.0};
+                pointsOf(distributionOf(engine, quantity, ring), !logarithmic), 1.0};
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
   }
   return panel;
@@ -64,7 +67,7 @@ Figure figureOf(const std::string& name, const std::string& title, const std::st
     if (!hasPoints(panel)) continue;
     figure.panels.push_back(std::move(panel));
   }
-  figure.columns = 3;
+  figure.columns = std::min(3, static_cast<int>(figure.panels.size()));
   figure.panelWidth = 380;
   figure.panelHeight = 300;
   return figure;
@@ -110,9 +113,73 @@ Panel jointPanel(const EngineResults& engine) {
   return panel;
 }
 
+/// Rings at the wheel, about 2, 4, 8 and 12 d from it, and at the outer ring (Lätzel 2003,
+/// Fig. 6.6).
+std::vector<std::size_t> directionRings(const Json& results) {
+  const Json& places = list(member(results, "rings"), "r_tilde");
+  std::vector<std::size_t> rings;
+  if (places.empty()) return rings;
+  const auto add = [&](std::size_t ring) {
+    if (rings.empty() || ring > rings.back()) rings.push_back(ring);
+  };
+  add(0);
+  for (const double wanted : {2.0, 4.0, 8.0, 12.0}) {
+    std::size_t best = 0;
+    const auto away = [&](std::size_t ring) {
+      return std::abs(number(places[ring]).value_or(1e300) - wanted);
+    };
+    for (std::size_t ring = 0; ring < places.size(); ++ring)
+      if (away(ring) < away(best)) best = ring;
+    if (away(best) < 1.0) add(best);
+  }
+  add(places.size() - 1);
+  return rings;
+}
+
+/// The distribution's expansion to order 6, from the Fourier fields of the same averages.
+std::vector<Point> harmonics(const EngineResults& engine, std::size_t ring) {
+  const auto coefficient = [&](const char* kind, int order) -> std::optional<double> {
+    const std::string field = fmt::format("contact_{}_{}", kind, order);
+    for (const Json& profile : list(engine.averages(), "profiles"))
+      if (text(profile, "field") == field) return number(element(list(profile, "mean"), ring));
+    return {};
+  };
+  std::vector<Point> points;
+  for (int degrees = -180; degrees <= 180; degrees += 4) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    double density = 1.0;
+    for (const int order : {2, 4, 6}) {
+      const auto a = coefficient("cos", order), b = coefficient("sin", order);
+      if (!a || !b) return {};
+      density += *a * std::cos(order * angle) + *b * std::sin(order * angle);
+    }
+    points.push_back({angle, density / (2.0 * std::numbers::pi), {}});
+  }
+  return points;
+}
+
+std::vector<Panel> directionPanels(const Json& results, const Engines& engines) {
+  std::vector<Panel> panels;
+  for (const std::size_t ring : directionRings(results)) {
+    Panel panel = densityPanel(engines, "contact_direction", static_cast<double>(ring),
+                               "angle of contacts from r towards φ [rad]", false);
+    panel.title = fmt::format("(r − R_{{i}})/d = {:.2g}",
+                              number(member(results, "rings")["r_tilde"][ring]).value_or(0.0));
+    panel.xRange = Range{-std::numbers::pi, std::numbers::pi};
+    panel.level = 0.5 / std::numbers::pi;
+    if (!panel.curves.empty()) {
+      const auto reference =
+          std::ranges::find(engines, panel.curves.front().name, &EngineResults::name);
+      panel.curves.push_back({"", {}, Draw::lines, harmonics(*reference, ring), 1.0});
+    }
+    panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
 }  // namespace
 
-std::vector<Figure> distributionFigures(const Engines& engines) {
+std::vector<Figure> distributionFigures(const Json& results, const Engines& engines) {
   std::vector<Panel> joint;
   for (const EngineResults& engine : engines)
     if (engine.mirrors.empty()) joint.push_back(jointPanel(engine));
@@ -130,6 +197,12 @@ std::vector<Figure> distributionFigures(const Engines& engines) {
                "v_φ/(ΩR_i) = 1 + "
                "S d/(ΩD) a disk rolls on the wheel.",
                std::move(joint)),
+      figureOf(
+          "directions", "Directions of contacts",
+          "Outward normals of the contacts of disks in some rings, from the wheel to the outer "
+          "ring (Lätzel 2003, Fig. 6.6). Thin line: no preferred direction; black curve: a "
+          "constant and sines of 2α, 4α, 6α fitted to the first engine's.",
+          directionPanels(results, engines)),
       figureOf("contacts", "Distributions of contact forces and numbers",
                "Normal and tangential forces of all contacts over their means, and contacts per "
                "disk.",

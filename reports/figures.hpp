@@ -12,7 +12,8 @@ namespace crossgrain::reports {
 
 /// Every plot of a comparison that there are data for. Names of figures: overview; profile_FIELD
 /// (profile_azimuthal_velocity_log for its log axis); check_1, check_2, …; series_NAME;
-/// distribution_velocities, distribution_joint, distribution_contacts.
+/// distribution_velocities, distribution_joint, distribution_directions,
+/// distribution_contacts.
 std::vector<Figure> compareFigures(const Json& results);
 
 /// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
@@ -34,7 +35,8 @@ std::vector<Figure> profileFigures(const Json& results, const std::vector<Engine
 std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineResults>& engines);
 std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineResults>& engines);
 
-std::vector<Figure> distributionFigures(const std::vector<EngineResults>& engines);
+std::vector<Figure> distributionFigures(const Json& results,
+                                        const std::vector<EngineResults>& engines);
 
 /// What the bars of the profiles are, in words: over packings, or within one run.
 std::string barsInWords(const std::vector<EngineResults>& engines);

@@ -73,7 +73,7 @@ std::string readableCount(std::optional<double> value) {
 std::string morePackings(double count) {
   constexpr double beyondBudget = 100.0;
   if (count > beyondBudget) return fmt::format("more than {:.0f} more packings", beyondBudget);
-  return fmt::format("{:.0f} more packing{}", count, count == 1.0 ? "" : "s");
+  return fmt::format("about {:.0f} more packing{}", count, count == 1.0 ? "" : "s");
 }
 
 std::string readable(std::optional<double> value, std::optional<double> error) {

@@ -17,7 +17,7 @@ std::string readableSetting(std::optional<double> value);
 /// A count, with spaces between thousands.
 std::string readableCount(std::optional<double> value);
 
-/// "9 more packings"; what is beyond any budget is "more than 100 more packings".
+/// "about 9 more packings"; what is beyond any budget is "more than 100 more packings".
 std::string morePackings(double count);
 
 /// Value and standard error, both to the error's second digit: 0.242 ± 0.013.

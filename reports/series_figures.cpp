@@ -152,7 +152,7 @@ std::vector<Figure> compareFigures(const Json& results) {
   std::vector<Figure> figures = profileFigures(results, engines);
   for (auto& figure : checkFigures(results, engines)) figures.push_back(std::move(figure));
   for (auto& figure : seriesFigures(results, engines)) figures.push_back(std::move(figure));
-  for (auto& figure : distributionFigures(engines)) figures.push_back(std::move(figure));
+  for (auto& figure : distributionFigures(results, engines)) figures.push_back(std::move(figure));
   return figures;
 }
 

@@ -49,7 +49,7 @@ std::string inWords(const Tally& counts) {
                       share(counts.disagree, all, "disagree") +
                       share(counts.undecided, all, "undecided");
   if (counts.fewest)
-    words += fmt::format("; the nearest to a verdict needs about {}", morePackings(*counts.fewest));
+    words += fmt::format("; the nearest to a verdict needs {}", morePackings(*counts.fewest));
   return words;
 }
 

@@ -89,8 +89,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
         snapshot.positionTime >= pictureTime - interval)
       picture = pictureOf(scene, snapshot, snapshot.positionTime / rotation);
   };
-  if (before)
-    for (const Snapshot& snapshot : before->snapshots) take(snapshot);
+  for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
     advanceTo(settled + (taken + 1) * interval);
     const Snapshot snapshot = engine.snapshot(report);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
 #include <utility>
 
 #include "cases/files.hpp"
 #include "runs/snapshot_layout.hpp"
-#include "runs/snapshot_xdmf.hpp"
 
 namespace crossgrain {
 namespace {
@@ -60,6 +60,12 @@ void writeSnapshot(Hdf5File& out, const std::string& group, const Snapshot& now)
   if (now.contacts) writeContacts(out, group + "/contacts", *now.contacts);
 }
 
+std::vector<std::int32_t> countedUp(std::size_t count) {
+  std::vector<std::int32_t> result(count);
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
 }  // namespace
 
 std::string snapshotGroup(std::size_t k) {
@@ -69,6 +75,7 @@ std::string snapshotGroup(std::size_t k) {
 SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene,
                            int samples, int keep)
     : file_(std::move(file)),
+      part_(file_.string() + ".part"),
       engine_(std::move(engine)),
       scene_(scene),
       samples_(samples),
@@ -77,13 +84,26 @@ SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const
 void SnapshotFile::offer(const Snapshot& snapshot, int k) {
   // Kept are those with which ⌊k·keep/samples⌋ grows: evenly spaced, the last one among them.
   const auto count = [&](long long n) { return n * keep_ / samples_; };
-  if (count(k) > count(k - 1)) kept_.push_back(snapshot);
+  if (count(k) == count(k - 1)) return;
+  try {
+    if (kept_.empty()) begin();
+    Hdf5File out = Hdf5File::append(part_);
+    writeSnapshot(out, snapshotGroup(kept_.size()), snapshot);
+    out.save();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    throw;
+  }
+  kept_.push_back({snapshot.positionTime, snapshot.spin.has_value()});
 }
 
-void SnapshotFile::close() {
-  if (kept_.empty()) return;
-  Hdf5File out = Hdf5File::create(file_);
+void SnapshotFile::begin() {
+  makeDirectory(part_.parent_path());
+  std::filesystem::remove(part_);  // of a run that was broken off
+  Hdf5File out = Hdf5File::append(part_);
   out.writeAttribute("engine", engine_);
+  out.write("/disks/index", countedUp(scene_.disks.size()));
   out.write("/disks/radius", scene_.disks.radius);
   out.write("/disks/mass", scene_.disks.mass);
   out.write("/disks/inertia", scene_.disks.inertia);
@@ -94,13 +114,22 @@ void SnapshotFile::close() {
     wallRadius.insert(wallRadius.end(), radii.begin(), radii.end());
     wallBody.insert(wallBody.end(), radii.size(), static_cast<std::int32_t>(b));
   }
+  out.write("/walls/index", countedUp(wallRadius.size()));
   out.write("/walls/radius", wallRadius);
   out.write("/walls/body", wallBody);
-  for (std::size_t k = 0; k < kept_.size(); ++k) writeSnapshot(out, snapshotGroup(k), kept_[k]);
   out.save();
+}
+
+void SnapshotFile::close() {
+  if (kept_.empty()) return;
+  std::error_code error;
+  std::filesystem::rename(part_, file_, error);
+  if (error)
+    throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), error.message()));
   std::filesystem::path xdmf = file_;
-  writeFile(xdmf.replace_extension(".xdmf"),
-            snapshotXdmf(file_.filename().string(), wallRadius.size(), kept_));
+  writeFile(
+      xdmf.replace_extension(".xdmf"),
+      snapshotXdmf(file_.filename().string(), scene_.disks.size(), scene_.wallDiskCount(), kept_));
 }
 
 }  // namespace crossgrain

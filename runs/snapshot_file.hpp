@@ -8,11 +8,13 @@
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
 #include "cases/hdf5_file.hpp"
+#include "runs/snapshot_xdmf.hpp"
 
 namespace crossgrain {
 
-/// Keeps a few evenly spaced snapshots of a run and writes them as HDF5 when the run is over, with
-/// an XDMF file beside it that ParaView opens. README.md has the layout.
+/// Writes a few evenly spaced snapshots of a run as HDF5, with an XDMF file beside it that ParaView
+/// opens. They go to NAME.part one by one, which gets its name when the run is over. README.md has
+/// the layout.
 class SnapshotFile {
  public:
   /// @param engine  whose snapshots they are  @param samples  snapshots that will be offered
@@ -20,18 +22,20 @@ class SnapshotFile {
   SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene, int samples,
                int keep);
 
-  /// The k-th of all samples, k = 1 … samples.
+  /// The k-th of all samples, k = 1 … samples. @throws OutputError
   void offer(const Snapshot& snapshot, int k);
 
-  /// Writes the file, if anything was to be kept.
+  /// The file is whole, if anything was to be kept. @throws OutputError
   void close();
 
  private:
-  std::filesystem::path file_;
+  void begin();
+
+  std::filesystem::path file_, part_;
   std::string engine_;
   const Scene& scene_;
   int samples_, keep_;
-  std::vector<Snapshot> kept_;
+  std::vector<KeptSnapshot> kept_;
 };
 
 /// Reads such a file, of a run or of any other source, one snapshot at a time.

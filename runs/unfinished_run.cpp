@@ -57,13 +57,16 @@ UnfinishedRun::Before UnfinishedRun::readBack(const json& kept) {
   before.wallSeconds = earlierWall_ = kept.at("wall_s");
   before.cpuSeconds = earlierCpu_ = kept.at("cpu_s");
   snapshots_ = kept.at("snapshots");
-  for (const json& entry : snapshots_) {
-    const fs::path file = folder_ / entry.at("file").get<std::string>();
-    before.snapshots.push_back(
-        snapshotFromJson(entry.at("snapshot"), ArrayReader(file, entry.at("arrays")), scene_));
-  }
+  before.snapshots = snapshots_.size();
+  for (std::size_t k = 0; k < before.snapshots; ++k) snapshot(k);  // throws if damaged
   checkpoints_ = kept.at("checkpoints");
   return before;
+}
+
+Snapshot UnfinishedRun::snapshot(std::size_t k) const {
+  const json& entry = snapshots_.at(k);
+  const fs::path file = folder_ / entry.at("file").get<std::string>();
+  return snapshotFromJson(entry.at("snapshot"), ArrayReader(file, entry.at("arrays")), scene_);
 }
 
 void UnfinishedRun::took(const Snapshot& snapshot) {

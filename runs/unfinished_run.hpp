@@ -20,8 +20,8 @@ class UnfinishedRun {
   UnfinishedRun(std::filesystem::path folder, std::string key, const Scene& scene, bool possible);
 
   struct Before {
-    double time = 0.0;                ///< that the engine has reached [s]
-    std::vector<Snapshot> snapshots;  ///< taken up to then
+    double time = 0.0;          ///< that the engine has reached [s]
+    std::size_t snapshots = 0;  ///< taken up to then
     double wallSeconds = 0.0, cpuSeconds = 0.0;
   };
 
@@ -29,6 +29,9 @@ class UnfinishedRun {
   /// was kept under this key, or it is damaged: then the run begins anew.
   /// @throws EngineFailure if the engine does not take its own checkpoint
   std::optional<Before> resume(Engine& engine);
+
+  /// The k-th of those taken before, from disk.
+  Snapshot snapshot(std::size_t k) const;
 
   void took(const Snapshot& snapshot);
   /// @param time  that the engine has reached [s]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "tests/averaging/scenes.hpp"
@@ -73,6 +74,24 @@ TEST(Distributions, ByHand) {
   EXPECT_NEAR(at(find(all, "normal_force"), 1.5), 0.5 / 0.2, 1e-12);
   EXPECT_NEAR(at(find(all, "normal_force"), 0.5), 0.5 / 0.2, 1e-12);
   EXPECT_NEAR(at(find(all, "tangential_force"), 1.5001), 0.5 / 0.2, 1e-12);
+}
+
+TEST(Distributions, DirectionsOfContactsAreOutwardAndTurnedWithTheDisk) {
+  const Instant instant = threeDisks();
+  DistributionAccumulator sums(Rings(1.0, 3.0, 2, 1.0, 0.5), instant.scene, {2.0, 4.0});
+  sums.add(instant.snapshot);
+  const auto all = sums.distributions();
+  const double pi = std::numbers::pi, bin = pi / 18.0;
+  // Normals point from j to i along +x. Disk 0 at (0, 1.2) has its contact at −x, which is +φ
+  // there; disk 1 at (1.8, 0) one at +x = r and, being i of the other, one at −x: π, counted as −π.
+  // Disk 2 at (0, −2.5) has it at +x = φ.
+  const Distribution& inner = find(all, "contact_direction", 0);
+  EXPECT_EQ(inner.samples, 3.0);
+  EXPECT_EQ(inner.outside, 0.0);
+  for (const double angle : {0.5 * pi, 0.0})
+    EXPECT_NEAR(at(inner, angle + 0.5 * bin), 1.0 / (3.0 * bin), 1e-12) << angle;
+  EXPECT_NEAR(inner.density.front() + inner.density.back(), 1.0 / (3.0 * bin), 1e-12);
+  EXPECT_NEAR(at(find(all, "contact_direction", 1), 0.5 * pi + 0.5 * bin), 1.0 / bin, 1e-12);
 }
 
 TEST(Distributions, WhatIsNotThereIsAbsent) {

@@ -171,8 +171,9 @@ TEST(LineWeights, StressLiesAlongTheBranch) {
   EXPECT_NEAR(test::total(moments, Moment::stressRR), 10.0, 1e-12);
 }
 
-/// Straight spokes of touching disks from the origin outwards, each under the same thrust.
-Instant spokes(double thrust, double a) {
+/// Straight spokes of touching disks from the origin outwards, each under the same thrust and
+/// passing on the same torque about the origin.
+Instant spokes(double thrust, double a, double torque = 0.0) {
   Instant instant;
   constexpr int count = 12, beads = 60;
   for (int s = 0; s < count; ++s) {
@@ -181,7 +182,9 @@ Instant spokes(double thrust, double a) {
     for (int b = 0; b < beads; ++b) {
       instant.addDisk((5.0 + 2.0 * b) * a * outward, a);
       const auto id = static_cast<std::int32_t>(s * beads + b);
-      if (b > 0) instant.addContact(id - 1, id, -outward, thrust, 0.0);
+      // The inner disk pushes the outer one forwards, and is held back along z × (−outward).
+      const double r = (4.0 + 2.0 * b) * a;
+      if (b > 0) instant.addContact(id - 1, id, -outward, thrust, torque / r);
     }
   }
   return instant;
@@ -217,6 +220,24 @@ TEST(MomentumBalance, ResidualOfSpokesVanishesInRingsOfWholeDiametersAndOnTheLin
   for (const double width : {0.5 * a, a, 2.0 * a, 3.0 * a}) {
     EXPECT_LT(residual(width, {WeightMethod::lineHeaviside, 0.5 * a}), 3e-4) << width;
     EXPECT_LT(residual(width, {WeightMethod::lineGaussian, 0.5 * a}), 3e-4) << width;
+  }
+}
+
+TEST(MomentumBalance, CouplesCompleteTheTorque) {
+  // The moment about the origin of a contact's force on disk p is r_p f_φ + (l × f)_z, so what
+  // passes a circle is r(r σ_φr + M_zr)·2πh (Mohan et al. in Lätzel 2003, chapter 9). Spokes pass T
+  // in every contact, f_φ = T/r_c: a disk holds 2a r_p² T/(r_p² − a²) of the first term and −2a³
+  // T/(r_p² − a²) of the second.
+  constexpr double a = 0.001, torque = 1e-3, whole = 12 * torque;
+  const Instant instant = spokes(0.25, a, torque);
+  const Rings rings(0.02, 0.02 + 30 * 2.0 * a, 30, 1.0, 2.0 * a);  // disk by disk
+  const auto moments = test::momentsOf(rings, instant, WeightMethod::centre);
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    const double r = rings.centre(ring), perimeter = 2.0 * pi * r * rings.height();
+    const double stress = test::valueOf("stress_pr", rings, moments, ring) * r * perimeter;
+    const double couple = test::valueOf("couple_stress_zr", rings, moments, ring) * perimeter;
+    EXPECT_NEAR(stress, whole / (1.0 - a * a / (r * r)), 1e-12 * whole);
+    EXPECT_NEAR(stress + couple, whole, 1e-12 * whole);
   }
 }
 

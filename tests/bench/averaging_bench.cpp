@@ -9,7 +9,7 @@
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette_run.hpp"
+#include "runs/couette_averages.hpp"
 #include "tests/bench/packings.hpp"
 #include "tests/bench/packings_option.hpp"
 
@@ -32,14 +32,16 @@ Rings rings(const Case& setup) {
           setup.cell.height, diameter};
 }
 
-void snapshot(benchmark::State& state, WeightMethod method, std::size_t disks) {
-  const Case setup = scaledCase(disks);
+/// Averages snapshots of a sheared packing with what `make` gives for it.
+template <class Make>
+void average(benchmark::State& state, std::size_t disks, Make&& make) {
+  Case setup = scaledCase(disks);
+  setup.averaging.rings = rings(setup).count();
   const double dt = timeStep(setup);
   const Scene scene = couetteScene(setup, packed(disks, packingFolder), dt);
   const auto engine = makeGrain();
   engine->load(scene, {});
-  const double width = setup.averaging.lineWidth * 2.0 * setup.particles.smallRadius;
-  ProfileAccumulator profiles(rings(setup), {{method, width}}, scene);
+  auto averages = make(setup, scene);
   constexpr int stretch = 20;
   std::int64_t steps = 0;
   double stepping = 0.0, averaging = 0.0;
@@ -50,7 +52,7 @@ void snapshot(benchmark::State& state, WeightMethod method, std::size_t disks) {
     stepping += secondsSince(start);
     const Snapshot now = engine->snapshot(ContactReport::instant);
     start = Clock::now();
-    profiles.add(now);
+    averages.add(now);
     const double taken = secondsSince(start);
     averaging += taken;
     state.SetIterationTime(taken);
@@ -62,15 +64,34 @@ void snapshot(benchmark::State& state, WeightMethod method, std::size_t disks) {
   state.counters["ns_disk"] = 1e9 * one / static_cast<double>(disks);
 }
 
+/// All fields of one weight.
+ProfileAccumulator fields(WeightMethod method, const Case& setup, const Scene& scene) {
+  const double width = setup.averaging.lineWidth * 2.0 * setup.particles.smallRadius;
+  return {rings(setup), {{method, width}}, scene};
+}
+
+constexpr std::size_t sizes[] = {1000, 2921, 10000, 100000, 1000000};
+
+template <class Make>
+void registerAt(std::string_view name, Make make) {
+  for (const std::size_t disks : sizes)
+    benchmark::RegisterBenchmark(fmt::format("snapshot/{}/{}", name, disks).c_str(),
+                                 [=](auto& state) { average(state, disks, make); })
+        ->UseManualTime()
+        ->MinTime(2.0)  // the first snapshots of many disks touch new memory
+        ->Unit(benchmark::kMicrosecond);
+}
+
 void registerAll() {
+  // What a run does with a snapshot: fields by slicing, distributions, series, layers of spin.
+  registerAt("everything",
+             [](const Case& setup, const Scene& scene) { return CouetteAverages(setup, scene); });
   for (const WeightMethod method :
        {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre,
         WeightMethod::lineGaussian, WeightMethod::lineHeaviside})
-    for (const std::size_t disks : {1000, 2921, 10000, 100000, 1000000})
-      benchmark::RegisterBenchmark(fmt::format("snapshot/{}/{}", toString(method), disks).c_str(),
-                                   [=](auto& state) { snapshot(state, method, disks); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMicrosecond);
+    registerAt(toString(method), [method](const Case& setup, const Scene& scene) {
+      return fields(method, setup, scene);
+    });
 }
 
 }  // namespace

@@ -85,7 +85,11 @@ TEST_F(SnapshotFiles, WhatIsWrittenIsReadBack) {
   now.contacts->tangentialForce = {0.01, -0.02};
   now.contacts->sliding = {0, 1};
   SnapshotFile out(path(), "someone", scene, 3, 3);
-  for (int k = 1; k <= 3; ++k) out.offer(now, k);
+  for (int k = 1; k <= 3; ++k) {
+    out.offer(now, k);
+    EXPECT_TRUE(fs::exists(folder_ / "mine.h5.part"));
+    EXPECT_FALSE(fs::exists(path())) << "not whole yet";
+  }
   out.close();
 
   const SnapshotReader in(path(), setup_);
@@ -113,6 +117,41 @@ TEST_F(SnapshotFiles, WhatIsWrittenIsReadBack) {
   const std::string xdmf = readFile(folder_ / "mine.xdmf").value();
   EXPECT_NE(xdmf.find("mine.h5:/snapshot-002/position"), std::string::npos);
   EXPECT_NE(xdmf.find("mine.h5:/snapshot-002/wall_position"), std::string::npos);
+}
+
+TEST_F(SnapshotFiles, OfARunBrokenOffIsBegunAnewAndEachSnapshotIsOnDiskAtOnce) {
+  Scene scene;
+  scene.disks.radius = {0.003};
+  scene.disks.mass = {1e-3};
+  scene.disks.inertia = {1e-9};
+  Snapshot now;
+  now.position = {{0.05, 0.0}};
+  now.velocity = {{0.1, 0.2}};
+  const auto size = [&] { return fs::file_size(folder_ / "mine.h5.part"); };
+  std::uintmax_t afterOne = 0;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    SnapshotFile out(path(), "someone", scene, 100, 100);
+    out.offer(now, 1);
+    if (attempt == 0) afterOne = size();
+    EXPECT_EQ(size(), afterOne);
+    for (int k = 2; k <= 20; ++k) out.offer(now, k);
+    EXPECT_GT(size(), afterOne);
+  }
+}
+
+TEST_F(SnapshotFiles, AFolderThatCannotBeMadeIsOneClearLine) {
+  Scene scene;
+  Snapshot now;
+  fs::create_directories(path());  // where the file should be
+  SnapshotFile out(path(), "someone", scene, 1, 1);
+  out.offer(now, 1);
+  try {
+    out.close();
+    FAIL() << "no exception";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("mine.h5: cannot be written"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(SnapshotFiles, WhatIsAbsentStaysAbsent) {

@@ -68,12 +68,13 @@ class UnfinishedRuns : public testing::Test {
 TEST_F(UnfinishedRuns, GoOnToTheBit) {
   leave();
   later_->load(scene_, {});
-  const auto before = UnfinishedRun(folder_, "key", scene_, true).resume(*later_);
+  UnfinishedRun run(folder_, "key", scene_, true);
+  const auto before = run.resume(*later_);
   ASSERT_TRUE(before);
   EXPECT_EQ(before->time, 0.05);
-  ASSERT_EQ(before->snapshots.size(), 2u);
-  EXPECT_EQ(before->snapshots[0].positionTime, 0.02);
-  EXPECT_NEAR(before->snapshots[1].positionTime, 0.03, 1e-15);
+  ASSERT_EQ(before->snapshots, 2u);
+  EXPECT_EQ(run.snapshot(0).positionTime, 0.02);
+  EXPECT_NEAR(run.snapshot(1).positionTime, 0.03, 1e-15);
   for (Engine* engine : {engine_.get(), later_.get()}) engine->advance(0.1);
   const Snapshot a = engine_->snapshot(ContactReport::instant);
   const Snapshot b = later_->snapshot(ContactReport::instant);

@@ -1,9 +1,23 @@
 """crossgrain average: a run's own snapshots give the run's own profiles; bad files end in one line."""
 
 import csv
+import subprocess
 import unittest
 
 from harness import BAD_INPUT, COUETTE, HELD, FELL_SHORT, SystemTest, settings
+
+# By Debian's own Python, which has the package, whichever one runs the tests.
+H5PY = """
+import h5py, numpy, sys
+with h5py.File(sys.argv[1]) as file:
+    first = file["snapshot-000"]
+    assert file.attrs["engine"] == b"grain" or file.attrs["engine"] == "grain"
+    assert first["position"].shape == (len(file["disks/radius"]), 2), first["position"].shape
+    assert first["contacts/normal"].shape == (len(first["contacts/i"]), 2)
+    assert numpy.allclose(numpy.linalg.norm(first["contacts/normal"], axis=1), 1.0)
+    assert (file["disks/index"][:] == numpy.arange(len(file["disks/radius"]))).all()
+    print(*(name for name in file if name.startswith("snapshot-")))
+"""
 
 METHODS = '["slicing","straight_cut","centre","line_gaussian","line_heaviside"]'
 
@@ -23,6 +37,11 @@ class Average(SystemTest):
         )
         self.assert_status(done, HELD, FELL_SHORT)
         snapshots = self.out / "snapshots" / "grain-p0.h5"
+        done = subprocess.run(
+            ["/usr/bin/python3", "-c", H5PY, str(snapshots)], capture_output=True, text=True
+        )
+        self.assertEqual("", done.stderr)
+        self.assertEqual(20, len(done.stdout.split()))
         again = self.folder / "again"
         done = self.average(*changes, snapshots=snapshots, out=again)
         self.assert_status(done, HELD)
