@@ -40,6 +40,7 @@ struct Capabilities {
   bool warmHandover = false;
   bool checkpoints = false;
   bool slidingFlags = false;
+  bool energyLedger = false;  ///< that it can keep one
   std::vector<SettingSpec> settings;
 };
 

@@ -90,7 +90,26 @@ grain::Setup translate(const Scene& scene) {
   setup.integrator = static_cast<grain::Integrator>(scene.law.conventions.integrator);
   setup.rotation = scene.rotation;
   setup.precision = static_cast<grain::Precision>(scene.precision);
+  setup.ledger = scene.energyLedger;
   return setup;
+}
+
+EnergyLedger translate(const grain::EnergyLedger& from) {
+  EnergyLedger to;
+  to.initial = from.initial;
+  to.kinetic = from.kinetic;
+  to.elasticNormal = from.elasticNormal;
+  to.elasticTangential = from.elasticTangential;
+  to.potential = from.potential;
+  to.plateSprings = from.plateSprings;
+  to.workOfWalls = from.workOfWalls;
+  to.gainedByConvention = from.gainedByConvention;
+  to.lostNormalDamping = from.lostNormalDamping;
+  to.lostTangentialDamping = from.lostTangentialDamping;
+  to.lostSliding = from.lostSliding;
+  to.lostBottom = from.lostBottom;
+  to.lostRelease = from.lostRelease;
+  return to;
 }
 
 /// Contacts that last 1/√factor as long, at the same restitution.
@@ -122,6 +141,7 @@ class GrainEngine : public Engine {
     can.precisions = {Precision::float64, Precision::float32};
     can.slidingFlags = true;
     can.checkpoints = true;
+    can.energyLedger = true;
     can.settings = {
         {"dt", 0.0, "s", "time step; 0: the case's", {}},
         {"stiffness",
@@ -130,6 +150,11 @@ class GrainEngine : public Engine {
          "times the case's k_n and k_t, at the same restitution; dt shrinks by its root",
          {}},
         {"skin", 0.0, "m", "of the Verlet lists; 0: tuned while it runs", {}},
+        {"max_overlap",
+         1.0,
+         "-",
+         "of two disks, in units of the smaller radius: a run with a deeper one ends; 0: any",
+         {}},
         {"threads", 1.0, "-", "that share the work of a step, to the same bits", {}}};
     return can;
   }
@@ -155,6 +180,7 @@ class GrainEngine : public Engine {
     grain::Setup setup = translate(own);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
+    setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
     setup.threads = threadsOf(settings);
     bodies_ = scene.bodies;
     spins_ = effectsOf(own).contains(Effect::friction);
@@ -228,6 +254,8 @@ class GrainEngine : public Engine {
     if (report == ContactReport::accumulated)
       throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
     snapshot.energies = {now.kineticEnergy(), now.elasticEnergy()};
+    if (const grain::EnergyLedger* ledger = now.energyLedger())
+      snapshot.ledger = translate(*ledger);
     return snapshot;
   }
 

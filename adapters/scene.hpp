@@ -58,7 +58,8 @@ struct Scene {
   Vec2 gravity = Vec2::Zero();  ///< in the plane [m/s²]
   bool rotation = true;         ///< false: friction acts, but no spin changes; all are zero
   Precision precision = Precision::float64;
-  double dt = 0.0;  ///< time step [s]
+  double dt = 0.0;            ///< time step [s]
+  bool energyLedger = false;  ///< whether engines that can are to keep Snapshot::ledger, at a cost
 
   std::size_t wallDiskCount() const;
   std::size_t planeCount() const;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/energy_ledger.hpp"
 #include "adapters/vec2.hpp"
 
 namespace crossgrain {
@@ -60,6 +61,7 @@ struct Snapshot {
   std::vector<BodySnapshot> bodies;
   std::optional<Contacts> contacts;
   std::optional<Energies> energies;
+  std::optional<EnergyLedger> ledger;  ///< where Scene::energyLedger asks for it; of positionTime
 };
 
 }  // namespace crossgrain

@@ -70,7 +70,8 @@ struct RunOptions {
   double timeout = 120.0;              ///< longest wait for one answer of a worker [s]
   Precision precision = Precision::float64;  ///< of engines that can choose
   bool mirrors = true;                       ///< also run the in-house mirrors of the engines named
-  int keepSnapshots = 20;                    ///< snapshots kept per run in HDF5
+  bool energyLedger = false;  ///< engines that can account for their energy, term by term
+  int keepSnapshots = 20;     ///< snapshots kept per run in HDF5
 };
 
 /// Two-body collisions: disks that meet each other, or a wall, with v_t = Ψ_i v_n.

@@ -67,6 +67,7 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
   scene.law = setup.law;
   scene.bottom = setup.bottom;
   scene.precision = setup.run.precision;
+  scene.energyLedger = setup.run.energyLedger;
   scene.dt = dt;
   if (pair.plane) scene.bodies.push_back(movingWall(collision.wallVelocity));
   const double middle = 0.5 * static_cast<double>(columns - 1);

@@ -212,6 +212,7 @@ void readRun(Reader& in, RunOptions& run) {
   in.read("precision", precision, precisions);
   run.precision = precision == precisions.front() ? Precision::float64 : Precision::float32;
   in.read("mirrors", run.mirrors);
+  in.read("energy_ledger", run.energyLedger);
   in.read("keep_snapshots", run.keepSnapshots, between(0, 1'000'000));
   in.finish();
   if (run.dt && in.has("steps_per_contact"))

@@ -75,6 +75,7 @@ void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
 Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
   Scene scene = couetteScene(setup, {disks, 0.0, {}, false, {}}, dt);
   scene.precision = Precision::float64;  // a packing is the same for all that run it
+  scene.energyLedger = false;
   const double start = setup.preparation.dilation * setup.cell.outerRadius;
   WallBody& ring = scene.bodies.back();
   for (Vec2& position : ring.diskPosition) position *= setup.preparation.dilation;

@@ -64,12 +64,13 @@ std::string profileRows(const Json& results, const std::string& engine, const st
 std::vector<std::string> seriesColumns(const Json& results) {
   std::vector<std::string> columns = {"wheel_torque", "outer_pressure", "kinetic_energy",
                                       "coordination", "max_overlap",    "sliding_fraction"};
-  std::set<std::string> further;
+  std::set<std::string> further, ledger;
   for (const Json& run : list(results, "runs"))
     for (const auto& [name, values] : member(run, "series").items())
       if (values.is_array() && name != "t_s" && std::ranges::find(columns, name) == columns.end())
-        further.insert(name);
+        (name.starts_with("energy_") ? ledger : further).insert(name);
   columns.insert(columns.end(), further.begin(), further.end());
+  columns.insert(columns.end(), ledger.begin(), ledger.end());
   return columns;
 }
 

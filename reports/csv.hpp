@@ -25,7 +25,8 @@ std::string profilesCsv(const Json& results);
 std::string distributionsCsv(const Json& results);
 
 /// engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,max_overlap,
-/// sliding_fraction, then further series that the results hold, by name.
+/// sliding_fraction, then further series that the results hold, by name, those of an energy
+/// ledger (energy_…) last.
 std::string seriesCsv(const Json& results);
 
 /// a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "adapters/law_options.hpp"
+#include "adapters/start_check.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/bad_input.hpp"
@@ -154,6 +155,8 @@ void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case
 
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
+  if (const std::string why = whyNoStart(scene); !why.empty())
+    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
   const Capabilities can = engine.capabilities();
   return namingRefusals(entry, setup, [&] {
     const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);

@@ -56,7 +56,8 @@ struct LoadedEngine {
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch);
 
-/// The same in an engine that runs already.
+/// The same in an engine that runs already. A scene that no engine can start from (whyNoStart())
+/// is BadInput.
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene);
 
 }  // namespace crossgrain

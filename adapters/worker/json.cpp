@@ -53,6 +53,7 @@ json toJson(const Capabilities& can) {
           {"warm_handover", can.warmHandover},
           {"checkpoints", can.checkpoints},
           {"sliding_flags", can.slidingFlags},
+          {"energy_ledger", can.energyLedger},
           {"settings", settings}};
 }
 
@@ -69,6 +70,7 @@ Capabilities capabilitiesFromJson(const json& in) {
   can.warmHandover = in.at("warm_handover");
   can.checkpoints = in.value("checkpoints", false);
   can.slidingFlags = in.at("sliding_flags");
+  can.energyLedger = in.value("energy_ledger", false);
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
                             item.at("doc"), item.at("choices")});

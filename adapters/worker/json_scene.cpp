@@ -108,6 +108,12 @@ BodySnapshot bodySnapshotFrom(const json& in) {
   return body;
 }
 
+EnergyLedger ledgerFrom(const json& in) {
+  EnergyLedger ledger;
+  for (const LedgerTerm& term : ledgerTerms) ledger.*term.value = in.at(std::string(term.name));
+  return ledger;
+}
+
 }  // namespace
 
 json toJson(const Scene& scene, ArrayWriter& arrays) {
@@ -140,7 +146,8 @@ json toJson(const Scene& scene, ArrayWriter& arrays) {
               {"gravity", pairOf(scene.gravity)},
               {"rotation", scene.rotation},
               {"precision", toString(scene.precision)},
-              {"dt", scene.dt}};
+              {"dt", scene.dt},
+              {"energy_ledger", scene.energyLedger}};
   if (scene.bottom) out["bottom"] = toJson(*scene.bottom);
   return out;
 }
@@ -174,6 +181,7 @@ Scene sceneFromJson(const json& in, const ArrayReader& arrays) {
   scene.rotation = in.at("rotation");
   scene.precision = valueOf<Precision>(in.at("precision"), precisionNames);
   scene.dt = in.at("dt");
+  scene.energyLedger = in.value("energy_ledger", false);
   return scene;
 }
 
@@ -210,6 +218,9 @@ json toJson(const Snapshot& snapshot, ArrayWriter& arrays) {
   if (snapshot.energies)
     out["energies"] = {{"kinetic", snapshot.energies->kinetic},
                        {"elastic", snapshot.energies->elastic}};
+  if (snapshot.ledger)
+    for (const LedgerTerm& term : ledgerTerms)
+      out["energy_ledger"][std::string(term.name)] = *snapshot.ledger.*term.value;
   return out;
 }
 
@@ -236,6 +247,7 @@ Snapshot snapshotFromJson(const json& in, const ArrayReader& arrays, const Scene
     snapshot.contacts = contactsFrom(arrays, disks + wallDisks + scene.planeCount());
   if (in.contains("energies"))
     snapshot.energies = {in.at("energies").at("kinetic"), in.at("energies").at("elastic")};
+  if (in.contains("energy_ledger")) snapshot.ledger = ledgerFrom(in.at("energy_ledger"));
   return snapshot;
 }
 

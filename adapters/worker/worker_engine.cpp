@@ -86,6 +86,7 @@ WorkerEngine::~WorkerEngine() {
 Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   shape_ = scene;
   time_ = 0.0;
+  goodTime_.reset();
   const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
   ArrayWriter arrays;
   json request = {{"request", "load"},
@@ -109,10 +110,12 @@ Snapshot WorkerEngine::snapshot(ContactReport contacts) {
   const json reply =
       ask({{"request", "snapshot"}, {"contacts", toJson(contacts)}, {"file", file.path().string()}},
           "snapshot");
-  return understand("snapshot", [&] {
+  Snapshot snapshot = understand("snapshot", [&] {
     return snapshotFromJson(reply.at("snapshot"), ArrayReader(file.path(), reply.at("arrays")),
                             shape_);
   });
+  goodTime_ = snapshot.positionTime;
+  return snapshot;
 }
 
 Stats WorkerEngine::stats() const {
@@ -135,7 +138,7 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
     if (reply.at("ok").get<bool>()) return reply;
     const auto reason = reply.at("what").get<std::string>();
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
-    throw EngineFailure(fmt::format("{}: {}", where(), reason));
+    throw EngineFailure(failure(reason));
   });
 }
 
@@ -163,6 +166,12 @@ std::string WorkerEngine::where() const {
   return fmt::format("{}, {} at t = {} s", name_, shape_.name, time_);
 }
 
+std::string WorkerEngine::failure(const std::string& what) const {
+  const std::string before =
+      goodTime_ ? fmt::format(" (last good snapshot: t = {} s)", *goodTime_) : "";
+  return fmt::format("{}: {}{}", where(), what, before);
+}
+
 std::string WorkerEngine::howItEnded(const std::string& what) const {
   const bool ended = process_->waitForExit(1s);
   const std::string how =
@@ -187,7 +196,7 @@ std::string WorkerEngine::lastLinesOfLog() const {
 }
 
 void WorkerEngine::fail(const std::string& what) const {
-  firstFailure_ = fmt::format("{}: {}", where(), what);
+  firstFailure_ = failure(what);
   process_.reset();
   throw EngineFailure(firstFailure_);
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -51,6 +52,8 @@ class WorkerEngine final : public Engine {
   template <typename Read>
   std::invoke_result_t<Read> understand(const std::string& what, Read&& read) const;
   std::string where() const;
+  /// One line: engine, scene, time, what went wrong, and when all was well last.
+  std::string failure(const std::string& what) const;
   std::string howItEnded(const std::string& what) const;
   std::string lastLinesOfLog() const;
 
@@ -63,6 +66,7 @@ class WorkerEngine final : public Engine {
   Capabilities capabilities_;
   Scene shape_;  ///< the loaded scene: what snapshots are checked against
   double time_ = 0.0;
+  std::optional<double> goodTime_;  ///< of the last snapshot of this scene
   unsigned files_ = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace grain {
 namespace {
 
-constexpr std::uint64_t magic = 0x32'6e'69'61'72'67;  // "grain2"
+constexpr std::uint64_t magic = 0x33'6e'69'61'72'67;  // "grain3"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -74,6 +74,12 @@ void Core<Real>::save(std::ostream& out) const {
   writeAll(out, lists_.stretched());
   writeAll(out, recorded_ ? contacts() : std::vector<Contact>());
   write(out, recorded_);
+  write(out, ledger_.has_value());
+  if (!ledger_) return;
+  LedgerSums::forState(
+      *ledger_, [&](const auto& sums) { write(out, sums); },
+      [&](const auto& all) { writeAll(out, all); });
+  writeAll(out, plateAccounts_);
 }
 
 template <class Real>
@@ -108,6 +114,15 @@ void Core<Real>::restore(std::istream& in) {
   rememberChoice();
   known_.reset();
   if (recorded_) known_ = std::move(contacts);
+  bool hasLedger = false;
+  read(in, hasLedger);
+  require(hasLedger == ledger_.has_value(),
+          hasLedger ? "of a setup with a ledger" : "of a setup without a ledger");
+  if (!ledger_) return;
+  LedgerSums::forState(
+      *ledger_, [&](auto& sums) { read(in, sums); },
+      [&](auto& all) { readAny(in, all, mostPairs); });
+  readSame(in, plateAccounts_);
 }
 
 template class Core<double>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -67,8 +68,10 @@ Core<Real>::Core(Setup setup)
       mass_(setup.disks.mass),
       inertia_(setup.disks.inertia),
       kernels_(kernels<Real>()),
+      maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
+                                         : std::numeric_limits<double>::infinity()),
       lists_(moving_, partCount(setup), setup.law.springs(),
-             Skin(setup.skin, smallestRadius(setup.disks))),
+             Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_),
       team_(partCount(setup)),
       reports_(partCount(setup)),
       touching_(partCount(setup)) {
@@ -85,6 +88,7 @@ Core<Real>::Core(Setup setup)
 
   buildWalls(std::move(setup.walls));
   allocate(setup.disks, effects);
+  if (setup.ledger) openLedger(setup);
   start();
 }
 
@@ -159,6 +163,10 @@ void Core<Real>::start() {
   const Real halfStep = std::exchange(law_.halfStep, Real(0));
   addForces(true);
   law_.halfStep = halfStep;
+  if (ledger_) {
+    account(0.0);
+    ledger_->begin();
+  }
   if (integrator_ == Integrator::positionVerlet) {
     halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
     kick(static_cast<Real>(-halfKick_));
@@ -170,11 +178,7 @@ void Core<Real>::findNeighbours() {
   recorded_ = false;
   known_.reset();
   placeWalls(Which::all);
-  try {
-    lists_.rebuild(places(), travel(), team_);
-  } catch (const NotFinite& found) {
-    reportNotFinite(found);
-  }
+  guarded([&] { lists_.rebuild(places(), travel(), team_); });
   findReachedWallDisks();
   rememberChoice();
 }
@@ -191,13 +195,6 @@ Places Core<Real>::places() {
                     static_cast<double>(origin_[i].y) + static_cast<double>(position_[i].y)};
     return {places_, placeRadius_, origin_};
   }
-}
-
-template <class Real>
-void Core<Real>::reportNotFinite(const NotFinite& found) const {
-  const auto number =
-      found.disk < moving_ ? static_cast<std::size_t>(numberAt_[found.disk]) : found.disk;
-  throw std::runtime_error("the position of disk " + std::to_string(number) + " is not finite");
 }
 
 template <class Real>

@@ -3,14 +3,23 @@
 #include <iosfwd>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engines/grain/kernels.hpp"
+#include "engines/grain/ledger.hpp"
 #include "engines/grain/pair_lists.hpp"
 #include "engines/grain/setup.hpp"
 #include "engines/grain/thread_team.hpp"
 
 namespace grain {
+
+struct Touch;  // account.cpp
+
+/// Velocity of a body's centre, or of a wall's point, and its spin.
+struct BodyMotion {
+  double vx = 0.0, vy = 0.0, spin = 0.0;
+};
 
 /// The time step in one precision. Simulation is its face; "number" is a disk's number there,
 /// "place" its place in the arrays here, which follow the disks' neighbourhood in space.
@@ -43,6 +52,8 @@ class Core {
   WallLoad wallLoad(std::size_t wall) const;
   double kineticEnergy() const;
   double elasticEnergy() const;
+  /// nullptr where none is kept
+  const EnergyLedger* energyLedger() const { return ledger_ ? &ledger_->ledger : nullptr; }
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
   const PairLists<Real>& lists() const { return lists_; }
@@ -75,12 +86,33 @@ class Core {
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
 
+  // The ledger, where one is kept.
+  void openLedger(const Setup& setup);
+  void rememberPlate();
+  void account(double time);
+  void accountContact(const Contact& contact, double time);
+  void accountSpring(const Contact& contact, const Touch& touch, double stiffness);
+  void accountDisk(std::size_t number, double time);
+  void accountPlate(std::size_t number, double time);
+  Touch touchOf(const Contact& contact, double time) const;
+  BodyMotion carried(std::size_t place, double time) const;
+  BodyMotion seen(std::size_t place) const;
+  BodyMotion wallMotion(const Contact& contact) const;
+
   // Housekeeping.
   void renumber();
   void localise();
   void findReachedWallDisks();
   Places places();
+  /// Does what may find a disk that is nowhere, or two that are too deep in each other.
+  /// @throws std::runtime_error naming them
+  template <class Work>
+  void guarded(Work&& work);
+  void checkPlanes();
   [[noreturn]] void reportNotFinite(const NotFinite& found) const;
+  [[noreturn]] void reportTooDeep(const TooDeep& found) const;
+  [[noreturn]] void reportTooDeep(std::size_t place, const std::string& partner, double overlap,
+                                  double radius) const;
   /// Calls visit(array) for each array that goes with the moving disks where they change place.
   template <class Visit>
   void forDiskArrays(Visit&& visit);
@@ -94,8 +126,10 @@ class Core {
   PlaneView<Real> planeView(PlacedPlane& placed, bool record);
   void makeRoomForRecords();
 
+  std::size_t wallOf(std::size_t number) const;
   WallPoint wallDisk(std::size_t number) const;
   std::vector<Contact> pairContacts() const;
+  double ownRadius(const Contact& contact) const;
   Real pairRadius(const Contact& contact) const;
   void appendPlaneContacts(std::vector<Contact>& contacts) const;
 
@@ -133,6 +167,7 @@ class Core {
   std::vector<std::vector<std::int32_t>> reached_;  ///< per wall: its disks in some list
   std::vector<PlacedPlane> placedPlanes_;
 
+  double maxOverlap_;  ///< in units of the smaller radius; infinite: any
   PairLists<Real> lists_;
   mutable ThreadTeam team_;
   // Near pairs hold as long as every disk is within its allowance of where it was.
@@ -150,7 +185,25 @@ class Core {
   std::vector<std::size_t> touching_;
   bool recorded_ = false;
   mutable std::optional<std::vector<Contact>> known_;
+
+  std::optional<LedgerSums> ledger_;
+  Vec<double> middle_{};  ///< where potentials are 0 [m]
+  bool plateSpin_ = false;
+  std::vector<Vec<Real>> plateBefore_;  ///< springs before the last evaluation, by number [m]
+  std::vector<SpringAccount> plateAccounts_;
 };
+
+template <class Real>
+template <class Work>
+void Core<Real>::guarded(Work&& work) {
+  try {
+    work();
+  } catch (const NotFinite& found) {
+    reportNotFinite(found);
+  } catch (const TooDeep& found) {
+    reportTooDeep(found);
+  }
+}
 
 template <class Real>
 template <class Visit>

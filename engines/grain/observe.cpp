@@ -23,10 +23,17 @@ double Core<Real>::y(std::size_t number) const {
          static_cast<double>(position_[i].y);
 }
 
+/// Of a wall disk.
+template <class Real>
+std::size_t Core<Real>::wallOf(std::size_t number) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(wallBegin_, number) -
+                                  wallBegin_.begin()) -
+         1;
+}
+
 template <class Real>
 WallPoint Core<Real>::wallDisk(std::size_t number) const {
-  const auto after = std::ranges::upper_bound(wallBegin_, number);
-  const auto w = static_cast<std::size_t>(after - wallBegin_.begin()) - 1;
+  const std::size_t w = wallOf(number);
   return walls_[w].disk(number - wallBegin_[w]);
 }
 
@@ -168,6 +175,12 @@ double Core<Real>::kineticEnergy() const {
     if (rotates()) energy += 0.5 * inertia_[i] * spin(i) * spin(i);
   }
   return energy;
+}
+
+template <class Real>
+double Core<Real>::ownRadius(const Contact& contact) const {
+  return static_cast<double>(
+      radius_[static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)])]);
 }
 
 /// R₁₂; of a plane's partner its own radius.

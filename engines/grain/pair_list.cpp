@@ -1,8 +1,17 @@
 #include "engines/grain/pair_list.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 namespace grain {
+namespace {
+
+/// Of two centres, 0 where any overlap will do [m].
+double leastDistance(double a, double b, double maxOverlap) {
+  return std::max(a + b - maxOverlap * std::min(a, b), 0.0);
+}
+
+}  // namespace
 
 template <class Real>
 void PairList<Real>::clear() {
@@ -40,15 +49,27 @@ void PairList<Real>::takeCarried() {
   }
 }
 
+/// @pre there is one
+template <class Real>
+TooDeep PairList<Real>::firstDeep(const Places& now, double maxOverlap) const {
+  for (std::size_t p = 0;; ++p) {
+    const auto a = static_cast<std::size_t>(farI[p]);
+    const auto b = static_cast<std::size_t>(farJ[p]);
+    const Vec<double> d = now.position[a] - now.position[b];
+    const double closest = leastDistance(now.radius[a], now.radius[b], maxOverlap);
+    if (d.x * d.x + d.y * d.y <= closest * closest) return {a, b};
+  }
+}
+
 template <class Real>
 std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double> allowance,
-                                       bool springs) {
+                                       double maxOverlap, bool springs) {
   const std::size_t room = farI.size();
   for (auto* ids : {&i, &j})
     if (ids->size() < room) ids->resize(room);
   if (far.size() < room) far.resize(room);
   if (springs && spring.size() < room) spring.resize(room);
-  std::size_t n = 0, touching = 0;
+  std::size_t n = 0, touching = 0, deep = 0;
   for (std::size_t p = 0; p < room; ++p) {
     const auto a = static_cast<std::size_t>(farI[p]);
     const auto b = static_cast<std::size_t>(farJ[p]);
@@ -62,7 +83,10 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
     const double within = reach + allowance[a] + allowance[b];
     n += distance2 < within * within;
     touching += distance2 < reach * reach;
+    const double closest = leastDistance(now.radius[a], now.radius[b], maxOverlap);
+    deep += distance2 <= closest * closest;
   }
+  if (deep > 0) throw firstDeep(now, maxOverlap);
   count = n;
   if (springs)
     for (std::size_t k = 0; k < count; ++k) spring[k] = farSpring[far[k]];

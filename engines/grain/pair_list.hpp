@@ -16,6 +16,11 @@ struct Places {
   std::span<const Vec<float>> origin;  ///< of each disk's local coordinates; empty: one origin
 };
 
+/// Two disks that overlap more than they may, or whose centres coincide.
+struct TooDeep {
+  std::size_t i, j;
+};
+
 /// The tangential spring of a pair on its way from one list to the next.
 struct CarriedSpring {
   std::int32_t i, j;
@@ -49,8 +54,13 @@ struct PairList {
   void carry();
   void takeCarried();
 
+  /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
   /// @returns how many of the near pairs touch
-  std::size_t chooseNear(const Places& now, std::span<const double> allowance, bool springs);
+  /// @throws TooDeep
+  std::size_t chooseNear(const Places& now, std::span<const double> allowance, double maxOverlap,
+                         bool springs);
+
+  TooDeep firstDeep(const Places& now, double maxOverlap) const;
 
   PairView<Real> view(AddTo addTo, bool record, bool rotation);
 };

@@ -23,8 +23,14 @@ void requireFinite(const Places& now) {
 }
 
 template <class Real>
-PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin)
-    : moving_(moving), springs_(springs), skin_(skin), lists_(parts), row_(parts) {}
+PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin,
+                           double maxOverlap)
+    : moving_(moving),
+      springs_(springs),
+      maxOverlap_(maxOverlap),
+      skin_(skin),
+      lists_(parts),
+      row_(parts) {}
 
 template <class Real>
 PairCounts PairLists<Real>::counts() const {
@@ -192,7 +198,7 @@ void PairLists<Real>::refresh(const Places& now, ThreadTeam& team) {
   touching_.assign(parts(), 0);
   team.run([&](std::size_t part) {
     for (PairList<Real>& list : lists_[part])
-      touching_[part] += list.chooseNear(now, allowance_, springs_);
+      touching_[part] += list.chooseNear(now, allowance_, maxOverlap_, springs_);
   });
   skin_.endRefresh(counts());
 }

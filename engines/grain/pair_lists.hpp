@@ -37,14 +37,15 @@ class PairLists {
  public:
   /// @param moving   disks 0 … moving−1 move; those after belong to walls and never meet each other
   /// @param springs  pairs have a tangential spring
-  PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin);
+  /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
+  PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin, double maxOverlap);
 
   std::size_t partBegin(std::size_t part) const { return moving_ * part / parts(); }
   std::size_t parts() const { return lists_.size(); }
 
   /// Chooses the near pairs anew, and collects the far ones where the skin does not last.
   /// @param travel  of each disk in a step [m]
-  /// @throws NotFinite
+  /// @throws NotFinite, TooDeep; so do all that choose near pairs
   void update(const Places& now, std::span<const double> travel, std::size_t stepsSince,
               ThreadTeam& team);
   /// Collects everything anew.
@@ -83,6 +84,7 @@ class PairLists {
 
   std::size_t moving_;
   bool springs_;
+  double maxOverlap_;
   Skin skin_;
   CellGrid grid_;
   std::vector<std::array<PairList<Real>, 3>> lists_;

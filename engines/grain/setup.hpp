@@ -30,8 +30,14 @@ struct Setup {
   Integrator integrator = Integrator::positionVerlet;
   bool rotation = true;  ///< false: friction, but no disk turns about itself
   double skin = 0.0;     ///< of the Verlet lists [m]; 0: tuned
+  /// Overlaps beyond this many times the smaller radius end the run: at 1, the default, the centre
+  /// of one disk lies inside the other, where no law of small overlaps means anything. 0: any, but
+  /// for coincident centres, which have no normal. Looked at whenever near pairs are chosen anew,
+  /// before two disks can come closer by half the skin.
+  double maxOverlap = 1.0;
   Precision precision = Precision::float64;
   int threads = 1;
+  bool ledger = false;          ///< keep an EnergyLedger, at every step's cost
   bool generalKernels = false;  ///< all options at run time: the reference of the specialised ones
 };
 

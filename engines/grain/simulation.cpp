@@ -104,6 +104,10 @@ double Simulation::elasticEnergy() const {
   return with(core_, [](const auto& core) { return core.elasticEnergy(); });
 }
 
+const EnergyLedger* Simulation::energyLedger() const {
+  return with(core_, [](const auto& core) { return core.energyLedger(); });
+}
+
 Simulation::Neighbours Simulation::neighbours() const {
   return with(core_, [](const auto& core) {
     const auto& lists = core.lists();

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "engines/grain/ledger.hpp"
 #include "engines/grain/setup.hpp"
 
 namespace grain {
@@ -64,6 +65,9 @@ class Simulation {
   double kineticEnergy() const;
   /// ½ k_n δ² + ½ k_t ξ² over the contacts [J].
   double elasticEnergy() const;
+
+  /// Where the energy is and went, kept step by step where Setup::ledger asks for it, else nullptr.
+  const EnergyLedger* energyLedger() const;
 
   /// How the neighbour lists fare; differs from run to run where the skin is tuned.
   struct Neighbours {

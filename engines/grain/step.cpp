@@ -21,12 +21,14 @@ constexpr std::uint64_t renumberingInterval = 8192;
 template <class Real>
 void Core<Real>::step(bool record) {
   known_.reset();
+  if (ledger_) rememberPlate();
   advanceDisks();
   ++steps_;
   moveWalls();
   if (steps_ % renumberingInterval == 0) renumber();
   if (outdated_) updateNeighbours();
-  addForces(record);
+  addForces(record || ledger_);
+  if (ledger_) account(integrator_ == Integrator::semiImplicitEuler ? 0.0 : 0.5 * dt_);
   if (integrator_ == Integrator::velocityVerlet) kick(static_cast<Real>(0.5 * dt_));
 }
 
@@ -68,11 +70,7 @@ void Core<Real>::moveWalls() {
 template <class Real>
 void Core<Real>::updateNeighbours() {
   placeWalls(Which::moving);
-  try {
-    lists_.update(places(), travel(), steps_ - chosenAt_, team_);
-  } catch (const NotFinite& found) {
-    reportNotFinite(found);
-  }
+  guarded([&] { lists_.update(places(), travel(), steps_ - chosenAt_, team_); });
   findReachedWallDisks();
   rememberChoice();
 }
@@ -93,6 +91,7 @@ std::span<const double> Core<Real>::travel() {
 
 template <class Real>
 void Core<Real>::rememberChoice() {
+  checkPlanes();
   chosen_.assign(position_.begin(), position_.begin() + static_cast<std::ptrdiff_t>(moving_));
   allowanceSquare_.resize(moving_);
   for (std::size_t i = 0; i < moving_; ++i) {
@@ -184,11 +183,7 @@ void Core<Real>::renumber() {
   placeWalls(Which::all);
   const Places now = places();
   const double largest = now.radius.empty() ? 1.0 : *std::ranges::max_element(now.radius);
-  try {
-    requireFinite(now);
-  } catch (const NotFinite& found) {
-    reportNotFinite(found);
-  }
+  guarded([&] { requireFinite(now); });
   renumberingGrid_.sort(now.position.first(moving_), 2.0 * largest);
   const std::span<const std::int32_t> order = renumberingGrid_.sorted();
 
@@ -202,7 +197,7 @@ void Core<Real>::renumber() {
   for (std::size_t place = 0; place < moving_; ++place)
     placeOf_[static_cast<std::size_t>(numberAt_[place])] = static_cast<std::int32_t>(place);
   localise();
-  lists_.renumber(newPlace_, places(), travel(), team_);
+  guarded([&] { lists_.renumber(newPlace_, places(), travel(), team_); });
   findReachedWallDisks();
   rememberChoice();
 }

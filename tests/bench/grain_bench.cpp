@@ -40,6 +40,7 @@ constexpr EffectSet effectSets[] = {
     {"viscous", [](Setup& s) { s.law.tangential = grain::Tangential::viscous; }},
     {"cut_tension", [](Setup& s) { s.law.cutTension = true; }},
     {"no_rotation", [](Setup& s) { s.rotation = false; }},
+    {"ledger", [](Setup& s) { s.ledger = true; }},
 };
 
 std::filesystem::path packingFolder;

@@ -51,6 +51,30 @@ class Compare(ResultsTest):
         super().setUp()
         self.short = settings(averaging__rotations=0.05)
 
+    def test_energy_ledger(self):
+        asked = settings(run__energy_ledger="true")
+        done = self.compare(*self.short, *asked, engines="grain,box2d-penalty")
+        self.assert_status(done, HELD, FELL_SHORT)
+        self.assertTrue(
+            self.first_line("series.csv").endswith(
+                "mean_overlap,energy_elastic_normal,energy_elastic_tangential,"
+                "energy_gained_by_convention,energy_initial,energy_kinetic,energy_lost_bottom,"
+                "energy_lost_normal_damping,energy_lost_release,energy_lost_sliding,"
+                "energy_lost_tangential_damping,energy_plate_springs,energy_potential,"
+                "energy_residual,energy_work_of_walls"
+            )
+        )
+        for row in self.rows("series.csv"):
+            if row["engine"] != "grain":  # has no ledger
+                self.assertEqual("", row["energy_residual"])
+                continue
+            work = float(row["energy_work_of_walls"])
+            self.assertGreater(work, 0.0)
+            self.assertGreater(float(row["energy_lost_sliding"]), 0.0)
+            # Springs stretched after their force, 50 steps a contact: a few per cent at most.
+            put_in = work + float(row["energy_initial"])
+            self.assertLess(abs(float(row["energy_residual"])), 0.05 * put_in)
+
     def test_tables(self):
         done = self.compare(*self.short, engines="grain,box2d-penalty")
         self.assert_status(done, HELD, FELL_SHORT)

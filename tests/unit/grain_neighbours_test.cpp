@@ -29,7 +29,8 @@ class Neighbours : public testing::TestWithParam<std::size_t> {
       radius.push_back(size(random));
     }
     travel.assign(count, 1e-3);
-    lists.emplace(moving, GetParam(), true, Skin(fixedSkin, 0.5));
+    const double anyOverlap = std::numeric_limits<double>::infinity();
+    lists.emplace(moving, GetParam(), true, Skin(fixedSkin, 0.5), anyOverlap);
     lists->rebuild(places(), travel, team);
   }
 

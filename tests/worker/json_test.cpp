@@ -71,6 +71,7 @@ TEST(WorkerJson, SceneKeepsEveryBit) {
   EXPECT_EQ(back.bottom->spin, scene.bottom->spin);
   EXPECT_EQ(back.gravity, scene.gravity);
   EXPECT_EQ(back.dt, scene.dt);
+  EXPECT_EQ(back.energyLedger, scene.energyLedger);
 }
 
 TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
@@ -103,6 +104,8 @@ TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
   expectSameBits(back.contacts->tangentialForce, full.contacts->tangentialForce);
   EXPECT_EQ(back.contacts->sliding, full.contacts->sliding);
   EXPECT_EQ(back.energies->elastic, full.energies->elastic);
+  for (const LedgerTerm& term : ledgerTerms)
+    EXPECT_EQ(*back.ledger.*term.value, *full.ledger.*term.value) << term.name;
 
   Snapshot bare = engine.snapshot(ContactReport::none);
   bare.spin.reset();
@@ -110,6 +113,7 @@ TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
   EXPECT_FALSE(bareBack.contacts);
   EXPECT_FALSE(bareBack.spin);
   EXPECT_FALSE(bareBack.energies);
+  EXPECT_FALSE(bareBack.ledger);
 }
 
 TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
@@ -121,6 +125,7 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   EXPECT_EQ(back.lawOptions, can.lawOptions);
   EXPECT_EQ(back.slidingFlags, true);
   EXPECT_EQ(back.warmHandover, false);
+  EXPECT_EQ(back.energyLedger, true);
   ASSERT_EQ(back.settings.size(), 2u);
   EXPECT_EQ(back.settings[0].defaultValue, SettingValue(1.0));
   EXPECT_EQ(back.settings[1].defaultValue, SettingValue(std::string("fast")));

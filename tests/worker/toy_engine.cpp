@@ -55,6 +55,7 @@ Capabilities ToyEngine::capabilities() const {
   can.lawOptions["tension"] = {"allow", "cut"};
   can.precisions = {Precision::float64, Precision::float32};
   can.slidingFlags = true;
+  can.energyLedger = true;
   can.settings.push_back({"threads", 1.0, "", "how many", {}});
   can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});
   return can;
@@ -113,6 +114,11 @@ Snapshot ToyEngine::snapshot(ContactReport contacts) {
     const Vec2 normal = (snapshot.position[0] - snapshot.position[1]).normalized();
     snapshot.contacts = Contacts{{0}, {1}, {normal}, {std::exp(t)}, {t / 3}, {-t / 7}, {1}};
     snapshot.energies = Energies{t / 9, t / 11};
+    if (scene_.energyLedger) {
+      snapshot.ledger.emplace();
+      for (std::size_t k = 0; k < ledgerTerms.size(); ++k)
+        *snapshot.ledger.*ledgerTerms[k].value = std::exp(t) / static_cast<double>(k + 3);
+    }
   }
   if (mischief_ == "nan") snapshot.velocity[1].x() = std::numeric_limits<double>::quiet_NaN();
   if (mischief_ == "few") snapshot.position.pop_back();
@@ -147,6 +153,7 @@ Scene toyScene() {
   scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, false};
   scene.gravity = {0.0, -9.81};
   scene.dt = 4e-5;
+  scene.energyLedger = true;
   return scene;
 }
 

@@ -1,0 +1,81 @@
+#include "engines/grain/ledger.hpp"
+
+#include <tuple>
+#include <utility>
+
+namespace grain {
+namespace {
+
+constexpr double EnergyLedger::*sums[] = {
+    &EnergyLedger::workOfWalls,       &EnergyLedger::gainedByConvention,
+    &EnergyLedger::lostNormalDamping, &EnergyLedger::lostTangentialDamping,
+    &EnergyLedger::lostSliding,       &EnergyLedger::lostBottom,
+    &EnergyLedger::lostRelease};
+
+auto pairOf(const SpringAccount& spring) {
+  return std::tie(spring.i, spring.j);
+}
+
+}  // namespace
+
+void LedgerSums::beginEvaluation() {
+  for (const auto sum : sums) ledger.*sum += std::exchange(pending_.*sum, 0.0);
+}
+
+void LedgerSums::begin() {
+  for (const auto sum : sums) ledger.*sum = 0.0;
+  ledger.initial = ledger.states();
+}
+
+void LedgerSums::add(double EnergyLedger::*term, const TwoParts& power, double sign) {
+  ledger.*term += sign * power.closing * scheme_.time.closing;
+  pending_.*term += sign * power.opening * scheme_.time.opening;
+}
+
+void LedgerSums::spring(SpringAccount now, const TwoParts& power) {
+  while (place_ < springs_.size() && pairOf(springs_[place_]) < pairOf(now))
+    release(springs_[place_++]);
+  SpringAccount before;
+  before.modulus = now.modulus;  // of a contact that has only begun
+  if (place_ < springs_.size() && pairOf(springs_[place_]) == pairOf(now))
+    before = springs_[place_++];
+  settle(before, now, power.closing * scheme_.time.closing, &EnergyLedger::lostSliding);
+  now.openingWork = power.opening * scheme_.time.opening;
+  next_.push_back(now);
+}
+
+void LedgerSums::endSprings() {
+  while (place_ < springs_.size()) release(springs_[place_++]);
+  springs_.swap(next_);
+  next_.clear();
+  place_ = 0;
+}
+
+void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount now, const TwoParts& power) {
+  settle(spring, now, power.closing * scheme_.time.closing, &EnergyLedger::lostBottom);
+  now.openingWork = power.opening * scheme_.time.opening;
+  spring = now;
+}
+
+void LedgerSums::settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
+                        double EnergyLedger::*term) {
+  const double stiffening = 0.25 * (now.modulus - before.modulus) * (before.square + now.square);
+  ledger.gainedByConvention += stiffening;
+  if (before.sliding == 0 && now.sliding == 0) return;
+  const double taken = -(before.openingWork + closingWork);
+  spend(term, taken - (now.energy - before.energy - stiffening));
+}
+
+void LedgerSums::spend(double EnergyLedger::*term, double loss) {
+  if (loss >= 0.0)
+    ledger.*term += loss;
+  else
+    ledger.gainedByConvention -= loss;
+}
+
+void LedgerSums::release(const SpringAccount& before) {
+  ledger.lostRelease += before.energy;
+  if (before.sliding != 0) spend(&EnergyLedger::lostSliding, -before.openingWork);
+}
+
+}  // namespace grain

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engines/grain/walls.hpp"
+
+namespace grain {
+
+/// Where the energy is and where it went since t = 0 [J].
+struct EnergyLedger {
+  double initial = 0.0;  ///< the states at t = 0, added up
+  double kinetic = 0.0, elasticNormal = 0.0, elasticTangential = 0.0;
+  double potential = 0.0;  ///< of gravity, 0 for all disks at their mean position of t = 0
+  double plateSprings = 0.0;
+  double workOfWalls = 0.0;         ///< on the disks
+  double gainedByConvention = 0.0;  ///< by springs that grow without being stretched
+  double lostNormalDamping = 0.0, lostTangentialDamping = 0.0, lostSliding = 0.0;
+  double lostBottom = 0.0;   ///< to the plate
+  double lostRelease = 0.0;  ///< springs still stretched when a contact ends
+
+  double states() const {
+    return kinetic + elasticNormal + elasticTangential + potential + plateSprings;
+  }
+};
+
+/// A force acts on velocities twice: in the part of the step that leads to its time, and in the one
+/// that leads on from there. `closing` and `opening` are values of one quantity, each as that part
+/// sees it: a velocity half way through the part's kick.
+struct TwoParts {
+  double closing = 0.0, opening = 0.0;
+};
+
+/// What a tangential spring was when it was last looked at.
+struct SpringAccount {
+  std::int32_t i = 0, j = 0;  ///< of the contact
+  std::int32_t sliding = 0;   ///< at the bound
+  double energy = 0.0;        ///< ½ · modulus · square [J]
+  double modulus = 0.0;       ///< k of a spring, 1/k of a remembered force
+  double square = 0.0;        ///< of the stretch or the remembered force, that of this time
+  double openingWork = 0.0;   ///< on the disks until the next look [J]
+};
+
+/// The sums of an energy ledger: what the forces of one evaluation did, term by term.
+///
+/// The discrete kinetic-energy identity. A kick from u to u + τ a, a = F/m, changes ½ m u² by
+///   τ F·(u + τ a/2),
+/// exactly: the force times the velocity half way through the kick. Both Verlet schemes kick by
+/// τ = dt/2 towards the time t of the force, from v − a dt/2 to v, and by dt/2 on from there; half
+/// way the velocities are v ∓ a dt/4. Euler's scheme kicks once, by dt, on from t: v + a dt/2. So
+///   K(t) − K(0) = Σ of τ F·u over all kicks since, but for rounding,
+/// and as F is a sum over contacts, plate and gravity, so is the work. A contact's share, of wall
+/// w, is f_n v_n + f_t v_t with the relative velocities that the law means, made of these u, and
+/// F·v_w (+ l_w f_t ω_w), which is the wall's work.
+///
+/// The dampers' share of that is exact too, as forces beyond their springs' are known. Springs give
+/// back what they took only as exactly as Σ τ f_el·u is the integral of f_el dδ (gravity: of F dx):
+/// that difference is the ledger's residual, and nothing else is in it. Where a spring slides, its
+/// ξ is set, so what it took from the motion beyond what it then holds is lost to sliding (Lätzel
+/// 2003, Eq. 4.25), or, if less than nothing, gained by the convention that set it. A modulus that
+/// changes with the overlap changes ½ k ξ² by ½ ξ² dk, which no force pays for: gained by
+/// convention, < 0 where it falls.
+class LedgerSums {
+ public:
+  struct Scheme {
+    TwoParts time;    ///< how long the force acts in each part [s]
+    TwoParts offset;  ///< of each part's velocity, in accelerations from the one at t [s]
+  };
+  explicit LedgerSums(Scheme scheme) : scheme_(scheme) {}
+
+  const Scheme& scheme() const { return scheme_; }
+
+  /// The openings noted at the last evaluation have happened.
+  void beginEvaluation();
+  /// Powers [W], > 0 to the disks.
+  void workOfWall(const TwoParts& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
+  /// Powers [W] of forces that are no spring's, > 0 to the disks: their opposites are losses.
+  void lose(double EnergyLedger::*term, const TwoParts& power) { add(term, power, -1.0); }
+  /// One spring, in ascending (i, j). @param power  of the spring on the disks [W]
+  void spring(SpringAccount now, const TwoParts& power);
+  /// After the last spring: those of contacts that are no more.
+  void endSprings();
+  /// The plate's spring with one disk.
+  void plateSpring(SpringAccount& before, SpringAccount now, const TwoParts& power);
+
+  /// At t = 0, after the first evaluation: nothing has happened yet.
+  void begin();
+
+  EnergyLedger ledger;  ///< its states are for the caller to keep
+
+  /// Calls visit(sums) and visitAll(springs) for all that a checkpoint has to keep.
+  template <class Sums, class Visit, class VisitAll>
+  static void forState(Sums& sums, Visit&& visit, VisitAll&& visitAll) {
+    visit(sums.ledger);
+    visit(sums.pending_);
+    visitAll(sums.springs_);
+  }
+
+ private:
+  void add(double EnergyLedger::*term, const TwoParts& power, double sign);
+  void settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
+              double EnergyLedger::*term);
+  void spend(double EnergyLedger::*term, double loss);
+  void release(const SpringAccount& before);
+
+  Scheme scheme_;
+  EnergyLedger pending_;  ///< of the openings
+  std::vector<SpringAccount> springs_, next_;
+  std::size_t place_ = 0;  ///< in springs_
+};
+
+}  // namespace grain

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "adapters/registry.hpp"
+
+namespace crossgrain::test {
+
+/// An engine that does as the in-house one does up to a step and misbehaves from there on, for
+/// lists of engines in tests: a worker program like a user's own, named after its mischief.
+///
+/// "pump"      its disks get faster, by 1 % of their velocity a step
+/// "nan"       a disk's position is not a number
+/// "hang"      does not come back
+/// "exit"      ends with status 3
+/// "crash"     aborts
+/// "garbage"   answers what is no JSON
+/// "short"     shows one disk too few
+EngineEntry misbehavingEntry(const std::string& mischief, std::uint64_t step);
+
+/// All of them but "pump", which nobody but a look at its energy gives away.
+const std::vector<std::string>& fatalMischiefs();
+
+}  // namespace crossgrain::test

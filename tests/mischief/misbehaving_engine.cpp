@@ -1,0 +1,64 @@
+#include "tests/mischief/misbehaving_engine.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+namespace crossgrain::test {
+namespace {
+
+void sayGarbage() {
+  constexpr char text[] = "%!PS-Adobe-3.0\n";
+  if (::write(4, text, sizeof text - 1) < 0) std::abort();
+}
+
+void speedUp(Snapshot& snapshot, double factor) {
+  for (Vec2& velocity : snapshot.velocity) velocity *= factor;
+  if (snapshot.spin)
+    for (double& spin : *snapshot.spin) spin *= factor;
+  if (snapshot.energies) snapshot.energies->kinetic *= factor * factor;
+  if (snapshot.ledger) snapshot.ledger->kinetic *= factor * factor;
+}
+
+}  // namespace
+
+Capabilities MisbehavingEngine::capabilities() const {
+  Capabilities can = engine_->capabilities();
+  can.checkpoints = false;
+  return can;
+}
+
+Realised MisbehavingEngine::load(const Scene& scene, const Settings& settings) {
+  Realised realised = engine_->load(scene, settings);
+  dt_ = realised.dt;
+  return realised;
+}
+
+double MisbehavingEngine::advance(double t) {
+  const double until = static_cast<double>(step_) * dt_;
+  if (t < until || mischief_ == "pump" || mischief_ == "nan" || mischief_ == "short")
+    return engine_->advance(t);
+  engine_->advance(until);
+  std::fprintf(stderr, "step %llu\n", static_cast<unsigned long long>(step_));
+  if (mischief_ == "exit") std::exit(3);
+  if (mischief_ == "crash") std::abort();
+  if (mischief_ == "hang")
+    for (;;) ::pause();
+  if (mischief_ == "garbage") sayGarbage();
+  return engine_->advance(t);
+}
+
+Snapshot MisbehavingEngine::snapshot(ContactReport contacts) {
+  Snapshot snapshot = engine_->snapshot(contacts);
+  const std::uint64_t steps = engine_->stats().steps;
+  if (steps < step_) return snapshot;
+  if (mischief_ == "nan") snapshot.position.front().x() = std::numeric_limits<double>::quiet_NaN();
+  if (mischief_ == "short") snapshot.position.pop_back();
+  if (mischief_ == "pump") speedUp(snapshot, 1.0 + 0.01 * static_cast<double>(steps - step_));
+  return snapshot;
+}
+
+}  // namespace crossgrain::test

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/grain_packed.hpp"
+
+// What ends a run: disks that are too deep in each other, and say so.
+
+namespace {
+
+using namespace grain;
+
+/// Two disks too soft for the speed they meet with, or one against a plane, that fly through.
+grain::Setup tunnelling() {
+  grain::Setup setup = test::collidingPair(4.0, 0.0, 0.0, 4e-5);
+  setup.law.kn = 1.0;
+  setup.law.gn = 0.0;
+  return setup;
+}
+
+/// What ends the run, and when.
+std::string endOf(const grain::Setup& setup, int steps, double* time = nullptr) {
+  Simulation simulation(setup);
+  try {
+    for (int k = 0; k < steps; ++k) {
+      simulation.step();
+      if (time != nullptr) *time = simulation.time();
+    }
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr int through = 100;  // 16 mm of approach, two diameters
+
+TEST(OverlapGuard, NamesTheDisksHowDeepAndWhen) {
+  for (const Precision precision : {Precision::float64, Precision::float32}) {
+    grain::Setup setup = tunnelling();
+    setup.precision = precision;
+    double last = 0.0;
+    const std::string why = endOf(setup, through, &last);
+    EXPECT_EQ(why.rfind("disk 0 and disk 1 overlap by 0.00", 0), 0u) << why;
+    EXPECT_NE(why.find("of the smaller radius"), std::string::npos) << why;
+    EXPECT_NE(why.find("; the limit is 1"), std::string::npos) << why;
+    // One is in the other after one radius of approach, 23 steps, or earlier by what they brake;
+    // lists are looked at when a disk has come a quarter of the skin (0.3 radii) further.
+    EXPECT_GE(last, 23 * setup.dt);
+    EXPECT_LE(last, 29 * setup.dt);
+    EXPECT_NE(why.find("t = 0.00"), std::string::npos) << why;
+  }
+}
+
+TEST(OverlapGuard, CanBeSetAndSwitchedOff) {
+  grain::Setup setup = tunnelling();
+  setup.maxOverlap = 0.0;
+  EXPECT_EQ(endOf(setup, through), "");
+  setup.maxOverlap = 1.9;
+  EXPECT_NE(endOf(setup, through).find("the limit is 1.9"), std::string::npos);
+  double early = 0.0, late = 0.0;
+  setup.maxOverlap = 0.5;
+  endOf(setup, through, &early);
+  setup.maxOverlap = 1.5;
+  endOf(setup, through, &late);
+  EXPECT_LT(early, late);
+}
+
+TEST(OverlapGuard, SeesADiskBehindAPlane) {
+  grain::Setup setup = tunnelling();
+  test::putOnPlane(setup);
+  const std::string why = endOf(setup, through);
+  EXPECT_EQ(why.rfind("disk 0 and plane 0 overlap by", 0), 0u) << why;
+  setup.maxOverlap = 0.0;
+  EXPECT_EQ(endOf(setup, through), "");
+}
+
+TEST(OverlapGuard, SeesADiskInAWallDisk) {
+  grain::Setup setup = tunnelling();
+  test::putOnPlane(setup);
+  Wall& wall = setup.walls.front();
+  wall.planes.clear();
+  wall.diskX = {1.0, -test::radius};  // the first far away
+  wall.diskY = {0.0, 0.0};
+  wall.diskRadius = {test::radius, test::radius};
+  const std::string why = endOf(setup, through);
+  EXPECT_EQ(why.rfind("disk 0 and wall disk 1 overlap by", 0), 0u) << why;
+}
+
+TEST(OverlapGuard, LooksAtTheStart) {
+  grain::Setup setup;
+  setup.law = test::thesisLaw();
+  setup.dt = 4e-5;
+  test::addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
+  test::addDisk(setup.disks, 0.9 * test::radius, 0.0, 0.0, 0.0, 0.0);
+  EXPECT_THROW(Simulation{setup}, std::runtime_error);
+  setup.disks.x[1] = 1.1 * test::radius;
+  EXPECT_NO_THROW(Simulation{setup});
+}
+
+TEST(OverlapGuard, LetsADensePackingBe) {
+  EXPECT_EQ(endOf(test::packed(12, 3), 2000), "");
+}
+
+}  // namespace

@@ -1,0 +1,446 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "tests/unit/grain_packed.hpp"
+
+// The energy ledger: its residual, and every term by another route.
+
+namespace {
+
+using namespace grain;
+
+/// > 0: energy from nowhere [J].
+double residual(const EnergyLedger& l) {
+  return l.states() - l.initial - l.workOfWalls - l.gainedByConvention + l.lostNormalDamping +
+         l.lostTangentialDamping + l.lostSliding + l.lostBottom + l.lostRelease;
+}
+
+/// Runs for a time, whatever `visit(simulation)` does after each step. @returns the last ledger
+EnergyLedger ledgerOf(grain::Setup setup, double time,
+                      const std::function<void(const Simulation&)>& visit = {}) {
+  setup.ledger = true;
+  Simulation simulation(std::move(setup));
+  const long steps = std::lround(time / simulation.dt());
+  for (long k = 0; k < steps; ++k) {
+    simulation.step();
+    if (visit) visit(simulation);
+  }
+  return *simulation.energyLedger();
+}
+
+double worstResidual(const grain::Setup& setup, double time) {
+  double worst = 0.0;
+  ledgerOf(setup, time, [&](const Simulation& s) {
+    worst = std::max(worst, std::abs(residual(*s.energyLedger())));
+  });
+  return worst;
+}
+
+using SetupAt = std::function<grain::Setup(double dt)>;
+
+/// Of the largest residual, from dt to dt/8.
+double orderOf(const SetupAt& scene, double dt, double time) {
+  return std::log2(worstResidual(scene(dt), time) / worstResidual(scene(dt / 8), time)) / 3.0;
+}
+
+double dtOf(double stepsPerContact) {
+  return test::contactTime() / stepsPerContact;
+}
+
+grain::Setup with(grain::Setup setup, Integrator integrator) {
+  setup.integrator = integrator;
+  if (integrator == Integrator::semiImplicitEuler) setup.law.damping = Damping::lagged;
+  return setup;
+}
+
+// The scheme's order.
+
+struct LawCase {
+  const char* name;
+  void (*change)(Law&);
+  double impact, spin;
+};
+
+void PrintTo(const LawCase& law, std::ostream* out) {
+  *out << law.name;
+}
+
+void hertz(Law& law) {
+  law.normal = Normal::hertz;
+  law.kn = 1e6;
+  law.kt = 8e5;
+  law.gn = law.gt = 0.0;
+  law.stretch = Stretch::midpoint;
+  law.mu = 10.0;
+}
+
+constexpr LawCase laws[] = {
+    {"undamped",
+     [](Law& law) {
+       law.gn = 0.0;
+       law.tangential = Tangential::none;
+     },
+     0.3, 0.0},
+    {"damped", [](Law& law) { law.tangential = Tangential::none; }, 0.3, 0.0},
+    {"cutTension",
+     [](Law& law) {
+       law.tangential = Tangential::none;
+       law.cutTension = true;
+     },
+     0.0, 0.0},
+    {"implicitDamping",
+     [](Law& law) {
+       law.damping = Damping::implicit;
+       law.stretch = Stretch::before;
+     },
+     0.1, 5.0},
+    {"coulomb", [](Law& law) { law.tangential = Tangential::coulomb; }, 0.3, 10.0},
+    {"viscous", [](Law& law) { law.tangential = Tangential::viscous; }, 0.3, 10.0},
+    {"springSticking", [](Law& law) { law.stretch = Stretch::midpoint; }, 0.05, 5.0},
+    {"springSliding", [](Law& law) { law.stretch = Stretch::midpoint; }, 0.0, 60.0},
+    {"undampedSpring",
+     [](Law& law) {
+       law.tangential = Tangential::spring;
+       law.stretch = Stretch::midpoint;
+     },
+     0.5, 10.0},
+    {"springOnlyReset",
+     [](Law& law) {
+       law.stretch = Stretch::midpoint;
+       law.resetSpringOnly = true;
+     },
+     0.5, 30.0},
+    {"contactPoint",
+     [](Law& law) {
+       law.stretch = Stretch::midpoint;
+       law.lever = Lever::contactPoint;
+     },
+     0.3, 5.0},
+    {"hertz", hertz, 0.05, 5.0},
+    {"mindlinForce",
+     [](Law& law) {
+       hertz(law);
+       law.history = History::force;
+     },
+     0.05, 5.0},
+    {"polynomial",
+     [](Law& law) {
+       law.normal = Normal::polynomial;
+       law.kn = 5e6;
+       law.kn3 = 1e10;
+       law.damper = Damper::critical;
+       law.gn = law.gt = 0.3;
+       law.stretch = Stretch::midpoint;
+     },
+     0.1, 5.0}};
+
+class LedgerOrder : public testing::TestWithParam<std::tuple<LawCase, Integrator>> {};
+
+/// Between the first touch and the last, where f_el is continuous, the trapezium rule of a Verlet
+/// scheme is of second order, however the dashpot begins and ends: what it takes is known exactly.
+/// The kink of f_el at δ = 0 costs a step's share of dt³. Euler's one kick from t on is a rectangle
+/// to the left: first order.
+TEST_P(LedgerOrder, OfTheResidualIsTheSchemes) {
+  const auto& [law, integrator] = GetParam();
+  const double order = orderOf(
+      [&, law = law, integrator = integrator](double dt) {
+        grain::Setup setup = with(test::collidingPair(0.1, law.impact, law.spin, dt), integrator);
+        law.change(setup.law);
+        return setup;
+      },
+      dtOf(50), 2.5 * test::contactTime());
+  const double expected = integrator == Integrator::semiImplicitEuler ? 1.0 : 2.0;
+  EXPECT_NEAR(order, expected, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, LedgerOrder,
+                         testing::Combine(testing::ValuesIn(laws),
+                                          testing::Values(Integrator::positionVerlet,
+                                                          Integrator::velocityVerlet,
+                                                          Integrator::semiImplicitEuler)),
+                         [](const auto& at) {
+                           std::ostringstream name;
+                           PrintTo(std::get<1>(at.param), &name);
+                           return std::string(std::get<0>(at.param).name) + "_" + name.str();
+                         });
+
+/// A spring that is stretched by v_t dt after its force, or before, is of first order itself.
+TEST(LedgerOrders, OfASpringStretchedOnOneSideIsOne) {
+  for (const Stretch stretch : {Stretch::after, Stretch::before}) {
+    const double order = orderOf(
+        [&](double dt) {
+          grain::Setup setup = test::collidingPair(0.1, 0.5, 10.0, dt);
+          setup.law.tangential = Tangential::spring;
+          setup.law.stretch = stretch;
+          return setup;
+        },
+        dtOf(400), 1.5 * test::contactTime());
+    EXPECT_NEAR(order, 1.0, 0.15);
+  }
+}
+
+// Rigid contacts have no springs, so nothing is left but rounding.
+
+TEST(LedgerOfImpulses, ClosesToRounding) {
+  grain::Setup setup = test::packed(10, 5);
+  setup.law.normal = Normal::impulse;
+  setup.law.tangential = Tangential::coulomb;
+  setup.law.en = 0.8;
+  setup.law.et0 = 0.3;
+  setup = with(setup, Integrator::semiImplicitEuler);
+  for (double& x : setup.disks.radius) x *= 0.95;
+  const EnergyLedger end = ledgerOf(setup, 0.1);
+  EXPECT_GT(end.lostNormalDamping, 0.1 * end.initial);
+  EXPECT_GT(end.lostSliding, 0.01 * end.initial);
+  EXPECT_GT(std::abs(end.workOfWalls), 0.1 * end.initial);
+  EXPECT_LT(std::abs(residual(end)), 1e-12 * end.initial);  // 2500 steps of 1e-16 each
+}
+
+/// One impact along the normal: ½ m₁₂ (1 − e²) v².
+TEST(LedgerOfImpulses, LosesWhatRestitutionSays) {
+  grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(50));
+  setup.law.normal = Normal::impulse;
+  setup.law.en = 0.6;
+  setup = with(setup, Integrator::semiImplicitEuler);
+  const EnergyLedger end = ledgerOf(setup, 2e-3);
+  const double lost = 0.5 * (0.5 * test::mass) * (1.0 - 0.36) * 0.01;
+  EXPECT_NEAR(end.lostNormalDamping, lost, 1e-12 * lost);
+  EXPECT_EQ(end.lostSliding + end.lostTangentialDamping + end.workOfWalls, 0.0);
+}
+
+// Term by term.
+
+/// e = exp(−π η/ω): what the dashpot took is ½ m₁₂ v² (1 − e²).
+TEST(LedgerTerms, NormalDampingOfACollision) {
+  grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(400));
+  setup.law.tangential = Tangential::none;
+  const EnergyLedger end = ledgerOf(setup, 1.5 * test::contactTime());
+  const double eta = 0.19 / test::mass, e = std::exp(-eta * test::contactTime());
+  EXPECT_NEAR(end.lostNormalDamping, end.initial * (1.0 - e * e), 1e-4 * end.initial);
+  EXPECT_EQ(end.elasticNormal, 0.0);
+}
+
+/// Half way through an undamped collision all energy is in the spring.
+TEST(LedgerTerms, NormalSpring) {
+  grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(400));
+  setup.law.tangential = Tangential::none;
+  setup.law.gn = 0.0;
+  double most = 0.0;
+  const EnergyLedger end = ledgerOf(setup, 5e-3, [&](const Simulation& s) {
+    most = std::max(most, s.energyLedger()->elasticNormal);
+    EXPECT_NEAR(s.energyLedger()->elasticNormal, s.elasticEnergy(), 1e-12 * 6.9e-7);
+    EXPECT_NEAR(s.energyLedger()->kinetic, s.kineticEnergy(), 1e-12 * 6.9e-7);
+  });
+  EXPECT_NEAR(most, end.initial, 1e-4 * end.initial);
+}
+
+/// A fast spin slides but for a beginning in which the spring is stretched to the bound: what the
+/// spring took then it spends while it slides, since the bound falls to 0. So the loss is
+/// −∫ f_t v_t dt of the forces seen, and µ f_n |v_t| of it while at the bound.
+TEST(LedgerTerms, SlidingIsTheForceTimesTheSlip) {
+  grain::Setup setup = test::collidingPair(0.1, 0.0, 60.0, dtOf(400));
+  setup.law.gt = 0.0;
+  setup.law.tangential = Tangential::spring;
+  setup.law.stretch = Stretch::midpoint;
+  double slid = 0.0, slidAtBound = 0.0;
+  const EnergyLedger end = ledgerOf(setup, 1.5 * test::contactTime(), [&](const Simulation& s) {
+    if (s.contacts().empty()) return;
+    const Contact& contact = s.contacts().front();
+    const double slip = (s.velocityY(0) - s.velocityY(1)) * contact.nx -
+                        (s.velocityX(0) - s.velocityX(1)) * contact.ny -
+                        test::radius * (s.spin(0) + s.spin(1));
+    slid -= contact.tangentialForce * slip * s.dt();
+    const double bound = 0.44 * std::max(contact.normalForce, 0.0);
+    EXPECT_LE(std::abs(contact.tangentialForce), bound * (1.0 + 1e-12));
+    if (contact.sliding) slidAtBound += bound * std::abs(slip) * s.dt();
+  });
+  EXPECT_NEAR(end.lostSliding - end.gainedByConvention, slid, 5e-3 * slid);
+  EXPECT_GT(slidAtBound, 0.9 * slid);
+  EXPECT_LT(slidAtBound, slid);
+  EXPECT_NEAR(end.initial - end.kinetic, end.lostNormalDamping + slid, 5e-3 * slid);
+  EXPECT_EQ(end.lostTangentialDamping, 0.0);
+}
+
+/// A column settles under gravity: the potential falls by m g times the fall, and in the end all of
+/// that is lost or in springs.
+TEST(LedgerTerms, PotentialOfAColumn) {
+  grain::Setup setup;
+  setup.law = test::thesisLaw();
+  setup.law.stretch = Stretch::midpoint;
+  setup.dt = 2e-5;
+  setup.gravityX = 1.0;
+  setup.gravityY = -9.81;
+  for (int k = 0; k < 5; ++k) test::addDisk(setup.disks, 0.5, 4e-3 + 7.6e-3 * k, 0.0, 0.0, 0.0);
+  Wall floor;
+  floor.planes = {{0.0, 0.0, 0.0, 1.0}, {0.5 + test::radius, 0.0, -1.0, 0.0}};
+  floor.motion = [](double) { return WallState{}; };
+  floor.moves = false;
+  setup.walls.push_back(floor);
+  double potential = 0.0, scale = 0.0;
+  const EnergyLedger end = ledgerOf(setup, 1.0, [&](const Simulation& s) {
+    potential = 0.0;
+    for (std::size_t i = 0; i < 5; ++i)
+      potential += test::mass * (9.81 * (s.y(i) - (4e-3 + 2 * 7.6e-3)) - (s.x(i) - 0.5));
+    scale = std::max(scale, std::abs(potential));
+    EXPECT_NEAR(s.energyLedger()->potential, potential, 1e-15);
+  });
+  EXPECT_LT(end.kinetic, 1e-12);
+  EXPECT_NEAR(end.lostNormalDamping + end.lostTangentialDamping + end.lostSliding +
+                  end.elasticNormal + end.elasticTangential - end.gainedByConvention,
+              -potential, 1e-3 * scale);
+  EXPECT_EQ(end.workOfWalls, 0.0);
+}
+
+/// A plane that presses one undamped disk against another plane: its work is ½ k δ² of two
+/// contacts, each by half its way.
+TEST(LedgerTerms, WorkOfAPlaneThatCompresses) {
+  grain::Setup setup;
+  setup.law.kn = 352.1;
+  setup.dt = 1e-5;
+  test::addDisk(setup.disks, test::radius, 0.0, 0.0, 0.0, 0.0);
+  Wall fixed, press;
+  fixed.planes = {{0.0, 0.0, 1.0, 0.0}};
+  fixed.motion = [](double) { return WallState{}; };
+  fixed.moves = false;
+  press.planes = {{2.0 * test::radius, 0.0, -1.0, 0.0}};
+  press.motion = [](double t) { return WallState{.x = -1e-4 * t, .vx = -1e-4}; };
+  setup.walls = {fixed, press};
+  const double way = 1e-4 * 1.0;
+  double pushed = 0.0;
+  const EnergyLedger end = ledgerOf(
+      setup, 1.0, [&](const Simulation& s) { pushed += s.wallLoad(1).fx * 1e-4 * s.dt(); });
+  const double stored = 2.0 * 0.5 * 352.1 * 0.25 * way * way;
+  // Slowly, but with a beginning: the disk swings by v/ω about the middle.
+  EXPECT_NEAR(end.workOfWalls, stored, 2e-2 * stored);
+  EXPECT_NEAR(end.workOfWalls, pushed, 1e-4 * stored);
+  EXPECT_NEAR(end.elasticNormal, stored, 2e-2 * stored);
+}
+
+/// A disk coasts over the plate: first it only stretches the spring, then it slides: µ_b m g times
+/// the way, and in the end the spring holds it.
+TEST(LedgerTerms, PlateTakesWhatADiskLosesOnTheWay) {
+  grain::Setup setup;
+  setup.dt = 1e-5;
+  setup.bottom = Bottom{0.1, 200.0, 0.1, 0.0, 9.81, false};
+  test::addDisk(setup.disks, 0.0, 0.0, 0.06, 0.08, 0.0);
+  double springs = 0.0;
+  const EnergyLedger end = ledgerOf(setup, 0.2, [&](const Simulation& s) {
+    springs = std::max(springs, s.energyLedger()->plateSprings);
+  });
+  const double bound = 0.1 * test::mass * 9.81;
+  EXPECT_NEAR(springs, 0.5 * bound * bound / 200.0, 1e-3 * springs);
+  EXPECT_LT(end.kinetic, 1e-4 * end.initial);
+  EXPECT_NEAR(end.lostBottom - end.gainedByConvention, end.initial - end.plateSprings - end.kinetic,
+              1e-3 * end.initial);
+  // Sliding to rest takes v²/(2 µ_b g): the loss is that of friction over this way.
+  const double way = 0.01 / (2.0 * 0.1 * 9.81);
+  EXPECT_NEAR(end.lostBottom, bound * way, 0.02 * bound * way);
+}
+
+/// Springs of the plate are stretched after their force: first order.
+TEST(LedgerTerms, PlateIsOfFirstOrder) {
+  const double order = orderOf(
+      [](double dt) {
+        grain::Setup setup;
+        setup.dt = dt;
+        setup.bottom = Bottom{1.0, 200.0, 0.02, 1e-4, 9.81, true};
+        test::addDisk(setup.disks, 0.0, 0.0, 1e-4, 0.0, 0.0);
+        return setup;
+      },
+      4e-5, 0.02);
+  EXPECT_NEAR(order, 1.0, 0.1);
+}
+
+// A packing in a moving box around a turning wheel: everything at once.
+
+class PackedLedger : public testing::TestWithParam<Integrator> {
+ protected:
+  static grain::Setup scene(double dt) {
+    grain::Setup setup = with(test::packed(10, 7), GetParam());
+    setup.law.stretch = Stretch::midpoint;
+    setup.gravityY = -1.0;
+    setup.dt = dt;
+    return setup;
+  }
+};
+
+/// The power of walls is minus what the disks do to them: force times velocity and torque times
+/// spin, from the loads that snapshots show.
+TEST_P(PackedLedger, WorkOfWallsIsThatOfTheLoads) {
+  double power = 0.0, turned = 0.0;
+  const EnergyLedger end = ledgerOf(scene(1e-5), 0.05, [&](const Simulation& s) {
+    for (std::size_t w = 0; w < 3; ++w) {
+      const WallState wall = s.wallState(w);
+      const WallLoad load = s.wallLoad(w);
+      power -= s.dt() * (load.fx * wall.vx + load.fy * wall.vy + load.torque * wall.spin);
+      turned -= s.dt() * load.torque * wall.spin;
+    }
+  });
+  EXPECT_GT(std::abs(turned), 1e-3 * end.initial);
+  EXPECT_NEAR(end.workOfWalls, power, 5e-3 * std::abs(power));
+}
+
+TEST_P(PackedLedger, ResidualShrinksAtTheSchemesOrder) {
+  const double coarse = worstResidual(scene(2e-5), 0.02), fine = worstResidual(scene(5e-6), 0.02);
+  const double order = std::log2(coarse / fine) / 2.0;
+  EXPECT_NEAR(order, GetParam() == Integrator::semiImplicitEuler ? 1.0 : 2.0, 0.25);
+}
+
+/// Looking changes nothing; nor do threads what the ledger says; a checkpoint carries it on.
+TEST_P(PackedLedger, ChangesNoBitAndIsPartOfTheState) {
+  grain::Setup setup = scene(4e-5);
+  setup.bottom = Bottom{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  Simulation without(setup);
+  setup.ledger = true;
+  Simulation one(setup);
+  setup.threads = 2;
+  Simulation two(setup);
+  EXPECT_EQ(without.energyLedger(), nullptr);
+  without.advance(200);
+  two.advance(200);
+  one.advance(100);
+  std::stringstream kept;
+  one.save(kept);
+  Simulation restored(setup);
+  restored.restore(kept);
+  one.advance(100);
+  restored.advance(100);
+  EXPECT_EQ(test::difference(without, one), "");
+  const EnergyLedger& ledger = *one.energyLedger();
+  for (const Simulation* other : {&two, &restored}) {
+    EXPECT_EQ(other->energyLedger()->lostSliding, ledger.lostSliding);
+    EXPECT_EQ(other->energyLedger()->lostBottom, ledger.lostBottom);
+    EXPECT_EQ(other->energyLedger()->workOfWalls, ledger.workOfWalls);
+    EXPECT_EQ(residual(*other->energyLedger()), residual(ledger));
+  }
+  EXPECT_GT(ledger.lostBottom, 0.0);
+}
+
+TEST_P(PackedLedger, IsNotTakenFromARunWithout) {
+  grain::Setup setup = scene(4e-5);
+  std::stringstream kept;
+  Simulation(setup).save(kept);
+  setup.ledger = true;
+  EXPECT_THROW(Simulation(setup).restore(kept), std::runtime_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, PackedLedger,
+                         testing::Values(Integrator::positionVerlet, Integrator::velocityVerlet,
+                                         Integrator::semiImplicitEuler));
+
+/// In single precision kicks round to 6e-8 of a velocity, and overlaps to 1e-9 m or so.
+TEST(LedgerInSinglePrecision, ClosesAsFarAsFloatsCan) {
+  grain::Setup setup = test::packed(10, 7);
+  setup.law.stretch = Stretch::midpoint;
+  setup.dt = 1e-5;
+  const double fine = worstResidual(setup, 0.02);
+  setup.precision = Precision::float32;
+  const double single = worstResidual(setup, 0.02);
+  double initial = ledgerOf(setup, 0.0).initial;
+  EXPECT_LT(std::abs(single - fine), 1e-4 * initial);
+}
+
+}  // namespace
