@@ -10,7 +10,9 @@
 #include "adapters/contact_law.hpp"
 #include "adapters/engine.hpp"
 #include "adapters/vec2.hpp"
+#include "cases/assembly.hpp"
 #include "cases/collision_end.hpp"
+#include "cases/stability.hpp"
 
 namespace crossgrain {
 
@@ -31,6 +33,7 @@ struct Particles {
   double inertiaFactor = 0.5;                   ///< q in J = q m a²: 1/2 disk, 2/5 sphere
   bool rotation = true;     ///< false: friction acts, but no disk has a spin or gets one
   double maxOverlap = 0.2;  ///< largest overlap allowed at a start, in units of the small radius
+  std::string maxOverlapKey = "particles.max_overlap";  ///< where the user says it
   std::optional<std::filesystem::path> file;  ///< a packing of the user's own (see cases/README)
 };
 
@@ -109,6 +112,8 @@ struct Case {
   Averaging averaging;
   RunOptions run;
   Collision collision;
+  Assembly assembly;
+  std::optional<Stability> stability;       ///< of a hard case
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
 };
 

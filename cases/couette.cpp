@@ -87,9 +87,10 @@ void checkStart(const Scene& scene, const Particles& particles, const std::strin
     throw BadInput(
         fmt::format("{}: {} and {} have the same centre", where, deep->first, deep->second));
   throw BadInput(fmt::format(
-      "{}: {} and {} overlap by {:.3g} m at the start, more than particles.max_overlap = {:g} "
-      "of the small radius allows ({:.3g} m)",
-      where, deep->first, deep->second, deep->overlap, particles.maxOverlap, limit));
+      "{}: {} and {} overlap by {:.3g} m at the start, more than {} = {:g} of the small radius "
+      "allows ({:.3g} m)",
+      where, deep->first, deep->second, deep->overlap, particles.maxOverlapKey,
+      particles.maxOverlap, limit));
 }
 
 }  // namespace crossgrain

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cases/loader_document.hpp"
@@ -15,9 +14,12 @@
 namespace crossgrain {
 namespace {
 
+// In the order of CaseKind.
 const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
-constexpr std::array couetteSections = {"bottom", "cell", "particles", "preparation", "averaging"};
-constexpr std::array collisionSections = {"collision"};
+const std::vector<std::vector<std::string>> sectionsOfKinds = {
+    {"bottom", "cell", "particles", "preparation", "averaging"},
+    {"collision"},
+    {"bottom", "assembly"}};
 
 void readHeader(Reader& in, Case& c) {
   std::string kind;
@@ -28,13 +30,26 @@ void readHeader(Reader& in, Case& c) {
     if (in.has("name")) in.fail("name", usableNameRule);
     in.failMissing("name", "the name of the file cannot stand in for it");
   }
-  if (kind == "assembly") in.fail("kind", "not yet supported");
-  c.kind = kind == "couette" ? CaseKind::couette : CaseKind::collision;
+  c.kind = static_cast<CaseKind>(std::ranges::find(kinds, kind) - kinds.begin());
 }
 
-void refuseSections(const Reader& root, const auto& names, std::string_view kind) {
-  for (const char* const name : names)
-    if (root.has(name)) root.fail(name, fmt::format("has no part in a {} case", kind));
+/// Sections that only other kinds of cases have.
+void refuseSections(const Reader& root, CaseKind kind) {
+  const auto own = static_cast<std::size_t>(kind);
+  for (const auto& names : sectionsOfKinds)
+    for (const std::string& name : names)
+      if (root.has(name) &&
+          std::ranges::find(sectionsOfKinds[own], name) == sectionsOfKinds[own].end())
+        root.fail(name, fmt::format("has no part in {} {} case",
+                                    kind == CaseKind::assembly ? "an" : "a", kinds[own]));
+}
+
+/// Without [run] dt the law has to tell how long a contact lasts.
+void requireStep(Reader& run, const Case& c) {
+  if (c.run.dt) return;
+  if (c.law.normal == NormalLaw::rigid) run.failMissing("dt", "a rigid law has no contact time");
+  if (c.law.stiffens())
+    run.failMissing("dt", "the contact time of this law depends on the speed of an impact");
 }
 
 /// A linear contact must oscillate: e_n and t_c are defined by that.
@@ -75,12 +90,22 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c.averaging);
-  if (!c.run.dt && c.law.normal == NormalLaw::rigid)
-    run.failMissing("dt", "a rigid law has no contact time");
-  if (!c.run.dt && c.law.stiffens())
-    run.failMissing("dt", "the contact time of this law depends on the speed of an impact");
+  requireStep(run, c);
   checkDamping(law, c);
   checkFit(cell, particles, c);
+}
+
+void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
+  Reader bottom = root.section("bottom");
+  Reader assembly = root.section("assembly");
+  if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
+  readAssembly(assembly, c.assembly);
+  requireStep(run, c);
+  const bool told = c.law.normal == NormalLaw::linear;
+  if (c.assembly.contactTimes && !told)
+    assembly.fail("contact_times", "this law has no contact time: give duration or steps");
+  // An overdamped contact has no t_c, but it is a scene.
+  if (!c.run.dt || c.assembly.contactTimes) checkDamping(law, c);
 }
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
@@ -109,23 +134,21 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
   Reader law = root.section("law");
   Reader run = root.section("run");
   Reader engines = root.section("engines");
-  for (const char* const name : couetteSections) root.take(name);
-  for (const char* const name : collisionSections) root.take(name);
+  Reader stability = root.section("stability");
+  for (const auto& names : sectionsOfKinds)
+    for (const std::string& name : names) root.take(name);
   root.finish();
 
   readHeader(header, c);
-  const bool couette = c.kind == CaseKind::couette;
-  if (couette)
-    refuseSections(root, collisionSections, "couette");
-  else
-    refuseSections(root, couetteSections, "collision");
+  refuseSections(root, c.kind);
   readLaw(law, c.law);
   readRun(run, c.run);
   readEngines(engines, c.engines);
-  if (couette)
-    readCouette(root, law, run, c);
-  else
-    readCollisionCase(root, law, run, c);
+  if (root.has("stability")) readStability(stability, c.stability.emplace());
+  const auto readKind = c.kind == CaseKind::couette     ? readCouette
+                        : c.kind == CaseKind::collision ? readCollisionCase
+                                                        : readAssemblyCase;
+  readKind(root, law, run, c);
 
   document.root["case"].as_table()->insert("name", c.name);
   c.resolvedToml = printDocument(document.root);

@@ -229,6 +229,21 @@ Reader Reader::section(std::string_view key) {
   return {node ? node->as_table() : nullptr, pathOf(key), file_};
 }
 
+std::vector<Reader> Reader::sections(std::string_view key) {
+  const toml::node* const node = take(key);
+  if (!node) return {};
+  const toml::array* const array = node->as_array();
+  if (!array) Value{*node, pathOf(key)}.failType("a list of tables");
+  std::vector<Reader> tables;
+  for (std::size_t k = 0; k < array->size(); ++k) {
+    const toml::node& each = *array->get(k);
+    const std::string path = fmt::format("{}[{}]", pathOf(key), k);
+    if (!each.is_table()) Value{each, path}.failType("a table");
+    tables.push_back({each.as_table(), path, file_});
+  }
+  return tables;
+}
+
 void Reader::finish() const {
   if (table_)
     for (const auto& [key, node] : *table_)

@@ -72,6 +72,8 @@ class Reader {
   bool isTable(std::string_view key) const;
   /// The table under a key; an empty reader where it is absent.
   Reader section(std::string_view key);
+  /// A list of tables, [[path.key]]; none where it is absent.
+  std::vector<Reader> sections(std::string_view key);
   /// The node under a key, or null; for values of more than one form.
   const toml::node* take(std::string_view key);
 

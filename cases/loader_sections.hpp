@@ -23,6 +23,8 @@ void readPreparation(Reader& in, Preparation& preparation);
 void readAveraging(Reader& in, Averaging& averaging);
 void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
+void readAssembly(Reader& in, Assembly& assembly);
+void readStability(Reader& in, Stability& stability);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 
 }  // namespace crossgrain

@@ -37,16 +37,12 @@ double contactTime(const ContactLaw& law, double reducedMass) {
   return std::numbers::pi / std::sqrt(omegaSquared);
 }
 
-namespace {
-
-/// ∫ f_el dδ of a law that stiffens [J].
-double workOf(const ContactLaw& law, double reducedRadius, double overlap) {
+double elasticEnergy(const ContactLaw& law, double reducedRadius, double overlap) {
+  if (law.normal == NormalLaw::linear) return 0.5 * law.kn * overlap * overlap;
   if (law.normal == NormalLaw::hertz)
     return 0.4 * law.kn * std::sqrt(reducedRadius * overlap) * overlap * overlap;
   return (law.kn / 3.0 + law.kn3 / 4.0 * overlap) * overlap * overlap * overlap;
 }
-
-}  // namespace
 
 double deepestOverlap(const ContactLaw& law, const Impact& impact) {
   const double energy = 0.5 * impact.reducedMass * impact.speed * impact.speed;
@@ -64,14 +60,14 @@ double deepestOverlap(const ContactLaw& law, const Impact& impact) {
   double outside = std::cbrt(3.0 * energy / law.kn);
   if (law.kn3 < 0.0) {
     outside = -law.kn / law.kn3;
-    if (workOf(law, 0.0, outside) <= energy)
+    if (elasticEnergy(law, 0.0, outside) <= energy)
       throw std::invalid_argument("the polynomial law gives way under so fast an impact");
   }
   double inside = 0.0;
   while (outside - inside > 1e-15 * outside) {
     const double middle = 0.5 * (inside + outside);
     if (middle == inside || middle == outside) break;
-    (workOf(law, 0.0, middle) < energy ? inside : outside) = middle;
+    (elasticEnergy(law, 0.0, middle) < energy ? inside : outside) = middle;
   }
   return outside;
 }
@@ -81,7 +77,7 @@ double impactTime(const ContactLaw& law, const Impact& impact) {
   const double deepest = deepestOverlap(law, impact);
   // δ = δ_max (1 − s²) takes the root's singularity out of T = 2 ∫ dδ/√(v² − 2 W/m₁₂).
   const auto integrand = [&](double s) {
-    const double work = workOf(law, impact.reducedRadius, deepest * (1.0 - s * s));
+    const double work = elasticEnergy(law, impact.reducedRadius, deepest * (1.0 - s * s));
     return 4.0 * deepest * s /
            std::sqrt(impact.speed * impact.speed - 2.0 * work / impact.reducedMass);
   };
@@ -99,8 +95,26 @@ double impactTime(const ContactLaw& law, const Impact& impact) {
   return time + nearlyZero * integrand(nearlyZero);
 }
 
+namespace {
+
+/// A single disk meets walls only.
+double lightestReducedMass(const Assembly& assembly) {
+  double lightest = INFINITY, second = INFINITY;
+  for (const DiskGroup& group : assembly.disks) {
+    const double smallest = group.mass * (1.0 - group.radiusSpread) * (1.0 - group.radiusSpread);
+    for (std::size_t k = 0; k < std::min<std::size_t>(group.places.size(), 2); ++k) {
+      second = std::min(second, std::max(lightest, smallest));
+      lightest = std::min(lightest, smallest);
+    }
+  }
+  return 1.0 / (1.0 / lightest + 1.0 / second);
+}
+
+}  // namespace
+
 double lightestReducedMass(const Case& c) {
   if (c.kind == CaseKind::collision) return collidingPair(c).reducedMass();
+  if (c.kind == CaseKind::assembly) return lightestReducedMass(c.assembly);
   // A single disk of a kind never meets its like, but a bound is all that is wanted.
   const Particles& p = c.particles;
   if (p.small > 0 && p.large == 0) return p.smallMass / 2.0;

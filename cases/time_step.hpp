@@ -29,6 +29,10 @@ struct Impact {
 /// @throws std::invalid_argument for a rigid law, and a polynomial one that gives way
 double deepestOverlap(const ContactLaw& law, const Impact& impact);
 
+/// ∫ f_el dδ: what the normal spring of a soft law holds at an overlap [J].
+/// @param reducedRadius  R₁₂; linear and polynomial laws do not ask for it [m]
+double elasticEnergy(const ContactLaw& law, double reducedRadius, double overlap);
+
 /// How long an impact lasts [s]: contactTime() of a linear law; of one that stiffens its elastic
 /// part, T = 2 ∫ dδ/√(v² − 2 W(δ)/m₁₂), for Hertz 2.9432 δ_max/v (Johnson 1985, Eq. 11.24).
 double impactTime(const ContactLaw& law, const Impact& impact);

@@ -205,6 +205,9 @@ int fromCase(const CommandLine& line, const Request& request) {
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
+  if (cases.front().kind == CaseKind::assembly)
+    throw BadInput(fmt::format("{}: an assembly has no kinds of disks: give the law's constants",
+                               file.string()));
   for (const Case& setup : cases)
     if (setup.law.normal == NormalLaw::rigid)
       throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",

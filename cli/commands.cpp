@@ -12,6 +12,7 @@
 #include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
+#include "cases/assembly_scene.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
@@ -108,6 +109,7 @@ namespace {
 Scene unplacedScene(const Case& setup) {
   if (setup.kind == CaseKind::collision)
     return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+  if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
   Packing unplaced;
   unplaced.disks = diskKinds(setup.particles);
   return couetteScene(setup, unplaced, timeStep(setup));

@@ -25,6 +25,7 @@ struct CommandLine {
   std::filesystem::path snapshots;            ///< file to average
   std::vector<std::string> overrides;         ///< --set
   bool quick = false;
+  bool longCases = false;  ///< --long
   bool strict = false;
   bool json = false;
 };
@@ -39,6 +40,7 @@ int compare(const CommandLine& line);
 int average(const CommandLine& line);
 int rev(const CommandLine& line);
 int effects(const CommandLine& line);
+int stability(const CommandLine& line);
 int rebuildReports(const CommandLine& line);
 int serveEngine(const std::string& name);
 

@@ -121,6 +121,16 @@ int run(int argc, char** argv) {
   addRun(*switching, line);
   addPackings(*switching, line, seed);
 
+  CLI::App* hard = addCommand(
+      app, "stability", "hard cases: what stays stable on which engine, and what does not",
+      "crossgrain stability --engines all --out out              # all of cases/hard\n"
+      "  crossgrain stability cases/hard/pile.toml --engines grain,yade --out out");
+  hard->add_option("case", line.inputs, "case files or folders of them (default: cases/hard)");
+  addRun(*hard, line);
+  hard->add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
+  CLI::Option* quickest = hard->add_flag("--quick", line.quick, "only cases marked as quick");
+  hard->add_flag("--long", line.longCases, "also cases marked as long")->excludes(quickest);
+
   CLI::App* averaging = addCommand(
       app, "average", "average snapshots of a file, of a run or of any other source",
       "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged");
@@ -151,8 +161,8 @@ int run(int argc, char** argv) {
   serve->add_option("engine", served)->required();
 
   // CLI11 would only say that some subcommand is required.
-  const std::vector<std::string> names = {"engines", "check",     "collide", "compare", "effects",
-                                          "average", "calibrate", "rev",     "report"};
+  const std::vector<std::string> names = {"engines",   "check",   "collide",   "compare", "effects",
+                                          "stability", "average", "calibrate", "rev",     "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
@@ -171,6 +181,7 @@ int run(int argc, char** argv) {
   if (collisions->parsed()) return collide(line);
   if (comparison->parsed()) return compare(line);
   if (switching->parsed()) return effects(line);
+  if (hard->parsed()) return stability(line);
   if (averaging->parsed()) return average(line);
   if (elements->parsed()) return rev(line);
   if (calibrations->parsed()) return calibrate(line, calibration);

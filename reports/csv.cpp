@@ -10,33 +10,11 @@
 #include <vector>
 
 #include "reports/collide_table.hpp"
+#include "reports/csv_row.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
-
-std::string cell(const std::string& value) {
-  if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
-  std::string quoted = "\"";
-  for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
-}
-
-std::string cell(std::size_t value) {
-  return fmt::format("{}", value);
-}
-
-template <class... Values>
-std::string row(const Values&... values) {
-  std::string line;
-  ((line += cell(values) + ","), ...);
-  line.back() = '\n';
-  return line;
-}
 
 /// The index that a run's packing has in the results, as text.
 std::string packingOf(const Json& run) {

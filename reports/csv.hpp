@@ -40,6 +40,11 @@ std::string agreementCsv(const Json& results);
 /// One row per field and ring; a leg that has none is one row with its status.
 std::string effectsCsv(const Json& results);
 
+/// engine,case,verdict,measure,value,limit,unit,step,reason, then degraded_limit,variant,time_s
+/// One row per engine, case and variant; step and time are those at which the limit was passed
+/// first, or an engine that failed was seen last.
+std::string stabilityCsv(const Json& results);
+
 /// engine,method,field,r_m,width_over_d,mean,stderr,unit
 std::string revCsv(const Json& results);
 

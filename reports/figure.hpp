@@ -20,8 +20,9 @@ struct LineStyle {
   bool dashed = false;
 };
 
-/// Blocks reach from x = 0 to each point, in panels with rows.
-enum class Draw { linesAndPoints, lines, points, blocks };
+/// Blocks reach from x = 0 to each point, in panels with rows; tiles fill the place of each point,
+/// in panels with rows and columns.
+enum class Draw { linesAndPoints, lines, points, blocks, tiles };
 
 struct Curve {
   std::string name;  ///< empty: not in the key
@@ -42,11 +43,12 @@ struct Panel {
   std::string name;  ///< in the title's place, and may be the user's words: printed as it is
   std::string xLabel, yLabel;
   std::optional<Range> xRange, yRange;
-  bool logX = false, logY = false;  ///< points that are not positive are left out
-  std::vector<double> xTicks;       ///< empty: gnuplot's choice
-  std::vector<std::string> rows;    ///< names along the y axis, at y = 0, 1, … from the top
-  std::optional<Range> shaded;      ///< part of the x axis
-  std::optional<double> level;      ///< a thin horizontal line
+  bool logX = false, logY = false;   ///< points that are not positive are left out
+  std::vector<double> xTicks;        ///< empty: gnuplot's choice
+  std::vector<std::string> rows;     ///< names along the y axis, at y = 0, 1, … from the top
+  std::vector<std::string> columns;  ///< names along the x axis, at x = 0, 1, …
+  std::optional<Range> shaded;       ///< part of the x axis
+  std::optional<double> level;       ///< a thin horizontal line
   std::vector<Curve> curves;
   Key key = Key::outside;
 };

@@ -93,6 +93,18 @@ std::string blocksElement(const std::string& source, const std::string& colour) 
       source, colour);
 }
 
+std::string titleOf(const std::string& name) {
+  return name.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(name));
+}
+
+std::string tilesElement(const std::string& source, const std::string& colour,
+                         const std::string& name) {
+  return fmt::format(
+      "{} using 1:2:($1-0.47):($1+0.47):($2-0.44):($2+0.44) with boxxyerror fill solid 1 noborder "
+      "{} {}",
+      source, colour, titleOf(name));
+}
+
 std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
                          bool across) {
   const std::string source = fmt::format("'{}' index {}", data, index);
@@ -101,14 +113,14 @@ std::string plotElements(const std::string& data, std::size_t index, const Curve
     return blocksElement(source, colour) +
            (hasBars(curve) ? ", " + barsElement(source, "lc rgb 'black'", across) + "1/0 notitle"
                            : "");
+  if (curve.draw == Draw::tiles) return tilesElement(source, colour, curve.name);
   const std::string line =
       fmt::format("lw {} dt {}", curve.width, curve.style.dashed ? "(8,4)" : "solid");
   const std::string marks = fmt::format("pt {} ps {}", curve.style.pointType, across ? 0.9 : 0.6);
   const std::string look = curve.draw == Draw::lines    ? "lines " + line
                            : curve.draw == Draw::points ? "points " + marks
                                                         : "linespoints " + line + " " + marks;
-  const std::string title =
-      curve.name.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(curve.name));
+  const std::string title = titleOf(curve.name);
   return (hasBars(curve) ? barsElement(source, colour, across) : std::string()) +
          fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title);
 }
@@ -134,6 +146,15 @@ std::string rowNames(const Panel& panel, bool shown) {
       "set ytics noenhanced ({})\n  set yrange [{}:-0.5]\n  set yzeroaxis lc rgb "
       "'#444444' lw 1 dt solid",
       places, static_cast<double>(panel.rows.size()) - 0.5);
+}
+
+/// Names instead of numbers along the x axis.
+std::string columnNames(const Panel& panel) {
+  std::string places;
+  for (std::size_t k = 0; k < panel.columns.size(); ++k)
+    places += fmt::format("{}{} {}", k == 0 ? "" : ",", quoted(panel.columns[k]), k);
+  return fmt::format("set xtics noenhanced ({})\n  set xrange [-0.5:{}]", places,
+                     static_cast<double>(panel.columns.size()) - 0.5);
 }
 
 std::string keyText(Key key) {
@@ -178,6 +199,7 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
       ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
       rangeText(panel.xRange), rangeText(range));
   if (!panel.rows.empty()) script += "  " + rowNames(panel, firstInLine) + "\n";
+  if (!panel.columns.empty()) script += "  " + columnNames(panel) + "\n";
   script += furniture(panel);
   script += "  plot ";
   for (std::size_t k = 0; k < panel.curves.size(); ++k)

@@ -124,7 +124,9 @@ void addForces(const Json& picture, const std::vector<Disk>& bodies, double wide
   groups.moveTo(drawing);
 }
 
-Drawing forcesDrawing(const Json& picture, double widest) {
+}  // namespace
+
+Drawing forcesDrawing(const Json& picture, double widest, double width) {
   auto disks = disksOf(picture, "x", "y", "radius");
   const auto walls = disksOf(picture, "wall_x", "wall_y", "wall_radius");
   Drawing drawing = emptyDrawing(disks, walls);
@@ -140,9 +142,11 @@ Drawing forcesDrawing(const Json& picture, double widest) {
   fills.moveTo(drawing);
   addWalls(walls, drawing);
   disks.insert(disks.end(), walls.begin(), walls.end());
-  addForces(picture, disks, widest, 0.75 * largest, drawing);
+  addForces(picture, disks, widest, width * largest, drawing);
   return drawing;
 }
+
+namespace {
 
 const Json& firstPicture(const EngineResults& engine) {
   for (const Json* run : engine.runs)
@@ -183,7 +187,7 @@ std::vector<Picture> comparePictures(const Json& results) {
     if (const auto widest = widestForce(picture))
       forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
                         fmt::format("Widest line: {} N and more.", readable(widest)),
-                        Picture::Shows::forces, forcesDrawing(picture, *widest)});
+                        Picture::Shows::forces, forcesDrawing(picture, *widest, 0.75)});
   }
   for (Picture& picture : forces) origins.push_back(std::move(picture));
   return origins;

@@ -36,16 +36,20 @@ Kind kindOf(const Json& results) {
     return {{{"collisions.csv", collisionsCsv}}, collideFigures, noPictures, collidePage};
   if (kind == kindEffects)
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+  if (kind == kindStability)
+    return {{{"stability.csv", stabilityCsv}}, stabilityFigures, stabilityPictures, stabilityPage};
   if (kind == kindRev)
     return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
             revFigures,
             noPictures,
             revPage};
-  return {
-      {{"profiles.csv", profilesCsv}, {"series.csv", seriesCsv}, {"agreement.csv", agreementCsv}, {"distributions.csv", distributionsCsv}},
-      compareFigures,
-      comparePictures,
-      comparePage};
+  return {{{"profiles.csv", profilesCsv},
+           {"series.csv", seriesCsv},
+           {"agreement.csv", agreementCsv},
+           {"distributions.csv", distributionsCsv}},
+          compareFigures,
+          comparePictures,
+          comparePage};
 }
 
 /// @returns why there are no plots, if so

@@ -13,6 +13,7 @@ inline constexpr std::string_view kindCompare = "compare";
 inline constexpr std::string_view kindCollide = "collide";
 inline constexpr std::string_view kindEffects = "effects";
 inline constexpr std::string_view kindRev = "rev";
+inline constexpr std::string_view kindStability = "stability";
 
 /// @throws BadInput, beginning with where, unless schema and kind are ones that are known here
 void checkSchema(const nlohmann::json& results, const std::string& where);

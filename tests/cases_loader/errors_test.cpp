@@ -107,8 +107,7 @@ TEST_F(LoaderErrors, UnknownNamesSuggestTheNearest) {
        "case.toml:25:15: run.may_differ[0] = \"tensoin\": unknown name (did you mean tension?)"},
       {plus("[run]\nmay_differ = [\"tension\", \"tension\"]\n"),
        "case.toml:25:14: run.may_differ: \"tension\" is there twice"},
-      {line(2, "kind = \"assembly\""),
-       "case.toml:2:8: case.kind = \"assembly\": not yet supported"},
+      {line(2, "kind = \"assembly\""), "case.toml:10:1: [cell]: has no part in an assembly case"},
       {line(2, "kind = \"couette\"\nname = \"a b\""),
        "case.toml:3:8: case.name = \"a b\": must be of letters, digits and . _ - +, and not start "
        "with a dot"},

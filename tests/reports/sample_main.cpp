@@ -12,5 +12,6 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
   crossgrain::writeReport(crossgrain::sample::effectsResults(4), dir / "effects");
+  crossgrain::writeReport(crossgrain::sample::stabilityResults(), dir / "stability");
   std::printf("%s\n", dir.c_str());
 }

@@ -17,6 +17,9 @@ nlohmann::json collideResults();
 /// and which refuses a third switch.
 nlohmann::json effectsResults(int packings);
 
+/// Two hard cases on two engines: every verdict once.
+nlohmann::json stabilityResults();
+
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";
 

@@ -1,0 +1,77 @@
+#include "runs/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cases/assembly_scene.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
+#include "runs/couette_run.hpp"
+#include "runs/interrupt.hpp"
+
+namespace crossgrain {
+
+namespace {
+
+HardScene plainScene(const Case& setup, const Packing& packing) {
+  const double dt = timeStep(setup);
+  switch (setup.kind) {
+    case CaseKind::assembly:
+      return {&setup, assemblyScene(setup), assemblyDuration(setup)};
+    case CaseKind::collision:
+      return {&setup, collisionScene(setup, collisionStarts(setup), dt),
+              dt + 2.5 * impactTimes(setup).longest + 20.0 * dt};
+    case CaseKind::couette:
+      break;
+  }
+  return {&setup, couetteScene(setup, packing, dt),
+          (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup)};
+}
+
+}  // namespace
+
+HardScene hardScene(const Case& setup, const Packing& packing) {
+  HardScene hard = plainScene(setup, packing);
+  const std::string& measure = setup.stability->measure;
+  hard.scene.energyLedger = setup.run.energyLedger || measure == "energy_gain" ||
+                            measure == "energy_drift" || measure == "ledger_residual";
+  return hard;
+}
+
+void advanceInPieces(Engine& engine, const Realised& realised, double from, double to) {
+  const double piece = 2000.0 * realised.dt;
+  for (double now = from; now < to;) {
+    throwIfInterrupted();
+    const double next = std::min(to, now + piece);
+    const double reached = engine.advance(next);
+    if (!(std::abs(reached - next) <= realised.dt))
+      throw EngineFailure(fmt::format("{}: asked for t = {:g} s it stopped at {:g} s",
+                                      realised.engine, next, reached));
+    now = next;
+  }
+}
+
+Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+                 const std::function<void(double)>& progress) {
+  Recording run{hard.setup, hard.scene, {}, {}, {}};
+  try {
+    run.realised = loadScene(engine, entry, *hard.setup, hard.scene);
+    run.snapshots.push_back(engine.snapshot(ContactReport::none));
+    const int samples = hard.setup->stability->samples;
+    double now = 0.0;
+    for (int k = 1; k <= samples; ++k) {
+      const double next = hard.duration * k / samples;
+      advanceInPieces(engine, run.realised, now, next);
+      now = next;
+      run.snapshots.push_back(engine.snapshot(ContactReport::instant));
+      progress(static_cast<double>(k) / samples);
+    }
+  } catch (const EngineFailure& failure) {
+    run.failure = failure.what();
+  }
+  return run;
+}
+
+}  // namespace crossgrain

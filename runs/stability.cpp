@@ -1,0 +1,223 @@
+#include "runs/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "cases/bad_input.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/stability_measures.hpp"
+#include "cases/time_step.hpp"
+#include "runs/interrupt.hpp"
+#include "runs/progress.hpp"
+#include "runs/recorder.hpp"
+#include "runs/records.hpp"
+#include "runs/run_store.hpp"
+#include "runs/stability_run.hpp"
+#include "runs/task_pool.hpp"
+#include "runs/version.hpp"
+
+namespace crossgrain {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+std::vector<fs::path> filesOf(const fs::path& input) {
+  if (!fs::is_directory(input)) return {input};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(input))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty()) throw BadInput(input.string() + ": there is no case file (*.toml) in it");
+  std::ranges::sort(files);
+  return files;
+}
+
+bool belongsTo(SuitePart part, const Stability& hard) {
+  if (part == SuitePart::quick) return hard.quick;
+  return part == SuitePart::withLong || !hard.longRun;
+}
+
+}  // namespace
+
+std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
+                            const std::vector<std::string>& overrides, SuitePart part) {
+  std::vector<Case> cases;
+  std::map<std::string, fs::path> named;
+  for (const fs::path& input : inputs)
+    for (const fs::path& file : filesOf(input))
+      for (Case& setup : loadCase(file, overrides)) {
+        if (!setup.stability)
+          throw BadInput(fmt::format("{}: has no [stability]: it is no hard case", file.string()));
+        if (const auto [at, isNew] = named.emplace(setup.name, file); !isNew && at->second != file)
+          throw BadInput(fmt::format("{}: case.name = \"{}\": {} has it too", file.string(),
+                                     setup.name, at->second.string()));
+        cases.push_back(std::move(setup));
+      }
+  if (std::ranges::none_of(cases, [&](const Case& c) { return belongsTo(part, *c.stability); }))
+    throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
+                                            : "all of these cases are long: --long runs them");
+  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
+  return cases;
+}
+
+namespace {
+
+class Suite {
+ public:
+  Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command)
+      : cases_(cases),
+        command_(command),
+        engines_(std::move(engines)),
+        store_(command.out),
+        progress_(command.quiet),
+        packings_(cases.size()),
+        versions_(engines_.size()),
+        rows_(cases.size() * engines_.size()) {
+    for (const Case& setup : cases) checkEngineSections(setup);
+    for (const EngineEntry& entry : engines_)
+      if (entry.missing && !entry.missing().empty())
+        startEngine(entry, {}, 1.0);  // throws, saying why
+  }
+
+  void askVersions() {
+    for (std::size_t e = 0; e < engines_.size(); ++e) {
+      throwIfInterrupted();
+      try {
+        versions_[e] = startEngine(engines_[e], store_.scratch("ask-" + engines_[e].name), 60.0)
+                           ->capabilities()
+                           .version;
+      } catch (const EngineFailure& failure) {
+        progress_.say(failure.what());  // its runs will tell, one by one
+      }
+    }
+    if (!command_.resume) store_.startAfresh();
+  }
+
+  void preparePackings() {
+    for (std::size_t c = 0; c < cases_.size(); ++c) {
+      if (cases_[c].kind != CaseKind::couette) continue;
+      const auto engine = engineRegistry().front().make();
+      progress_.begin("preparing packings", {1.0});
+      packings_[c] = packingOf(cases_[c], 0, timeStep(cases_[c]), *engine, [&](double fraction) {
+        throwIfInterrupted();
+        progress_.update(0, cases_[c].name, fraction);
+      });
+      progress_.finish(0, cases_[c].name + ": packing ready");
+    }
+  }
+
+  void run() {
+    std::vector<Task> tasks;
+    std::vector<double> weights;
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t e = 0; e < engines_.size(); ++e) {
+        const std::size_t task = tasks.size();
+        weights.push_back(predicted(cases_[c], engines_[e]));
+        tasks.push_back({weights.back(), [this, c, e, task] { runOne(c, e, task); }});
+      }
+    progress_.begin("hard cases", weights);
+    runTasks(tasks, command_.jobs);
+  }
+
+  json results() const {
+    json results = resultsHead("stability", cases_.front(), command_.commandLine);
+    const bool one =
+        std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
+    results["case"] = {{"name", one ? cases_.front().name : "hard cases"},
+                       {"variant", ""},
+                       {"file", cases_.front().file.parent_path().string()},
+                       {"toml", ""}};
+    results["cases"] = json::array();
+    for (const Case& setup : cases_) results["cases"].push_back(caseJson(setup));
+    results["runs"] = rows_;
+    results["engines"] = json::array();
+    for (std::size_t e = 0; e < engines_.size(); ++e)
+      results["engines"].push_back({{"name", engines_[e].name},
+                                    {"summary", engines_[e].summary},
+                                    {"version", versions_[e]},
+                                    {"mirrors", engines_[e].mirrors},
+                                    {"status", "ran"},
+                                    {"reason", ""}});
+    return results;
+  }
+
+ private:
+  /// Roughly, in seconds: the longest start first.
+  double predicted(const Case& setup, const EngineEntry& entry) const {
+    const double perStep = entry.command ? 3e-5 : 2e-6;
+    double steps = 1e4;
+    if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
+    if (setup.kind == CaseKind::assembly && setup.assembly.duration)
+      steps = *setup.assembly.duration / timeStep(setup);
+    std::size_t disks = 1;
+    for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
+    return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
+  }
+
+  const Case& originalOf(const Case& setup) const {
+    return *std::ranges::find(cases_, setup.name, &Case::name);
+  }
+
+  void runOne(std::size_t c, std::size_t e, std::size_t task) {
+    const Case& setup = cases_[c];
+    const EngineEntry& entry = engines_[e];
+    const std::string label = fmt::format("{} {}{}{}", entry.name, setup.name,
+                                          setup.variant.empty() ? "" : " ", setup.variant);
+    std::string name = label;
+    std::ranges::replace(name, ' ', '-');
+    const Case& original = originalOf(setup);
+    const std::string key =
+        fmt::format("{} | {} | {} | {} | {} | {}", programBuild, entry.name, versions_[e],
+                    packings_[c].hash, setup.resolvedToml, original.resolvedToml);
+    json& row = rows_[task];
+    if (const auto before = store_.find(name, key)) {
+      row = *before;
+      progress_.finish(task, label + ": finished in an earlier run");
+      return;
+    }
+    row = runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)},
+                       [&](double fraction) { progress_.update(task, label, fraction); });
+    store_.keep(name, key, row);
+    progress_.finish(task, fmt::format("{}: {}", label, row["verdict"].get<std::string>()));
+  }
+
+  static json caseJson(const Case& setup) {
+    const Stability& hard = *setup.stability;
+    const StabilityMeasure& measure = stabilityMeasure(hard.measure);
+    return {{"case", setup.name},   {"variant", setup.variant},  {"file", setup.file.string()},
+            {"tests", hard.tests},  {"measure", hard.measure},   {"what", measure.what},
+            {"unit", measure.unit}, {"limit", hard.limit},       {"degraded_limit", hard.degraded},
+            {"why", hard.why},      {"toml", setup.resolvedToml}};
+  }
+
+  const std::vector<Case>& cases_;
+  const RunCommand& command_;
+  std::vector<EngineEntry> engines_;
+  RunStore store_;
+  Progress progress_;
+  std::vector<Packing> packings_;  ///< of Couette cases
+  std::vector<std::string> versions_;
+  std::vector<json> rows_;  ///< case by case, engine by engine
+};
+
+}  // namespace
+
+json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                   const RunCommand& command) {
+  const auto started = std::chrono::steady_clock::now();
+  Suite suite(cases, std::move(engines), command);
+  suite.askVersions();
+  suite.preparePackings();
+  suite.run();
+  json results = suite.results();
+  results["elapsed_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return results;
+}
+
+}  // namespace crossgrain

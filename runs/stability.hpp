@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "adapters/registry.hpp"
+#include "cases/case.hpp"
+#include "runs/options.hpp"
+
+namespace crossgrain {
+
+/// Which part of a suite of hard cases is run.
+enum class SuitePart { quick, usual, withLong };
+
+/// Hard cases by file and by folder (every *.toml in it, by name), all variants of each.
+/// @throws BadInput for a case without [stability], two cases of one name, a folder without cases,
+///         and a part that holds none
+std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
+                            const std::vector<std::string>& overrides, SuitePart part);
+
+/// Runs every hard case on every engine, each in a worker of its own, and returns results.json of
+/// kind "stability". Finished runs are kept in out/runs at once.
+/// @throws BadInput, OutputError, Interrupted
+nlohmann::json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                             const RunCommand& command);
+
+}  // namespace crossgrain

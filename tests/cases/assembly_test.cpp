@@ -1,0 +1,100 @@
+// What a case file's arrangements make of disks and walls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cases/assembly_scene.hpp"
+#include "cases/bad_input.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Case twoDisks() {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.run.dt = 1e-3;
+  setup.assembly.duration = 1.0;
+  DiskGroup group;
+  group.radius = 0.5;
+  group.mass = 3.0;
+  group.places = gridPlaces(2, 1, {1.0, 1.0}, false);
+  group.velocity = {1.0, 2.0};
+  group.spin = 4.0;
+  setup.assembly.disks.push_back(group);
+  WallGroup wall;
+  wall.planes.push_back({{0.0, -0.5}, {0.0, 1.0}});
+  setup.assembly.walls.push_back(wall);
+  setup.assembly.gravity = {0.0, -10.0};
+  return setup;
+}
+
+TEST(Places, GridsAndHeaps) {
+  const auto grid = gridPlaces(2, 3, {1.0, 2.0}, true);
+  ASSERT_EQ(grid.size(), 6u);
+  EXPECT_EQ(grid[3], Vec2(1.5, 2.0));
+  EXPECT_EQ(grid[5], Vec2(1.0, 4.0));
+  const auto heap = heapPlaces(3, 1.0);
+  ASSERT_EQ(heap.size(), 6u);
+  EXPECT_NEAR(heap[3].x(), 0.5, 1e-15);
+  for (const int below : {0, 1})  // touches the two that it lies on
+    EXPECT_NEAR((heap[3] - heap[static_cast<std::size_t>(below)]).norm(), 1.0, 1e-15);
+}
+
+TEST(AssemblyScene, IsWhatTheCaseSays) {
+  const Scene scene = assemblyScene(twoDisks());
+  ASSERT_EQ(scene.disks.size(), 2u);
+  EXPECT_EQ(scene.disks.position[1], Vec2(1.0, 0.0));
+  EXPECT_EQ(scene.disks.inertia[0], 0.5 * 3.0 * 0.25);
+  EXPECT_EQ(scene.bodies.at(0).planes.at(0).point, Vec2(0.0, -0.5));
+  EXPECT_EQ(scene.dt, 1e-3);
+}
+
+TEST(AssemblyScene, MirrorThenTurnThenShiftThenBoost) {
+  Case setup = twoDisks();
+  setup.assembly.mirror = true;
+  setup.assembly.turn = std::numbers::pi / 2.0;
+  setup.assembly.offset = {10.0, 0.0};
+  setup.assembly.boost = {0.0, 7.0};
+  const Scene scene = assemblyScene(setup);
+  // (1, 0) → (−1, 0) → (0, −1) → (10, −1); velocity (1, 2) → (−1, 2) → (−2, −1) → (−2, 6).
+  EXPECT_NEAR((scene.disks.position[1] - Vec2(10.0, -1.0)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((scene.disks.velocity[1] - Vec2(-2.0, 6.0)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(scene.disks.spin[0], -4.0);
+  EXPECT_NEAR((scene.gravity - Vec2(10.0, 0.0)).norm(), 0.0, 1e-14);
+  const WallBody& wall = scene.bodies.at(0);
+  EXPECT_NEAR((wall.planes[0].normal - Vec2(-1.0, 0.0)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(wall.motion.kind, Motion::Kind::translating);
+  EXPECT_EQ(wall.motion.velocity, Vec2(0.0, 7.0));
+  const Vec2 later = scene.disks.position[1] + 2.0 * setup.assembly.boost;
+  EXPECT_NEAR((undoneAt(setup.assembly, later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0, 1e-14);
+}
+
+TEST(AssemblyScene, RandomnessIsTheSeeds) {
+  Case setup = twoDisks();
+  setup.assembly.disks[0].places = gridPlaces(10, 10, {1.5, 1.5}, false);
+  setup.assembly.disks[0].jitter = 0.1;
+  setup.assembly.disks[0].radiusSpread = 0.2;
+  setup.assembly.disks[0].velocityRms = 1.0;
+  setup.assembly.disks[0].position = {0.0, 1.0};
+  const Scene one = assemblyScene(setup), same = assemblyScene(setup);
+  EXPECT_EQ(one.disks.position, same.disks.position);
+  EXPECT_EQ(one.disks.radius, same.disks.radius);
+  setup.assembly.seed = 2;
+  EXPECT_NE(one.disks.position, assemblyScene(setup).disks.position);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_LE(std::abs(one.disks.radius[i] - 0.5), 0.1);
+    EXPECT_DOUBLE_EQ(one.disks.mass[i] / 3.0,  // of disks of one material
+                     one.disks.radius[i] * one.disks.radius[i] / 0.25);
+  }
+}
+
+TEST(AssemblyScene, StartsThatMeanNothingAreBadInput) {
+  Case setup = twoDisks();
+  setup.assembly.disks[0].places = {Vec2::Zero(), Vec2::Zero()};
+  setup.assembly.maxOverlap = 2.0;
+  EXPECT_THROW(assemblyScene(setup), BadInput);
+}
+
+}  // namespace

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cases/files.hpp"
+#include "reports/csv.hpp"
+#include "reports/figures.hpp"
+#include "reports/pictures.hpp"
+#include "reports/report.hpp"
+#include "reports/stability_table.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+TEST(StabilityCsv, IsTheContract) {
+  const std::string table = stabilityCsv(sample::stabilityResults());
+  EXPECT_TRUE(table.starts_with(
+      "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n"
+      "grain,pile,stable,energy_gain,0.001,0.01,of the energy,,,0.1,slow,\n"));
+  EXPECT_NE(table.find("odd-one,pile,unstable,energy_gain,0.5,0.01,of the energy,120,,0.1,fast,"
+                       "0.12\n"),
+            std::string::npos);
+  EXPECT_NE(table.find("odd-one,gas,refused,energy_gain,,0.01,of the energy,,\"odd"),
+            std::string::npos);
+}
+
+TEST(StabilityTable, TheWorstVariantSpeaksForTheCase) {
+  const Json results = sample::stabilityResults();
+  const auto groups = hardGroups(results);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(text(worstRun(results, "grain", groups[0]), "verdict"), "degraded");
+  EXPECT_EQ(text(worstRun(results, "odd-one", groups[0]), "variant"), "fast");
+  EXPECT_EQ(text(worstRun(results, "odd-one", groups[1]), "verdict"), "refused");
+}
+
+TEST(StabilityFigures, AMapAndWhatWentWrongOverTime) {
+  const auto figures = stabilityFigures(sample::stabilityResults());
+  ASSERT_EQ(figures.size(), 2u);
+  const Panel& map = figures[0].panels[0];
+  EXPECT_EQ(map.rows, (std::vector<std::string>{"pile", "gas"}));
+  std::size_t tiles = 0;
+  for (const Curve& curve : map.curves) tiles += curve.points.size();
+  EXPECT_EQ(tiles, 4u);
+  EXPECT_EQ(figures[1].name, "stability_1");
+}
+
+TEST(StabilityPictures, AreCentredWhereverTheSceneIs) {
+  const auto pictures = stabilityPictures(sample::stabilityResults());
+  ASSERT_EQ(pictures.size(), 1u);
+  EXPECT_LT(pictures[0].drawing.halfWidth, 10.0);
+  // The plane at y = −1 is a line through the window.
+  const Stroke& line = pictures[0].drawing.groups.back().strokes.front();
+  EXPECT_NEAR(line.y1, -1.0, 1e-12);
+  EXPECT_NEAR(line.y2, -1.0, 1e-12);
+}
+
+TEST(StabilityPage, SaysEveryVerdictAndEscapesWhatUsersWrite) {
+  const TemporaryFolder folder;
+  writeReport(sample::stabilityResults(), folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  for (const char* words : {"✓ stable", "~ degraded", "✗ unstable", "– refused",
+                            "3 of 5 runs of hard cases stayed within their limits", "from step 120",
+                            "worst_1", "What it tests."})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  EXPECT_EQ(page.find("<b>\"name\"</b>"), std::string::npos);
+  EXPECT_TRUE(readFile(folder.path() / "plots/stability_map.svg"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

@@ -1,0 +1,138 @@
+// The suite's verdicts: by the limits, and on engines that misbehave on purpose.
+#include "runs/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "cases/bad_input.hpp"
+#include "runs/engine_access.hpp"
+#include "runs/stability_verdict.hpp"
+#include "tests/mischief/entries.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain;
+using nlohmann::json;
+
+TEST(StabilityVerdict, ByTheTwoLimits) {
+  Stability limits;
+  limits.limit = 1.0;
+  limits.degraded = 2.0;
+  EXPECT_EQ(stabilityVerdict(limits, {0.0, 1.0}).verdict, "stable");
+  EXPECT_FALSE(stabilityVerdict(limits, {0.0, 1.0}).passed);
+  const StabilityVerdict degraded = stabilityVerdict(limits, {0.0, 1.5, 2.0, 1.2});
+  EXPECT_EQ(degraded.verdict, "degraded");
+  EXPECT_EQ(degraded.passed, 1u);
+  EXPECT_EQ(degraded.worst, 2u);
+  const StabilityVerdict lost = stabilityVerdict(limits, {0.0, std::nan("")});
+  EXPECT_EQ(lost.verdict, "unstable");
+  EXPECT_TRUE(std::isfinite(lost.value));
+}
+
+/// Two disks that meet after 100 steps of 1 ms; a worker has 2 s to answer.
+const char* const meeting = R"([case]
+name = "meeting"
+kind = "assembly"
+[law]
+kn = 1000.0
+gn = 0.0
+tangential = "none"
+[run]
+dt = 1e-3
+timeout = 2.0
+[assembly]
+steps = 300
+[[assembly.disks]]
+position = [-1.1, 0.0]
+velocity = [1.0, 0.0]
+radius = 1.0
+mass = 1.0
+[[assembly.disks]]
+position = [1.1, 0.0]
+velocity = [-1.0, 0.0]
+radius = 1.0
+mass = 1.0
+[stability]
+tests = "an elastic collision"
+measure = "energy_gain"
+limit = 0.01
+degraded = 0.1
+why = "a made-up case"
+samples = 30
+)";
+
+TEST(StabilitySuite, MisbehavingEnginesEndTheirOwnRunsOnly) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "meeting.toml") << meeting;
+  const std::vector<Case> cases = hardCases({folder.path() / "meeting.toml"}, {}, SuitePart::usual);
+  // Two engines that do as they should, one at each end.
+  std::vector<EngineEntry> engines = {*findEngine("grain")};
+  for (const std::string& mischief : test::fatalMischiefs())
+    engines.push_back(test::misbehavingEntry(mischief, 150));
+  engines.push_back(test::misbehavingEntry("pump", 150));
+  engines.push_back(test::misbehavingEntry("good", 150));
+  engines.front().command = engines.back().command;
+  RunCommand command;
+  command.out = folder.path() / "out";
+  command.jobs = 2;
+  command.quiet = true;
+  const json results = testStability(cases, engines, command);
+
+  ASSERT_EQ(results["runs"].size(), engines.size());
+  for (const json& row : results["runs"]) {
+    const std::string engine = row["engine"];
+    SCOPED_TRACE(row.dump());
+    if (engine == "grain" || engine == "good") {
+      EXPECT_EQ(row["verdict"], "stable");
+      continue;
+    }
+    EXPECT_EQ(row["verdict"], "unstable");
+    EXPECT_TRUE(row["picture"].is_object());
+    if (engine == "pump") {  // 10 % faster after 10 steps, within a look
+      EXPECT_GT(row["step"], 150);
+      EXPECT_LE(row["step"], 170);
+      EXPECT_GT(row["value"], 0.1);
+      continue;
+    }
+    const std::string reason = row["reason"];
+    EXPECT_EQ(reason.rfind("failed: " + engine, 0), 0u);
+    EXPECT_NE(reason.find("meeting"), std::string::npos);
+    EXPECT_EQ(reason.find('\n'), std::string::npos);
+    EXPECT_EQ(row["step"], 140);  // the last good look; looks are every 10 steps
+  }
+}
+
+TEST(StabilitySuite, FinishedRunsAreTakenUp) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "meeting.toml") << meeting;
+  const std::vector<Case> cases = hardCases({folder.path() / "meeting.toml"}, {}, SuitePart::usual);
+  const std::vector<EngineEntry> engines = {test::misbehavingEntry("good", 150)};
+  RunCommand command;
+  command.out = folder.path() / "out";
+  command.quiet = true;
+  json first = testStability(cases, engines, command)["runs"][0];
+  command.resume = true;
+  // Times are measured: the same ones again were not measured anew.
+  EXPECT_EQ(testStability(cases, engines, command)["runs"][0]["stats"], first["stats"]);
+}
+
+TEST(HardCases, WhatIsNoneIsBadInput) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "meeting.toml";
+  std::ofstream(file) << std::string(meeting).substr(0, std::string(meeting).find("[stability]"));
+  EXPECT_THROW(hardCases({file}, {}, SuitePart::usual), BadInput);
+  std::ofstream(file) << meeting;
+  EXPECT_THROW(hardCases({file}, {}, SuitePart::quick), BadInput);
+  EXPECT_EQ(hardCases({folder.path()}, {"stability.quick=true"}, SuitePart::quick).size(), 1u);
+}
+
+TEST(HardCases, OfTheRepositoryAllLoadAndHaveReasons) {
+  const std::vector<Case> cases = hardCases({CROSSGRAIN_CASES "/hard"}, {}, SuitePart::withLong);
+  EXPECT_GE(cases.size(), 60u);
+  for (const Case& c : cases) EXPECT_GT(c.stability->why.size(), 20u) << c.name;
+}
+
+}  // namespace
