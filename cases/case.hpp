@@ -13,6 +13,7 @@
 #include "cases/assembly.hpp"
 #include "cases/collision_end.hpp"
 #include "cases/stability.hpp"
+#include "cases/cost.hpp"
 
 namespace crossgrain {
 
@@ -114,6 +115,7 @@ struct Case {
   Collision collision;
   Assembly assembly;
   std::optional<Stability> stability;       ///< of a hard case
+  Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
 };
 

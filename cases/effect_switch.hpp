@@ -19,6 +19,7 @@ struct EffectSwitch {
   std::string what;  ///< one sentence on what was switched
   std::optional<Effect> effect;  ///< that the case then lacks, if it is one
   Case without;
+  std::string fragment = {};  ///< TOML that does the same in a case that extends this one
 };
 
 /// The case without the effect:

@@ -17,7 +17,7 @@ namespace {
 // In the order of CaseKind.
 const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
 const std::vector<std::vector<std::string>> sectionsOfKinds = {
-    {"bottom", "cell", "particles", "preparation", "averaging"},
+    {"bottom", "cell", "particles", "preparation", "averaging", "cost"},
     {"collision"},
     {"bottom", "assembly"}};
 
@@ -85,12 +85,14 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader bottom = root.section("bottom");
   Reader preparation = root.section("preparation");
   Reader averaging = root.section("averaging");
+  Reader cost = root.section("cost");
   readCell(cell, c.cell);
   readParticles(particles, c.particles);
   if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c.averaging);
   requireStep(run, c);
+  readCost(cost, c.cost);
   checkDamping(law, c);
   checkFit(cell, particles, c);
 }
@@ -158,9 +160,9 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
 }  // namespace
 
 std::vector<Case> loadCase(const std::filesystem::path& file,
-                           const std::vector<std::string>& overrides) {
+                           const std::vector<std::string>& overrides, const std::string& fragment) {
   std::vector<Case> cases;
-  for (CaseDocument& document : readCaseDocuments(file, overrides))
+  for (CaseDocument& document : readCaseDocuments(file, overrides, fragment))
     cases.push_back(readCase(file, document));
   return cases;
 }

@@ -15,9 +15,11 @@ namespace crossgrain {
 ///
 /// @param overrides  "key.path=value" each, as after `--set`: the value is TOML, a bare word is a
 ///                   string; they come last and hold for every variant
+/// @param fragment   TOML that is merged after them, as if it were a file that extends this one
 /// @return one case per variant in the file's order, or one case with an empty variant
 /// @throws BadInput  with one line: where, what is there, what would be right
 std::vector<Case> loadCase(const std::filesystem::path& file,
-                           const std::vector<std::string>& overrides = {});
+                           const std::vector<std::string>& overrides = {},
+                           const std::string& fragment = {});
 
 }  // namespace crossgrain

@@ -170,7 +170,8 @@ std::string location(const toml::source_region& source) {
 }
 
 std::vector<CaseDocument> readCaseDocuments(const fs::path& file,
-                                            const std::vector<std::string>& overrides) {
+                                            const std::vector<std::string>& overrides,
+                                            const std::string& fragment) {
   std::vector<CaseDocument> documents;
   std::set<std::string> names;
   std::size_t count = 1;
@@ -185,6 +186,7 @@ std::vector<CaseDocument> readCaseDocuments(const fs::path& file,
       merge(document.root, std::move(variant));
     }
     applyOverrides(document.root, overrides);
+    merge(document.root, parse(fragment, "fragment"));
     documents.push_back(std::move(document));
   }
   return documents;

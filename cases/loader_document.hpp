@@ -17,10 +17,12 @@ struct CaseDocument {
 };
 
 /// One document per `[[variants]]` entry, or one if there are none. Tables are merged key by key,
-/// anything else is replaced; later wins: extended file, file, variant, overrides in their order.
+/// anything else is replaced; later wins: extended file, file, variant, overrides in their order,
+/// fragment.
 /// @throws BadInput
 std::vector<CaseDocument> readCaseDocuments(const std::filesystem::path& file,
-                                            const std::vector<std::string>& overrides);
+                                            const std::vector<std::string>& overrides,
+                                            const std::string& fragment = {});
 
 /// Names of cases and variants become parts of file names and cells of CSV files: letters, digits
 /// and . _ - +, not starting with a dot.

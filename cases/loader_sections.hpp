@@ -25,6 +25,7 @@ void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
 void readStability(Reader& in, Stability& stability);
+void readCost(Reader& in, Cost& cost);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 
 }  // namespace crossgrain

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapters/effects.hpp"
+#include "cases/case.hpp"
 #include "runs/options.hpp"
 
 namespace crossgrain {
@@ -24,11 +26,17 @@ struct CommandLine {
   std::vector<std::filesystem::path> inputs;  ///< case files, or result folders
   std::filesystem::path snapshots;            ///< file to average
   std::vector<std::string> overrides;         ///< --set
+  double budget = 720.0;                      ///< of `cost` [s]
+  std::optional<double> want;                 ///< accuracy to print a fragment for, 0.01 is 1 %
   bool quick = false;
   bool longCases = false;  ///< --long
   bool strict = false;
   bool json = false;
 };
+
+/// The one Couette case that a command was given, without variants; shortened by --quick.
+/// @throws BadInput
+Case onlyCase(const CommandLine& line, const char* command);
 
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);
@@ -41,6 +49,7 @@ int average(const CommandLine& line);
 int rev(const CommandLine& line);
 int effects(const CommandLine& line);
 int stability(const CommandLine& line);
+int cost(const CommandLine& line);
 int rebuildReports(const CommandLine& line);
 int serveEngine(const std::string& name);
 

@@ -17,21 +17,6 @@ namespace crossgrain {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-namespace {
-
-int countOf(const json& list, const char* key, const std::string& value) {
-  return static_cast<int>(
-      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
-}
-
-/// Only the verdicts between engines that the user named decide the exit status.
-json peerRows(const json& results) {
-  json rows = json::array();
-  for (const json& row : results["agreement"])
-    if (row["kind"] == "peer") rows.push_back(row);
-  return rows;
-}
-
 Case onlyCase(const CommandLine& line, const char* command) {
   if (line.inputs.size() != 1)
     throw BadInput(fmt::format("{} takes one case file, not {}", command, line.inputs.size()));
@@ -47,6 +32,21 @@ Case onlyCase(const CommandLine& line, const char* command) {
       "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(file, overrides).front();
+}
+
+namespace {
+
+int countOf(const json& list, const char* key, const std::string& value) {
+  return static_cast<int>(
+      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
+}
+
+/// Only the verdicts between engines that the user named decide the exit status.
+json peerRows(const json& results) {
+  json rows = json::array();
+  for (const json& row : results["agreement"])
+    if (row["kind"] == "peer") rows.push_back(row);
+  return rows;
 }
 
 /// One line on standard error for each run, or leg, that failed.

@@ -4,7 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <thread>
 
 #include "adapters/engine.hpp"
@@ -73,6 +75,33 @@ CLI::App* addCommand(CLI::App& app, const std::string& name, const std::string& 
   return command;
 }
 
+/// A positive number and one of some units. @throws BadInput
+double numberWithUnit(const std::string& option, const std::string& text,
+                      const std::map<std::string, double>& units, const char* example) {
+  std::size_t end = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const auto unit = units.find(text.substr(end));
+  if (end == 0 || unit == units.end() || !(value > 0.0) || !std::isfinite(value))
+    throw BadInput(fmt::format("{} {}: must be like {}", option, text, example));
+  return value * unit->second;
+}
+
+/// "90s", "10m", "1h" as seconds.
+double secondsOf(const std::string& budget) {
+  return numberWithUnit("--budget", budget, {{"", 1.0}, {"s", 1.0}, {"m", 60.0}, {"h", 3600.0}},
+                        "90s, 10m or 1h");
+}
+
+/// "1%", "1e-3" as a share.
+double shareOf(const std::string& want) {
+  return numberWithUnit("--want", want, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
+}
+
 int run(int argc, char** argv) {
   CommandLine line;
   line.run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -130,6 +159,18 @@ int run(int argc, char** argv) {
   hard->add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
   CLI::Option* quickest = hard->add_flag("--quick", line.quick, "only cases marked as quick");
   hard->add_flag("--long", line.longCases, "also cases marked as long")->excludes(quickest);
+  std::string budget, want;
+  CLI::App* costs = addCommand(
+      app, "cost",
+      "error against time, for every engine and every knob that trades one for the other",
+      "crossgrain cost cases/cost/quick.toml --engines all --out out --budget 10m\n"
+      "  crossgrain cost cases/cost/quick.toml --engines all --out out --resume --want 1%");
+  costs->add_option("case", line.inputs, "case file")->required();
+  addRun(*costs, line);
+  addPackings(*costs, line, seed);
+  costs->add_option("--budget", budget, "time that all may take, e.g. 90s, 10m, 1h (default: 12m)");
+  costs->add_option("--want", want,
+                    "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine");
 
   CLI::App* averaging = addCommand(
       app, "average", "average snapshots of a file, of a run or of any other source",
@@ -162,7 +203,8 @@ int run(int argc, char** argv) {
 
   // CLI11 would only say that some subcommand is required.
   const std::vector<std::string> names = {"engines",   "check",   "collide",   "compare", "effects",
-                                          "stability", "average", "calibrate", "rev",     "report"};
+                                          "cost",      "stability", "average", "calibrate", "rev",
+                                          "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));
@@ -173,7 +215,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw BadInput(fmt::format("{}; see crossgrain --help", error.what()));
   }
-  if (comparison->count("--seed") + switching->count("--seed") > 0)
+  if (comparison->count("--seed") + switching->count("--seed") + costs->count("--seed") > 0)
     line.overrides.push_back(fmt::format("preparation.seed={}", seed));
 
   if (engines->parsed()) return listEngines(line);
@@ -182,6 +224,11 @@ int run(int argc, char** argv) {
   if (comparison->parsed()) return compare(line);
   if (switching->parsed()) return effects(line);
   if (hard->parsed()) return stability(line);
+  if (costs->parsed()) {
+    if (!budget.empty()) line.budget = secondsOf(budget);
+    if (!want.empty()) line.want = shareOf(want);
+    return cost(line);
+  }
   if (averaging->parsed()) return average(line);
   if (elements->parsed()) return rev(line);
   if (calibrations->parsed()) return calibrate(line, calibration);

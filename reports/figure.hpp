@@ -11,6 +11,7 @@ namespace crossgrain::reports {
 struct Point {
   double x = 0.0, y = 0.0;
   std::optional<double> error;  ///< half length of the bar: upright, in panels with rows across
+  std::string label{};          ///< beside the point, printed as it is; empty: none
 };
 
 /// How everything that belongs to one engine looks in every plot.
@@ -48,6 +49,7 @@ struct Panel {
   std::vector<std::string> rows;     ///< names along the y axis, at y = 0, 1, … from the top
   std::vector<std::string> columns;  ///< names along the x axis, at x = 0, 1, …
   std::optional<Range> shaded;       ///< part of the x axis
+  std::optional<double> shadedTo;   ///< the y axis from its lower end up to there
   std::optional<double> level;       ///< a thin horizontal line
   std::vector<Curve> curves;
   Key key = Key::outside;
@@ -62,6 +64,7 @@ struct Figure {
   int columns = 1;
   int panelWidth = 560, panelHeight = 380;  ///< [px] in the SVG
   bool png = false;                         ///< also as PNG, twice the size
+  bool keyAbove = false;                    ///< every name of the panels once, above them all
   int rowNames = 0;  ///< [px] left of the first panel: panels with rows, in one line, share them
 };
 

@@ -57,14 +57,28 @@ std::vector<double> shortLogTicks(const std::optional<Range>& range) {
   return places;
 }
 
+/// The column of labels, of curves that have any.
+std::string labelColumn(const std::string& words) {
+  std::string result;
+  for (const char c : words)
+    if (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f && c != '"' && c != '\\') result += c;
+  return " \"" + result + "\"";
+}
+
+bool hasLabels(const Curve& curve) {
+  return std::ranges::any_of(curve.points, [](const Point& p) { return !p.label.empty(); });
+}
+
 /// One block per curve: x, y, ends of the bar ("?" without one; clipped where a log axis ends).
 std::string dataBlock(const Panel& panel, const Curve& curve) {
   const auto range = yRange(panel);
+  const bool labelled = hasLabels(curve);
   std::string block;
   for (const Point& point : curve.points) {
     if (!drawable(panel, point)) continue;
+    const std::string label = labelled ? labelColumn(point.label) : std::string();
     if (!point.error || !std::isfinite(*point.error)) {
-      block += fmt::format("{} {} ? ?\n", point.x, point.y);
+      block += fmt::format("{} {} ? ?{}\n", point.x, point.y, label);
       continue;
     }
     const double middle = panel.rows.empty() ? point.y : point.x;
@@ -72,7 +86,7 @@ std::string dataBlock(const Panel& panel, const Curve& curve) {
     const bool log = panel.rows.empty() ? panel.logY : panel.logX;
     double low = middle - *point.error;
     if (log && shown) low = std::max(low, std::min(shown->low, middle));
-    block += fmt::format("{} {} {} {}\n", point.x, point.y, low, middle + *point.error);
+    block += fmt::format("{} {} {} {}{}\n", point.x, point.y, low, middle + *point.error, label);
   }
   return block.empty() ? "? ? ? ?\n" : block;
 }
@@ -85,6 +99,13 @@ bool hasBars(const Curve& curve) {
 std::string barsElement(const std::string& source, const std::string& colour, bool across) {
   return fmt::format("{} using {} with vectors nohead {} lw 1 notitle, \\\n    ", source,
                      across ? "3:2:($4-$3):(0)" : "1:3:(0):($4-$3)", colour);
+}
+
+std::string labelsElement(const std::string& source, const LineStyle& style) {
+  return fmt::format(
+      ", {} using 1:2:5 with labels noenhanced left offset char 0.7,0.35 font ',10' textcolor rgb "
+      "'{}' notitle",
+      source, style.colour);
 }
 
 std::string blocksElement(const std::string& source, const std::string& colour) {
@@ -105,6 +126,15 @@ std::string tilesElement(const std::string& source, const std::string& colour,
       source, colour, titleOf(name));
 }
 
+std::string lookOf(const Curve& curve, bool across) {
+  const std::string line =
+      fmt::format("lw {} dt {}", curve.width, curve.style.dashed ? "(8,4)" : "solid");
+  const std::string marks = fmt::format("pt {} ps {}", curve.style.pointType, across ? 0.9 : 0.6);
+  return curve.draw == Draw::lines    ? "lines " + line
+         : curve.draw == Draw::points ? "points " + marks
+                                      : "linespoints " + line + " " + marks;
+}
+
 std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
                          bool across) {
   const std::string source = fmt::format("'{}' index {}", data, index);
@@ -114,15 +144,11 @@ std::string plotElements(const std::string& data, std::size_t index, const Curve
            (hasBars(curve) ? ", " + barsElement(source, "lc rgb 'black'", across) + "1/0 notitle"
                            : "");
   if (curve.draw == Draw::tiles) return tilesElement(source, colour, curve.name);
-  const std::string line =
-      fmt::format("lw {} dt {}", curve.width, curve.style.dashed ? "(8,4)" : "solid");
-  const std::string marks = fmt::format("pt {} ps {}", curve.style.pointType, across ? 0.9 : 0.6);
-  const std::string look = curve.draw == Draw::lines    ? "lines " + line
-                           : curve.draw == Draw::points ? "points " + marks
-                                                        : "linespoints " + line + " " + marks;
+  const std::string look = lookOf(curve, across);
   const std::string title = titleOf(curve.name);
   return (hasBars(curve) ? barsElement(source, colour, across) : std::string()) +
-         fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title);
+         fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title) +
+         (hasLabels(curve) ? labelsElement(source, curve.style) : std::string());
 }
 
 std::string rangeText(const std::optional<Range>& range) {
@@ -179,6 +205,11 @@ std::string furniture(const Panel& panel) {
         "  set object 1 rectangle from {}, graph 0 to {}, graph 1 behind fillcolor rgb '#eeeeee' "
         "fillstyle solid noborder\n",
         panel.shaded->low, panel.shaded->high);
+  if (panel.shadedTo)
+    lines += fmt::format(
+        "  set object 2 rectangle from graph 0, graph 0 to graph 1, first {} behind fillcolor rgb "
+        "'#e6e6e6' fillstyle solid noborder\n",
+        *panel.shadedTo);
   if (panel.level)
     lines += fmt::format(
         "  set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead back lc rgb '#888888' "
@@ -206,6 +237,40 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
     script += (k == 0 ? "" : ", \\\n    ") +
               plotElements(data, firstBlock + k, panel.curves[k], !panel.rows.empty());
   return script + "\n";
+}
+
+double bottomMargin(const Figure& figure) {
+  return figure.rowNames > 0 ? 3.8 : 3.2;
+}
+
+constexpr const char* frame =
+    "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw "
+    "0.7 dt solid\n";
+
+/// A plot without height across the figure's upper edge: gnuplot breaks a key into lines by the
+/// width of the plot that it belongs to.
+std::string keyAbove(const Figure& figure) {
+  std::vector<std::string> names;
+  std::string entries;
+  for (const Panel& panel : figure.panels)
+    for (const Curve& curve : panel.curves) {
+      if (curve.name.empty() || std::ranges::find(names, curve.name) != names.end()) continue;
+      names.push_back(curve.name);
+      entries +=
+          fmt::format("{}2 with {} lc rgb '{}' title {} noenhanced", entries.empty() ? "" : ", ",
+                      lookOf(curve, false), curve.style.colour, quoted(curve.name));
+    }
+  if (entries.empty()) return {};
+  return fmt::format(
+      "  unset border\n  set tics scale 0\n  set format ''\n  unset grid\n  unset object\n  unset "
+      "arrow\n"
+      "  unset title\n  unset xlabel\n  unset ylabel\n  unset logscale\n"
+      "  set lmargin at screen 0.02\n  set rmargin at screen 0.98\n"
+      "  set bmargin at screen 0.998\n  set tmargin at screen 0.999\n"
+      "  set key at screen 0.5, screen 0.99 center top horizontal samplen 2 spacing 1.1\n"
+      "  plot [0:1][0:1] {}\n  unset lmargin\n  unset rmargin\n  unset tmargin\n"
+      "  set bmargin {}\n{}",
+      entries, bottomMargin(figure), frame);
 }
 
 int widthOf(const Figure& figure) {
@@ -263,16 +328,15 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   const std::string data = figure.name + ".dat";
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
-  const bool several = figure.panels.size() > 1;
+  const bool several = figure.panels.size() > 1 || figure.keyAbove;
+  const std::string room = figure.keyAbove ? " title \"\\n\\n\"" : "";  // two lines for the key
   std::string script = fmt::format(
-      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\nset "
-      "border 3 lc rgb "
-      "'#444444'\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw 0.7 dt solid\n"
+      "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\n{5}"
       "do for [terminal in 'svg pdfcairo{1}'] {{\n"
       "  if (strstrt(GPVAL_TERMINALS, ' ' . terminal . ' ') == 0) {{ continue }}\n{2}{3}",
       figure.name, figure.png ? " pngcairo" : "", terminals(figure, rows),
-      several ? fmt::format("  set multiplot layout {},{}\n", rows, columns) : "",
-      figure.rowNames > 0 ? 3.8 : 3.2);
+      several ? fmt::format("  set multiplot layout {},{}{}\n", rows, columns, room) : "",
+      bottomMargin(figure), frame);
   std::string blocks;
   std::size_t block = 0;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
@@ -284,6 +348,7 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
       ++block;
     }
   }
+  if (figure.keyAbove) script += keyAbove(figure);
   script += several ? "  unset multiplot\n" : "";
   script += "  unset output\n}\n";
   writeFile(dir / data, blocks);

@@ -38,6 +38,7 @@ Kind kindOf(const Json& results) {
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
   if (kind == kindStability)
     return {{{"stability.csv", stabilityCsv}}, stabilityFigures, stabilityPictures, stabilityPage};
+  if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
   if (kind == kindRev)
     return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
             revFigures,

@@ -6,8 +6,8 @@
 namespace crossgrain {
 
 /// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
-/// The kind of report follows from results["kind"], "compare", "collide" or "effects"; the layout
-/// of results is in reports/README.md.
+/// The kind of report follows from results["kind"], "compare", "collide", "effects", "cost" or
+/// "rev"; the layout of results is in reports/README.md.
 ///
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are

@@ -17,7 +17,7 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = text(results, "kind");
-  const auto known = {kindCompare, kindCollide, kindEffects, kindRev, kindStability};
+  const auto known = {kindCompare, kindCollide, kindEffects, kindCost, kindRev, kindStability};
   if (std::ranges::find(known, kind) == known.end())
     throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
                                kind, fmt::join(known, "\", \"")));
@@ -32,7 +32,8 @@ nlohmann::json readResultsFile(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in)
     throw BadInput(
-        fmt::format("{}: cannot be read; a folder that compare, collide or effects wrote has it",
+        fmt::format("{}: cannot be read; a folder that compare, collide, effects, cost or "
+                    "stability wrote has it",
                     file.string()));
   nlohmann::json results;
   try {

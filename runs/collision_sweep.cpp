@@ -107,6 +107,11 @@ json columnsOf(const std::vector<CollisionStart>& starts, const Outcomes& outcom
   return table;
 }
 
+double sweepEnd(const Case& setup, double dt, double engineStep) {
+  const double contact = impactTimes(setup).longest;
+  return dt + 2.5 * contact + 20.0 * engineStep;
+}
+
 Outcomes outcomesOf(const OracleCurve& oracle) {
   Outcomes outcomes;
   for (const auto& end : oracle.ends)
@@ -115,13 +120,6 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
 }
 
 namespace {
-
-/// Long enough for every collision of the scene to be over: contacts last about t_c, a rigid
-/// engine's a few of its own steps.
-double sweepEnd(const Case& setup, double dt, double engineStep) {
-  const double contact = impactTimes(setup).longest;
-  return dt + 2.5 * contact + 20.0 * engineStep;
-}
 
 /// The sweep's outcomes; those of a run that is looked at also with overlaps and work.
 Outcomes runOutcomes(Engine& engine, const Case& setup, const Scene& scene,

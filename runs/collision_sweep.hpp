@@ -19,6 +19,10 @@ struct OracleCurve {
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
 
+/// Long enough for every collision of a sweep to be over: contacts last about t_c, a rigid engine's
+/// a few of its own steps [s].
+double sweepEnd(const Case& setup, double dt, double engineStep);
+
 Outcomes outcomesOf(const OracleCurve& oracle);
 
 /// A table of results.json, {name: [one value per start]}: Ψ_i, v_n and all that is known of the

@@ -97,8 +97,9 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
   const auto message = [&] {
     return messageOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
   };
-  EXPECT_EQ(message(),
-            file + ": cannot be read; a folder that compare, collide or effects wrote has it");
+  EXPECT_EQ(message(), file +
+                           ": cannot be read; a folder that compare, collide, effects, cost or "
+                           "stability wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");
@@ -108,7 +109,7 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
   EXPECT_EQ(message(), file +
                            ": has kind \"dance\", a report is made of one of \"compare\", "
-                           "\"collide\", \"effects\", \"rev\"");
+                           "\"collide\", \"effects\", \"cost\", \"rev\", \"stability\"");
 }
 
 }  // namespace

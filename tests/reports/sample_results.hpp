@@ -19,6 +19,9 @@ nlohmann::json effectsResults(int packings);
 
 /// Two hard cases on two engines: every verdict once.
 nlohmann::json stabilityResults();
+/// Three engines of known order and cost, a scheme that claims an order it does not have, failures
+/// past the stability limit, points that the budget did not allow, one engine that refused.
+nlohmann::json costResults();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace crossgrain {
+
+/// What `crossgrain cost` varies and measures in a Couette case, [cost] of a case file. Steps are
+/// numbers of steps in the contact time t_c of two small disks.
+struct Cost {
+  std::vector<std::string> kinds = {"collision", "trajectory", "averages"};  ///< of error
+  std::vector<std::string> knobs = {"time_step", "integrator", "precision", "tangential",
+                                    "tension",   "settings",   "method",    "snapshots",
+                                    "omega",     "stiffness",  "effects"};
+  double timed = 0.02;  ///< shortest time that counts as measured [s]
+  int repeats = 3;      ///< of which the shortest counts
+
+  /// Two small disks that meet as in `approach = "spin"`, Ψ_i = 0 … psiMax.
+  std::vector<double> collisionSteps = {400, 200, 100, 50, 20, 10, 5, 2, 1.2};
+  double speed = 0.01;  ///< v_n [m/s]
+  double psiMax = 4.0;
+  int psiCount = 41;
+
+  /// A packing over a window that is short against its chaos.
+  std::vector<double> trajectorySteps = {400, 200, 100, 50, 20, 10, 5, 2};
+  double trajectoryReference = 1600.0;  ///< steps per t_c of the references
+  double perturbation = 1e-10;          ///< of positions, to see it grow [d]
+  double separation = 1e-3;             ///< the reference may have erred so far at the end [d]
+  double windowMost = 40.0;             ///< longest window [t_c]
+  double growthTime = 1.0;              ///< how long the perturbation is watched [s]
+
+  /// The case's packings and averaging.
+  std::vector<double> averageSteps = {100, 50, 20, 10, 5, 2};
+  double averageReference = 200.0;
+
+  std::vector<std::string> tangential = {"viscous", "coulomb", "spring"};
+  std::vector<std::string> methods = {"slicing", "centre"};  ///< of averaging, from the same run
+  std::vector<double> snapshots = {4, 16, 64};     ///< every so many-th snapshot, of the same run
+  std::vector<double> omega = {0.5, 2.0};          ///< times the case's Ω
+  std::vector<double> stiffness = {0.25, 0.0625};  ///< times the case's k_n and k_t, same e_n
+  /// Engine → its setting → values, [cost.settings.NAME].
+  std::map<std::string, std::map<std::string, std::vector<double>>> settings;
+};
+
+}  // namespace crossgrain

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include "cases/bad_input.hpp"
+#include "cases/loader.hpp"
+#include "cli/commands.hpp"
+#include "reports/report.hpp"
+#include "runs/cost.hpp"
+#include "runs/cost_advice.hpp"
+#include "runs/cost_analysis.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+namespace {
+
+/// Every kind of error and some knobs, in seconds.
+const std::vector<std::string> quickOverrides = {
+    "preparation.packings=2",
+    "preparation.rotations=0.1",
+    "averaging.settle_rotations=0.02",
+    "averaging.rotations=0.05",
+    "averaging.snapshots_per_rotation=400",
+    "cost.timed=0.002",
+    "cost.psi_count=9",
+    "cost.collision_steps=[50, 10, 1.2]",
+    "cost.trajectory_steps=[50, 10]",
+    "cost.trajectory_reference=400",
+    "cost.window_most=5",
+    "cost.growth_time=0.2",
+    "cost.average_steps=[50, 10]",
+    "cost.average_reference=100",
+    "cost.snapshots=[4]",
+    "cost.omega=[2]",
+    "cost.stiffness=[0.25]",
+};
+
+/// The case of the command line with a fragment merged in.
+Case caseWith(const CommandLine& line, const std::string& fragment) {
+  std::vector<std::string> overrides;
+  if (line.quick) overrides = quickOverrides;
+  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
+  return loadCase(line.inputs.front(), overrides, fragment).front();
+}
+
+/// "ran 81, failed 4 (…), undecided 12"
+std::string countsInWords(const json& points) {
+  std::map<std::string, int> count;
+  for (const json& point : points) ++count[point["status"]];
+  std::string text;
+  for (const char* status : {"ran", "failed", "refused", "undecided"})
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[status], status);
+  return text;
+}
+
+}  // namespace
+
+int cost(const CommandLine& line) {
+  onlyCase(line, "cost");  // throws for a case that is none
+  const Case setup = caseWith(line, "");
+  CostRequest request{line.run, line.budget, {}};
+  if (!line.json && !line.run.quiet)
+    request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
+  json results = measureCost(
+      setup, [&](const std::string& fragment) { return caseWith(line, fragment); }, request);
+  std::vector<double> wants = usualWants();
+  if (line.want) wants.push_back(*line.want);
+  addCostAnalysis(results, wants);
+  writeReport(results, line.run.out);
+
+  if (line.json)
+    fmt::print("{}\n", (line.run.out / "results.json").string());
+  else if (line.want) {
+    std::vector<CostPoint> points;
+    for (const json& point : results["points"]) points.push_back(costPointFromJson(point));
+    fmt::print("{}", adviceAsToml(advice(points, {*line.want}), points));
+  } else {
+    fmt::print("{}\nreport: {}\n", countsInWords(results["points"]),
+               (line.run.out / "report.html").string());
+  }
+  for (const json& reason : results["engine_failures"])
+    fmt::print(stderr, "crossgrain: {}\n", BadInput(reason.get<std::string>()).what());
+  return results["engine_failures"].empty() ? exitHeld : exitEngineFailed;
+}
+
+}  // namespace crossgrain

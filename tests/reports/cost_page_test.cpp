@@ -1,0 +1,198 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cases/files.hpp"
+#include "reports/cost_tables.hpp"
+#include "reports/csv.hpp"
+#include "reports/figures.hpp"
+#include "reports/report.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+bool has(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
+
+/// One kind, one measure, one engine: 10 % in 1 s, 1 % in 10 s, a failure; analysed by hand.
+Json byHand() {
+  const auto point = [](const std::string& setting, double dt, double error, double wall) {
+    return Json{{"engine", "a"},
+                {"knob", "time_step"},
+                {"setting", setting},
+                {"fragment", "[run]\ndt = 1\n"},
+                {"error_kind", "collision"},
+                {"measure", "psi_f"},
+                {"dt_s", dt},
+                {"steps_per_contact", 1.0 / dt},
+                {"error", error},
+                {"wall_s", wall},
+                {"cpu_s", wall},
+                {"steps", 100},
+                {"contact_evaluations", 200},
+                {"status", "ran"},
+                {"reason", ""}};
+  };
+  Json results = {{"schema", "crossgrain-results-1"}, {"kind", "cost"}};
+  results["engines"] = {{{"name", "a"}, {"status", "ran"}, {"mirrors", ""}}};
+  results["points"] = {point("t_c/10", 0.1, 0.1, 1.0), point("t_c/100", 0.01, 0.01, 10.0),
+                       point("t_c/1", 1.0, 0.0, 0.1)};
+  for (const auto& [key, value] :
+       {std::pair("error", Json()), {"status", Json("failed")}, {"reason", Json("NaN, at 3")}})
+    results["points"][2][key] = value;
+  Json slow = point("float, slow", 0.01, 0.01, 20.0);
+  slow["knob"] = "precision";
+  results["points"].push_back(slow);
+  results["fronts"] = {
+      {{"error_kind", "collision"}, {"measure", "psi_f"}, {"engine", ""}, {"points", {0, 1}}}};
+  return results;
+}
+
+TEST(CostCsv, HasEveryPointAlsoThoseThatFailed) {
+  EXPECT_EQ(
+      costCsv(byHand()),
+      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,"
+      "reason,knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front\n"
+      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes\n"
+      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes\n"
+      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,\n"
+      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no\n");
+}
+
+TEST(CostCsv, OfNothingIsItsHead) {
+  const Json empty = {{"schema", "crossgrain-results-1"}, {"kind", "cost"}};
+  EXPECT_EQ(std::ranges::count(costCsv(empty), '\n'), 1);
+}
+
+const Curve* curveOf(const Panel& panel, int pointType, Draw draw) {
+  for (const Curve& curve : panel.curves)
+    if (curve.style.pointType == pointType && curve.draw == draw) return &curve;
+  return nullptr;
+}
+
+TEST(CostFigures, JoinStepsNumberOtherSettingsAndCrossFailuresAtTheUpperEdge) {
+  const auto figures = costFigures(byHand());
+  ASSERT_EQ(figures[0].name, "cost_collision");
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_TRUE(panel.logX && panel.logY);
+  const Curve& front = panel.curves[0];
+  ASSERT_EQ(front.points.size(), 3u);  // 10 % from 1 s on, 1 % from 10 s on
+  EXPECT_EQ(front.points[1].x, 10.0);
+  EXPECT_EQ(front.points[1].y, 0.1);
+  const Curve* steps = curveOf(panel, 7, Draw::linesAndPoints);
+  ASSERT_TRUE(steps);
+  EXPECT_EQ(steps->name, "a");
+  EXPECT_EQ(steps->points.size(), 2u);
+  const Curve* others = curveOf(panel, 6, Draw::points);
+  ASSERT_TRUE(others);
+  EXPECT_EQ(others->points[0].label, "1");
+  EXPECT_TRUE(has(figures[0].caption, "Other settings: 1 precision float, slow."));
+  const Curve* crosses = curveOf(panel, 2, Draw::points);
+  ASSERT_TRUE(crosses);
+  EXPECT_EQ(crosses->points[0].x, 0.1);
+  EXPECT_GT(crosses->points[0].y, 0.1);  // above every error, on the panel
+  EXPECT_LT(crosses->points[0].y, panel.yRange->high);
+}
+
+TEST(CostFigures, DrawWhatMayBeChanceAtItsUpperBound) {
+  Json results = byHand();
+  results["points"][1]["reference_error"] = 0.03;
+  const auto figures = costFigures(results);
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_EQ(panel.shadedTo, 0.03);
+  const Curve* chance = curveOf(panel, 10, Draw::points);
+  ASSERT_TRUE(chance);
+  EXPECT_NEAR(chance->points[0].y, 0.04, 1e-15);
+  EXPECT_EQ(curveOf(panel, 7, Draw::linesAndPoints)->points.size(), 1u);
+}
+
+TEST(CostFigures, OfNothingAreNone) {
+  EXPECT_TRUE(costFigures({{"kind", "cost"}}).empty());
+}
+
+TEST(CostTables, HoldAKnobAgainstTheSameStep) {
+  const Json results = byHand();
+  const Json knobs = knobGroups(results, costEngines(results));
+  ASSERT_EQ(knobs.size(), 1u);
+  const Json& row = knobs[0]["rows"][0];
+  EXPECT_EQ(row["base"], "t_c/100");
+  EXPECT_EQ(row["ratio"], "2.00");
+  EXPECT_EQ(row["cells"][0]["text"], "1 %");
+  EXPECT_EQ(row["cells"][0]["was"], "was 1 %");
+}
+
+TEST(CostTables, SayWhatAnErrorIs) {
+  EXPECT_EQ(shareText(0.0123), "1.2 %");
+  EXPECT_EQ(shareText(2.13e-7), "2.1×10⁻⁷");
+  EXPECT_EQ(shareText(9.5), "950 %");
+  EXPECT_EQ(shareText(0.0), "0");
+  EXPECT_EQ(shareText({}), "–");
+  EXPECT_EQ(wantText(0.001), "0.1 %");
+  EXPECT_EQ(wantText(1e-6), "10⁻⁶");
+}
+
+class CostPage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    writeReport(sample::costResults(), folder_->path());
+    page_ = new std::string(readFile(folder_->path() / "report.html").value());
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    delete page_;
+  }
+  static const TemporaryFolder* folder_;
+  static const std::string* page_;
+};
+const TemporaryFolder* CostPage::folder_ = nullptr;
+const std::string* CostPage::page_ = nullptr;
+
+TEST_F(CostPage, BeginsWithItsVerdicts) {
+  EXPECT_TRUE(has(*page_, "<p class=\"lead\">10 %: cheapest with grain at t_c/25, "))
+      << page_->substr(page_->find("<p class=\"lead\""), 300);
+  EXPECT_TRUE(has(*page_,
+                  "Finding: grain, semi implicit euler: order 2 is claimed and not met: "
+                  "collision Ψ_f 1.00 ± 0.00, collision e_n 1.00 ± 0.00, "));
+  EXPECT_TRUE(has(*page_, "box2d-impulse refused the scene: odd &lt;b&gt;"));
+}
+
+TEST_F(CostPage, HasWhatDidNotRunWithItsReason) {
+  EXPECT_TRUE(has(*page_, "would take about 140 s, budget 60 s"));
+  EXPECT_TRUE(has(*page_, "a disk left the cell at step 37; odd &lt;b&gt;"));
+}
+
+TEST_F(CostPage, EndsWithFragmentsToPaste) {
+  const auto advice = page_->find("<h2 id=\"advice\">");
+  ASSERT_NE(advice, std::string::npos);
+  EXPECT_TRUE(has(page_->substr(advice),
+                  "<h3>grain for 10 %: t_c/25</h3>\n<pre>[run]\nsteps_per_contact = 25\n"));
+}
+
+TEST_F(CostPage, TakesNothingLiterally) {
+  for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script", "odd <b>"})
+    EXPECT_FALSE(has(*page_, bad)) << bad;
+}
+
+TEST_F(CostPage, HasItsPlotsAndTableBesideIt) {
+  for (const char* file :
+       {"cost.csv", "plots/cost_collision.svg", "plots/cost_collision.png",
+        "plots/cost_trajectory.svg", "plots/cost_averages.svg", "plots/cost_contacts.svg",
+        "plots/cost_orders_collision.svg", "plots/cost_parts.svg", "plots/cost_growth.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder_->path() / file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "plots" / "gnuplot.log"));
+}
+
+TEST(CostPageOf, NothingSaysSo) {
+  const TemporaryFolder folder;
+  writeReport({{"schema", "crossgrain-results-1"}, {"kind", "cost"}}, folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "Nothing was measured."));
+  EXPECT_FALSE(has(page, "{{"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "runs/cost_analysis.hpp"
+#include "tests/reports/sample_common.hpp"
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::sample {
+
+namespace {
+
+constexpr double contactTime = 2e-3;
+
+/// error = amplitude (dt/t_c)^order + floor, wall time = cost · steps.
+struct Engine {
+  std::string name;
+  double amplitude, order, floor, cost;
+};
+
+struct Measure {
+  std::string kind, name;
+  double scale, statistical, reference;  ///< of the engine's error; 0: none
+  double work;                           ///< simulated time, in t_c
+};
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all = {
+      {"collision", "psi_f", 1.0, 0.0, 0.0, 40.0},
+      {"collision", "e_n", 0.4, 0.0, 0.0, 40.0},
+      {"trajectory", "position_rms_own", 0.02, 0.0, 2e-8, 2e3},
+      {"averages", "azimuthal_velocity", 0.5, 0.004, 0.001, 3e4},
+      {"averages", "stress_rr", 2.0, 0.03, 0.001, 3e4},
+      {"averages", "shear_band_width", 0.3, 0.02, 0.001, 3e4},
+  };
+  return all;
+}
+
+CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerContact) {
+  CostPoint point;
+  point.engine = engine.name;
+  point.knob = "time_step";
+  point.setting = fmt::format("t_c/{:g}", stepsPerContact);
+  point.fragment = fmt::format("[run]\nsteps_per_contact = {:g}\n", stepsPerContact);
+  point.errorKind = measure.kind;
+  point.measure = measure.name;
+  point.dt = contactTime / stepsPerContact;
+  point.stepsPerContact = stepsPerContact;
+  const double bias =
+      measure.scale * (engine.amplitude * std::pow(stepsPerContact, -engine.order) + engine.floor);
+  point.error = bias;
+  if (measure.statistical > 0.0) {
+    // as if drawn: alternately above and below
+    const double noise = measure.statistical * std::sin(stepsPerContact);
+    point.error = std::abs(bias + noise);
+    point.statistical = measure.statistical;
+    point.systematic = std::sqrt(
+        std::max(0.0, *point.error * *point.error - measure.statistical * measure.statistical));
+  }
+  if (measure.reference > 0.0) point.referenceError = measure.reference;
+  point.steps = static_cast<std::uint64_t>(measure.work * stepsPerContact);
+  point.contactEvaluations = 400 * point.steps;
+  point.wallSeconds = engine.cost * static_cast<double>(point.steps);
+  point.cpuSeconds = 0.99 * *point.wallSeconds;
+  return point;
+}
+
+CostPoint without(CostPoint point, const std::string& status, const std::string& reason) {
+  point.error.reset();
+  point.statistical.reset();
+  point.systematic.reset();
+  point.status = status;
+  point.reason = reason;
+  return point;
+}
+
+CostPoint changed(CostPoint point, const std::string& knob, const std::string& setting,
+                  double error, double time) {
+  point.knob = knob;
+  point.setting = setting;
+  point.fragment = fmt::format("[run]\n{} = \"{}\"\n", knob, setting);
+  *point.error *= error;
+  *point.wallSeconds *= time;
+  return point;
+}
+
+std::vector<CostPoint> pointsOf(const Engine& engine) {
+  std::vector<CostPoint> points;
+  for (const Measure& measure : measures()) {
+    for (const double steps : {400.0, 200.0, 100.0, 50.0, 25.0, 10.0, 5.0}) {
+      CostPoint point = pointOf(engine, measure, steps);
+      if (engine.name == "yade" && measure.kind == "averages" && steps > 100.0)
+        point = without(point, "undecided", "would take about 140 s, budget 60 s");
+      points.push_back(point);
+    }
+    points.push_back(without(pointOf(engine, measure, 1.2), "failed",
+                             "a disk left the cell at step 37; " + std::string(awkward)));
+  }
+  return points;
+}
+
+}  // namespace
+
+Json costResults() {
+  const std::vector<Engine> engines = {{"grain", 6.0, 2.0, 0.0, 5e-6},
+                                       {"yade", 6.0, 1.0, 0.02, 8e-5},
+                                       {"box2d-penalty", 9.0, 1.0, 1e-6, 4e-5}};
+  std::vector<CostPoint> points;
+  for (const Engine& engine : engines)
+    for (const CostPoint& point : pointsOf(engine)) points.push_back(point);
+  for (const Measure& measure : measures()) {
+    const CostPoint base = pointOf(engines[0], measure, 50.0);
+    points.push_back(changed(base, "precision", "float", 1.02, 0.6));
+    points.push_back(changed(base, "tension", "cut", 30.0, 0.97));
+    points.push_back(changed(base, "skin", "2 d", 1.0, 1.3));
+    for (const double steps : {200.0, 100.0, 50.0, 25.0})
+      points.push_back(changed(pointOf({"grain", 6.0, 1.0, 0.0, 5e-6}, measure, steps),
+                               "integrator", fmt::format("semi_implicit_euler, t_c/{:g}", steps),
+                               1.0, 0.98));
+  }
+  Json results = head("cost", "quick");
+  results["notes"] = Json::array();
+  results["engines"] = {engine("grain", "the in-house engine"), engine("yade", "YADE"),
+                        engine("box2d-penalty", "Box2D"),
+                        engine("box2d-impulse", "Box2D", "", "refused", awkward)};
+  for (const CostPoint& point : points) results["points"].push_back(toJson(point));
+  results["references"] = {{{"error_kind", "collision"},
+                            {"engine", "oracle"},
+                            {"setting", "10⁻¹²"},
+                            {"error", 1e-11},
+                            {"note", "planar two-body problem"}},
+                           {{"error_kind", "averages"},
+                            {"engine", "grain"},
+                            {"setting", "t_c/400"},
+                            {"error", 0.001},
+                            {"note", awkward}}};
+  for (int k = 0; k <= 20; ++k)
+    results["trajectory"]["growth"].push_back(
+        {{"t_s", 0.05 * k}, {"separation", 1e-10 * std::exp(9.0 * 0.05 * k)}});
+  results["trajectory"].update({{"exponent_per_s", 9.0},
+                                {"exponent_stderr", 0.2},
+                                {"window_s", 0.8},
+                                {"why", "the reference's error grows to 10⁻³ d"}});
+  results["startup"] = {{{"engine", "grain"}, {"start_s", 0.004}, {"load_s", 0.001}},
+                        {{"engine", "yade"}, {"start_s", 1.4}, {"load_s", 0.3}}};
+  results["theory"] = {{"grain", 2.0}, {"grain semi_implicit_euler", 2.0}, {"yade", 1.0}};
+  addCostAnalysis(results);
+  return results;
+}
+
+}  // namespace crossgrain::sample
