@@ -143,6 +143,10 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
     pair.et0 = used.tangential;
   });
   realised.deviations = deviationsOf(scene, model, realised.pairs);
+  if (world_->restSpeed() > 0.0)
+    realised.deviations.push_back({"restitution_threshold", world_->restSpeed(), "m/s",
+                                   "impacts slower than what gravity gives in two steps do not "
+                                   "rebound"});
   return realised;
 }
 

@@ -12,8 +12,8 @@
 #include "adapters/vec2.hpp"
 #include "cases/assembly.hpp"
 #include "cases/collision_end.hpp"
-#include "cases/stability.hpp"
 #include "cases/cost.hpp"
+#include "cases/stability.hpp"
 
 namespace crossgrain {
 
@@ -114,7 +114,7 @@ struct Case {
   RunOptions run;
   Collision collision;
   Assembly assembly;
-  std::optional<Stability> stability;       ///< of a hard case
+  std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
 };

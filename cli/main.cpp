@@ -202,9 +202,9 @@ int run(int argc, char** argv) {
   serve->add_option("engine", served)->required();
 
   // CLI11 would only say that some subcommand is required.
-  const std::vector<std::string> names = {"engines",   "check",   "collide",   "compare", "effects",
-                                          "cost",      "stability", "average", "calibrate", "rev",
-                                          "report"};
+  const std::vector<std::string> names = {"engines",   "check", "collide",   "compare",
+                                          "effects",   "cost",  "stability", "average",
+                                          "calibrate", "rev",   "report"};
   const std::string first = argc > 1 ? argv[1] : "-";
   if (first[0] != '-' && first != "__serve" && std::ranges::find(names, first) == names.end())
     throw BadInput(fmt::format("there is no command '{}'{}", first, suggestion(first, names)));

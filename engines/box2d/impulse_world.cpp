@@ -1,6 +1,7 @@
 #include "engines/box2d/impulse_world.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace box2d_granular {
 namespace {
@@ -16,6 +17,7 @@ b2Vec2 relativeVelocity(b2Contact* contact, const b2Vec2& point) {
 ImpulseWorld::ImpulseWorld(const Model& model, ImpulseOptions options)
     : options_(std::move(options)),
       dt_(model.dt),
+      restSpeed_(2.0 * std::hypot(model.gravity.x, model.gravity.y) * model.dt),
       walls_(model.walls),
       members_(model),
       world_(model, 0.0),
@@ -55,7 +57,7 @@ void ImpulseWorld::BeginContact(b2Contact* contact) {
   const Restitution restitution = options_.restitution(std::min(a, b), std::max(a, b));
   contact->SetFriction(static_cast<float>(options_.friction));
   contact->SetRestitution(static_cast<float>(restitution.normal));
-  contact->SetRestitutionThreshold(0.0f);
+  contact->SetRestitutionThreshold(world_.toUnits({restSpeed_, 0.0}).x);
   if (restitution.tangential == 0.0) return;
 
   b2WorldManifold manifold;

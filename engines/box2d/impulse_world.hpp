@@ -39,7 +39,9 @@ struct WallImpulse {
 /// Sticking then gives Ψ_f = −e_t0 Ψ_i, sliding Ψ_i − K(1 + e_n)µ (Walton; Luding 1998).
 ///
 /// Box2D mixes friction by square root and restitution by maximum and ignores restitution below
-/// one unit a second: all three are set contact by contact.
+/// one unit a second: all three are set contact by contact. What is left of that threshold is the
+/// speed that gravity gives in two steps: every resting contact approaches by g dt in each, and
+/// rebounds of it would keep stacks warm and take their friction away step by step.
 class ImpulseWorld : private b2ContactListener {
  public:
   ImpulseWorld(const Model& model, ImpulseOptions options);
@@ -65,6 +67,7 @@ class ImpulseWorld : private b2ContactListener {
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }  ///< touching, per step
   std::uint64_t impacts() const { return impacts_; }  ///< contacts given tangential restitution
+  double restSpeed() const { return restSpeed_; }     ///< slower impacts do not rebound [m/s]
 
  private:
   /// A contact that the solver is about to see, with the geometry it will use.
@@ -82,7 +85,7 @@ class ImpulseWorld : private b2ContactListener {
   void addToSum(const PairImpulse& impulse);
 
   ImpulseOptions options_;
-  double dt_;
+  double dt_, restSpeed_;
   std::vector<Wall> walls_;
   Members members_;
   World world_;

@@ -113,6 +113,38 @@ TEST(Box2dImpulse, SlowContactsGetNoTangentialRestitution) {
 }
 
 // Force times interval is what the wall gave the disk, and likewise for the torque.
+TEST(Box2dImpulse, WhatRestsUnderGravityDoesNotRebound) {
+  // At 5×10⁻⁴ s gravity gives 4.9 mm/s a step. A disk on a floor stays; one that falls from 4 mm
+  // meets it with 0.28 m/s and rises to e_n² of the height.
+  constexpr double en = 0.6, g = 9.81, height = 4e-3;
+  Scene scene = onePair(rigidLaw(en, 0.0, 0.44), 0.0, 0.0);
+  WallBody floor;
+  floor.name = "floor";
+  floor.planes.emplace_back();
+  scene.bodies.push_back(floor);
+  scene.gravity = {0.0, -g};
+  scene.dt = 5e-4;
+  const double a = scene.disks.radius[0];
+  scene.disks.position = {{0.0, a}, {0.1, a + height}};
+  scene.disks.velocity.assign(2, Vec2::Zero());
+  const auto engine = makeBox2dImpulse();
+  const Realised realised = engine->load(scene, {});
+  const auto threshold =
+      std::ranges::find(realised.deviations, "restitution_threshold", &Deviation::name);
+  ASSERT_NE(threshold, realised.deviations.end());
+  EXPECT_NEAR(threshold->value, 2.0 * g * realised.dt, 1e-12);
+  const double fall = std::sqrt(2.0 * height / g);
+  double risen = 0.0;
+  for (int k = 1; k <= 60; ++k) {
+    engine->advance(fall * (1.1 + 0.02 * k));
+    const Snapshot now = engine->snapshot(ContactReport::none);
+    EXPECT_LT(now.velocity[0].norm(), 1e-6) << k;
+    risen = std::max(risen, now.position[1].y() - a);
+  }
+  // Euler's fall is off by g t dt/2 each way.
+  EXPECT_NEAR(risen, en * en * height, 0.1 * height);
+}
+
 TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
   Scene scene;
   scene.law = rigidLaw(0.6, 0.4, 0.44);
