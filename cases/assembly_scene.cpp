@@ -2,25 +2,16 @@
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "cases/couette.hpp"
+#include "cases/random.hpp"
 #include "cases/time_step.hpp"
 
 namespace crossgrain {
 
 namespace {
-
-using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
-Random randomNumbers(std::uint64_t seed) {
-  Random random(gsl_rng_alloc(gsl_rng_mt19937), &gsl_rng_free);
-  gsl_rng_set(random.get(), seed);
-  return random;
-}
 
 /// Nothing is drawn where nothing is to vary, so that other groups stay as they are.
 double within(gsl_rng* random, double half) {
@@ -89,7 +80,7 @@ Scene assemblyScene(const Case& setup) {
   scene.precision = setup.run.precision;
   scene.dt = timeStep(setup);
   scene.energyLedger = setup.run.energyLedger;
-  const Random random = randomNumbers(assembly.seed);
+  const Random random = seededRandom(assembly.seed);
   for (const DiskGroup& group : assembly.disks)
     addDisks(scene.disks, group, assembly, random.get());
   for (const WallGroup& group : assembly.walls)

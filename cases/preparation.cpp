@@ -2,28 +2,19 @@
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <numbers>
 
 #include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
 #include "cases/files.hpp"
+#include "cases/random.hpp"
 
 namespace crossgrain {
 namespace {
-
-using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-
-Random seededRandom(std::uint64_t seed) {
-  Random random(gsl_rng_alloc(gsl_rng_mt19937), &gsl_rng_free);
-  gsl_rng_set(random.get(), seed);
-  return random;
-}
 
 /// Sites of a triangular lattice of the given constant with `inner` <= r <= `outer`.
 std::vector<Vec2> latticeSites(double constant, double inner, double outer) {

@@ -117,6 +117,7 @@ grain::Setup grainSetup(const Case& setup, const Packing& packing) {
 
 /// Moves what overlaps apart: no friction, and a bath that takes the velocities.
 void relax(grain::Setup setup, std::uint64_t steps, Disks& disks) {
+  setup.maxOverlap = 0.0;  // sites next to a wall disk may begin deep in it
   setup.law.tangential = grain::Tangential::none;
   setup.law.gn = 0.4;  // kg/s, nearly critical
   // k_b = 0 and a bound that is never reached: the plate's force is −γ v.
