@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <numbers>
@@ -99,13 +100,18 @@ class YadeWorker : public ::testing::Test {
   static void SetUpTestSuite() {
     if (yadeMissing().empty()) engine_ = startYade("yade");
   }
-  static void TearDownTestSuite() { engine_.reset(); }
+  static void TearDownTestSuite() {
+    engine_.reset();
+    std::filesystem::remove_all(scratch());
+  }
   void SetUp() override {
     if (!engine_) GTEST_SKIP() << yadeMissing();
   }
 
+  /// Of this process alone: others may run at the same time.
   static std::filesystem::path scratch() {
-    return std::filesystem::path(::testing::TempDir()) / "crossgrain-yade";
+    return std::filesystem::path(::testing::TempDir()) /
+           ("crossgrain-yade-" + std::to_string(getpid()));
   }
   static std::unique_ptr<WorkerEngine> startYade(const std::string& name) {
     return std::make_unique<WorkerEngine>(name, yadeCommand(), scratch() / name, 120.0);
