@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+
+#include "adapters/sweep.hpp"
 
 namespace crossgrain {
 namespace {
@@ -58,24 +59,16 @@ std::optional<std::size_t> firstNotFinite(const Scene& scene) {
 std::optional<DeepStart> deepStart(const Scene& scene,
                                    const std::function<double(double, double)>& limit) {
   const AllDisks all(scene);
-  const auto left = [&](std::size_t i) { return all.position[i].x() - all.radius[i]; };
-  // Sweep over x: only disks whose extents in x overlap are held against each other.
-  std::vector<std::size_t> order(all.position.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, left);
   const std::size_t disks = scene.disks.size();
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    const double right = all.position[order[a]].x() + all.radius[order[a]];
-    for (std::size_t b = a + 1; b < order.size() && left(order[b]) <= right; ++b) {
-      const auto [i, j] = std::minmax(order[a], order[b]);
-      if (i >= disks) continue;  // disks of a wall may overlap each other
-      const double distance = (all.position[i] - all.position[j]).norm();
-      const double overlap = all.radius[i] + all.radius[j] - distance;
-      if (distance == 0.0 || overlap > limit(all.radius[i], all.radius[j]))
-        return DeepStart{nameOf(i, disks), nameOf(j, disks), all.position[i], overlap,
-                         distance == 0.0};
-    }
-  }
+  std::optional<DeepStart> first;
+  sweepPairs(all.position, all.radius, disks, [&](std::size_t i, std::size_t j) {
+    if (first) return;
+    const double distance = (all.position[i] - all.position[j]).norm();
+    const double overlap = all.radius[i] + all.radius[j] - distance;
+    if (distance == 0.0 || overlap > limit(all.radius[i], all.radius[j]))
+      first = {nameOf(i, disks), nameOf(j, disks), all.position[i], overlap, distance == 0.0};
+  });
+  if (first) return first;
   return deepInPlane(scene, limit);
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "adapters/sweep.hpp"
 #include "cases/recording.hpp"
 
 namespace crossgrain {
@@ -59,21 +59,13 @@ std::vector<Overlap> overlapsOf(const Scene& scene, const std::vector<Vec2>& pos
     radius.insert(radius.end(), body.diskRadius.begin(), body.diskRadius.end());
 
   std::vector<Overlap> found;
-  // Sweep over x: only disks whose extents in x overlap are held against each other.
-  std::vector<std::size_t> order(place.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t i) { return place[i].x() - radius[i]; });
-  for (std::size_t a = 0; a < order.size(); ++a)
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      if (place[order[b]].x() - radius[order[b]] > place[order[a]].x() + radius[order[a]]) break;
-      const std::size_t i = std::min(order[a], order[b]), j = std::max(order[a], order[b]);
-      if (i >= scene.disks.size()) continue;
-      const Vec2 apart = place[i] - place[j];
-      const double depth = radius[i] + radius[j] - apart.norm();
-      if (depth > 0.0)
-        found.push_back({i, j, depth, std::min(radius[i], radius[j]),
-                         radius[i] * radius[j] / (radius[i] + radius[j]), apart.normalized()});
-    }
+  sweepPairs(place, radius, scene.disks.size(), [&](std::size_t i, std::size_t j) {
+    const Vec2 apart = place[i] - place[j];
+    const double depth = radius[i] + radius[j] - apart.norm();
+    if (depth > 0.0)
+      found.push_back({i, j, depth, std::min(radius[i], radius[j]),
+                       radius[i] * radius[j] / (radius[i] + radius[j]), apart.normalized()});
+  });
   addPlaneOverlaps(scene, position, t, found);
   return found;
 }

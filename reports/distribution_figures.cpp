@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -144,15 +145,18 @@ std::vector<Point> harmonics(const EngineResults& engine, std::size_t ring) {
       if (text(profile, "field") == field) return number(element(list(profile, "mean"), ring));
     return {};
   };
+  std::vector<std::array<double, 3>> terms;  // order, a, b
+  for (const int order : {2, 4, 6}) {
+    const auto a = coefficient("cos", order), b = coefficient("sin", order);
+    if (!a || !b) return {};
+    terms.push_back({static_cast<double>(order), *a, *b});
+  }
   std::vector<Point> points;
   for (int degrees = -180; degrees <= 180; degrees += 4) {
     const double angle = degrees * std::numbers::pi / 180.0;
     double density = 1.0;
-    for (const int order : {2, 4, 6}) {
-      const auto a = coefficient("cos", order), b = coefficient("sin", order);
-      if (!a || !b) return {};
-      density += *a * std::cos(order * angle) + *b * std::sin(order * angle);
-    }
+    for (const auto& [order, a, b] : terms)
+      density += a * std::cos(order * angle) + b * std::sin(order * angle);
     points.push_back({angle, density / (2.0 * std::numbers::pi), {}});
   }
   return points;

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "cases/bad_input.hpp"
+#include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 
 namespace crossgrain {
@@ -14,21 +12,11 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::string>& overrides) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (files.empty()) throw BadInput(folder.string() + ": there is no case file (*.toml) in it");
-  std::ranges::sort(files);
   std::vector<Case> variants;
-  std::map<std::string, fs::path> named;
-  for (const fs::path& file : files)
-    for (Case& setup : loadCase(file, overrides)) {
-      if (setup.kind != CaseKind::collision) continue;
-      if (const auto [at, isNew] = named.emplace(setup.name, file); !isNew && at->second != file)
-        throw BadInput(fmt::format("{}: case.name = \"{}\": {} has it too", file.string(),
-                                   setup.name, at->second.string()));
-      variants.push_back(std::move(setup));
-    }
+  for (const fs::path& file : caseFilesIn(folder))
+    for (Case& setup : loadCase(file, overrides))
+      if (setup.kind == CaseKind::collision) variants.push_back(std::move(setup));
+  requireOwnNames(variants);
   if (variants.empty()) throw BadInput(folder.string() + ": none of its cases is a collision");
   return variants;
 }

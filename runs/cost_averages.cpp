@@ -9,10 +9,10 @@
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
+#include "runs/advance.hpp"
 #include "runs/cost_limits.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/couette_summary.hpp"
-#include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 
 namespace crossgrain {
@@ -123,14 +123,10 @@ json averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
   const int samples = snapshotsOf(setup);
   const double interval = setup.averaging.rotations * rotationTime(setup) / samples;
   const double end = settled + samples * interval;
-  const double piece = 2000.0 * realised.dt;
   double now = 0.0;
   const auto advanceTo = [&](double time) {
-    while (now < time) {
-      throwIfInterrupted();
-      now = std::min(time, now + piece);
-      engine.advance(now);
-    }
+    advanceInPieces(engine, realised, now, time);
+    now = time;
     progress(time / end);
   };
   const auto look = [&] {

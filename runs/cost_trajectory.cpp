@@ -7,9 +7,9 @@
 
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
+#include "runs/advance.hpp"
 #include "runs/cost_limits.hpp"
 #include "runs/engine_access.hpp"
-#include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 
 namespace crossgrain {
@@ -33,15 +33,10 @@ Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
   const Realised realised = loadScene(engine, entry, setup, scene);
   Track track;
   track.dt = realised.dt;
-  // In pieces: an engine answers within its time-out, and Ctrl-C is heard.
-  const double piece = 2000.0 * realised.dt;
   double now = 0.0;
   for (const double time : times) {
-    while (now < time) {
-      throwIfInterrupted();
-      now = std::min(time, now + piece);
-      engine.advance(now);
-    }
+    advanceInPieces(engine, realised, now, time);
+    now = time;
     Snapshot seen = engine.snapshot(ContactReport::none);
     if (const std::string wild = blowUp(setup, seen); !wild.empty()) throw EngineFailure(wild);
     // A step that does not divide the window ends a little beside it.

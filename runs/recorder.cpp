@@ -1,15 +1,11 @@
 #include "runs/recorder.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
+#include "runs/advance.hpp"
 #include "runs/couette_run.hpp"
-#include "runs/interrupt.hpp"
 
 namespace crossgrain {
 
@@ -38,19 +34,6 @@ HardScene hardScene(const Case& setup, const Packing& packing) {
   hard.scene.energyLedger = setup.run.energyLedger || measure == "energy_gain" ||
                             measure == "energy_drift" || measure == "ledger_residual";
   return hard;
-}
-
-void advanceInPieces(Engine& engine, const Realised& realised, double from, double to) {
-  const double piece = 2000.0 * realised.dt;
-  for (double now = from; now < to;) {
-    throwIfInterrupted();
-    const double next = std::min(to, now + piece);
-    const double reached = engine.advance(next);
-    if (!(std::abs(reached - next) <= realised.dt))
-      throw EngineFailure(fmt::format("{}: asked for t = {:g} s it stopped at {:g} s",
-                                      realised.engine, next, reached));
-    now = next;
-  }
 }
 
 Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,

@@ -27,8 +27,4 @@ HardScene hardScene(const Case& setup, const Packing& packing);
 Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
                  const std::function<void(double)>& progress);
 
-/// Advances in pieces that an engine can answer within its time-out.
-/// @throws EngineFailure if it stops anywhere else
-void advanceInPieces(Engine& engine, const Realised& realised, double from, double to);
-
 }  // namespace crossgrain

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 
 #include "cases/bad_input.hpp"
+#include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/stability_measures.hpp"
@@ -28,13 +28,7 @@ using nlohmann::json;
 namespace {
 
 std::vector<fs::path> filesOf(const fs::path& input) {
-  if (!fs::is_directory(input)) return {input};
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(input))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (files.empty()) throw BadInput(input.string() + ": there is no case file (*.toml) in it");
-  std::ranges::sort(files);
-  return files;
+  return fs::is_directory(input) ? caseFilesIn(input) : std::vector{input};
 }
 
 bool belongsTo(SuitePart part, const Stability& hard) {
@@ -47,17 +41,14 @@ bool belongsTo(SuitePart part, const Stability& hard) {
 std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part) {
   std::vector<Case> cases;
-  std::map<std::string, fs::path> named;
   for (const fs::path& input : inputs)
     for (const fs::path& file : filesOf(input))
       for (Case& setup : loadCase(file, overrides)) {
         if (!setup.stability)
           throw BadInput(fmt::format("{}: has no [stability]: it is no hard case", file.string()));
-        if (const auto [at, isNew] = named.emplace(setup.name, file); !isNew && at->second != file)
-          throw BadInput(fmt::format("{}: case.name = \"{}\": {} has it too", file.string(),
-                                     setup.name, at->second.string()));
         cases.push_back(std::move(setup));
       }
+  requireOwnNames(cases);
   if (std::ranges::none_of(cases, [&](const Case& c) { return belongsTo(part, *c.stability); }))
     throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
                                             : "all of these cases are long: --long runs them");

@@ -8,6 +8,7 @@
 #include "adapters/worker/json.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/stability_measures.hpp"
+#include "runs/advance.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/picture.hpp"
 #include "runs/recorder.hpp"
