@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -131,22 +130,6 @@ TEST(Profiles, MethodsMeetWhereRingsAreWideAndOverflowIsExposed) {
     for (const Moments& bin : accumulator.meanMoments(method))
       volume[method] += at(bin, Moment::volume);
   EXPECT_NEAR(volume[0] / volume[1], 1.0, 1e-12);
-}
-
-TEST(Profiles, OneSnapshotOfTheThesisCellIsCheap) {
-  // Averaging is not to show beside the steps between two snapshots (about 100 µs each). A release
-  // build takes 0.3 ms; 50 ms leaves room for sanitizers and busy machines.
-  const Instant instant = test::randomInstant(11, 2921);
-  ProfileAccumulator accumulator(test::thesisRings(), {WeightMethod::slicing}, instant.scene);
-  double best = 1.0;
-  for (int k = 0; k < 20; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    accumulator.add(instant.snapshot);
-    best = std::min(
-        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  RecordProperty("milliseconds", std::to_string(1e3 * best));
-  EXPECT_LT(best, 0.05);
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ COUETTE = CASES / "couette/quick.toml"
 COLLISION = CASES / "collision/figure-4-3.toml"
 HARD_SPHERE = CASES / "collision/hard-sphere.toml"
 
+# Longest wait [s] for what takes seconds: it catches what hangs, and no busy machine comes near it.
+PATIENCE = 1200
+
 HELD, FELL_SHORT, BAD_INPUT, ENGINE_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 # What a user must never see: Python's, the C++ runtime's and the sanitizers' last words.
@@ -65,7 +68,7 @@ class Running:
     def stderr(self):
         return pathlib.Path(self._err.name).read_text(encoding="utf-8")
 
-    def end(self, seconds=60):
+    def end(self, seconds=PATIENCE):
         """Waits until it has ended by itself."""
         status = self.process.wait(timeout=seconds)
         return Finished(
@@ -81,14 +84,14 @@ class Running:
 
     def worker_at_work(self, engine, cpu_seconds=0.15, stage="running engines"):
         """Waits until the runs have begun and a worker of that engine has computed for a while."""
-        wait_for(lambda: stage in self.stderr(), 60, "the runs to begin")
+        wait_for(lambda: stage in self.stderr(), PATIENCE, "the runs to begin")
         found = []
 
         def computing():
             found[:] = [pid for pid in self.workers(engine) if cpu_time(pid) >= cpu_seconds]
             return found
 
-        wait_for(computing, 60, f"a worker of {engine}")
+        wait_for(computing, PATIENCE, f"a worker of {engine}")
         return found[0]
 
     def stop(self):
@@ -160,7 +163,7 @@ class SystemTest(unittest.TestCase):
         file.write_text(text, encoding="utf-8")
         return file
 
-    def run_program(self, *arguments, env=None, timeout=100, **options):
+    def run_program(self, *arguments, env=None, timeout=PATIENCE, **options):
         done = subprocess.run(
             [PROGRAM, *map(str, arguments)],
             stdin=subprocess.DEVNULL,

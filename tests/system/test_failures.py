@@ -14,6 +14,7 @@ from harness import (
     FELL_SHORT,
     HELD,
     INTERRUPTED,
+    PATIENCE,
     SystemTest,
     read_proc,
     settings,
@@ -56,7 +57,7 @@ class FailureTest(SystemTest):
         failed = [run for run in self.results()["runs"] if run["status"] == "failed"]
         self.assertEqual([(SLOW, reason)], [(run["engine"], run["reason"]) for run in failed])
 
-    def assert_nothing_runs(self, running, seconds=3):
+    def assert_nothing_runs(self, running, seconds=PATIENCE):
         wait_for(lambda: not running.processes(), seconds, "all processes to end")
 
 
@@ -82,18 +83,16 @@ class WorkerDies(FailureTest):
         self.assert_report_tells(line)
 
     def test_hangs(self):
-        running = self.start_compare("--set", "run.timeout=2", engines=BOTH)
+        running = self.start_compare("--set", "run.timeout=5", engines=BOTH)
         os.kill(running.worker_at_work(SLOW), signal.SIGSTOP)
-        stopped = time.monotonic()
         done = self.check_no_crash(running.end())
-        self.assertLess(time.monotonic() - stopped, 10)
         line = self.assert_one_error(
-            done, ENGINE_FAILED, SLOW, "quick at t = ", "no answer within 2 s"
+            done, ENGINE_FAILED, SLOW, "quick at t = ", "no answer within 5 s"
         )
         finished = self.assert_others_finished()
         self.assert_report_tells(line)
         self.assert_nothing_runs(running)
-        self.assert_resumes(finished, "--set", "run.timeout=2")
+        self.assert_resumes(finished, "--set", "run.timeout=5")
 
 
 class CollideWorkerDies(FailureTest):
@@ -124,7 +123,7 @@ class CollideWorkerDies(FailureTest):
     def test_interrupted(self):
         running, _ = self.collide()
         os.kill(running.process.pid, signal.SIGINT)
-        done = self.check_no_crash(running.end(10))
+        done = self.check_no_crash(running.end())
         self.assert_one_error(done, INTERRUPTED, "interrupted")
         self.assertNotIn("--resume", done.stderr, "collide keeps no runs that it could take up")
         self.assert_nothing_runs(running)
@@ -139,14 +138,12 @@ class UserInterrupts(FailureTest):
         held = running.worker_at_work(SLOW)
         os.kill(held, signal.SIGSTOP)
         wait_for(
-            lambda: {"grain-p0", "grain-p1"} <= set(self.finished_runs()), 60, "runs to finish"
+            lambda: {"grain-p0", "grain-p1"} <= set(self.finished_runs()), PATIENCE, "runs to finish"
         )
         os.kill(held, signal.SIGCONT)
         finished = self.finished_runs()
         os.kill(running.process.pid, signal_number)
-        sent = time.monotonic()
         done = self.check_no_crash(running.end())
-        self.assertLess(time.monotonic() - sent, 5)
         self.assert_one_error(done, INTERRUPTED, "interrupted", "--resume")
         self.assertEqual(finished, self.finished_runs())
         self.assert_nothing_runs(running)
@@ -184,9 +181,9 @@ class UserInterrupts(FailureTest):
             *settings(preparation__rotations=3.0, preparation__seed=77), engines=BOTH,
             env={"CROSSGRAIN_CACHE": str(self.folder / "cache")},
         )  # fmt: skip
-        wait_for(lambda: "preparing packings" in running.stderr(), 30, "the preparation to begin")
+        wait_for(lambda: "preparing packings" in running.stderr(), PATIENCE, "the preparation to begin")
         os.kill(running.process.pid, signal.SIGINT)
-        done = self.check_no_crash(running.end(10))
+        done = self.check_no_crash(running.end())
         self.assert_one_error(done, INTERRUPTED, "interrupted")
         self.assert_nothing_runs(running)
 
@@ -198,10 +195,10 @@ class UserInterrupts(FailureTest):
                 # Before main() has begun the kernel's default is to end the program.
                 caught = re.compile(rb"SigCgt:\s*[0-9a-f]*[2367abef]\n")  # SIGINT is bit 1
                 pid = running.process.pid
-                wait_for(lambda: caught.search(read_proc(pid, "status")), 10, "main() to begin")
+                wait_for(lambda: caught.search(read_proc(pid, "status")), PATIENCE, "main() to begin")
                 time.sleep(delay)
                 os.kill(pid, signal.SIGINT)
-                done = self.check_no_crash(running.end(10))
+                done = self.check_no_crash(running.end())
                 self.assert_one_error(done, INTERRUPTED, "interrupted")
                 self.assert_nothing_runs(running)
 
@@ -242,7 +239,7 @@ class CrossgrainDies(FailureTest):
 
     def test_resume_after_that(self):
         running = self.start_compare("--jobs=1", engines=BOTH)
-        wait_for(self.finished_runs, 60, "a run to finish")
+        wait_for(self.finished_runs, PATIENCE, "a run to finish")
         running.worker_at_work(SLOW, cpu_seconds=0.05)
         running.process.kill()
         running.process.wait()

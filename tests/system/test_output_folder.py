@@ -6,7 +6,9 @@ import signal
 import subprocess
 import unittest
 
-from harness import BAD_INPUT, COLLISION, COUETTE, HELD, PROGRAM, Finished, SystemTest, settings
+from harness import (
+    BAD_INPUT, COLLISION, COUETTE, HELD, PATIENCE, PROGRAM, Finished, SystemTest, settings,
+)
 
 SHORT = settings(averaging__rotations=0.02, preparation__rotations=0.0)
 
@@ -64,7 +66,7 @@ class Full(SystemTest):
             capture_output=True,
             encoding="utf-8",
             env=os.environ | {"CROSSGRAIN_CACHE": str(self.folder / "cache")},
-            timeout=60,
+            timeout=PATIENCE,
             check=False,
         )
         if done.returncode == 77 or "unshare:" in done.stderr:

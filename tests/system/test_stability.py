@@ -18,7 +18,7 @@ class Stability(SystemTest):
 
     def test_the_quick_suite_on_all_engines(self):
         done = self.run_program(
-            "stability", HARD, "--engines", "all", "--quick", "--out", self.out, timeout=360
+            "stability", HARD, "--engines", "all", "--quick", "--out", self.out
         )
         rows = self.table()
         self.assertEqual(COLUMNS, list(rows[0]))

@@ -5,7 +5,7 @@ import shutil
 import signal
 import unittest
 
-from harness import COLLISION, FELL_SHORT, HELD, INTERRUPTED, SystemTest, settings, wait_for
+from harness import COLLISION, FELL_SHORT, HELD, INTERRUPTED, PATIENCE, SystemTest, settings, wait_for
 
 
 @unittest.skipUnless(shutil.which("yade"), "yade is not installed (Debian: package yade)")
@@ -63,8 +63,8 @@ class Yade(SystemTest):
 
     def at_work(self):
         running = self.start_compare(*settings(averaging__rotations=0.5), engines="yade")
-        wait_for(lambda: "running engines" in running.stderr(), 60, "the runs to begin")
-        wait_for(lambda: len(running.processes()) >= 2, 60, "YADE to start")
+        wait_for(lambda: "running engines" in running.stderr(), PATIENCE, "the runs to begin")
+        wait_for(lambda: len(running.processes()) >= 2, PATIENCE, "YADE to start")
         return running
 
     def test_interrupt(self):
@@ -72,13 +72,13 @@ class Yade(SystemTest):
         os.kill(running.process.pid, signal.SIGINT)
         done = self.check_no_crash(running.end(30))
         self.assert_one_error(done, INTERRUPTED, "interrupted")
-        wait_for(lambda: not running.processes(), 3, "YADE to end")
+        wait_for(lambda: not running.processes(), PATIENCE, "YADE to end")
 
     def test_crossgrain_killed(self):
         running = self.at_work()
         running.process.kill()
         running.process.wait()
-        wait_for(lambda: not running.processes(), 3, "YADE to end")
+        wait_for(lambda: not running.processes(), PATIENCE, "YADE to end")
 
 
 if __name__ == "__main__":

@@ -112,7 +112,7 @@ TEST_F(Worker, IsKilledWhenItHangs) {
             "toy, toy at t = 0 s: no answer within 1 s to advance(t = 0.5 s)");
   const Seconds took = std::chrono::steady_clock::now() - begin;
   EXPECT_GE(took.count(), 1.0);
-  EXPECT_LT(took.count(), 5.0);
+  EXPECT_LT(took.count(), 60.0);  // on however busy a machine
 }
 
 TEST_F(Worker, IsDistrusted) {
@@ -210,7 +210,7 @@ TEST_F(Worker, EndsWithItsRequestsThoughASiblingLives) {
   ChildProcess first(toyCommand(""), scratch_ / "first.log");
   ChildProcess second(toyCommand(""), scratch_ / "second.log");
   first.closeInput();  // unless the second inherited our end, the first now reads its end
-  EXPECT_TRUE(first.waitForExit(std::chrono::seconds(5)));
+  EXPECT_TRUE(first.waitForExit(std::chrono::seconds(60)));
   EXPECT_EQ(first.exitText(), "exit status 0");
 }
 
