@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <sstream>
 
+#include "adapters/data_folder.hpp"
+
 namespace crossgrain {
 namespace {
 
 std::filesystem::path script() {
-  const char* directory = std::getenv("CROSSGRAIN_ENGINES_DIR");
-  return std::filesystem::path(directory ? directory : CROSSGRAIN_ENGINES_DIR) / "yade/worker.py";
+  return dataFolder() / "engines/yade/worker.py";
 }
 
 bool onPath(const std::string& program) {
@@ -35,8 +36,8 @@ std::string yadeMissing() {
     return "there is no program 'yade' in PATH (Debian and Ubuntu: package yade)";
   if (!std::filesystem::exists(script()))
     return fmt::format(
-        "there is no {}; set CROSSGRAIN_ENGINES_DIR to the folder that holds "
-        "yade/worker.py",
+        "there is no {}; set CROSSGRAIN_DATA to the folder that holds "
+        "engines/yade/worker.py",
         script().string());
   return {};
 }

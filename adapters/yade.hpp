@@ -7,8 +7,7 @@ namespace crossgrain {
 
 /// How to start the worker that runs a scene on YADE: YADE executes engines/yade/worker.py, which
 /// speaks the worker protocol.
-/// The script is looked for in $CROSSGRAIN_ENGINES_DIR/yade, else where this program was built or
-/// installed.
+/// The script is in engines/yade of dataFolder().
 std::vector<std::string> yadeCommand();
 
 /// Why YADE cannot be run here, one line; empty if it can.

@@ -1,0 +1,43 @@
+# What `cmake --install` and `cpack` lay out:
+#   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
+#   share/crossgrain/cases, engines  what it reads at run time
+#   lib, include/crossgrain        the libraries, for find_package(crossgrain)
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
+        FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
+install(DIRECTORY engines/yade DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
+        FILES_MATCHING PATTERN "*.py")
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(crossgrain_libraries crossgrain_options grain box2d_granular crossgrain_adapters crossgrain_worker
+    crossgrain_engines crossgrain_averaging crossgrain_cases crossgrain_reports crossgrain_runs)
+install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
+foreach(folder adapters averaging cases engines/grain engines/box2d reports runs)
+  install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crossgrain/${folder}
+          FILES_MATCHING PATTERN "*.hpp" PATTERN "curated" EXCLUDE PATTERN "templates" EXCLUDE)
+endforeach()
+install(EXPORT crossgrain NAMESPACE crossgrain:: FILE crossgrainTargets.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/crossgrain)
+configure_package_config_file(cmake/crossgrainConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfig.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/crossgrain)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/crossgrain)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "the crossgrain project")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Validation harness for granular (DEM) simulation engines")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the shared libraries that the program is linked to
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS yade)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+include(CPack)
