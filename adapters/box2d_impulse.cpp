@@ -11,6 +11,7 @@
 #include "adapters/box2d.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
+#include "adapters/suitability.hpp"
 
 namespace crossgrain {
 
@@ -83,6 +84,9 @@ Capabilities Box2dImpulse::capabilities() const {
   // long.
   can.effects[Effect::bottomFriction] = Support::never;
   can.effects[Effect::bottomSpinFriction] = Support::never;
+  // What a soft law has of these is folded into e_n and e_t0.
+  can.effects[Effect::tangentialSpring] = Support::never;
+  can.effects[Effect::tangentialDamping] = Support::never;
   can.lawOptions = {{"normal", {"rigid"}}};
   can.precisions = {Precision::float32};
   can.accumulatedContacts = true;
@@ -130,10 +134,7 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   realised.dt = dt;
   realised.precision = "float";
   realised.integrator = "semi_implicit_euler with sequential impulses";
-  realised.effects = effectsOf(scene);
-  // A soft law's springs and dashpots are folded into e_n and e_t0: they are not simulated.
-  realised.effects.erase(Effect::tangentialSpring);
-  realised.effects.erase(Effect::tangentialDamping);
+  realised.effects = simulatedEffects(capabilities(), scene);
   realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double reducedMass) {
     pair.mu = friction(law_);
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);

@@ -50,12 +50,30 @@ void removeEffect(Scene& scene, Effect effect) {
   }
 }
 
+bool has(const Capabilities& can, const ContactLaw& law, const std::string& option) {
+  const auto found = can.lawOptions.find(option);
+  return found == can.lawOptions.end() ||
+         std::ranges::count(found->second, lawOptionValue(law, option)) > 0;
+}
+
+/// Springs and dashpots are parts of a soft law: an engine that has another law in its place has
+/// what it makes of them in that law's constants.
+bool isPartOfSoftLaw(Effect effect) {
+  return effect == Effect::tangentialSpring || effect == Effect::tangentialDamping;
+}
+
 }  // namespace
+
+bool hasNormalLaw(const Capabilities& can, const ContactLaw& law) {
+  return has(can, law, "normal");
+}
 
 std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
   std::vector<Mismatch> found;
   const Effects called = effectsOf(scene);
+  const bool sameLaw = hasNormalLaw(can, scene.law);
   for (const Effect effect : allEffects) {
+    if (!sameLaw && isPartOfSoftLaw(effect)) continue;
     const Support support = supportOf(can, effect);
     if (called.contains(effect) && support == Support::never)
       found.push_back({toString(effect), fmt::format("has no {}", toString(effect)), true});
@@ -63,22 +81,25 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
       found.push_back({toString(effect), fmt::format("cannot do without {}", toString(effect))});
   }
   for (const auto& [name, values] : can.lawOptions) {
-    if (!mattersTo(scene.law, name)) continue;
-    const std::string wanted = lawOptionValue(scene.law, name);
-    if (std::ranges::find(values, wanted) == values.end())
-      found.push_back(
-          {name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "), wanted)});
+    if (!mattersTo(scene.law, name) || has(can, scene.law, name)) continue;
+    if (!sameLaw && name != "normal") continue;
+    found.push_back({name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "),
+                                       lawOptionValue(scene.law, name))});
   }
   return found;
+}
+
+Effects simulatedEffects(const Capabilities& can, const Scene& scene) {
+  Effects effects = effectsOf(scene);
+  std::erase_if(effects, [&](Effect effect) { return supportOf(can, effect) == Support::never; });
+  return effects;
 }
 
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   for (const auto& [option, values] : can.lawOptions) {
     // What the constants mean hangs on these: an engine that lacks the law converts it, or refuses.
     if (option == "normal" || option == "tangential" || option == "damper") continue;
-    if (values.empty()) continue;
-    if (std::ranges::find(values, lawOptionValue(law, option)) == values.end())
-      setLawOption(law, option, values.front());
+    if (!values.empty() && !has(can, law, option)) setLawOption(law, option, values.front());
   }
   return law;
 }

@@ -14,8 +14,17 @@ struct Mismatch {
   bool effectMissing = false;  ///< an effect that the engine cannot simulate at all
 };
 
+/// Whether the engine has the normal law itself, not another one in its place.
+bool hasNormalLaw(const Capabilities& can, const ContactLaw& law);
+
 /// Everything in the scene that the engine cannot do as written. Empty: it can run it faithfully.
+/// Where the engine lacks the normal law that is one mismatch, "normal", for the law as a whole:
+/// its conventions, springs and dashpots have no meaning in the law that stands for it.
 std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
+
+/// The effects that the engine simulates in a scene: those called for, without those that it never
+/// does. Realised::effects of an adapted scene is this set.
+Effects simulatedEffects(const Capabilities& can, const Scene& scene);
 
 /// The law with the conventions that the engine has in place of those it lacks: its first of each.
 ContactLaw lawAsRun(const Capabilities& can, ContactLaw law);

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "averaging/contact_rule.hpp"
+
 namespace crossgrain {
 
 namespace {
@@ -144,23 +146,26 @@ void DistributionAccumulator::addDisk(std::size_t disk, const Snapshot& snapshot
     all_[joint_].counts.count(azimuthalSlot + spinSlot * (azimuthalBins.count + 2));
 }
 
-void DistributionAccumulator::addContacts(const Contacts& contacts) {
-  double normal = 0.0, tangential = 0.0;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    addContactOf(contacts.i[c], -contacts.normal[c]);
-    addContactOf(contacts.j[c], contacts.normal[c]);
-    normal += contacts.normalForce[c];
-    tangential += std::abs(contacts.tangentialForce[c]);
+void DistributionAccumulator::addContacts(const Contacts& pairs) {
+  double count = 0.0, normal = 0.0, tangential = 0.0;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!transmits(pairs, c)) continue;
+    addContactOf(pairs.i[c], -pairs.normal[c]);
+    addContactOf(pairs.j[c], pairs.normal[c]);
+    count += 1.0;
+    normal += pairs.normalForce[c];
+    tangential += std::abs(pairs.tangentialForce[c]);
   }
-  normal /= static_cast<double>(contacts.size());
-  tangential /= static_cast<double>(contacts.size());
+  normal /= count;
+  tangential /= count;
   for (const Place& place : places_)
     all_[coordination_].counts.count(coordinationBins.slot(place.contacts));
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (normal > 0.0) all_[normal_].counts.count(forceBins.slot(contacts.normalForce[c] / normal));
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!transmits(pairs, c)) continue;
+    if (normal > 0.0) all_[normal_].counts.count(forceBins.slot(pairs.normalForce[c] / normal));
     if (tangential > 0.0)
       all_[tangential_].counts.count(
-          forceBins.slot(std::abs(contacts.tangentialForce[c]) / tangential));
+          forceBins.slot(std::abs(pairs.tangentialForce[c]) / tangential));
   }
 }
 

@@ -95,7 +95,7 @@ class DistributionAccumulator {
 
   std::size_t collect(const char* quantity, std::optional<int> ring, std::vector<Bins> axes);
   void addDisk(std::size_t disk, const Snapshot& snapshot);
-  void addContacts(const Contacts& contacts);
+  void addContacts(const Contacts& pairs);
   void addContactOf(std::int32_t disk, const Vec2& outward);
   Distribution distribution(const Collected& collected) const;
 

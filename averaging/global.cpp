@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
+
+#include "averaging/contact_rule.hpp"
 
 namespace crossgrain {
 
@@ -59,19 +60,31 @@ double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
   return energy;
 }
 
-void addContactNumbers(const Contacts& contacts, std::size_t disks, GlobalNumbers& numbers) {
-  const double count = static_cast<double>(contacts.size());
-  std::size_t ends = 0;
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    ends += static_cast<std::size_t>(contacts.j[c]) < disks ? 2 : 1;
-  if (disks > 0) numbers.coordination = static_cast<double>(ends) / static_cast<double>(disks);
-  if (contacts.size() == 0) return;
-  numbers.maxOverlap = std::ranges::max(contacts.overlap);
-  numbers.meanOverlap =
-      std::accumulate(contacts.overlap.begin(), contacts.overlap.end(), 0.0) / count;
-  if (contacts.sliding.empty()) return;
-  numbers.slidingFraction =
-      static_cast<double>(std::ranges::count(contacts.sliding, std::uint8_t{1})) / count;
+/// How many of two disks a pair joins.
+std::size_t ends(const Contacts& pairs, std::size_t k, std::size_t disks) {
+  return static_cast<std::size_t>(pairs.j[k]) < disks ? 2 : 1;
+}
+
+void addContactNumbers(const Contacts& pairs, std::size_t disks, GlobalNumbers& numbers) {
+  std::size_t listed = 0, carrying = 0, contacts = 0, sliding = 0;
+  double overlaps = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    listed += ends(pairs, k, disks);
+    if (!transmits(pairs, k)) continue;
+    carrying += ends(pairs, k, disks);
+    overlaps += pairs.overlap[k];
+    if (!pairs.sliding.empty() && pairs.sliding[k] == 1) ++sliding;
+    ++contacts;
+  }
+  if (disks > 0) {
+    numbers.coordination = static_cast<double>(carrying) / static_cast<double>(disks);
+    numbers.listedPairs = static_cast<double>(listed) / static_cast<double>(disks);
+  }
+  if (pairs.size() > 0) numbers.maxOverlap = std::ranges::max(pairs.overlap);
+  if (contacts == 0) return;
+  const auto count = static_cast<double>(contacts);
+  numbers.meanOverlap = overlaps / count;
+  if (!pairs.sliding.empty()) numbers.slidingFraction = static_cast<double>(sliding) / count;
 }
 
 }  // namespace

@@ -11,8 +11,11 @@ namespace crossgrain {
 /// Numbers of a whole scene at one instant. What the snapshot has no data for is absent.
 struct GlobalNumbers {
   double kineticEnergy = 0.0;  ///< Σ ½ m v² + ½ J ω² over the disks (ω if there is one) [J]
-  std::optional<double> coordination;     ///< contacts per disk, those with walls included [-]
-  std::optional<double> maxOverlap;       ///< absent without a contact [m]
+  /// Contacts per disk, those with walls included [-]. @see contact_rule.hpp
+  std::optional<double> coordination;
+  /// The same count of all pairs that the engine lists, whether or not a force passes [-].
+  std::optional<double> listedPairs;
+  std::optional<double> maxOverlap;       ///< of any pair listed; absent without one [m]
   std::optional<double> meanOverlap;      ///< over contacts; absent without one [m]
   std::optional<double> slidingFraction;  ///< of contacts at the Coulomb bound [-]
 };

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "averaging/contact_rule.hpp"
+
 namespace crossgrain {
 
 namespace {
@@ -176,6 +178,7 @@ void MomentSums::sumContacts(const Contacts& contacts) {
   constexpr std::size_t ahead = 16;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (c + ahead < contacts.size()) fetch(contacts.j[c + ahead]);
+    if (!transmits(contacts, c)) continue;
     const Vec2& n = contacts.normal[c];
     // Disk i has f and l = −a n, disk j has −f and l = +a n: the same −f⊗l but for the radius.
     const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();

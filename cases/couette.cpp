@@ -41,6 +41,22 @@ Disks diskKinds(const Particles& particles) {
   return disks;
 }
 
+Disks spreadDisks(const Case& setup) {
+  Disks disks = diskKinds(setup.particles);
+  const double clearance = setup.cell.wallRadius + setup.particles.smallRadius;
+  const double inner = setup.cell.innerRadius + clearance;
+  const double outer = setup.cell.outerRadius - clearance;
+  const double goldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  const auto count = static_cast<double>(disks.size());
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / count;
+    const double r = std::sqrt(inner * inner + share * (outer * outer - inner * inner));
+    const double angle = static_cast<double>(k) * goldenAngle;
+    disks.position[k] = {r * std::cos(angle), r * std::sin(angle)};
+  }
+  return disks;
+}
+
 Scene couetteScene(const Case& setup, const Packing& packing, double dt) {
   Scene scene;
   scene.name = setup.name;

@@ -20,6 +20,10 @@ WallBody wallRing(const char* name, const Cell& cell, double radius, double angl
 /// Disks of the case without a place yet: small ones first, then large ones.
 Disks diskKinds(const Particles& particles);
 
+/// The same evenly spread over the cell, as seeds are over a sunflower's head (Vogel 1979): a scene
+/// for engines to be asked about, not to be run, as neighbours may overlap.
+Disks spreadDisks(const Case& setup);
+
 /// A start that an engine cannot be blamed for: no two disks overlap by more than
 /// max_overlap · small radius, no two centres coincide, all are finite.
 /// Where `cell` is given, they also lie between its walls.

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "adapters/law_options.hpp"
-#include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
 #include "cases/time_step.hpp"
 #include "runs/collision_look.hpp"
@@ -122,12 +121,13 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
 namespace {
 
 /// The sweep's outcomes; those of a run that is looked at also with overlaps and work.
-Outcomes runOutcomes(Engine& engine, const Case& setup, const Scene& scene,
-                     const Realised& realised, const std::vector<CollisionStart>& starts,
-                     bool look) {
+Outcomes runOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Scene& scene, const Realised& realised,
+                     const std::vector<CollisionStart>& starts, bool look) {
   const double end = sweepEnd(setup, scene.dt, realised.dt);
   const Capabilities can = engine.capabilities();
-  const WatchedRun watched{scene, collidingPair(setup), lawAsRun(can, scene.law), realised,
+  const WatchedRun watched{scene, collidingPair(setup),
+                           sceneFor(can, entry, setup, scene).scene.law, realised,
                            can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
   if (look && can.instantContacts)
@@ -153,7 +153,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
               const std::vector<CollisionStart>& starts, const OracleCurve& oracle, bool look) {
   const Scene scene = collisionScene(setup, starts, dt);
   const Realised realised = loadScene(engine, entry, setup, scene);
-  const Outcomes found = runOutcomes(engine, setup, scene, realised, starts, look);
+  const Outcomes found = runOutcomes(engine, entry, setup, scene, realised, starts, look);
   json points = columnsOf(starts, found);
   for (const auto& outcome : found) points["status"].push_back(outcome ? "parted" : "not parted");
   const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });

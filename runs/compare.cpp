@@ -2,6 +2,7 @@
 
 #include "runs/agreement_table.hpp"
 #include "runs/campaign.hpp"
+#include "runs/contact_notes.hpp"
 #include "runs/velocity_notes.hpp"
 
 namespace crossgrain {
@@ -47,6 +48,7 @@ json compareEngines(const Case& setup, const RunCommand& command) {
   results["agreement"] =
       agreementOf(setup, results["runs"], pairsOf(campaign.engines(), command.engines));
   for (json& note : velocityNotes(results)) results["notes"].push_back(std::move(note));
+  for (json& note : contactNotes(results)) results["notes"].push_back(std::move(note));
   return results;
 }
 

@@ -12,6 +12,7 @@
 #include "cases/time_step.hpp"
 #include "runs/effects.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/engine_step.hpp"
 
 namespace crossgrain {
 
@@ -26,25 +27,6 @@ double costContactTime(const Case& setup) {
                                setup.file.string()));
   return contactTime(setup.law, lightestReducedMass(setup));
 }
-
-namespace {
-
-/// The step that an engine takes whatever the case's is, by its setting or by itself; absent if it
-/// follows the case.
-std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
-                                   const Capabilities& can) {
-  const auto stepIn = [](const SettingValue& value) {
-    const double* const step = std::get_if<double>(&value);
-    return step && *step > 0.0 ? std::optional(*step) : std::nullopt;
-  };
-  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
-    if (const auto set = section->second.find("dt"); set != section->second.end())
-      return stepIn(set->second);
-  const auto spec = std::ranges::find(can.settings, "dt", &SettingSpec::name);
-  return spec == can.settings.end() ? std::nullopt : stepIn(spec->defaultValue);
-}
-
-}  // namespace
 
 int snapshotsPerRotation(const Case& setup, double every) {
   return std::max(1, static_cast<int>(std::lround(setup.averaging.snapshotsPerRotation / every)));
@@ -195,7 +177,10 @@ class SettingList {
 std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
                          double steps) {
   const double dt = costContactTime(setup) / steps;
-  if (stepOfItsOwn(setup, engine, can)) return fmt::format("[engines.{}]\ndt = {}\n", engine, dt);
+  Case unsaid = setup;  // the fragment's step replaces that of [run]
+  unsaid.run.dt.reset();
+  if (stepOfItsOwn(unsaid, engine, can))
+    return fmt::format("[engines.{}]\ndt = {}\n", engine, dt);
   // The loader takes so few steps for a slip of the pen.
   if (steps < 2.0) return fmt::format("[run]\ndt = {}\n", dt);
   return fmt::format("[run]\nsteps_per_contact = {:g}\n", steps);

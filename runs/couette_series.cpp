@@ -21,6 +21,7 @@ void CouetteSeries::add(const Snapshot& now) {
   rows_["max_overlap"].push_back(toJson(numbers.maxOverlap));
   rows_["mean_overlap"].push_back(toJson(numbers.meanOverlap));
   rows_["sliding_fraction"].push_back(toJson(numbers.slidingFraction));
+  rows_["pairs_listed"].push_back(toJson(numbers.listedPairs));
   if (!now.ledger) return;
   for (const LedgerTerm& term : ledgerTerms)
     rows_["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);

@@ -45,7 +45,7 @@ std::string switchRefusal(const Capabilities& can, const Case& setup, const Effe
                : fmt::format("runs in {} only", toString(can.precisions.front()));
   const auto differs = mismatches(can, whole);
   const Adapted adapted = adaptScene(can, whole, setup.run.mayDiffer);
-  if (off.effect && !effectsOf(adapted.scene).contains(*off.effect))
+  if (off.effect && !simulatedEffects(can, adapted.scene).contains(*off.effect))
     return fmt::format("has no {}", toString(*off.effect));
   for (const Mismatch& mismatch : mismatches(can, switched))
     if (!find(differs, mismatch.name)) return mismatch.reason;

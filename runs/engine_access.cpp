@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
@@ -11,6 +12,8 @@
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/nearest.hpp"
+#include "runs/engine_step.hpp"
+#include "runs/mirror_scene.hpp"
 
 namespace crossgrain {
 namespace {
@@ -109,7 +112,7 @@ std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesys
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
   const auto section = setup.engines.find(engine);
-  if (section == setup.engines.end()) return {};
+  if (section == setup.engines.end()) return withStep({}, setup, can);
   const std::string where = fmt::format("{}: [engines.{}]", setup.file.string(), engine);
   for (const auto& [name, value] : section->second) {
     const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
@@ -129,7 +132,7 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
         throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
                                    fmt::join(spec->choices, ", ")));
   }
-  return section->second;
+  return withStep(section->second, setup, can);
 }
 
 namespace {
@@ -150,23 +153,37 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
 void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
   settingsFor(setup, entry.name, can);
-  namingRefusals(entry, setup, [&] { return adaptScene(can, scene, setup.run.mayDiffer); });
+  namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+}
+
+Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                 const Scene& scene) {
+  if (entry.mirrors.empty()) return adaptScene(can, scene, setup.run.mayDiffer);
+  Adapted theirs = sceneOfPeer(entry, setup, scene);
+  Adapted own = adaptScene(can, theirs.scene, setup.run.mayDiffer);
+  std::ranges::move(own.deviations, std::back_inserter(theirs.deviations));
+  return {std::move(own.scene), std::move(theirs.deviations)};
+}
+
+Realised loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  Realised realised = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
+  realised.engine = entry.name;
+  realised.version = can.version;
+  realised.deviations.insert(realised.deviations.begin(), adapted.deviations.begin(),
+                             adapted.deviations.end());
+  if (auto step = stepDeviation(realised.dt, scene.dt))
+    realised.deviations.push_back(std::move(*step));
+  return realised;
 }
 
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
   if (const std::string why = whyNoStart(scene); !why.empty())
     throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
-  const Capabilities can = engine.capabilities();
-  return namingRefusals(entry, setup, [&] {
-    const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
-    Realised realised = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
-    realised.engine = entry.name;
-    realised.version = can.version;
-    realised.deviations.insert(realised.deviations.begin(), adapted.deviations.begin(),
-                               adapted.deviations.end());
-    return realised;
-  });
+  return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
 }
 
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
 #include "cases/case.hpp"
 
 namespace crossgrain {
@@ -35,9 +36,14 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
 
-/// The settings of one engine in a case. @throws BadInput for one that the engine does not have, or
-/// of another type or choice, naming the nearest
+/// The settings of one engine in a case, its time step by the rule of engine_step.hpp. @throws
+/// BadInput for one that the engine does not have, or of another type or choice, naming the nearest
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can);
+
+/// The scene as the case lets this engine run it; of a mirror, as it lets its peer.
+/// @throws UnsupportedScene saying what it cannot do
+Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                 const Scene& scene);
 
 /// Whether an engine can run the scene with the settings and liberties of the case.
 /// @throws UnsupportedScene naming engine, case and what it cannot do; BadInput for a setting
@@ -56,8 +62,14 @@ struct LoadedEngine {
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch);
 
-/// The same in an engine that runs already. A scene that no engine can start from (whyNoStart())
-/// is BadInput.
+/// Has an engine load the scene as far as the case lets it differ, a mirror that of its peer. What
+/// it then really does, with all deviations, its time step among them.
+/// @throws UnsupportedScene saying what it cannot do
+Realised loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Scene& scene);
+
+/// The same, and refusals name engine and case. A scene that no engine can start from
+/// (whyNoStart()) is BadInput.
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene);
 
 }  // namespace crossgrain

@@ -50,6 +50,21 @@ TEST(GlobalNumbers, ByHand) {
               1e-15);
 }
 
+/// One of the three pairs carries nothing: two ends on two disks are contacts, four are listed.
+TEST(GlobalNumbers, ContactsAreThosePairsThatCarryAForce) {
+  Instant instant = cell();
+  Contacts& pairs = *instant.snapshot.contacts;
+  pairs.overlap = {5e-7, 4e-7, 2e-7};
+  pairs.normalForce[0] = 0.0;
+  pairs.sliding = {1, 1, 0};
+  const GlobalNumbers numbers = globalNumbers(instant.scene, instant.snapshot);
+  EXPECT_EQ(numbers.coordination, 1.0);
+  EXPECT_EQ(numbers.listedPairs, 2.0);
+  EXPECT_NEAR(numbers.meanOverlap.value(), 3e-7, 1e-20);
+  EXPECT_EQ(numbers.maxOverlap, 5e-7);
+  EXPECT_EQ(numbers.slidingFraction, 0.5);
+}
+
 TEST(GlobalNumbers, WithoutDataAreAbsent) {
   Instant instant = cell();
   instant.snapshot.contacts = Contacts{};

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "adapters/law_options.hpp"
+#include "adapters/suitability.hpp"
 #include "tests/conformance/conformance.hpp"
 
 namespace crossgrain::conformance {
@@ -117,6 +118,30 @@ TEST_P(Conformance, SimulatesWhatTheSceneCallsFor) {
             << ", simulated: " << realised_.effects.contains(effect);
       }
   }
+}
+
+/// Capabilities, the harness' own account of a scene and Realised tell one story, of a scene that
+/// calls for everything: what an engine never simulates it does not list as simulated, a soft law's
+/// springs in a rigid engine included.
+TEST_P(Conformance, EffectsAreThoseThatItsCapabilitiesSay) {
+  Scene busy = busyScene(fullLaw());
+  busy.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  ASSERT_EQ(effectsOf(busy).size(), allEffects.size());
+  std::vector<std::string> all;
+  for (const Effect effect : allEffects) all.push_back(toString(effect));
+  for (const LawOption& option : lawOptions()) all.emplace_back(option.name);
+  Scene scene = adaptScene(can_, busy, all).scene;
+  try {
+    realised_ = engine().load(scene, {});
+  } catch (const UnsupportedScene&) {  // nor can it put another law in this one's place
+    busy.law = law();
+    scene = adaptScene(can_, busy, all).scene;
+    realised_ = engine().load(scene, {});
+  }
+  for (const Effect effect : effectsOf(busy))
+    EXPECT_EQ(realised_.effects.contains(effect), can_.effects.at(effect) != Support::never)
+        << toString(effect);
+  EXPECT_EQ(realised_.effects, simulatedEffects(can_, scene));
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class Compare(ResultsTest):
         self.assert_status(done, HELD, FELL_SHORT)
         self.assertTrue(
             self.first_line("series.csv").endswith(
-                "mean_overlap,energy_elastic_normal,energy_elastic_tangential,"
+                "mean_overlap,pairs_listed,energy_elastic_normal,energy_elastic_tangential,"
                 "energy_gained_by_convention,energy_initial,energy_kinetic,energy_lost_bottom,"
                 "energy_lost_normal_damping,energy_lost_release,energy_lost_sliding,"
                 "energy_lost_tangential_damping,energy_plate_springs,energy_potential,"
