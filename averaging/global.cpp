@@ -101,6 +101,17 @@ GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot) {
   return numbers;
 }
 
+std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
+                                 std::string_view body) {
+  const BodyIds ids = idsOf(scene, bodyIndex(scene, body));
+  if (!snapshot.contacts) return std::nullopt;
+  const Contacts& pairs = *snapshot.contacts;
+  double count = 0.0;
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    count += ids.contain(static_cast<std::size_t>(pairs.j[c])) && transmits(pairs, c);
+  return count;
+}
+
 std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapshot,
                                      std::string_view body, double radius, double height) {
   const std::size_t index = bodyIndex(scene, body);

@@ -23,6 +23,12 @@ struct GlobalNumbers {
 /// @throws std::invalid_argument if the snapshot does not fit the scene
 GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot);
 
+/// Contacts of the named body's disks and planes with the moving disks. Absent without contacts in
+/// the snapshot; with accumulated ones it counts what transmitted a force within their interval.
+/// @throws std::invalid_argument if the scene has no such body
+std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
+                                 std::string_view body);
+
 /// Pressure of the disks on the named body at radius R [m], height h [m] [N/m²]:
 /// Σ_c f·e_r / (2πRh) with f the force on the wall in one contact and e_r the direction from the
 /// body's centre to that contact; positive where the disks push outward on a ring (compression).

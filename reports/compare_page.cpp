@@ -7,6 +7,7 @@
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
 #include "reports/page.hpp"
+#include "reports/state_view.hpp"
 
 namespace crossgrain::reports {
 
@@ -129,6 +130,7 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   addSummary(view, results, engines);
   view["columns"] = columnsView(engines);
   addEngineTable(view, engines);
+  addStates(view, results, engines);
   addTroubles(view, engines);
   addAgreement(view, results, engines);
   view["averages"] = averagesInWords(results);
@@ -138,8 +140,8 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   addDetails(view, results, realised);
   view["packings"] = packingRows(results);
   view["files"] =
-      "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv "
-      "and agreement.csv.";
+      "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv, "
+      "regimes.csv, steadiness.csv and agreement.csv.";
   return render("report_compare.html", view);
 }
 

@@ -25,7 +25,7 @@ std::string packingOf(const Json& run) {
 /// @param bars  what the standard errors are of
 std::string profileRows(const Json& results, const std::string& engine, const std::string& packing,
                         const std::string& bars, const Json& profiles) {
-  const Json& rings = member(results, "rings");
+  const Json &rings = member(results, "rings"), &averaging = member(results, "averaging");
   const Json& radius = list(rings, "r");
   std::string rows;
   for (const Json& profile : profiles)
@@ -35,7 +35,8 @@ std::string profileRows(const Json& results, const std::string& engine, const st
                   number(element(list(profile, "mean"), ring)),
                   number(element(list(profile, "stderr"), ring)),
                   number(element(list(profile, "n_eff"), ring)), text(profile, "unit"), bars,
-                  number(element(list(profile, "dof"), ring)));
+                  number(element(list(profile, "dof"), ring)), number(averaging, "from_rotation"),
+                  number(averaging, "to_rotation"), number(averaging, "prepared_rotations"));
   return rows;
 }
 
@@ -117,7 +118,8 @@ std::string collisionsCsv(const Json& results) {
 
 std::string profilesCsv(const Json& results) {
   std::string table =
-      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof\n";
+      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
+      "from_rotation,to_rotation,prepared_rotations\n";
   for (const Json& run : list(results, "runs"))
     table += profileRows(results, text(run, "engine"), packingOf(run), "within_run",
                          list(run, "profiles"));
@@ -193,23 +195,37 @@ std::string seriesCsv(const Json& results) {
   return table;
 }
 
+namespace {
+
+/// On how many packings; absent where nobody knows.
+std::optional<double> regimesDiffer(const Json& results, const std::string& a,
+                                    const std::string& b) {
+  for (const Json& pair : list(results, "regimes"))
+    if (text(pair, "a") == a && text(pair, "b") == b)
+      return static_cast<double>(list(pair, "differ").size());
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::string agreementCsv(const Json& results) {
   std::string table =
       "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,"
-      "more_packings,more_rotations\n";
+      "more_packings,more_rotations,regimes_differ\n";
   const std::optional<double> absent;
   for (const Json& entry : list(results, "agreement")) {
     const std::string a = text(entry, "a"), b = text(entry, "b"), field = text(entry, "field");
+    const auto differ = regimesDiffer(results, a, b);
     table += row(a, b, field, std::string("all"), absent, absent, absent, absent, absent,
                  text(entry, "verdict"), number(entry, "detects"), absent, absent,
-                 number(entry, "more_packings"), number(entry, "more_rotations"));
+                 number(entry, "more_packings"), number(entry, "more_rotations"), differ);
     for (const Json& ring : list(entry, "rings")) {
       const auto index = number(ring, "ring");
       if (!index) continue;
       table += row(a, b, field, static_cast<std::size_t>(*index) + 1, number(ring, "difference"),
                    number(ring, "stderr"), number(ring, "low"), number(ring, "high"),
                    number(ring, "margin"), text(ring, "verdict"), number(ring, "detects"),
-                   number(ring, "within_share"), number(ring, "packings"), absent, absent);
+                   number(ring, "within_share"), number(ring, "packings"), absent, absent, differ);
     }
   }
   return table;

@@ -13,7 +13,8 @@ namespace crossgrain::reports {
 /// One row per collision; a sweep without any is one row with its status and no numbers.
 std::string collisionsCsv(const Json& results);
 
-/// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof
+/// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,
+/// from_rotation,to_rotation,prepared_rotations
 /// packing is an index, its stderr_kind "within_run", or "all", the mean over packings, "packings".
 std::string profilesCsv(const Json& results);
 
@@ -29,9 +30,22 @@ std::string distributionsCsv(const Json& results);
 /// ledger (energy_…) last.
 std::string seriesCsv(const Json& results);
 
+/// engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,blocked_share,
+/// from_rotation,to_rotation,prepared_rotations,reason
+/// One row per finished run; regime "flowing", "blocked", "collisional" or, where the run does not
+/// show enough, empty. Rotations averaged count from the hand-over, prepared_rotations were before.
+std::string regimesCsv(const Json& results);
+
+/// engine,packing,quantity,verdict,change,half_width,excluded,from_rotation,to_rotation,
+/// prepared_rotations
+/// One row per run and watched series, packing "all" for the engine's mean over packings; changes
+/// over the averaged time, in units of the mean.
+std::string steadinessCsv(const Json& results);
+
 /// a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,
-/// more_packings,more_rotations
-/// ring "all" is the verdict on the field.
+/// more_packings,more_rotations,regimes_differ
+/// ring "all" is the verdict on the field. regimes_differ counts the packings on which the two are
+/// in different regimes.
 std::string agreementCsv(const Json& results);
 
 /// engine,effect,time_ratio,field,ring,change,stderr, then r_tilde,reference,unit,resolved,

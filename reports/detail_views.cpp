@@ -6,6 +6,7 @@
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
 #include "reports/page.hpp"
+#include "reports/state_view.hpp"
 
 namespace crossgrain::reports {
 
@@ -116,9 +117,11 @@ Json packingRows(const Json& results) {
 std::string averagesInWords(const Json& results) {
   const Json& averaging = member(results, "averaging");
   const std::string width = readable(number(member(results, "rings"), "width"));
-  return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run.",
+  const std::string when = averagedRotations(results);
+  return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run{}.",
                      list(member(results, "rings"), "r").size(), width, text(averaging, "method"),
-                     readableCount(number(averaging, "snapshots")));
+                     readableCount(number(averaging, "snapshots")),
+                     when.empty() ? std::string() : ", " + when);
 }
 
 }  // namespace crossgrain::reports

@@ -160,8 +160,8 @@ void addEngineTable(Json& view, const Engines& engines) {
                                       group("State", engines, stateRows(engines))});
   view["costNote"] =
       "Cost: of the finished runs together, of stepping alone. State: means over the averaged "
-      "time, "
-      "with ± one standard error over packings where there are several.";
+      "time, with ± one standard error over packings where there are several, whatever their "
+      "regime.";
 }
 
 void addTroubles(Json& view, const Engines& engines) {

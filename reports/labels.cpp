@@ -38,6 +38,9 @@ constexpr std::array headLabels = {
     Label{"max_overlap_over_d", "largest overlap / d", ""},
     Label{"sliding_fraction", "sliding fraction of contacts", ""},
     Label{"stress_ratio_wheel", "stress ratio at the wheel", "σ<sub>rφ</sub>/σ<sub>rr</sub>"},
+    Label{"wheel_contacts", "contacts of the wheel", ""},
+    Label{"wheel_slip", "slip at the wheel, share of Ω", ""},
+    Label{"shear_share", "shear among the disks, share of Ω", ""},
     Label{"dt_over_tc", "time step / contact time", "dt/t<sub>c</sub>"},
     Label{"coordination", "contacts per disk", "C"},
 };

@@ -5,6 +5,7 @@
 
 #include "reports/figures.hpp"
 #include "reports/numbers.hpp"
+#include "reports/state_view.hpp"
 
 namespace crossgrain::reports {
 
@@ -141,7 +142,8 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines,
   Figure figure;
   figure.name = "overview";
   figure.title = "Azimuthal velocity, shear stress and volume fraction of all engines";
-  figure.caption = barsInWords(engines);
+  const std::string when = averagedRotations(results);
+  figure.caption = barsInWords(engines) + (when.empty() ? "" : " Averaged: " + when + ".");
   figure.columns = 2;
   figure.panelWidth = 480;
   figure.panelHeight = 330;
@@ -157,7 +159,8 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines,
   return figure;
 }
 
-std::string captionOf(const ProfilePlot& plot, const Panel& panel) {
+/// A stress without the rotations that it was averaged over says little: cells drift.
+std::string captionOf(const Json& results, const ProfilePlot& plot, const Panel& panel) {
   std::string caption = plot.title;
   caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
   if (plot.guide)
@@ -168,6 +171,7 @@ std::string captionOf(const ProfilePlot& plot, const Panel& panel) {
         return std::ranges::any_of(curve.points, [](const Point& p) { return p.y <= 0.0; });
       });
   if (hidden) caption += "; values that are not positive do not show";
+  if (const std::string when = averagedRotations(results); !when.empty()) caption += "; " + when;
   return caption + ".";
 }
 
@@ -210,7 +214,7 @@ std::vector<Figure> profileFigures(const Json& results, const std::vector<Engine
     Figure figure;
     figure.name = "profile_" + plot.name;
     figure.title = "Profile of the " + plot.title;
-    figure.caption = captionOf(plot, panel);
+    figure.caption = captionOf(results, plot, panel);
     figure.panels.push_back(std::move(panel));
     figures.push_back(std::move(figure));
   }

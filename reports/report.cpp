@@ -47,6 +47,8 @@ Kind kindOf(const Json& results) {
   return {{{"profiles.csv", profilesCsv},
            {"series.csv", seriesCsv},
            {"agreement.csv", agreementCsv},
+           {"regimes.csv", regimesCsv},
+           {"steadiness.csv", steadinessCsv},
            {"distributions.csv", distributionsCsv}},
           compareFigures,
           comparePictures,

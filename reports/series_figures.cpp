@@ -18,6 +18,8 @@ const std::vector<SeriesPlot>& seriesPlots() {
   static const std::vector<SeriesPlot> plots = {
       {"wheel_torque", "Torque of the wheel on the disks", "torque [N m]"},
       {"outer_pressure", "Pressure on the outer wall", "pressure [N/m^{2}]"},
+      {"shear_share", "What layers take up of the wheel's rotation (below 0.1: blocked)",
+       "shear among the disks / Ω"},
       {"coordination", "Contacts per disk", "contacts per disk"},
       {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
   };

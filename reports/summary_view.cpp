@@ -7,6 +7,7 @@
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
 #include "reports/page.hpp"
+#include "reports/state_view.hpp"
 
 namespace crossgrain::reports {
 
@@ -62,11 +63,10 @@ std::string leadOf(const std::string& reference, std::size_t agree, std::size_t 
 }
 
 std::string basisInWords(const Json& results, const std::string& reference) {
-  const Json& averaging = member(results, "averaging");
-  return fmt::format("Reference: {}. {}; rotations averaged in each run: {}, after {} of settling.",
-                     reference, counted(list(results, "packings").size(), "packing"),
-                     readableSetting(number(averaging, "rotations")),
-                     readableSetting(number(averaging, "settle_rotations")));
+  const std::string when = averagedRotations(results);
+  return fmt::format("Reference: {}. {}{}.", reference,
+                     counted(list(results, "packings").size(), "packing"),
+                     when.empty() ? std::string() : "; averaged: " + when);
 }
 
 /// Of a mirror: how its peer's difference splits. Empty for others.
@@ -97,6 +97,7 @@ void addSummary(Json& view, const Json& results, const Engines& engines) {
   Json sentences = Json::array();
   std::size_t agree = 0, disagree = 0, undecided = 0;
   if (!engines.empty()) sentences.push_back(basisInWords(results, engines.front().name));
+  for (std::string& state : stateSentences(results, engines)) sentences.push_back(std::move(state));
   for (const std::string& peer : peersOf(results, engines)) {
     const Tally counts = tally(results, engines.front().name, peer);
     agree += counts.agree.size();

@@ -8,6 +8,7 @@
 #include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
+#include "runs/state_table.hpp"
 
 namespace crossgrain {
 
@@ -29,8 +30,10 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
   }
 
   json results = couetteHead("compare", setup, commandLine, scene.disks);
-  results["averaging"].erase("settle_rotations");
-  results["averaging"].erase("rotations");
+  // Of a file's snapshots nobody says from when to when they are.
+  for (const char* unknown :
+       {"settle_rotations", "rotations", "from_rotation", "to_rotation", "prepared_rotations"})
+    results["averaging"].erase(unknown);
   results["averaging"]["snapshots"] = reader.count();
   results["engines"] = {{{"name", reader.engine()},
                          {"summary", fmt::format("snapshots of {}", file.filename().string())},
@@ -41,6 +44,8 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
   json run = {{"engine", reader.engine()}, {"packing", 0}, {"status", "finished"}, {"reason", ""}};
   averages.describe(Realised{}, run);
   results["runs"] = {run};
+  results["steadiness"] =
+      steadinessOf(results["runs"], {reader.engine()}, setup.averaging.confidence);
   results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
                                   reader.count(), file.string())};
   return results;

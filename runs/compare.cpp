@@ -3,6 +3,7 @@
 #include "runs/agreement_table.hpp"
 #include "runs/campaign.hpp"
 #include "runs/contact_notes.hpp"
+#include "runs/state_table.hpp"
 #include "runs/velocity_notes.hpp"
 
 namespace crossgrain {
@@ -44,9 +45,11 @@ json compareEngines(const Case& setup, const RunCommand& command) {
   json results = campaign.results("compare");
   std::vector<std::string> names;
   for (const EngineEntry& entry : campaign.engines()) names.push_back(entry.name);
+  const auto pairs = pairsOf(campaign.engines(), command.engines);
+  results["regimes"] = regimesOf(results["runs"], pairs);
+  results["steadiness"] = steadinessOf(results["runs"], names, setup.averaging.confidence);
   results["ensemble"] = ensembleOf(results["runs"], names);
-  results["agreement"] =
-      agreementOf(setup, results["runs"], pairsOf(campaign.engines(), command.engines));
+  results["agreement"] = agreementOf(setup, results["runs"], pairs);
   for (json& note : velocityNotes(results)) results["notes"].push_back(std::move(note));
   for (json& note : contactNotes(results)) results["notes"].push_back(std::move(note));
   return results;

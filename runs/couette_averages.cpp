@@ -1,6 +1,7 @@
 #include "runs/couette_averages.hpp"
 
 #include "runs/couette_run.hpp"
+#include "runs/couette_state.hpp"
 #include "runs/couette_summary.hpp"
 #include "runs/records.hpp"
 
@@ -29,6 +30,8 @@ void CouetteAverages::describe(const Realised& realised, json& run) const {
   for (const Profile& profile : profiles) run["profiles"].push_back(toJson(profile));
   run["series"] = series;
   run["head"] = headNumbers(setup_, profiles, series, realised);
+  run["regime"] = couetteRegime(setup_, profiles, series);
+  run["steadiness"] = couetteSteadiness(setup_, series);
   run["fits"] = couetteFits(setup_, profiles);
   for (const json& fit : spinFits(setup_, spin_)) run["fits"].push_back(fit);
   run["checks"] = couetteChecks(setup_, profiles, series);

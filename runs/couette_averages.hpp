@@ -20,7 +20,7 @@ class CouetteAverages {
   void add(const Snapshot& snapshot);
 
   /// Puts them, and what follows from them, into a run of results.json: "profiles", "series",
-  /// "head", "fits", "checks", "distributions".
+  /// "head", "regime", "steadiness", "fits", "checks", "distributions".
   void describe(const Realised& realised, nlohmann::json& run) const;
 
  private:

@@ -44,6 +44,11 @@ json couetteHead(const std::string& kind, const Case& setup, const std::string& 
       {"method", averaging.methods.front()},
       {"settle_rotations", averaging.settleRotations},
       {"rotations", averaging.rotations},
+      {"from_rotation", averaging.settleRotations},
+      {"to_rotation", averaging.settleRotations + averaging.rotations},
+      // Nobody knows how long a packing of the user's own has been sheared.
+      {"prepared_rotations",
+       setup.particles.file ? json(nullptr) : json(setup.preparation.rotations)},
       {"snapshots", std::lround(averaging.snapshotsPerRotation * averaging.rotations)},
       {"confidence", averaging.confidence}};
   for (const Effect effect : effectsOf(setup)) results["effects"].push_back(toString(effect));

@@ -1,10 +1,14 @@
 #include "runs/couette_series.hpp"
 
 #include "averaging/global.hpp"
+#include "averaging/regime.hpp"
 #include "cases/couette.hpp"
+#include "runs/couette_run.hpp"
 #include "runs/records.hpp"
 
 namespace crossgrain {
+
+using nlohmann::json;
 
 void CouetteSeries::add(const Snapshot& now) {
   const GlobalNumbers numbers = globalNumbers(scene_, now);
@@ -22,6 +26,10 @@ void CouetteSeries::add(const Snapshot& now) {
   rows_["mean_overlap"].push_back(toJson(numbers.meanOverlap));
   rows_["sliding_fraction"].push_back(toJson(numbers.slidingFraction));
   rows_["pairs_listed"].push_back(toJson(numbers.listedPairs));
+  rows_["wheel_contacts"].push_back(toJson(contactsOf(scene_, now, wheelName)));
+  const auto motion = wheelMotion(scene_, now, ringsOf(setup_), setup_.cell.omega);
+  rows_["wheel_slip"].push_back(motion ? json(motion->slip) : json(nullptr));
+  rows_["shear_share"].push_back(motion ? json(motion->shear) : json(nullptr));
   if (!now.ledger) return;
   for (const LedgerTerm& term : ledgerTerms)
     rows_["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "averaging/fits.hpp"
+#include "averaging/regime.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/time_step.hpp"
 #include "runs/couette_run.hpp"
@@ -27,21 +28,14 @@ std::optional<double> ringMean(const std::vector<Profile>& profiles, std::string
   return profile && ring < profile->mean.size() ? profile->mean[ring] : std::nullopt;
 }
 
-std::vector<double> present(const json& list) {
-  std::vector<double> values;
-  for (const json& value : list)
-    if (value.is_number()) values.push_back(value.get<double>());
-  return values;
-}
-
 std::optional<double> meanOf(const json& list) {
-  const std::vector<double> values = present(list);
+  const std::vector<double> values = presentNumbers(list);
   if (values.empty()) return std::nullopt;
   return estimateMean(values).mean;
 }
 
 std::optional<double> largestOf(const json& list) {
-  const std::vector<double> values = present(list);
+  const std::vector<double> values = presentNumbers(list);
   if (values.empty()) return std::nullopt;
   return *std::ranges::max_element(values);
 }
@@ -59,21 +53,6 @@ std::optional<double> pressure(const std::vector<Profile>& profiles, std::size_t
   return 0.5 * (*rr + *pp);
 }
 
-/// I = γ̇ d √(ρ_p/p) in the innermost two rings, with γ̇ = |∂v_φ/∂r − v_φ/r| (GDR MiDi 2004).
-std::optional<double> inertialNumber(const Case& setup, const std::vector<Profile>& profiles) {
-  const Rings rings = ringsOf(setup);
-  const auto inner = ringMean(profiles, "azimuthal_velocity", 0);
-  const auto outer = ringMean(profiles, "azimuthal_velocity", 1);
-  const auto p = pressure(profiles, 0);
-  if (!inner || !outer || !p) return std::nullopt;
-  const double gradient = (*outer - *inner) / (rings.centre(1) - rings.centre(0));
-  const double rotation = 0.5 * (*inner + *outer) / rings.edge(1);
-  const Particles& disks = setup.particles;
-  const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
-  const double density = disks.smallMass / (area * setup.cell.height);
-  return std::abs(gradient - rotation) * rings.diameter() * std::sqrt(density / *p);
-}
-
 json number(const std::string& name, const std::optional<double>& value) {
   return {{"name", name}, {"value", toJson(value)}, {"unit", "-"}};
 }
@@ -83,6 +62,12 @@ json number(const std::string& name, const std::optional<double>& value) {
 DistributionScales distributionScales(const Case& setup) {
   return {setup.cell.omega * setup.cell.innerRadius,
           1.0 / spinScale(ringsOf(setup), setup.cell.omega)};
+}
+
+double diskDensity(const Case& setup) {
+  const Particles& disks = setup.particles;
+  const double area = std::numbers::pi * disks.smallRadius * disks.smallRadius;
+  return disks.smallMass / (area * setup.cell.height);
 }
 
 json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const json& series,
@@ -99,13 +84,16 @@ json headNumbers(const Case& setup, const std::vector<Profile>& profiles, const 
   if (rr && rp && *rr > 0.0) stressRatio = *rp / *rr;
   if (realised.dt > 0.0 && setup.law.normal == NormalLaw::linear && !setup.particles.file)
     stepShare = realised.dt / contactTime(setup.law, lightestReducedMass(setup));
-  return {number("inertial_number", inertialNumber(setup, profiles)),
+  return {number("inertial_number", inertialNumber(ringsOf(setup), profiles, diskDensity(setup))),
           number("kn_over_p", stiffness),
           number("mean_overlap_over_d", times(meanOf(series["mean_overlap"]), 1.0 / diameter)),
           number("max_overlap_over_d", times(largestOf(series["max_overlap"]), 1.0 / diameter)),
           number("sliding_fraction", meanOf(series["sliding_fraction"])),
           number("coordination", meanOf(series["coordination"])),
           number("stress_ratio_wheel", stressRatio),
+          number("wheel_contacts", meanOf(series.value("wheel_contacts", json::array()))),
+          number("wheel_slip", meanOf(series.value("wheel_slip", json::array()))),
+          number("shear_share", meanOf(series.value("shear_share", json::array()))),
           number("dt_over_tc", stepShare)};
 }
 
@@ -160,7 +148,7 @@ json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, cons
   const Rings rings = ringsOf(setup);
   json checks = json::array();
   const Profile* shear = find(profiles, "stress_pr");
-  const std::vector<double> torque = present(series["wheel_torque"]);
+  const std::vector<double> torque = presentNumbers(series["wheel_torque"]);
   if (shear && !torque.empty()) {
     const MeanEstimate wheel = estimateMean(torque);
     std::vector<std::optional<double>> carried, error;
@@ -184,7 +172,7 @@ json couetteChecks(const Case& setup, const std::vector<Profile>& profiles, cons
                       {"stderr", toJson(error)}});
   }
   const Profile* radial = find(profiles, "stress_rr");
-  const std::vector<double> outer = present(series["outer_pressure"]);
+  const std::vector<double> outer = presentNumbers(series["outer_pressure"]);
   if (radial && !outer.empty()) {
     const MeanEstimate wall = estimateMean(outer);
     checks.push_back(

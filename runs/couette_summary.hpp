@@ -14,9 +14,12 @@ namespace crossgrain {
 /// The wheel's surface speed and the spin that rolls on it, as the thesis scales distributions.
 DistributionScales distributionScales(const Case& setup);
 
+/// ρ of a small disk [kg/m³].
+double diskDensity(const Case& setup);
+
 /// The dimensionless numbers that say what kind of flow a run was, as results.json's "head":
-/// inertial number, k_n/p, overlaps/d, sliding fraction, stress ratio at the wheel, dt/t_c,
-/// coordination.
+/// inertial number, k_n/p, overlaps/d, sliding fraction, stress ratio at the wheel, contacts of
+/// the wheel, its slip and what layers take up of its rotation, dt/t_c, coordination.
 nlohmann::json headNumbers(const Case& setup, const std::vector<Profile>& profiles,
                            const nlohmann::json& series, const Realised& realised);
 

@@ -79,6 +79,13 @@ std::vector<std::optional<double>> optionalNumbers(const json& list) {
   return values;
 }
 
+std::vector<double> presentNumbers(const json& list) {
+  std::vector<double> values;
+  for (const json& value : list)
+    if (value.is_number()) values.push_back(value.get<double>());
+  return values;
+}
+
 json fitJson(const Fit& fit, const std::string& parameter, const std::string& name,
              const std::string& label, const std::string& unit, std::optional<double> expected) {
   json row = {{"name", name},         {"label", label},

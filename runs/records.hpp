@@ -26,6 +26,8 @@ nlohmann::json profileJson(const std::string& method, const std::string& field,
 /// A number or null back, and a list of them.
 std::optional<double> optionalNumber(const nlohmann::json& value);
 std::vector<std::optional<double>> optionalNumbers(const nlohmann::json& list);
+/// The numbers of a list, nulls left out.
+std::vector<double> presentNumbers(const nlohmann::json& list);
 
 /// One row of a run's fits: a parameter, or why there is none; χ²/dof where the points have errors.
 nlohmann::json fitJson(const Fit& fit, const std::string& parameter, const std::string& name,

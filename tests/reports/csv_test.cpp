@@ -36,11 +36,16 @@ Json tiny() {
 
 TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
   EXPECT_EQ(profilesCsv(tiny()),
-            "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof\n"
-            "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s,within_run,7\n"
-            "one,0,slicing,spin,2,0.2,1.5,,,,rad/s,within_run,\n"
-            "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s,packings,\n"
-            "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s,packings,\n");
+            "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
+            "from_rotation,to_rotation,prepared_rotations\n"
+            "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s,within_run,7,,,\n"
+            "one,0,slicing,spin,2,0.2,1.5,,,,rad/s,within_run,,,,\n"
+            "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s,packings,,,,\n"
+            "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s,packings,,,,\n");
+  Json results = tiny();
+  results["averaging"] = {
+      {"from_rotation", 0.25}, {"to_rotation", 1.25}, {"prepared_rotations", 2.0}};
+  EXPECT_NE(profilesCsv(results).find("within_run,7,0.25,1.25,2\n"), std::string::npos);
 }
 
 TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
@@ -70,10 +75,14 @@ TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
 TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
   EXPECT_EQ(agreementCsv(tiny()),
             "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,"
-            "packings,more_packings,more_rotations\n"
-            "one,two,spin,all,,,,,,undecided,0.75,,,3,1.5\n"
-            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree,0.75,0.5,4,,\n"
-            "one,two,spin,2,0.25,,,,0.56,undecided,,,,,\n");
+            "packings,more_packings,more_rotations,regimes_differ\n"
+            "one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,\n"
+            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree,0.75,0.5,4,,,\n"
+            "one,two,spin,2,0.25,,,,0.56,undecided,,,,,,\n");
+  Json results = tiny();
+  results["regimes"] = {{{"a", "one"}, {"b", "two"}, {"packings", 4}, {"differ", {1, 3}}}};
+  EXPECT_NE(agreementCsv(results).find("one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,2\n"),
+            std::string::npos);
 }
 
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {

@@ -105,6 +105,23 @@ TEST(ComparePage, CountsVerdictsInWords) {
   EXPECT_FALSE(has(compared().page, "Fewer than 4 packings:"));
 }
 
+TEST(ComparePage, SaysRegimesAndSteadinessBeforeAnyMean) {
+  const std::string& page = compared().page;
+  const auto named = page.find(
+      "Packing 2 stands still on grain, yade, grain~yade; flows on "
+      "box2d-impulse.");
+  ASSERT_NE(named, std::string::npos);
+  EXPECT_LT(named, page.find("yade against grain:"));
+  EXPECT_TRUE(has(page, "Not in the same regime as grain: box2d-impulse on packing 2."));
+  EXPECT_TRUE(has(page, "Not steady: on grain outer pressure falls by 40 ± 8 %"));
+  EXPECT_TRUE(has(page, "No drift seen over the averaged time: yade (down to 15 %)"));
+  EXPECT_TRUE(has(page,
+                  "rotations 0.25 to 1.25 since the hand-over, 5.25 to 6.25 since the ring "
+                  "had closed"));
+  EXPECT_TRUE(has(page, "<h3>Regimes</h3>"));
+  EXPECT_TRUE(has(page, "<h3>Steady or not</h3>"));
+}
+
 TEST(ComparePage, VerdictsAreWordsAndSymbolsNotColoursAlone) {
   EXPECT_TRUE(has(compared().page, "✓ agree</b>"));
   EXPECT_TRUE(has(compared().page, "✗ disagree</b>"));

@@ -157,6 +157,26 @@ Json picture(int disks, Noise& noise) {
   return p;
 }
 
+/// Packing 2 stands still but where impulses shake it.
+Json regime(bool blocked) {
+  return {{"name", blocked ? "blocked" : "flowing"},
+          {"reason", blocked ? "layers take up 0.002 of the wheel's rotation, less than 0.1"
+                             : "layers take up 0.31 of the wheel's rotation"},
+          {"wheel_contacts", blocked ? 15.5 : 18.2},
+          {"wheel_slip", blocked ? 0.998 : 0.66},
+          {"shear_share", blocked ? 0.002 : 0.31},
+          {"inertial_number", blocked ? 1.4e-4 : 0.0041},
+          {"blocked_share", blocked ? 1.0 : 0.04}};
+}
+
+Json steadiness(const char* quantity, const char* verdict, double change, double half) {
+  return {{"quantity", quantity},
+          {"verdict", verdict},
+          {"change", change},
+          {"half_width", half},
+          {"excluded", std::abs(change) + half}};
+}
+
 Json run(const std::string& name, int packing, double bias, double dt, int disks) {
   Noise noise(static_cast<unsigned>(packing) * 31u + static_cast<unsigned>(name.size()));
   const bool impulses = name.starts_with("box2d");
@@ -174,6 +194,10 @@ Json run(const std::string& name, int packing, double bias, double dt, int disks
           {"realised", realised(name, dt)},
           {"stats", stats},
           {"head", headNumbers(bias, impulses)},
+          {"regime", regime(packing == 2 && !impulses)},
+          {"steadiness",
+           {steadiness("wheel_torque", "cannot tell", 0.1, 0.5),
+            steadiness("outer_pressure", packing == 0 ? "drifts" : "cannot tell", -0.5, 0.4)}},
           {"profiles", profiles(bias, 0.6, noise)},
           {"fits", fits(bias, impulses)},
           {"checks", checks(noise)},
@@ -261,11 +285,10 @@ Json compareResults(int packings, int disks) {
                      {"large_radius", 0.004495},
                      {"volume_fraction", 0.804},
                      {"diameter", diameter}};
-  results["averaging"] = {{"method", "slicing"},
-                          {"settle_rotations", 0.25},
-                          {"rotations", 1.0},
-                          {"snapshots", 400},
-                          {"confidence", 0.95}};
+  results["averaging"] = {{"method", "slicing"}, {"settle_rotations", 0.25},
+                          {"rotations", 1.0},    {"from_rotation", 0.25},
+                          {"to_rotation", 1.25}, {"prepared_rotations", 5.0},
+                          {"snapshots", 400},    {"confidence", 0.95}};
   results["engines"] = {
       engine("grain", "the in-house engine"), engine("yade", "YADE's viscoelastic law"),
       engine("box2d-impulse", "Box2D's own solver"),
@@ -303,6 +326,23 @@ Json compareResults(int packings, int disks) {
                                    {"profiles", profiles(bias, 0.3, noise)},
                                    {"fits", fits(bias, false)},
                                    {"head", numbers}});
+  }
+  for (const auto& [a, b] : {std::pair("grain", "yade"), std::pair("grain", "box2d-impulse")}) {
+    const bool impulses = std::string(b) == "box2d-impulse";
+    results["regimes"].push_back(
+        {{"a", a},
+         {"b", b},
+         {"kind", "peer"},
+         {"packings", packings},
+         {"differ", impulses && packings > 2 ? Json({2}) : Json::array()}});
+  }
+  for (const auto& [name, bias, dt] : engines) {
+    Json row = name == "grain" ? steadiness("outer_pressure", "drifts", -0.4, 0.08)
+                               : steadiness("outer_pressure", "no drift seen", 0.05, 0.1);
+    row["engine"] = name;
+    row["packings"] = packings;
+    row["drifting"] = Json({0});
+    results["steadiness"].push_back(row);
   }
   const bool decided = packings >= 4;
   results["agreement"] = agreement("grain", "yade", "peer", -0.06, decided);

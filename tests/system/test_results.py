@@ -9,7 +9,18 @@ import unittest
 
 from harness import BAD_INPUT, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, SystemTest, settings
 
-PROFILES = "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof"
+PROFILES = (
+    "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
+    "from_rotation,to_rotation,prepared_rotations"
+)
+REGIMES = (
+    "engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,blocked_share,"
+    "from_rotation,to_rotation,prepared_rotations,reason"
+)
+STEADINESS = (
+    "engine,packing,quantity,verdict,change,half_width,excluded,from_rotation,to_rotation,"
+    "prepared_rotations"
+)
 SERIES = (
     "engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,max_overlap"
 )
@@ -57,7 +68,8 @@ class Compare(ResultsTest):
         self.assert_status(done, HELD, FELL_SHORT)
         self.assertTrue(
             self.first_line("series.csv").endswith(
-                "mean_overlap,pairs_listed,energy_elastic_normal,energy_elastic_tangential,"
+                "mean_overlap,pairs_listed,shear_share,wheel_contacts,wheel_slip,"
+                "energy_elastic_normal,energy_elastic_tangential,"
                 "energy_gained_by_convention,energy_initial,energy_kinetic,energy_lost_bottom,"
                 "energy_lost_normal_damping,energy_lost_release,energy_lost_sliding,"
                 "energy_lost_tangential_damping,energy_plate_springs,energy_potential,"
@@ -96,6 +108,22 @@ class Compare(ResultsTest):
         self.assertEqual([str(k) for k in range(1, 7)], [row["ring"] for row in rows[:6]])
         # The middle of the first of six rings between 0.03 and 0.075 m.
         self.assertAlmostEqual(0.03375, float(rows[0]["r_m"]), places=12)
+
+        self.assertEqual(REGIMES, self.first_line("regimes.csv"))
+        rows = self.rows("regimes.csv")
+        self.assertEqual(2 * 2, len(rows))
+        for row in rows:
+            self.assertIn(row["regime"], ("flowing", "blocked", "collisional"))
+            self.assertGreater(float(row["wheel_contacts"]), 0.0)
+            # Averaged from the end of settling on, for a twentieth of a rotation.
+            length = float(row["to_rotation"]) - float(row["from_rotation"])
+            self.assertAlmostEqual(0.05, length, places=12)
+        self.assertEqual(STEADINESS, self.first_line("steadiness.csv"))
+        rows = self.rows("steadiness.csv")
+        # 3 series × 2 engines × (2 packings + all).
+        self.assertEqual(3 * 2 * 3, len(rows))
+        for row in rows:
+            self.assertIn(row["verdict"], ("drifts", "no drift seen", "cannot tell"))
 
         self.assertTrue(self.first_line("series.csv").startswith(SERIES))
         rows = self.rows("series.csv")

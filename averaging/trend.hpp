@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace crossgrain {
+
+/// The straight line through a correlated time series, and how well its rise is known.
+struct Trend {
+  double mean = 0.0;
+  double change = 0.0;                  ///< of the line, from the first sample's to the last one's
+  std::optional<double> standardError;  ///< of change; absent with fewer than 12 samples
+  double dof = 0.0;                     ///< degrees of freedom of that error, for Student's t
+  bool resolved = false;  ///< the series spans at least 16 of its correlation times about the line
+};
+
+/// Least-squares line with an error that accounts for autocorrelation.
+///
+/// On discrete Legendre (Gram) polynomials, orthonormal over the samples, the line's rise is the
+/// first coefficient, and the coefficients 2 … K+1 of a stationary series are independent of it and
+/// of each other and scatter as it does: by the spectral density at frequency 0. So their mean
+/// square is the square of its error, with Student's t of K degrees of freedom (the trend test with
+/// an orthonormal series estimate of the variance: Bunzel & Vogelsang 2005; Phillips 2005; Sun
+/// 2011). K is that of estimateMean() for what the line leaves. A bend of the series counts as
+/// scatter and widens the bar.
+/// @pre series is not empty
+Trend estimateTrend(std::span<const double> series);
+
+enum class Drift { drifts, notSeen, cannotTell };
+
+/// "drifts", "no drift seen", "cannot tell"
+const char* toString(Drift drift);
+
+/// The change over the whole series in units of its mean, with its interval.
+struct RelativeDrift {
+  Drift verdict = Drift::cannotTell;
+  std::optional<double> change;    ///< < 0: falls; absent where the mean is not told from 0
+  std::optional<double> half;      ///< half width of the interval
+  std::optional<double> excluded;  ///< |change| up to this is not excluded: |change| + half
+};
+
+/// - drifts: the interval of the change leaves out 0.
+/// - not seen: it holds 0, the series is resolved, and a change larger than `limit` is excluded.
+/// - cannot tell: neither.
+/// @param confidence  of the interval
+RelativeDrift relativeDrift(std::span<const double> series, double confidence, double limit);
+
+}  // namespace crossgrain

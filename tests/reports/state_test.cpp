@@ -1,0 +1,167 @@
+#include "reports/state_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reports/csv.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+Json run(const char* engine, int packing, const char* regime) {
+  return {{"engine", engine},
+          {"packing", packing},
+          {"status", "finished"},
+          {"regime",
+           {{"name", regime ? Json(regime) : Json(nullptr)},
+            {"reason", "layers take up 0.002, less than 0.1"},
+            {"wheel_contacts", 15.5},
+            {"wheel_slip", 0.998},
+            {"shear_share", 0.002},
+            {"inertial_number", 1.4e-4},
+            {"blocked_share", 0.25}}}};
+}
+
+/// Three engines on so many packings, all flowing.
+Json flowing(int packings) {
+  Json results = {
+      {"averaging", {{"from_rotation", 0.25}, {"to_rotation", 1.25}, {"prepared_rotations", 2.0}}}};
+  for (const char* engine : {"ours", "soft", "hard"}) {
+    results["engines"].push_back({{"name", engine}, {"mirrors", ""}, {"status", "ran"}});
+    for (int k = 0; k < packings; ++k) results["runs"].push_back(run(engine, k, "flowing"));
+  }
+  return results;
+}
+
+void set(Json& results, const char* engine, int packing, const char* regime) {
+  for (Json& entry : results["runs"])
+    if (entry["engine"] == engine && entry["packing"] == packing)
+      entry["regime"]["name"] = regime ? Json(regime) : Json(nullptr);
+}
+
+std::vector<std::string> sentencesOf(const Json& results) {
+  return stateSentences(results, engineResults(results));
+}
+
+TEST(StateSentences, AllAlikeIsOneSentence) {
+  EXPECT_EQ(sentencesOf(flowing(4)),
+            std::vector<std::string>{"All 4 packings flow on every engine."});
+  EXPECT_EQ(sentencesOf(flowing(1)), std::vector<std::string>{"Packing 0 flows on every engine."});
+}
+
+TEST(StateSentences, NameThePackingThatStandsStillAndWhere) {
+  Json results = flowing(4);
+  set(results, "ours", 1, "blocked");
+  set(results, "soft", 1, "blocked");
+  results["regimes"] = {{{"a", "ours"}, {"b", "soft"}, {"packings", 4}, {"differ", Json::array()}},
+                        {{"a", "ours"}, {"b", "hard"}, {"packings", 4}, {"differ", {1}}},
+                        {{"a", "soft"}, {"b", "hard"}, {"packings", 4}, {"differ", {1}}}};
+  const auto sentences = sentencesOf(results);
+  ASSERT_EQ(sentences.size(), 4u);
+  EXPECT_EQ(sentences[0], "Packing 1 stands still on ours, soft; flows on hard.");
+  EXPECT_EQ(sentences[1], "Packings 0, 2, 3 flow on every engine.");
+  EXPECT_EQ(sentences[2],
+            "Means over packings mix regimes on ours, soft: they describe none of them.");
+  EXPECT_EQ(sentences[3],
+            "Not in the same regime as ours: hard on packing 1. What is said of these pairs below "
+            "compares different states.");
+}
+
+TEST(StateSentences, EveryEngineIsEveryOneThatFinishedThePacking) {
+  Json results = flowing(2);
+  for (Json& entry : results["runs"])
+    if (entry["engine"] == "soft" && entry["packing"] == 1) entry["status"] = "failed";
+  EXPECT_EQ(sentencesOf(results), (std::vector<std::string>{"Packing 0 flows on every engine.",
+                                                            "Packing 1 flows on ours, hard."}));
+  // One engine is not "every".
+  Json alone = flowing(1);
+  alone["engines"].erase(2);
+  alone["engines"].erase(1);
+  EXPECT_EQ(sentencesOf(alone), std::vector<std::string>{"Packing 0 flows on ours."});
+}
+
+TEST(StateSentences, TellCollisionsAndWhatCannotBeTold) {
+  Json results = flowing(2);
+  for (const char* engine : {"ours", "soft", "hard"}) set(results, engine, 0, "collisional");
+  set(results, "hard", 1, nullptr);
+  const auto sentences = sentencesOf(results);
+  ASSERT_EQ(sentences.size(), 3u);
+  EXPECT_EQ(sentences[0], "Packing 1 flows on ours, soft; shows too little to tell on hard.");
+  EXPECT_EQ(sentences[1], "Packing 0 is carried by collisions on every engine.");
+  // A run that failed is in no regime, and results of before say nothing.
+  for (Json& entry : results["runs"]) entry.erase("regime");
+  EXPECT_TRUE(sentencesOf(results).empty());
+}
+
+Json drift(const char* engine, const char* quantity, const char* verdict, double change,
+           double half) {
+  return {{"engine", engine},          {"quantity", quantity},
+          {"verdict", verdict},        {"change", change},
+          {"half_width", half},        {"excluded", std::abs(change) + half},
+          {"drifting", Json::array()}, {"packings", 4}};
+}
+
+TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
+  Json results = flowing(4);
+  results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.4, 0.08),
+                           drift("ours", "wheel_torque", "no drift seen", 0.0, 0.2),
+                           drift("soft", "outer_pressure", "no drift seen", 0.05, 0.1),
+                           drift("soft", "wheel_torque", "no drift seen", 0.02, 0.18),
+                           drift("hard", "outer_pressure", "cannot tell", 0.1, 0.5),
+                           drift("hard", "wheel_torque", "no drift seen", 0.02, 0.18)};
+  const auto sentences = sentencesOf(results);
+  ASSERT_EQ(sentences.size(), 4u);
+  EXPECT_EQ(sentences[1],
+            "Not steady: on ours outer pressure falls by 40 ± 8 %, of the mean, over the averaged "
+            "time.");
+  EXPECT_EQ(sentences[2], "No drift seen over the averaged time: soft (down to 20 %).");
+  EXPECT_EQ(sentences[3],
+            "Steady or not cannot be told of hard: changes of outer pressure by up to 60 % are not "
+            "excluded.");
+}
+
+TEST(AveragedRotations, CountFromTheHandOverAndFromThePreparation) {
+  Json results = flowing(1);
+  EXPECT_EQ(averagedRotations(results),
+            "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed");
+  results["averaging"]["prepared_rotations"] = nullptr;  // a packing of the user's own
+  EXPECT_EQ(averagedRotations(results), "rotations 0.25 to 1.25 since the hand-over");
+  results["averaging"].erase("from_rotation");  // a file of snapshots
+  EXPECT_EQ(averagedRotations(results), "");
+}
+
+TEST(StateTables, HaveARunAPairAndASeriesALine) {
+  Json results = flowing(2);
+  set(results, "ours", 1, "blocked");
+  results["regimes"] = {{{"a", "ours"}, {"b", "hard"}, {"packings", 2}, {"differ", {1}}}};
+  results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.4, 0.08)};
+  Json view;
+  addStates(view, results, engineResults(results));
+  ASSERT_EQ(view["regimes"].size(), 2u);
+  EXPECT_EQ(view["regimes"][1]["cells"][0]["word"], "blocked");
+  EXPECT_NE(view["regimes"][1]["cells"][0]["figures"].get<std::string>().find("25"),
+            std::string::npos);
+  EXPECT_EQ(view["regimePairs"][0]["same"], "1 of 2");
+  EXPECT_EQ(view["regimePairs"][0]["differ"], "1");
+  EXPECT_EQ(view["steadiness"][0]["cells"][0]["figures"], "−40 ± 8 %");
+}
+
+TEST(StateTables, CsvNamesTheRotationsOfEveryRow) {
+  Json results = flowing(1);
+  results["runs"][0]["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
+  results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
+  const std::string regimes = regimesCsv(results);
+  EXPECT_EQ(regimes.substr(0, regimes.find('\n')),
+            "engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,"
+            "blocked_share,from_rotation,to_rotation,prepared_rotations,reason");
+  EXPECT_NE(regimes.find("ours,0,flowing,15.5,0.998,0.002,0.00014,0.25,0.25,1.25,2,\"layers take "
+                         "up 0.002, less than 0.1\"\n"),
+            std::string::npos);
+  EXPECT_EQ(steadinessCsv(results),
+            "engine,packing,quantity,verdict,change,half_width,excluded,from_rotation,to_rotation,"
+            "prepared_rotations\n"
+            "ours,0,outer_pressure,drifts,-0.5,0.25,0.75,0.25,1.25,2\n"
+            "ours,all,outer_pressure,drifts,-0.5,0.25,0.75,0.25,1.25,2\n");
+}
+
+}  // namespace
+}  // namespace crossgrain::reports
