@@ -96,8 +96,8 @@ class Check(SystemTest):
     def test_couette(self):
         done = self.check(COUETTE)
         self.assert_status(done, HELD)
-        # 244 disks; rings of ⌊2π·30/2.5⌋ = 75 and ⌊2π·75/2.5⌋ = 188 wall disks.
-        self.assertIn("quick: 244 disks, 263 wall disks, dt 4e-05 s", done.stdout)
+        # 246 disks; rings of 2π·30/4.8 = 39 and 2π·75/4.8 = 98 wall disks, to the nearest.
+        self.assertIn("quick: 246 disks, 137 wall disks, dt 4e-05 s", done.stdout)
         # 1.25 rotations of 2π s in steps of 4e-5 s.
         self.assertRegex(done.stdout, r"per packing: 196350 steps[\s\S]*grain +can run it")
         self.assertRegex(done.stdout, r"differs: has \w+")
