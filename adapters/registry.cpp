@@ -78,7 +78,7 @@ const std::vector<EngineEntry>& engineRegistry() {
        {},
        "box2d-impulse",
        {"rigid"}},
-      // In the quick cell Box2D's solver holds about 20 times the pressure of the soft law.
+      // In the quick cell Box2D's solver holds about 16 times the pressure of the soft law.
       {"grain-stiff",
        "the in-house engine with contacts 25 times as stiff, towards rigid ones",
        [] { return makeStiffGrain(25.0); },
