@@ -104,7 +104,8 @@ GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot) {
 std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
                                  std::string_view body) {
   const BodyIds ids = idsOf(scene, bodyIndex(scene, body));
-  if (!snapshot.contacts) return std::nullopt;
+  const bool nothing = ids.firstDisk == ids.endDisk && ids.firstPlane == ids.endPlane;
+  if (!snapshot.contacts || nothing) return std::nullopt;
   const Contacts& pairs = *snapshot.contacts;
   double count = 0.0;
   for (std::size_t c = 0; c < pairs.size(); ++c)

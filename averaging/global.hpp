@@ -24,7 +24,8 @@ struct GlobalNumbers {
 GlobalNumbers globalNumbers(const Scene& scene, const Snapshot& snapshot);
 
 /// Contacts of the named body's disks and planes with the moving disks. Absent without contacts in
-/// the snapshot; with accumulated ones it counts what transmitted a force within their interval.
+/// the snapshot and for a body of nothing (of another source's snapshots, say); with accumulated
+/// ones it counts what transmitted a force within their interval.
 /// @throws std::invalid_argument if the scene has no such body
 std::optional<double> contactsOf(const Scene& scene, const Snapshot& snapshot,
                                  std::string_view body);

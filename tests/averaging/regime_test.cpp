@@ -139,6 +139,9 @@ TEST(ContactsOf, CountsThoseOfOneBody) {
   EXPECT_EQ(contactsOf(instant.scene, instant.snapshot, "ring"), 2.0);
   instant.addContact(0, 2, {1.0, 0.0}, 0.0, 0.0);  // listed, and transmits nothing
   EXPECT_EQ(contactsOf(instant.scene, instant.snapshot, "wheel"), 1.0);
+  // A wheel that nobody knows the disks of touches an unknown number, not none.
+  instant.scene.bodies.push_back({"axle", Vec2::Zero(), {}, {}, {}, {}});
+  EXPECT_FALSE(contactsOf(instant.scene, instant.snapshot, "axle"));
   instant.snapshot.contacts.reset();
   EXPECT_FALSE(contactsOf(instant.scene, instant.snapshot, "wheel"));
 }
