@@ -87,7 +87,10 @@ Capabilities Box2dImpulse::capabilities() const {
   // What a soft law has of these is folded into e_n and e_t0.
   can.effects[Effect::tangentialSpring] = Support::never;
   can.effects[Effect::tangentialDamping] = Support::never;
-  can.lawOptions = {{"normal", {"rigid"}}};
+  can.lawOptions = {{"normal", {"rigid"}},
+                    {"lever_arm", {"overlap_middle"}},
+                    {"velocity_arm", {"lever_arm"}},
+                    {"plane_arm", {"middle"}}};
   can.precisions = {Precision::float32};
   can.accumulatedContacts = true;
   can.settings = {

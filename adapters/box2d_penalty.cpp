@@ -21,6 +21,8 @@ Capabilities Box2dPenalty::capabilities() const {
                     {"damper", {"constant"}},
                     {"spring_update", {"after", "before"}},
                     {"lever_arm", {"radius", "contact_point"}},
+                    {"velocity_arm", {"lever_arm"}},
+                    {"plane_arm", {"surface"}},
                     {"damping_velocity", {"lagged"}},
                     {"integrator", {"semi_implicit_euler"}}};
   can.precisions = {Precision::float64};

@@ -5,8 +5,8 @@ namespace crossgrain {
 /// The contact law of a scene and every convention that engines are known to differ in.
 ///
 /// Signs, for a contact of i with j: n points from j to i, s = z × n, overlap δ > 0 in contact,
-///   v_n = (v_i − v_j)·n (negative on approach), v_t = (v_i − v_j)·s − (l_i ω_i + l_j ω_j) with the
-///   lever arms l,
+///   v_n = (v_i − v_j)·n (negative on approach), v_t = (v_i − v_j)·s − (c_i ω_i + c_j ω_j) with the
+///   velocity arms c, which are the lever arms l unless a law says otherwise,
 /// the force on i is f_n n + f_t s and its torque on i is −l_i f_t (Lätzel 2003, chapter 4).
 
 /// f_n = f_el(δ) − γ_n v_n with an elastic part that is
@@ -66,12 +66,32 @@ enum class SpringUpdate {
   midpoint  ///< ξ += v_t dt/2, the force, ξ += v_t dt/2: second order where velocities are
 };
 
-/// The arm l_i of f_t about the disk's centre; v_t is taken with the same arm. A wall's plane does
-/// not yield: there both of the latter are a_i − δ.
+/// The arm l_i of f_t about the disk's centre. Two disks' angular momentum changes by the moment of
+/// the couple ±f_t s at the distance a_i + a_j − δ and by both torques:
+///   dL/dt = (a_i + a_j − δ − l_i − l_j) f_t.
+/// LAMMPS' gran/hooke/history has a_i; its pair_style granular (GranularModel::calculate_forces)
+/// and LIGGGHTS (surface_model_default.h), YADE and Box2D have a_i − δ/2.
 enum class LeverArm {
-  radius,        ///< a_i, the thesis' choice; dL/dt = −δ f_t for an isolated pair
+  radius,        ///< a_i, the thesis' choice; dL/dt = −δ f_t
   contactPoint,  ///< a_i − δ a_j/(a_i + a_j): keeps angular momentum
   overlapMiddle  ///< a_i − δ/2: keeps it too; the same for equal radii
+};
+
+/// The arm c_i of ω_i in v_t. Where it is another one than that of f_t, the law does not see the
+/// velocity that f_t does work on, and Σ f_t (c − l) ω is energy from nowhere. LAMMPS' pair_style
+/// granular takes a_i beside a torque at a_i − δ/2; the others take the arm of f_t.
+enum class VelocityArm {
+  leverArm,  ///< that of f_t
+  radius,
+  contactPoint,
+  overlapMiddle
+};
+
+/// What an arm is at a wall's plane, unless it is LeverArm::radius, which stays a_i.
+enum class PlaneArm {
+  surface,  ///< a_i − δ: the plane does not yield, the contact point lies on it (YADE)
+  middle,   ///< a_i − δ/2, half way into the overlap as between disks (Box2D, LIGGGHTS)
+  radius    ///< a_i (LAMMPS: fix wall/gran with granular)
 };
 
 /// What a contact remembers of its tangential motion while k_t follows the overlap.
@@ -100,9 +120,26 @@ struct LawConventions {
   SpringReset springReset = SpringReset::total;
   SpringUpdate springUpdate = SpringUpdate::after;
   LeverArm leverArm = LeverArm::radius;
+  VelocityArm velocityArm = VelocityArm::leverArm;
+  PlaneArm planeArm = PlaneArm::surface;
   History history = History::displacement;
   DampingVelocity dampingVelocity = DampingVelocity::predicted;
   Integrator integrator = Integrator::positionVerlet;
+
+  /// The arm in v_t by its own name.
+  LeverArm armOfVelocity() const {
+    switch (velocityArm) {
+      case VelocityArm::radius:
+        return LeverArm::radius;
+      case VelocityArm::contactPoint:
+        return LeverArm::contactPoint;
+      case VelocityArm::overlapMiddle:
+        return LeverArm::overlapMiddle;
+      case VelocityArm::leverArm:
+        break;
+    }
+    return leverArm;
+  }
 };
 
 /// Parameters of the law that the scene calls for; the same for all contacts.

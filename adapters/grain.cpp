@@ -39,6 +39,8 @@ grain::Law translate(const ContactLaw& law) {
   to.dashpotOutsideBound = how.dashpot == Dashpot::outside;
   to.resetSpringOnly = how.springReset == SpringReset::springOnly;
   to.lever = static_cast<grain::Lever>(how.leverArm);
+  to.velocityLever = static_cast<grain::Lever>(how.armOfVelocity());
+  to.planeLever = static_cast<grain::PlaneLever>(how.planeArm);
   // Euler's velocities belong to the same time as its positions: there is nothing to predict.
   to.damping = how.integrator == Integrator::semiImplicitEuler
                    ? grain::Damping::lagged

@@ -53,6 +53,9 @@ std::span<const LawOption> lawOptions() {
       option("spring_reset", &LawConventions::springReset, {"total", "spring_only"}),
       option("spring_update", &LawConventions::springUpdate, {"after", "before", "midpoint"}),
       option("lever_arm", &LawConventions::leverArm, {"radius", "contact_point", "overlap_middle"}),
+      option("velocity_arm", &LawConventions::velocityArm,
+             {"lever_arm", "radius", "contact_point", "overlap_middle"}),
+      option("plane_arm", &LawConventions::planeArm, {"surface", "middle", "radius"}),
       option("history", &LawConventions::history, {"displacement", "force"}),
       option("damping_velocity", &LawConventions::dampingVelocity,
              {"lagged", "predicted", "implicit"}),
@@ -84,7 +87,12 @@ bool mattersTo(const ContactLaw& law, std::string_view name) {
   if (name == "coulomb_bound")
     return soft && law.tangential != TangentialLaw::none && law.gn > 0.0 &&
            law.conventions.tension == Tension::allow;
-  if (name == "lever_arm") return soft && law.tangential != TangentialLaw::none;
+  const bool arms = soft && law.tangential != TangentialLaw::none;
+  const LeverArm lever = law.conventions.leverArm, ofVelocity = law.conventions.armOfVelocity();
+  if (name == "lever_arm") return arms;
+  if (name == "velocity_arm") return arms && ofVelocity != lever;
+  if (name == "plane_arm")
+    return arms && (lever != LeverArm::radius || ofVelocity != LeverArm::radius);
   if (name == "dashpot" || name == "spring_reset")
     return soft && law.tangential == TangentialLaw::springDashpot;
   if (name == "spring_update") return soft && law.springs();

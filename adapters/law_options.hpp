@@ -19,7 +19,8 @@ struct LawOption {
 };
 
 /// Every option of the law: normal, damper, tangential, tension, coulomb_bound, dashpot,
-/// spring_reset, spring_update, lever_arm, history, damping_velocity, integrator.
+/// spring_reset, spring_update, lever_arm, velocity_arm, plane_arm, history, damping_velocity,
+/// integrator.
 std::span<const LawOption> lawOptions();
 
 /// The value that a law has for an option, by name. @throws std::invalid_argument if unknown

@@ -19,6 +19,8 @@ LawConventionSets yadeConventions() {
           {"spring_reset", {"total"}},
           {"spring_update", {"before"}},
           {"lever_arm", {"overlap_middle"}},
+          {"velocity_arm", {"lever_arm"}},
+          {"plane_arm", {"surface"}},
           {"history", {"force"}},
           {"damping_velocity", {"lagged"}},
           {"integrator", {"position_verlet"}}};
@@ -60,7 +62,9 @@ const std::vector<EngineEntry>& engineRegistry() {
          return makeGrainMirror({{"integrator", {"semi_implicit_euler"}},
                                  {"damping_velocity", {"lagged"}},
                                  {"spring_update", {"after", "before"}},
-                                 {"lever_arm", {"radius", "contact_point"}}});
+                                 {"lever_arm", {"radius", "contact_point"}},
+                                 {"velocity_arm", {"lever_arm"}},
+                                 {"plane_arm", {"surface"}}});
        },
        {},
        {},
@@ -72,7 +76,9 @@ const std::vector<EngineEntry>& engineRegistry() {
          return makeGrainMirror({{"normal", {"rigid"}},
                                  {"integrator", {"semi_implicit_euler"}},
                                  {"damping_velocity", {"lagged"}},
-                                 {"lever_arm", {"overlap_middle"}}});
+                                 {"lever_arm", {"overlap_middle"}},
+                                 {"velocity_arm", {"lever_arm"}},
+                                 {"plane_arm", {"middle"}}});
        },
        {},
        {},

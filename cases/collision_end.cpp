@@ -23,9 +23,12 @@ CollidingPair diskOnWall(double radius, double mass, double inertia) {
   return {{radius, 0.0}, {mass, inf}, {inertia, inf}, true};
 }
 
-double leverShare(LeverArm arm, const CollidingPair& pair, int side) {
+double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side) {
   if (arm == LeverArm::radius) return 0.0;
-  if (pair.plane) return side == 0 ? 1.0 : 0.0;
+  if (pair.plane) {
+    if (side == 1 || plane == PlaneArm::radius) return 0.0;
+    return plane == PlaneArm::middle ? 0.5 : 1.0;
+  }
   if (arm == LeverArm::contactPoint)
     return pair.radius[1 - side] / (pair.radius[0] + pair.radius[1]);
   return 0.5;

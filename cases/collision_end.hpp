@@ -23,9 +23,9 @@ struct CollidingPair {
 /// A disk and a plane wall.
 CollidingPair diskOnWall(double radius, double mass, double inertia);
 
-/// The part of the overlap that the lever arm of body `side` (0 or 1) is short of its radius. A
-/// plane does not yield, nor turn.
-double leverShare(LeverArm arm, const CollidingPair& pair, int side);
+/// The part of the overlap that an arm of body `side` (0 or 1) is short of its radius. A plane does
+/// not turn; `plane` says where the contact point lies on it.
+double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
 
 /// What gives the contact point its tangential velocity before a collision.
 enum class Approach {

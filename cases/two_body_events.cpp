@@ -13,15 +13,14 @@ double sign(double value) {
 
 /// d v_t/dt per f_t [1/kg].
 double TwoBodyProblem::compliance(const Kinematics& k) const {
-  return inverseMass_ + k.leverI * k.leverI / pair_.inertia[0] +
-         k.leverJ * k.leverJ / pair_.inertia[1];
+  return inverseMass_ + k.armI * k.leverI / pair_.inertia[0] + k.armJ * k.leverJ / pair_.inertia[1];
 }
 
-/// The f_t that makes dv_t/dt = 0. Without f_t, dv_t/dt = −θ' v_n − l_i' ω_i − l_j' ω_j, where θ'
-/// is the rate at which the normal turns and l' = leverShare · v_n.
+/// The f_t that makes dv_t/dt = 0. Without f_t, dv_t/dt = −θ' v_n − c_i' ω_i − c_j' ω_j, where θ'
+/// is the rate at which the normal turns and c' = armShare · v_n.
 double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
   const double drift = -k.turning * k.normalVelocity -
-                       k.normalVelocity * (leverShare(0) * s.spinI + leverShare(1) * s.spinJ);
+                       k.normalVelocity * (armShare(0) * s.spinI + armShare(1) * s.spinJ);
   return -drift / compliance(k);
 }
 
@@ -129,7 +128,7 @@ void TwoBodyProblem::choosePhase(State& s) {
   const bool still = std::abs(slip) < 2.0 * stillness_;
   if (law_.tangential == TangentialLaw::coulomb && still) {
     // At rest to the last bit, else what is left of v_t would end the slip that may follow at once.
-    s.spinI += slip / k.leverI;
+    s.spinI += slip / k.armI;
     const double hold = holdingForce(s, k);
     const bool holds = std::abs(hold) <= limit;
     phase_.tangential = holds ? Phase::Tangential::hold : Phase::Tangential::slip;

@@ -66,14 +66,14 @@ Kinematics TwoBodyProblem::kinematics(const State& s) const {
   k.nx = pair_.plane ? 1.0 : s.x / k.distance;
   k.ny = pair_.plane ? 0.0 : s.y / k.distance;
   k.overlap = reach_ - k.distance;
-  k.leverI = pair_.radius[0];
-  k.leverJ = pair_.radius[1];
-  k.leverI -= k.overlap * leverShare(0);
-  k.leverJ -= k.overlap * leverShare(1);
+  k.leverI = pair_.radius[0] - k.overlap * leverShare(0);
+  k.leverJ = pair_.radius[1] - k.overlap * leverShare(1);
+  k.armI = pair_.radius[0] - k.overlap * armShare(0);
+  k.armJ = pair_.radius[1] - k.overlap * armShare(1);
   k.normalVelocity = s.vx * k.nx + s.vy * k.ny;
   k.sideways = -s.vx * k.ny + s.vy * k.nx;
   k.turning = pair_.plane ? 0.0 : k.sideways / k.distance;
-  k.tangentialVelocity = k.sideways - k.leverI * s.spinI - k.leverJ * s.spinJ;
+  k.tangentialVelocity = k.sideways - k.armI * s.spinI - k.armJ * s.spinJ;
   return k;
 }
 
@@ -145,20 +145,22 @@ State TwoBodyProblem::derivative(const State& s) const {
   const double normal = normalForce(k);
   const double tangential = tangentialForce(s, k);
   const double slip = k.tangentialVelocity;
+  const double worked = workedVelocity(s, k);
   const bool sticks = phase_.tangential == Phase::Tangential::stick;
   const bool damps = sticks || phase_.tangential == Phase::Tangential::damped;
   const double growth = remembersForce() ? tangentialStiffness(k.overlap).value * slip : slip;
-  return {s.vx,
-          s.vy,
-          (normal * k.nx - tangential * k.ny) * inverseMass_,
-          (normal * k.ny + tangential * k.nx) * inverseMass_,
-          -k.leverI * tangential / pair_.inertia[0],
-          -k.leverJ * tangential / pair_.inertia[1],
-          sticks ? growth : 0.0,
-          (elasticForce(k.overlap) - normal) * k.normalVelocity,
-          damps ? tangentialDamping(k.overlap).value * slip * slip : 0.0,
-          sticks ? stiffeningLoss(s, k) : 0.0,
-          damps ? 0.0 : -tangential * slip};
+  return {
+      s.vx,
+      s.vy,
+      (normal * k.nx - tangential * k.ny) * inverseMass_,
+      (normal * k.ny + tangential * k.nx) * inverseMass_,
+      -k.leverI * tangential / pair_.inertia[0],
+      -k.leverJ * tangential / pair_.inertia[1],
+      sticks ? growth : 0.0,
+      (elasticForce(k.overlap) - normal) * k.normalVelocity,
+      damps ? tangentialDamping(k.overlap).value * slip * slip + tangential * (slip - worked) : 0.0,
+      sticks ? stiffeningLoss(s, k) : 0.0,
+      damps ? 0.0 : -tangential * worked};
 }
 
 CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) const {

@@ -35,9 +35,10 @@ struct Phase {
 struct Kinematics {
   double distance, nx, ny, overlap;
   double normalVelocity, tangentialVelocity;
-  double sideways;  ///< the centres' own velocity along s [m/s]
-  double turning;   ///< rate at which the normal turns [rad/s]
-  double leverI, leverJ;
+  double sideways;        ///< the centres' own velocity along s [m/s]
+  double turning;         ///< rate at which the normal turns [rad/s]
+  double leverI, leverJ;  ///< of f_t [m]
+  double armI, armJ;      ///< of the spins in v_t [m]
 };
 
 /// A function of the overlap and its derivative.
@@ -73,8 +74,10 @@ class TwoBodyProblem {
   double trialNormal(const Kinematics& k) const {
     return elasticForce(k.overlap) - normalDamping(k.overlap).value * k.normalVelocity;
   }
-  double leverShare(int side) const {
-    return crossgrain::leverShare(law_.conventions.leverArm, pair_, side);
+  double leverShare(int side) const { return shareOf(law_.conventions.leverArm, side); }
+  double armShare(int side) const { return shareOf(law_.conventions.armOfVelocity(), side); }
+  double shareOf(LeverArm arm, int side) const {
+    return crossgrain::leverShare(arm, law_.conventions.planeArm, pair_, side);
   }
   double normalForce(const Kinematics& k) const;
   double bound(double normal) const;
@@ -82,6 +85,10 @@ class TwoBodyProblem {
   double tangentialForce(const State& s, const Kinematics& k) const;
   double storedEnergy(const State& s) const;
   double stiffeningLoss(const State& s, const Kinematics& k) const;
+  /// What f_t does work on: v_t, taken with the arms of f_t [m/s].
+  double workedVelocity(const State& s, const Kinematics& k) const {
+    return k.sideways - k.leverI * s.spinI - k.leverJ * s.spinJ;
+  }
   State derivative(const State& s) const;
   CollisionEnd endAt(const State& s, const CollisionStart& start) const;
 

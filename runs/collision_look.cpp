@@ -41,7 +41,9 @@ class Motions {
 
 /// One contact at one time.
 struct Touch {
-  double normalForce, tangentialForce, normalVelocity, slip;
+  double normalForce, tangentialForce, normalVelocity;
+  double worked;  ///< the tangential velocity that f_t does work on
+  double slip;    ///< v_t of the law
   bool slides;
 };
 
@@ -52,15 +54,20 @@ Touch touchAt(const Contacts& contacts, std::size_t c, const WatchedRun& run,
   const bool wall = run.pair.plane;
   const Vec2 velocity = motions.velocity(i, time) - (wall ? run.scene.bodies.front().motion.velocity
                                                           : motions.velocity(j, time));
-  const auto lever = [&](int side) {
-    const double share = leverShare(run.law.conventions.leverArm, run.pair, side);
-    return run.pair.radius[side] - share * contacts.overlap[c];
+  const LawConventions& how = run.law.conventions;
+  const auto turning = [&](LeverArm arm) {
+    const auto of = [&](int side) {
+      return run.pair.radius[side] -
+             leverShare(arm, how.planeArm, run.pair, side) * contacts.overlap[c];
+    };
+    return of(0) * motions.spin(i, time) + (wall ? 0.0 : of(1) * motions.spin(j, time));
   };
-  const double turning =
-      lever(0) * motions.spin(i, time) + (wall ? 0.0 : lever(1) * motions.spin(j, time));
   const Vec2& normal = contacts.normal[c];
-  return {contacts.normalForce[c], contacts.tangentialForce[c], velocity.dot(normal),
-          velocity.dot(perpendicular(normal)) - turning,
+  return {contacts.normalForce[c],
+          contacts.tangentialForce[c],
+          velocity.dot(normal),
+          velocity.dot(perpendicular(normal)) - turning(how.leverArm),
+          velocity.dot(perpendicular(normal)) - turning(how.armOfVelocity()),
           !contacts.sliding.empty() && contacts.sliding[c] != 0};
 }
 
@@ -76,7 +83,7 @@ double storedEnergy(const ContactLaw& law, const PairCoefficients& pair, const T
 
 void addStep(ContactAccount& account, const Touch& touch, double stored, double dt) {
   const double normal = -touch.normalForce * touch.normalVelocity * dt;
-  const double tangential = -touch.tangentialForce * touch.slip * dt;
+  const double tangential = -touch.tangentialForce * touch.worked * dt;
   account.work.normal += normal;
   account.work.tangential += tangential;
   if (!account.split) return;

@@ -11,17 +11,22 @@ namespace grain {
 
 /// One contact as the ledger reads it.
 struct Touch {
-  double nx, ny;
-  double leverI = 0.0, leverJ = 0.0;
-  std::optional<BodyMotion> wall;  ///< of its point that is touched
-  TwoParts normal, tangential;     ///< relative velocities half way through the kicks
-  double seenTangential = 0.0;     ///< the one that the law saw
+  double nx = 0.0, ny = 0.0;
+  double leverI = 0.0, leverJ = 0.0;  ///< of the force
+  double armI = 0.0, armJ = 0.0;      ///< of the spins in v_t
+  std::optional<BodyMotion> wall;     ///< of its point that is touched
+  TwoParts normal, tangential;        ///< relative velocities half way through the kicks
+  TwoParts slip;          ///< v_t of the law then; the force does its work on tangential
+  double seenSlip = 0.0;  ///< v_t that the law saw
 
   double along(const BodyMotion& i, const BodyMotion& j) const {
     return (i.vx - j.vx) * nx + (i.vy - j.vy) * ny;
   }
   double across(const BodyMotion& i, const BodyMotion& j) const {
     return (i.vy - j.vy) * nx - (i.vx - j.vx) * ny - (leverI * i.spin + leverJ * j.spin);
+  }
+  double slipOf(const BodyMotion& i, const BodyMotion& j) const {
+    return (i.vy - j.vy) * nx - (i.vx - j.vx) * ny - (armI * i.spin + armJ * j.spin);
   }
 };
 
@@ -102,9 +107,10 @@ BodyMotion Core<Real>::wallMotion(const Contact& contact) const {
   }
   const WallState& wall = walls_[placedPlanes_[j - position_.size()].wall].state();
   const auto i = static_cast<std::size_t>(contact.i);
-  const double height = ownRadius(contact) - contact.overlap;
-  const double armX = x(i) - height * contact.nx - wall.x;
-  const double armY = y(i) - height * contact.ny - wall.y;
+  const double own = ownRadius(contact);
+  const double reach = planePoint(law_, own, own - contact.overlap);
+  const double armX = x(i) - reach * contact.nx - wall.x;
+  const double armY = y(i) - reach * contact.ny - wall.y;
   return {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0};
 }
 
@@ -114,24 +120,32 @@ Touch Core<Real>::touchOf(const Contact& contact, double time) const {
   const auto number = static_cast<std::size_t>(contact.j);
   const std::size_t j = number < moving_ ? static_cast<std::size_t>(placeOf_[number]) : number;
   const double own = ownRadius(contact);
-  Touch touch{contact.nx, contact.ny, 0.0, 0.0, {}, {}, {}, 0.0};
+  Touch touch;
+  touch.nx = contact.nx;
+  touch.ny = contact.ny;
   if (law_.rotation && j < position_.size()) {
     const auto other = static_cast<double>(radius_[j]);
-    touch.leverI = leverArm(law_, own, other, contact.overlap);
-    touch.leverJ = leverArm(law_, other, own, contact.overlap);
+    touch.leverI = armOf(law_.lever, own, other, contact.overlap);
+    touch.leverJ = armOf(law_.lever, other, own, contact.overlap);
+    touch.armI = armOf(law_.velocityLever, own, other, contact.overlap);
+    touch.armJ = armOf(law_.velocityLever, other, own, contact.overlap);
   } else if (law_.rotation) {
-    touch.leverI = law_.lever == Lever::radius ? own : own - contact.overlap;
+    const double height = own - contact.overlap;
+    touch.leverI = planeArmOf(law_.lever, law_.planeLever, own, height);
+    touch.armI = planeArmOf(law_.velocityLever, law_.planeLever, own, height);
   }
   if (number >= moving_) touch.wall = wallMotion(contact);
   const auto part = [&](double offset) {
     const BodyMotion of = carried(i, time + offset);
     const BodyMotion to = touch.wall ? *touch.wall : carried(j, time + offset);
-    return std::pair(touch.along(of, to), touch.across(of, to));
+    return std::tuple(touch.along(of, to), touch.across(of, to), touch.slipOf(of, to));
   };
   const LedgerSums::Scheme& scheme = ledger_->scheme();
-  std::tie(touch.normal.closing, touch.tangential.closing) = part(scheme.offset.closing);
-  std::tie(touch.normal.opening, touch.tangential.opening) = part(scheme.offset.opening);
-  touch.seenTangential = touch.across(seen(i), touch.wall ? *touch.wall : seen(j));
+  std::tie(touch.normal.closing, touch.tangential.closing, touch.slip.closing) =
+      part(scheme.offset.closing);
+  std::tie(touch.normal.opening, touch.tangential.opening, touch.slip.opening) =
+      part(scheme.offset.opening);
+  touch.seenSlip = touch.slipOf(seen(i), touch.wall ? *touch.wall : seen(j));
   return touch;
 }
 
@@ -152,12 +166,16 @@ void Core<Real>::accountContact(const Contact& contact, double time) {
     ledger_->workOfWall({power, power});
   }
   if (law_.tangential == Tangential::none) return;
+  // Where v_t has another arm than f_t, the force does work on a velocity that the law does not
+  // see.
+  ledger_->gain({contact.tangentialForce * (touch.tangential.closing - touch.slip.closing),
+                 contact.tangentialForce * (touch.tangential.opening - touch.slip.opening)});
   if (lists_.springs()) {
     accountSpring(contact, touch, static_cast<double>(tangentialStiffness(law_, motion)));
   } else {
     ledger_->lose(
         contact.sliding ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
-        times(contact.tangentialForce, touch.tangential));
+        times(contact.tangentialForce, touch.slip));
   }
 }
 
@@ -170,8 +188,7 @@ void Core<Real>::accountSpring(const Contact& contact, const Touch& touch, doubl
   if (law_.stretch == Stretch::after && !contact.sliding) share = 1.0;
   if (law_.stretch == Stretch::midpoint) share = 0.5;
   const double unit = remembersForce ? 1.0 : stiffness;
-  const double stretch = contact.spring - share * static_cast<double>(law_.dt) *
-                                              touch.seenTangential *
+  const double stretch = contact.spring - share * static_cast<double>(law_.dt) * touch.seenSlip *
                                               (remembersForce ? stiffness : 1.0);
   SpringAccount account;
   account.i = contact.i;
@@ -181,10 +198,10 @@ void Core<Real>::accountSpring(const Contact& contact, const Touch& touch, doubl
   account.square = stretch * stretch;
   account.energy = 0.5 * account.modulus * account.square;
   ledger_->ledger.elasticTangential += account.energy;
-  ledger_->spring(account, times(-unit * stretch, touch.tangential));
+  ledger_->spring(account, times(-unit * stretch, touch.slip));
   const bool slid = contact.sliding && !law_.resetSpringOnly;
   ledger_->lose(slid ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
-                times(contact.tangentialForce + unit * stretch, touch.tangential));
+                times(contact.tangentialForce + unit * stretch, touch.slip));
 }
 
 template <class Real>

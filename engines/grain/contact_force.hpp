@@ -28,12 +28,28 @@ GRAIN_INLINE Real coulombBound(const L& law, Real normal) {
   return law.mu * normal;
 }
 
-/// l_i of a disk of radius a that touches one of radius `other` [m].
-template <class L, class Real>
-GRAIN_INLINE Real leverArm(const L& law, Real a, Real other, Real overlap) {
-  if (law.lever == Lever::radius) return a;
-  if (law.lever == Lever::contactPoint) return a - overlap * other / (a + other);
+/// An arm of a disk of radius a that touches one of radius `other` [m]: law.lever is that of f_t,
+/// law.velocityLever that of the spin in v_t.
+template <class Real>
+GRAIN_INLINE Real armOf(Lever lever, Real a, Real other, Real overlap) {
+  if (lever == Lever::radius) return a;
+  if (lever == Lever::contactPoint) return a - overlap * other / (a + other);
   return a - Real(0.5) * overlap;
+}
+
+/// The same on a plane, its centre `height` above it.
+template <class Real>
+GRAIN_INLINE Real planeArmOf(Lever lever, PlaneLever plane, Real a, Real height) {
+  if (lever == Lever::radius || plane == PlaneLever::radius) return a;
+  return plane == PlaneLever::middle ? Real(0.5) * (a + height) : height;
+}
+
+/// How far from the centre the point is where a force acts on the plane: on its surface unless the
+/// law has its contact point in the overlap.
+template <class L, class Real>
+GRAIN_INLINE Real planePoint(const L& law, Real a, Real height) {
+  const bool inside = law.lever != Lever::radius && law.planeLever == PlaneLever::middle;
+  return inside ? Real(0.5) * (a + height) : height;
 }
 
 /// Spring with or without dashpot: f* = −k_t ξ − γ_t v_t; where |f*| is within the bound f_t = f*

@@ -93,19 +93,20 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
     if (seesCompliances(law)) motion.normalCompliance = complianceTime(law) * b.inverseMass[p];
-    Real leverI = 0, leverJ = 0;
+    Real leverI = 0, leverJ = 0, armI = 0, armJ = 0;  // of the force, of the velocity
     if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
     if (law.rotation) {
-      leverI = leverArm(law, b.radiusI[p], b.radiusJ[p], motion.overlap);
-      leverJ = leverArm(law, b.radiusJ[p], b.radiusI[p], motion.overlap);
-      motion.tangentialVelocity -= leverI * b.spinI[p] + leverJ * b.spinJ[p];
+      leverI = armOf(law.lever, b.radiusI[p], b.radiusJ[p], motion.overlap);
+      leverJ = armOf(law.lever, b.radiusJ[p], b.radiusI[p], motion.overlap);
+      armI = armOf(law.velocityLever, b.radiusI[p], b.radiusJ[p], motion.overlap);
+      armJ = armOf(law.velocityLever, b.radiusJ[p], b.radiusI[p], motion.overlap);
+      motion.tangentialVelocity -= armI * b.spinI[p] + armJ * b.spinJ[p];
     }
     if (seesCompliances(law)) {
       motion.tangentialCompliance = motion.normalCompliance;
       if (law.rotation)
-        motion.tangentialCompliance +=
-            complianceTime(law) *
-            (leverI * leverI * b.inverseInertiaI[p] + leverJ * leverJ * b.inverseInertiaJ[p]);
+        motion.tangentialCompliance += complianceTime(law) * (armI * leverI * b.inverseInertiaI[p] +
+                                                              armJ * leverJ * b.inverseInertiaJ[p]);
     }
 
     Real spring = history ? b.spring[p] : Real(0);

@@ -34,6 +34,8 @@ void add(Fnv1a& to, const Law& law) {
             static_cast<int>(law.bound), law.cutTension, law.dashpotOutsideBound,
             law.resetSpringOnly, static_cast<int>(law.lever), static_cast<int>(law.stretch),
             static_cast<int>(law.damping));
+  to.addAll(static_cast<int>(law.velocityLever.value_or(law.lever)),
+            static_cast<int>(law.planeLever));
 }
 
 void add(Fnv1a& to, const Wall& wall) {

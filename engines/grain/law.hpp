@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engines/grain/real.hpp"
 
 namespace grain {
@@ -33,6 +35,8 @@ enum class Lever {
   contactPoint,
   overlapMiddle
 };  ///< a_i, a_i − δ a_j/(a_i + a_j), a_i − δ/2
+/// What an arm is at a plane unless it is the radius: a_i − δ, a_i − δ/2, a_i.
+enum class PlaneLever { surface, middle, radius };
 enum class Damping { lagged, predicted, implicit };
 enum class Stretch { after, before, midpoint };  ///< when ξ += v_t dt, relative to the force
 enum class Integrator { positionVerlet, velocityVerlet, semiImplicitEuler };
@@ -40,7 +44,8 @@ enum class Integrator { positionVerlet, velocityVerlet, semiImplicitEuler };
 /// The contact law and its conventions.
 ///
 /// n points from j to i, s = z × n, overlap δ = a_i + a_j − |x_i − x_j|;
-/// v_n = (v_i − v_j)·n, v_t = (v_i − v_j)·s − (l_i ω_i + l_j ω_j); the force on i is f_n n + f_t s.
+/// v_n = (v_i − v_j)·n, v_t = (v_i − v_j)·s − (c_i ω_i + c_j ω_j); the force on i is f_n n + f_t s,
+/// its torque −l_i f_t.
 struct Law {
   double kn = 0.0;   ///< [N/m] or as `normal` says
   double kn3 = 0.0;  ///< k_n3 of a polynomial [N/m³]
@@ -58,7 +63,9 @@ struct Law {
   bool cutTension = false;
   bool dashpotOutsideBound = false;  ///< hold only the spring's force against the bound
   bool resetSpringOnly = false;  ///< on slip spring and dashpot, not the spring, carry the bound
-  Lever lever = Lever::radius;
+  Lever lever = Lever::radius;   ///< l
+  std::optional<Lever> velocityLever;  ///< c, if it is another one
+  PlaneLever planeLever = PlaneLever::surface;
   Stretch stretch = Stretch::after;
   Damping damping = Damping::predicted;
 
@@ -76,9 +83,10 @@ struct ContactMotion {
   Real normalVelocity;      ///< v_n [m/s]
   Real tangentialVelocity;  ///< v_t [m/s]
   Real normalCompliance;  ///< dt/2 · (1/m_i + 1/m_j); read by implicit damping and impulses [s/kg]
-  Real tangentialCompliance;  ///< dt/2 · (1/m_i + 1/m_j + l_i²/J_i + l_j²/J_j), likewise [s/kg]
-  Real radius = 0;            ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
-  Real mass = 0;              ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]
+  /// dt/2 · (1/m_i + 1/m_j + c_i l_i/J_i + c_j l_j/J_j), likewise [s/kg]
+  Real tangentialCompliance;
+  Real radius = 0;  ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
+  Real mass = 0;    ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]
 };
 
 template <class Real>

@@ -21,7 +21,8 @@ struct GeneralLaw : LawConstants<Real> {
   History history;
   Tangential tangential;
   Bound bound;
-  Lever lever;
+  Lever lever, velocityLever;
+  PlaneLever planeLever;
   Stretch stretch;
   bool cutTension, normalDamping, implicitDamping, dashpotOutsideBound, resetSpringOnly, rotation;
 };
@@ -39,6 +40,8 @@ struct EffectsLaw : LawConstants<Real> {
   static constexpr History history = History::displacement;
   static constexpr Bound bound = Bound::compression;
   static constexpr Lever lever = Lever::radius;
+  static constexpr Lever velocityLever = Lever::radius;
+  static constexpr PlaneLever planeLever = PlaneLever::surface;
   static constexpr Stretch stretch = Stretch::after;
   static constexpr bool implicitDamping = false;
   static constexpr bool dashpotOutsideBound = false;
@@ -52,8 +55,9 @@ template <class Real>
 bool hasThesisConventions(const GeneralLaw<Real>& law) {
   return law.normal == Normal::linear && law.damper == Damper::constant &&
          law.history == History::displacement && law.bound == Bound::compression &&
-         law.lever == Lever::radius && law.stretch == Stretch::after && !law.implicitDamping &&
-         !law.dashpotOutsideBound && !law.resetSpringOnly;
+         law.lever == Lever::radius && law.velocityLever == Lever::radius &&
+         law.stretch == Stretch::after && !law.implicitDamping && !law.dashpotOutsideBound &&
+         !law.resetSpringOnly;
 }
 
 /// Whether a law asks for the compliances of ContactMotion.
@@ -94,6 +98,8 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.tangential = law.friction() ? law.tangential : Tangential::none;
   to.bound = law.bound;
   to.lever = law.lever;
+  to.velocityLever = law.velocityLever.value_or(law.lever);
+  to.planeLever = law.planeLever;
   to.stretch = law.stretch;
   to.cutTension = law.cutTension;
   to.normalDamping = law.gn > 0.0 || law.normal == Normal::impulse;  // both look at v_n

@@ -77,6 +77,8 @@ class LedgerSums {
   void workOfWall(const TwoParts& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
   /// Powers [W] of forces that are no spring's, > 0 to the disks: their opposites are losses.
   void lose(double EnergyLedger::*term, const TwoParts& power) { add(term, power, -1.0); }
+  /// Powers [W] that a convention gives the disks.
+  void gain(const TwoParts& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
   /// One spring, in ascending (i, j). @param power  of the spring on the disks [W]
   void spring(SpringAccount now, const TwoParts& power);
   /// After the last spring: those of contacts that are no more.

@@ -144,10 +144,10 @@ WallLoad Core<Real>::wallLoad(std::size_t w) const {
     const double forceY = contact.normalForce * contact.ny + contact.tangentialForce * contact.nx;
     double armX, armY;
     if (plane) {
-      const double height =
-          static_cast<double>(radius_[static_cast<std::size_t>(placeOf_[i])]) - contact.overlap;
-      armX = x(i) - height * contact.nx - wall.x;
-      armY = y(i) - height * contact.ny - wall.y;
+      const double own = ownRadius(contact);
+      const double reach = planePoint(law_, own, own - contact.overlap);
+      armX = x(i) - reach * contact.nx - wall.x;
+      armY = y(i) - reach * contact.ny - wall.y;
     } else {
       const WallPoint centre = wallDisk(j);
       armX = centre.x - wall.x;
@@ -155,7 +155,7 @@ WallLoad Core<Real>::wallLoad(std::size_t w) const {
       if (law_.rotation) {
         const auto radius = static_cast<double>(radius_[j]);
         const auto other = static_cast<double>(radius_[static_cast<std::size_t>(placeOf_[i])]);
-        load.torque -= leverArm(law_, radius, other, contact.overlap) * contact.tangentialForce;
+        load.torque -= armOf(law_.lever, radius, other, contact.overlap) * contact.tangentialForce;
       }
     }
     load.fx -= forceX;

@@ -24,25 +24,26 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     Real spring = plane.spring == nullptr ? Real(0) : plane.spring[i];
     ContactForce<Real> force{Real(0), Real(0), Real(0)};
     if (overlap > Real(0)) {
-      const Real armX = static_cast<Real>(plane.x) + dx - height * plane.nx - plane.centreX;
-      const Real armY = static_cast<Real>(plane.y) + dy - height * plane.ny - plane.centreY;
+      const Real reach = planePoint(law, disks.radius[i], height);
+      const Real armX = static_cast<Real>(plane.x) + dx - reach * plane.nx - plane.centreX;
+      const Real armY = static_cast<Real>(plane.y) + dy - reach * plane.ny - plane.centreY;
       const Real vx = disks.velocity[i].x - (plane.vx - plane.spin * armY);
       const Real vy = disks.velocity[i].y - (plane.vy + plane.spin * armX);
-      // The plane does not yield, so the contact point lies on it: a disk of infinite radius.
-      const Real lever = law.lever == Lever::radius ? disks.radius[i] : height;
+      const Real lever = planeArmOf(law.lever, law.planeLever, disks.radius[i], height);
+      const Real arm = planeArmOf(law.velocityLever, law.planeLever, disks.radius[i], height);
       ContactMotion<Real> motion{};
       motion.overlap = overlap;
       motion.normalVelocity = vx * plane.nx + vy * plane.ny;
       motion.tangentialVelocity = vy * plane.nx - vx * plane.ny;
       motion.radius = disks.radius[i];
       if (law.damper == Damper::critical) motion.mass = Real(1) / disks.inverseMass[i];
-      if (law.rotation) motion.tangentialVelocity -= lever * disks.spin[i];
+      if (law.rotation) motion.tangentialVelocity -= arm * disks.spin[i];
       if (seesCompliances(law)) {
         motion.normalCompliance = complianceTime(law) * disks.inverseMass[i];
         motion.tangentialCompliance = motion.normalCompliance;
         if (law.rotation)
           motion.tangentialCompliance +=
-              complianceTime(law) * lever * lever * disks.inverseInertia[i];
+              complianceTime(law) * arm * lever * disks.inverseInertia[i];
       }
       force = contactForce(law, motion, spring);
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;

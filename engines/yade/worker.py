@@ -63,6 +63,8 @@ class Yade:
                 "spring_reset": ["total"],
                 "spring_update": ["before"],
                 "lever_arm": ["overlap_middle"],
+                "velocity_arm": ["lever_arm"],
+                "plane_arm": ["surface"],
                 "history": ["force"],
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],

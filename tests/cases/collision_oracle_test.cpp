@@ -140,6 +140,7 @@ struct Convention {
   LeverArm lever;
   double order;      ///< that the in-house engine is to show between t_c/500 and t_c/2000
   double tolerance;  ///< of Ψ_f at t_c/2000
+  VelocityArm velocity = VelocityArm::leverArm;
 };
 
 class WholeCurve : public testing::TestWithParam<std::tuple<Convention, Tension>> {};
@@ -150,6 +151,7 @@ TEST_P(WholeCurve, TheInHouseEngineConvergesToTheOracle) {
   setup.law.tangential = how.tangential;
   setup.law.conventions.springUpdate = how.update;
   setup.law.conventions.leverArm = how.lever;
+  setup.law.conventions.velocityArm = how.velocity;
   setup.law.conventions.tension = tension;
   std::vector<CollisionStart> starts;
   for (int k = 0; k <= 40; ++k) starts.push_back({0.1 * k, 0.1});
@@ -187,6 +189,12 @@ INSTANTIATE_TEST_SUITE_P(
             Convention{TangentialLaw::spring, SpringUpdate::midpoint, LeverArm::radius, 1.7, 5e-6},
             Convention{TangentialLaw::spring, SpringUpdate::midpoint, LeverArm::contactPoint, 1.7,
                        5e-6},
+            Convention{TangentialLaw::viscous, SpringUpdate::after, LeverArm::overlapMiddle, 1.8,
+                       1e-6, VelocityArm::radius},
+            Convention{TangentialLaw::spring, SpringUpdate::midpoint, LeverArm::overlapMiddle, 1.7,
+                       5e-6, VelocityArm::radius},
+            Convention{TangentialLaw::spring, SpringUpdate::midpoint, LeverArm::radius, 1.7, 5e-6,
+                       VelocityArm::contactPoint},
             Convention{TangentialLaw::springDashpot, SpringUpdate::after, LeverArm::radius, 0.3,
                        1e-3}),
         testing::Values(Tension::allow, Tension::cut)));

@@ -220,15 +220,19 @@ TEST_P(Conformance, FreeFlightRemembersNothing) {
 /// nothing. With the radii as arms dL/dt = −δ f_t (Lätzel 2003, chapter 4), which the contacts that
 /// the engine shows must account for.
 TEST_P(Conformance, AngularMomentumIsKept) {
-  std::vector<ContactLaw> laws;
-  if (const auto arms = can_.lawOptions.find("lever_arm");
-      arms != can_.lawOptions.end() && !rigid())
-    for (const std::string& arm : arms->second) {
-      laws.push_back(law());
-      setLawOption(laws.back(), "lever_arm", arm);
-    }
-  else
-    laws.push_back(law());
+  // Whatever arm v_t takes: it is no part of the balance.
+  std::vector<ContactLaw> laws = {law()};
+  for (const char* option : {"lever_arm", "velocity_arm"}) {
+    const auto arms = can_.lawOptions.find(option);
+    if (arms == can_.lawOptions.end() || rigid()) continue;
+    std::vector<ContactLaw> more;
+    for (const std::string& arm : arms->second)
+      for (const ContactLaw& each : laws) {
+        more.push_back(each);
+        setLawOption(more.back(), option, arm);
+      }
+    laws = std::move(more);
+  }
   for (const ContactLaw& each : laws) {
     const Scene scene = encounterScene(crookedEncounter(), each, coarse);
     if (const auto why = refused(scene)) GTEST_SKIP() << *why;
@@ -244,7 +248,8 @@ TEST_P(Conformance, AngularMomentumIsKept) {
     const Tolerance moved = {Encounter::speed * realised_.dt / radius * unit, 0.0,
                              "a rigid engine moves disks apart that overlap after a step"};
     EXPECT_TRUE(close(angularMomentum(scene, seen.back()), expected, rigid() ? moved : sum))
-        << "lever_arm = " << lawOptionValue(each, "lever_arm");
+        << "lever_arm = " << lawOptionValue(each, "lever_arm")
+        << ", velocity_arm = " << lawOptionValue(each, "velocity_arm");
   }
 }
 

@@ -24,7 +24,6 @@ std::span<const ExpectedSkip> expectedSkips() {
                    "its peer has another normal law"},
       ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerThroughAHeap",
                    "solves no contacts together"},
-      ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerOnAPlane", "has arms to a plane"},
   };
   return table;
 }

@@ -100,7 +100,6 @@ TEST_P(MirrorConformance, FollowsItsPeerThroughAHeap) {
 }
 
 TEST_P(MirrorConformance, FollowsItsPeerOnAPlane) {
-  if (rigid()) GTEST_SKIP() << "has arms to a plane, its peer to the middle of the overlap";
   if (const auto why = refusedByEither(landingScene(fullLaw(), 50.0))) GTEST_SKIP() << *why;
   compareVelocities();
 }

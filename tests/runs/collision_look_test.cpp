@@ -14,10 +14,11 @@ namespace {
 using namespace crossgrain;
 using nlohmann::json;
 
-Case sweepCase(LeverArm arm = LeverArm::radius) {
+Case sweepCase(LeverArm arm = LeverArm::radius, VelocityArm ofVelocity = VelocityArm::leverArm) {
   Case setup = test::smallPairCase();
   setup.law.conventions.springUpdate = SpringUpdate::before;
   setup.law.conventions.leverArm = arm;
+  setup.law.conventions.velocityArm = ofVelocity;
   setup.collision.psi = {0.0, 0.5, 1.0, 1.5, 2.5, 4.0};
   setup.collision.vn = {0.01};
   setup.run.mayDiffer = {"integrator", "damping_velocity"};
@@ -77,6 +78,19 @@ TEST(Looking, WorkIsWhatTheMotionLost) {
             1e-8);
       }
     }
+}
+
+/// So it is where the law sees another velocity than its force works on: the account is of forces.
+TEST(Looking, WorkIsWhatTheMotionLostAlsoWithTwoArms) {
+  const Case setup = sweepCase(LeverArm::overlapMiddle, VelocityArm::radius);
+  const json points = swept(setup, grain(), 50.0, true)["points"];
+  for (std::size_t k = 0; k < points["psi_i"].size(); ++k) {
+    const auto value = [&](const char* column) { return points[column][k].get<double>(); };
+    const double before = value("energy_before");
+    EXPECT_NEAR((before - value("energy_after")) / before,
+                (value("lost_normal_damping") + value("lost_tangential")) / before, 1e-8)
+        << k;
+  }
 }
 
 /// Parts of the energy err by at most a quarter of dt/t_c, each of them: first order, with the

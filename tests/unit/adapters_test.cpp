@@ -171,8 +171,17 @@ TEST(GrainAdapter, ThreadsAreAWholeNumberAndChangeNoBit) {
 TEST(LawOptions, OptionsThatHaveNoBearingOnALawDoNotMatter) {
   ContactLaw law = oneDisk().law;
   EXPECT_TRUE(mattersTo(law, "lever_arm"));
+  EXPECT_FALSE(mattersTo(law, "velocity_arm")) << "it is that of f_t";
+  EXPECT_FALSE(mattersTo(law, "plane_arm")) << "the radius is the radius at a plane too";
+  law.conventions.velocityArm = VelocityArm::radius;
+  EXPECT_FALSE(mattersTo(law, "velocity_arm")) << "it is still that of f_t";
+  law.conventions.leverArm = LeverArm::overlapMiddle;
+  EXPECT_TRUE(mattersTo(law, "velocity_arm"));
+  EXPECT_TRUE(mattersTo(law, "plane_arm"));
+  EXPECT_EQ(law.conventions.armOfVelocity(), LeverArm::radius);
   law.tangential = TangentialLaw::none;
   EXPECT_FALSE(mattersTo(law, "lever_arm"));
+  EXPECT_FALSE(mattersTo(law, "velocity_arm"));
   EXPECT_FALSE(mattersTo(law, "dashpot"));
   EXPECT_TRUE(mattersTo(law, "tension"));
   law.gn = 0.0;
@@ -211,6 +220,8 @@ TEST(LawOptions, TheInHouseEngineListsValuesInTheSameOrder) {
   EXPECT_TRUE(same(SpringUpdate::midpoint, grain::Stretch::midpoint));
   EXPECT_TRUE(same(LeverArm::contactPoint, grain::Lever::contactPoint));
   EXPECT_TRUE(same(LeverArm::overlapMiddle, grain::Lever::overlapMiddle));
+  EXPECT_TRUE(same(PlaneArm::middle, grain::PlaneLever::middle));
+  EXPECT_TRUE(same(PlaneArm::radius, grain::PlaneLever::radius));
   EXPECT_TRUE(same(Integrator::velocityVerlet, grain::Integrator::velocityVerlet));
   EXPECT_TRUE(same(Integrator::semiImplicitEuler, grain::Integrator::semiImplicitEuler));
 }

@@ -113,9 +113,11 @@ RC_GTEST_PROP(AnyLaw, KeepsMomentum, ()) {
 }
 
 RC_GTEST_PROP(AnyLaw, KeepsAngularMomentumWhereTheArmsMeet, ()) {
-  // l_i + l_j = |x_i − x_j|, and the disks turn; or no force along s.
+  // l_i + l_j = |x_i − x_j|, and the disks turn; or no force along s. The arms in v_t are no
+  // matter.
   grain::Setup setup = anyCollision();
   setup.rotation = true;
+  setup.law.velocityLever = oneOf({Lever::radius, Lever::contactPoint, Lever::overlapMiddle});
   if (setup.law.lever == Lever::radius) setup.law.tangential = Tangential::none;
   Simulation simulation(setup);
   const Totals before = totals(simulation, setup.disks);

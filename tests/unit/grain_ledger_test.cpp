@@ -119,6 +119,13 @@ constexpr LawCase laws[] = {
        law.lever = Lever::contactPoint;
      },
      0.3, 5.0},
+    {"armsApart",
+     [](Law& law) {
+       law.stretch = Stretch::midpoint;
+       law.lever = Lever::overlapMiddle;
+       law.velocityLever = Lever::radius;
+     },
+     0.3, 5.0},
     {"hertz", hertz, 0.05, 5.0},
     {"mindlinForce",
      [](Law& law) {

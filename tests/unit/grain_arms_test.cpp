@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/grain_scenes.hpp"
+
+// The arm of f_t and the arm of the spins in v_t, each by itself: one step by hand.
+
+namespace {
+
+using namespace grain;
+
+constexpr double dt = 1e-6, overlap = 2e-4, gt = 0.15;
+constexpr double radiusI = test::radius, radiusJ = 4.495e-3;
+constexpr double spinI = 7.0, spinJ = -3.0;
+
+double arm(Lever lever, double a, double other) {
+  if (lever == Lever::radius) return a;
+  return lever == Lever::contactPoint ? a - overlap * other / (a + other) : a - 0.5 * overlap;
+}
+
+/// f_t = −γ_t v_t, out of reach of its bound, under Euler's scheme: what a force does in one step
+/// is F dt, and the law sees the velocities that the disks start with.
+grain::Setup viscous(Lever lever, std::optional<Lever> velocityLever, PlaneLever plane) {
+  grain::Setup setup;
+  setup.law.kn = 352.1;
+  setup.law.tangential = Tangential::viscous;
+  setup.law.gt = gt;
+  setup.law.mu = 1e6;
+  setup.law.lever = lever;
+  setup.law.velocityLever = velocityLever;
+  setup.law.planeLever = plane;
+  setup.law.damping = Damping::lagged;
+  setup.integrator = Integrator::semiImplicitEuler;
+  setup.dt = dt;
+  return setup;
+}
+
+constexpr Lever levers[] = {Lever::radius, Lever::contactPoint, Lever::overlapMiddle};
+
+/// Disk 0 to the right of disk 1: n = (1, 0), s = (0, 1). With resting centres
+///   v_t = −(c_i ω_i + c_j ω_j), f_t = γ_t (c_i ω_i + c_j ω_j), J dω/dt = −l f_t, and
+///   dL/dt = (|x_i − x_j| − l_i − l_j) f_t: 0, or −δ f_t with the radii as l.
+TEST(GrainArms, TorqueAndVelocityHaveEachTheirOwn) {
+  for (const Lever lever : levers)
+    for (const Lever velocity : levers) {
+      grain::Setup setup = viscous(lever, velocity, PlaneLever::surface);
+      const double distance = radiusI + radiusJ - overlap;
+      test::addDisk(setup.disks, distance, 0.0, 0.0, 0.0, spinI);
+      test::addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, spinJ);
+      setup.disks.radius[1] = radiusJ;
+      const std::vector<double> mass = setup.disks.mass, inertia = setup.disks.inertia;
+      Simulation simulation(std::move(setup));
+
+      const double cI = arm(velocity, radiusI, radiusJ), cJ = arm(velocity, radiusJ, radiusI);
+      const double lI = arm(lever, radiusI, radiusJ), lJ = arm(lever, radiusJ, radiusI);
+      const double force = gt * (cI * spinI + cJ * spinJ);
+      ASSERT_EQ(simulation.contacts().size(), 1u);
+      EXPECT_NEAR(simulation.contacts()[0].tangentialForce, force, 1e-12 * force);
+
+      const auto angularMomentum = [&] {
+        double sum = 0.0;
+        for (const std::size_t k : {0u, 1u})
+          sum += mass[k] * (simulation.x(k) * simulation.velocityY(k) -
+                            simulation.y(k) * simulation.velocityX(k)) +
+                 inertia[k] * simulation.spin(k);
+        return sum;
+      };
+      const double before = angularMomentum();
+      simulation.step();
+      EXPECT_NEAR(simulation.spin(0) - spinI, -dt * lI * force / inertia[0], 1e-14);
+      EXPECT_NEAR(simulation.spin(1) - spinJ, -dt * lJ * force / inertia[1], 1e-14);
+      EXPECT_NEAR(angularMomentum() - before, dt * (distance - lI - lJ) * force,
+                  1e-12 * std::abs(before));
+      const double drift = lever == Lever::radius ? -overlap * force : 0.0;
+      EXPECT_NEAR(dt * (distance - lI - lJ) * force, dt * drift, 1e-15 * dt * radiusI);
+    }
+}
+
+TEST(GrainArms, VelocityTakesThatOfTheForceUnlessItHasItsOwn) {
+  for (const Lever lever : levers) {
+    const auto forceOf = [&](std::optional<Lever> velocity) {
+      grain::Setup setup = viscous(lever, velocity, PlaneLever::surface);
+      test::addDisk(setup.disks, radiusI + radiusI - overlap, 0.0, 0.0, 0.0, spinI);
+      test::addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, spinJ);
+      return Simulation(std::move(setup)).contacts()[0].tangentialForce;
+    };
+    EXPECT_EQ(forceOf({}), forceOf(lever));
+  }
+}
+
+/// On the plane x = 0 the arms are a, a − δ or a − δ/2; f_t acts on the wall at the contact point.
+TEST(GrainArms, OnAPlane) {
+  const auto planeArm = [](Lever lever, PlaneLever plane) {
+    if (lever == Lever::radius || plane == PlaneLever::radius) return radiusI;
+    return plane == PlaneLever::middle ? radiusI - 0.5 * overlap : radiusI - overlap;
+  };
+  for (const PlaneLever plane : {PlaneLever::surface, PlaneLever::middle, PlaneLever::radius})
+    for (const Lever lever : levers)
+      for (const Lever velocity : levers) {
+        grain::Setup setup = viscous(lever, velocity, plane);
+        test::addDisk(setup.disks, radiusI - overlap, 0.0, 0.0, 0.0, spinI);
+        grain::Wall wall;
+        wall.planes = {{0.0, 0.0, 1.0, 0.0}};
+        wall.moves = false;
+        wall.motion = [](double) { return WallState{}; };
+        setup.walls.push_back(std::move(wall));
+        const double inertia = setup.disks.inertia[0];
+        Simulation simulation(std::move(setup));
+        const double force = gt * planeArm(velocity, plane) * spinI;
+        ASSERT_EQ(simulation.contacts().size(), 1u);
+        EXPECT_NEAR(simulation.contacts()[0].tangentialForce, force, 1e-12 * force);
+        // About the origin: f_t acts along y at the distance that x has there.
+        const bool inside = lever != Lever::radius && plane == PlaneLever::middle;
+        EXPECT_NEAR(simulation.wallLoad(0).torque, -(inside ? -0.5 * overlap : 0.0) * force,
+                    1e-12 * radiusI * force);
+        simulation.step();
+        EXPECT_NEAR(simulation.spin(0) - spinI, -dt * planeArm(lever, plane) * force / inertia,
+                    1e-14);
+      }
+}
+
+}  // namespace
