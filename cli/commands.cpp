@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "adapters/registry.hpp"
-#include "adapters/suitability.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
 #include "cases/assembly_scene.hpp"
@@ -20,6 +19,7 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "reports/report.hpp"
+#include "runs/check_lines.hpp"
 #include "runs/collide.hpp"
 #include "runs/collision_folder.hpp"
 #include "runs/collision_sweep.hpp"
@@ -104,26 +104,23 @@ int listEngines(const CommandLine& line) {
 
 namespace {
 
-/// The scene of a case as far as `check` needs it: all disks are there, but not yet in their
-/// places.
+/// The scene of a case as far as `check` needs it: all disks are there, but not yet where a packing
+/// will have them.
 Scene unplacedScene(const Case& setup) {
   if (setup.kind == CaseKind::collision)
     return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
   if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
   Packing unplaced;
-  unplaced.disks = diskKinds(setup.particles);
+  unplaced.disks = spreadDisks(setup);
   return couetteScene(setup, unplaced, timeStep(setup));
 }
 
 void printSuitability(const EngineEntry& entry, const Case& setup, const Scene& scene,
                       const fs::path& scratch) {
   const auto engine = startEngine(entry, scratch, setup.run.timeout);
-  const Capabilities can = engine->capabilities();
-  settingsFor(setup, entry.name, can);
-  const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
-  fmt::print("  {:<16} can run it\n", entry.name);
-  for (const Deviation& deviation : adapted.deviations)
-    fmt::print("    differs: {}\n", deviation.note);
+  const std::vector<std::string> lines = checkLines(*engine, entry, setup, scene);
+  fmt::print("  {:<16} {}\n", entry.name, lines.front());
+  for (std::size_t k = 1; k < lines.size(); ++k) fmt::print("    {}\n", lines[k]);
 }
 
 }  // namespace
