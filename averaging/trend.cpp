@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t fewestSamples = 12;  ///< degrees 0 … 9 and some to spare
 constexpr double tausPerMode = 16.0;
 constexpr double fewestModes = 3.0, mostModes = 8.0;
+constexpr int lastBend = 3;          ///< highest degree of what may belong to a drift
+constexpr double steepEnough = 4.0;  ///< intervals beside bends that an unresolved drift exceeds
 
 /// Orthonormal polynomials over N equidistant points, one after the other: x p_k less its part
 /// along p_(k−1), for the points lie evenly about 0.
@@ -61,7 +63,7 @@ Trend estimateTrend(std::span<const double> series) {
 
   if (const auto [low, high] = std::ranges::minmax(series); low == high) {
     // Nothing but rounding would be left to tell a line from.
-    result.standardError = 0.0;
+    result.standardError = result.errorBesideBends = 0.0;
     result.dof = fewestModes;
     result.resolved = true;
     return result;
@@ -79,12 +81,16 @@ Trend estimateTrend(std::span<const double> series) {
   const double tau = estimateMean(rest).tau;
   result.resolved = n >= tausPerMode * tau;
   result.dof = std::clamp(std::floor(n / (tausPerMode * tau)), fewestModes, mostModes);
-  double square = 0.0;
-  for (double k = 0.0; k < result.dof; k += 1.0) {
+  double scatter = 0.0, besideBends = 0.0;
+  for (int k = 0; k < static_cast<int>(mostModes); ++k) {
     const double coefficient = product(polynomials.next(), rest);
-    square += coefficient * coefficient / result.dof;
+    const int degree = k + 2;
+    if (k < static_cast<int>(result.dof)) scatter += coefficient * coefficient / result.dof;
+    if (degree > lastBend && degree <= lastBend + static_cast<int>(fewestModes))
+      besideBends += coefficient * coefficient / fewestModes;
   }
-  result.standardError = span * std::sqrt(square);
+  result.standardError = span * std::sqrt(scatter);
+  result.errorBesideBends = span * std::sqrt(besideBends);
   return result;
 }
 
@@ -109,6 +115,10 @@ RelativeDrift relativeDrift(std::span<const double> series, double confidence, d
   const double scale = std::abs(trend.mean);
   result.change = trend.change / scale;
   result.half = quantile * *trend.standardError / scale;
+  if (!trend.resolved) {
+    const double beside = studentQuantile(confidence, fewestModes) * *trend.errorBesideBends;
+    result.half = std::min(*result.half, steepEnough * beside / scale);
+  }
   result.excluded = std::abs(*result.change) + *result.half;
   if (std::abs(*result.change) > *result.half)
     result.verdict = Drift::drifts;

@@ -11,6 +11,9 @@ struct Trend {
   double change = 0.0;                  ///< of the line, from the first sample's to the last one's
   std::optional<double> standardError;  ///< of change; absent with fewer than 12 samples
   double dof = 0.0;                     ///< degrees of freedom of that error, for Student's t
+  /// Likewise, of 3 degrees of freedom, if bends of up to the third degree belong to the change and
+  /// not to the scatter: of a fall to nothing, say, which is no line.
+  std::optional<double> errorBesideBends;
   bool resolved = false;  ///< the series spans at least 16 of its correlation times about the line
 };
 
@@ -21,8 +24,8 @@ struct Trend {
 /// of each other and scatter as it does: by the spectral density at frequency 0. So their mean
 /// square is the square of its error, with Student's t of K degrees of freedom (the trend test with
 /// an orthonormal series estimate of the variance: Bunzel & Vogelsang 2005; Phillips 2005; Sun
-/// 2011). K is that of estimateMean() for what the line leaves. A bend of the series counts as
-/// scatter and widens the bar.
+/// 2011). K is the series' length over 16 of its correlation times about the line, 3 to 8. A bend
+/// of the series counts as scatter and widens the bar.
 /// @pre series is not empty
 Trend estimateTrend(std::span<const double> series);
 
@@ -39,6 +42,11 @@ struct RelativeDrift {
   std::optional<double> excluded;  ///< |change| up to this is not excluded: |change| + half
 };
 
+/// Where the series is not resolved, a bend may be slow noise or the drift itself. Then the
+/// interval is four times that beside bends, if that is the narrower one: it is left by few lines
+/// through noise that is correlated over a fifth of the series, and by six in seven noisy falls to
+/// a twentieth, which bend so much that no line's error shows them.
+///
 /// - drifts: the interval of the change leaves out 0.
 /// - not seen: it holds 0, the series is resolved, and a change larger than `limit` is excluded.
 /// - cannot tell: neither.
