@@ -41,7 +41,10 @@ box2d_granular::Wall box2dWall(const WallBody& body) {
 }  // namespace
 
 std::string box2dVersion() {
-  return fmt::format("{}.{}.{}", b2_version.major, b2_version.minor, b2_version.revision);
+  const std::string installed = CROSSGRAIN_BOX2D_VERSION;
+  const std::string says =
+      fmt::format("{}.{}.{}", b2_version.major, b2_version.minor, b2_version.revision);
+  return says == installed ? installed : fmt::format("{}, b2_version {}", installed, says);
 }
 
 SettingSpec lengthUnitSetting() {

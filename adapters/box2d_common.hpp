@@ -11,7 +11,8 @@ namespace crossgrain {
 
 /// What both Box2D engines share: the scene in the words of engines/box2d.
 
-/// The version of the library that runs, e.g. "2.4.1".
+/// The version that its CMake package has, and what the library that runs says of itself where that
+/// is another one: 2.4.1 was released with a b2_version of 2.4.0.
 std::string box2dVersion();
 
 /// Both engines' setting for Box2D's unit of length.

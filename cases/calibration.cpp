@@ -55,6 +55,13 @@ double phaseWithoutTension(double en) {
   throw std::runtime_error(fmt::format("e_n = {}: the root search did not come to an end", en));
 }
 
+/// φ = ω t_c. @throws std::invalid_argument for an e_n that no such law has
+double contactPhase(const ContactLaw& law, double en) {
+  if (!(en > 0.0 && en <= 1.0))
+    throw std::invalid_argument(fmt::format("e_n = {}: must be > 0 and <= 1", en));
+  return law.conventions.tension == Tension::cut ? phaseWithoutTension(en) : pi;
+}
+
 /// Friction without a spring counts as a spring of 0; Coulomb's law without slip stops v_t at once.
 double restitutionWithoutSlip(const ContactLaw& law, const ReducedPair& pair, double time) {
   if (law.tangential == TangentialLaw::coulomb) return 0.0;
@@ -71,13 +78,17 @@ ReducedPair reduced(const CollidingPair& pair) {
 }
 
 void calibrateNormal(ContactLaw& law, double en, double contactTime, double reducedMass) {
-  if (!(en > 0.0 && en <= 1.0))
-    throw std::invalid_argument(fmt::format("e_n = {}: must be > 0 and <= 1", en));
-  const double phase = law.conventions.tension == Tension::cut ? phaseWithoutTension(en) : pi;
-  const double omega = phase / contactTime;
+  const double omega = contactPhase(law, en) / contactTime;
   const double eta = std::log(1.0 / en) / contactTime;
   law.kn = reducedMass * (omega * omega + eta * eta);
   law.gn = 2.0 * reducedMass * eta;
+}
+
+void calibrateDamping(ContactLaw& law, double en, double kn, double reducedMass) {
+  const double decay = std::log(1.0 / en);
+  const double time = std::hypot(contactPhase(law, en), decay) * std::sqrt(reducedMass / kn);
+  law.kn = kn;
+  law.gn = 2.0 * reducedMass * decay / time;
 }
 
 void calibrateTangential(ContactLaw& law, double et0, const ReducedPair& pair) {

@@ -34,6 +34,10 @@ ReducedPair reduced(const CollidingPair& pair);
 /// @throws std::invalid_argument unless 0 < e_n ≤ 1, or exp(−2) < e_n ≤ 1 where tension is cut
 void calibrateNormal(ContactLaw& law, double en, double contactTime, double reducedMass);
 
+/// The same from a wanted k_n [N/m] instead of t_c: t_c = √(m₁₂ (φ² + ln² e_n)/k_n), which is
+/// π/√(k_n/m₁₂ − (γ_n/2m₁₂)²) with tension.
+void calibrateDamping(ContactLaw& law, double en, double kn, double reducedMass);
+
 /// Sets k_t and γ_t of law.tangential, whose k_n and γ_n are set, so that a contact that never
 /// slips has v_t after = −e_t0 v_t before. e_t0 and t_s fix one number:
 ///   spring:        γ_t = 0, ω_t t_s = arccos(−e_t0)

@@ -1,15 +1,51 @@
 #include "cases/case_files.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <set>
 
 #include "cases/bad_input.hpp"
+#include "cases/loader_document.hpp"
+#include "cases/nearest.hpp"
 
 namespace crossgrain {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+std::string headOf(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  const auto text = line.find_first_not_of("# ");
+  return line.starts_with('#') && text != std::string::npos ? line.substr(text) : "";
+}
+
+}  // namespace
+
+std::vector<CaseSummary> casesBelow(const fs::path& folder) {
+  std::vector<CaseSummary> cases;
+  std::error_code noFolder;
+  for (fs::recursive_directory_iterator at(folder, noFolder), end; at != end;
+       at.increment(noFolder)) {
+    const fs::path& file = at->path();
+    if (file.extension() != ".toml") continue;
+    const toml::table header = readCaseDocuments(file, {}).front().root;
+    const auto kind = header.at_path("case.kind").value<std::string>();
+    if (!kind) continue;
+    cases.push_back(
+        {file, header.at_path("case.name").value_or(file.stem().string()), *kind, headOf(file)});
+  }
+  if (noFolder) throw BadInput(fmt::format("{}: {}", folder.string(), noFolder.message()));
+  if (cases.empty()) throw BadInput(folder.string() + ": there is no case file (*.toml) in it");
+  std::ranges::sort(cases, {}, &CaseSummary::file);
+  return cases;
+}
 
 std::vector<fs::path> caseFilesIn(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -18,6 +54,44 @@ std::vector<fs::path> caseFilesIn(const fs::path& folder) {
   if (files.empty()) throw BadInput(folder.string() + ": there is no case file (*.toml) in it");
   std::ranges::sort(files);
   return files;
+}
+
+namespace {
+
+std::string nameAndVariant(const Case& setup) {
+  return setup.variant.empty() ? setup.name : setup.name + "/" + setup.variant;
+}
+
+bool fits(const Case& setup, const std::string& pattern) {
+  const std::string whole = nameAndVariant(setup);
+  if (pattern.find_first_of("*?[") == std::string::npos)
+    return whole.find(pattern) != std::string::npos;
+  return ::fnmatch(pattern.c_str(), setup.name.c_str(), 0) == 0 ||
+         ::fnmatch(pattern.c_str(), whole.c_str(), 0) == 0;
+}
+
+bool isHeldAgainstFirst(const Case& setup) {
+  return setup.stability && setup.stability->measure == "copies_differ";
+}
+
+}  // namespace
+
+std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern) {
+  std::set<std::string> originals;
+  std::vector<std::string> names;
+  for (const Case& setup : cases) {
+    if (fits(setup, pattern) && isHeldAgainstFirst(setup)) originals.insert(setup.name);
+    if (std::ranges::find(names, setup.name) == names.end()) names.push_back(setup.name);
+  }
+  for (const Case& setup : cases)
+    if (!setup.variant.empty()) names.push_back(nameAndVariant(setup));
+  std::vector<Case> chosen;
+  for (const Case& setup : cases)
+    if (originals.erase(setup.name) > 0 || fits(setup, pattern)) chosen.push_back(setup);
+  if (chosen.empty())
+    throw BadInput(fmt::format("-k '{}': no case or variant has that in its name{}", pattern,
+                               suggestion(pattern, names)));
+  return chosen;
 }
 
 void requireOwnNames(const std::vector<Case>& cases) {

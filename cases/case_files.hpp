@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -9,6 +10,22 @@ namespace crossgrain {
 
 /// The case files (*.toml) of a folder, sorted. @throws BadInput if there is none
 std::vector<std::filesystem::path> caseFilesIn(const std::filesystem::path& folder);
+
+/// What a case file says of itself.
+struct CaseSummary {
+  std::filesystem::path file;
+  std::string name, kind;
+  std::string what;  ///< first line of the comment at its head
+};
+
+/// All cases of a folder and the folders in it, sorted by file. What has no kind is what cases
+/// extend, not a case. @throws BadInput if there is none, or one cannot be read
+std::vector<CaseSummary> casesBelow(const std::filesystem::path& folder);
+
+/// The cases whose NAME, or NAME/VARIANT, holds the pattern, or fits it where it has a * or ?. The
+/// first variant of a case stays where others are measured against it (copies_differ).
+/// @throws BadInput if there is none
+std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern);
 
 /// Reports tell cases by their names. @throws BadInput for a name that two files have
 void requireOwnNames(const std::vector<Case>& cases);

@@ -106,22 +106,23 @@ Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
   return packing;
 }
 
-std::filesystem::path packingCacheFile(const std::string& hash) {
+std::filesystem::path packingCache() {
   namespace fs = std::filesystem;
-  fs::path folder;
   const auto variable = [](const char* name) -> std::string {
     const char* value = std::getenv(name);
     return value ? value : "";
   };
   if (const std::string own = variable("CROSSGRAIN_CACHE"); !own.empty())
-    folder = own;
+    return own;
   else if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
-    folder = fs::path(cache) / "crossgrain";
+    return fs::path(cache) / "crossgrain";
   else if (const std::string home = variable("HOME"); !home.empty())
-    folder = fs::path(home) / ".cache" / "crossgrain";
-  else
-    folder = fs::temp_directory_path() / "crossgrain-cache";
-  return folder / ("packing-" + hash + ".h5");
+    return fs::path(home) / ".cache" / "crossgrain";
+  return fs::temp_directory_path() / "crossgrain-cache";
+}
+
+std::filesystem::path packingCacheFile(const std::string& hash) {
+  return packingCache() / ("packing-" + hash + ".h5");
 }
 
 Packing packingOf(const Case& setup, int index, double dt, Engine& engine,

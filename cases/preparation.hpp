@@ -16,7 +16,9 @@ namespace crossgrain {
 Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
                        const std::function<void(double)>& progress);
 
-/// Where a prepared packing is kept: CROSSGRAIN_CACHE, else the user's cache folder.
+/// The folder of prepared packings: CROSSGRAIN_CACHE, else the user's cache folder.
+std::filesystem::path packingCache();
+
 std::filesystem::path packingCacheFile(const std::string& hash);
 
 /// The packing from the user's file, the cache, or preparePacking() (then cached).

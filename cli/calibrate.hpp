@@ -5,11 +5,6 @@
 #include <vector>
 
 #include "cases/calibration.hpp"
-#include "cli/commands.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace crossgrain {
 
@@ -22,10 +17,6 @@ struct CalibrationRequest {
   std::optional<double> mu, vn;
   std::optional<std::string> tension, tangential;
 };
-
-void addCalibrationOptions(CLI::App& command, CommandLine& line, CalibrationRequest& request);
-
-int calibrate(const CommandLine& line, const CalibrationRequest& request);
 
 /// The law as a [law] table that a case can take, every line that is not TOML a comment.
 /// @param asked what it was made from, for the head

@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 
+#include <memory>
+#include <optional>
+
 #include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
-#include "cli/commands.hpp"
+#include "cli/one_case.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/units.hpp"
 #include "reports/report.hpp"
 #include "runs/cost.hpp"
 #include "runs/cost_advice.hpp"
@@ -53,27 +58,27 @@ std::string countsInWords(const json& points) {
   return text;
 }
 
-}  // namespace
-
-int cost(const CommandLine& line) {
+/// @param budget time that all may take [s]
+/// @param want accuracy to print a fragment for, 0.01 is 1 %
+int cost(const CommandLine& line, double budget, std::optional<double> want) {
   onlyCase(line, "cost");  // throws for a case that is none
   const Case setup = caseWith(line, "");
-  CostRequest request{line.run, line.budget, {}};
+  CostRequest request{line.run, budget, {}};
   if (!line.json && !line.run.quiet)
     request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
   json results = measureCost(
       setup, [&](const std::string& fragment) { return caseWith(line, fragment); }, request);
   std::vector<double> wants = usualWants();
-  if (line.want) wants.push_back(*line.want);
+  if (want) wants.push_back(*want);
   addCostAnalysis(results, wants);
   writeReport(results, line.run.out);
 
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
-  else if (line.want) {
+  else if (want) {
     std::vector<CostPoint> points;
     for (const json& point : results["points"]) points.push_back(costPointFromJson(point));
-    fmt::print("{}", adviceAsToml(advice(points, {*line.want}), points));
+    fmt::print("{}", adviceAsToml(advice(points, {*want}), points));
   } else {
     fmt::print("{}\nreport: {}\n", countsInWords(results["points"]),
                (line.run.out / "report.html").string());
@@ -82,5 +87,30 @@ int cost(const CommandLine& line) {
     fmt::print(stderr, "crossgrain: {}\n", BadInput(reason.get<std::string>()).what());
   return results["engine_failures"].empty() ? exitHeld : exitEngineFailed;
 }
+
+Action declare(CLI::App& app, CommandLine& line) {
+  struct Own {
+    std::optional<std::string> budget, want;
+  };
+  const auto own = std::make_shared<Own>();
+  addCase(app, line);
+  addRun(app, line);
+  addPackings(app, line);
+  addText(app, "--budget", own->budget, "time that all may take, e.g. 90s, 10m, 1h (default: 12m)");
+  addText(app, "--want", own->want,
+          "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine");
+  return [&line, own] {
+    return cost(line, secondsOf(own->budget.value_or("12m")),
+                own->want ? std::optional(shareOf(*own->want)) : std::nullopt);
+  };
+}
+
+}  // namespace
+
+extern const Command costCommand = {
+    "cost", "error against time, for every engine and every knob that trades one for the other",
+    "crossgrain cost cases/cost/quick.toml --engines all --out out --budget 10m\n"
+    "crossgrain cost cases/cost/quick.toml --engines all --out out --resume --want 1%",
+    declare};
 
 }  // namespace crossgrain

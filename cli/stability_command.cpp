@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
-#include "cli/commands.hpp"
+#include "cases/case_files.hpp"
+#include "cli/option_groups.hpp"
 #include "reports/report.hpp"
 #include "runs/engine_access.hpp"
 #include "runs/stability.hpp"
@@ -28,15 +30,11 @@ void printVerdict(const json& row) {
              figure.empty() || reason.empty() ? "" : "; ", reason);
 }
 
-}  // namespace
-
-int stability(const CommandLine& line) {
-  const SuitePart part = line.quick       ? SuitePart::quick
-                         : line.longCases ? SuitePart::withLong
-                                          : SuitePart::usual;
+int stability(const CommandLine& line, SuitePart part) {
   std::vector<fs::path> inputs = line.inputs;
   if (inputs.empty()) inputs.emplace_back("cases/hard");
-  const std::vector<Case> cases = hardCases(inputs, line.overrides, part);
+  std::vector<Case> cases = hardCases(inputs, line.overrides, part);
+  if (line.only) cases = selectedCases(cases, *line.only);
   const json results = testStability(cases, selectEngines(line.run.engines), line.run);
   writeReport(results, line.run.out);
 
@@ -56,5 +54,30 @@ int stability(const CommandLine& line) {
   }
   return unstable > 0 ? exitFellShort : exitHeld;
 }
+
+Action declare(CLI::App& app, CommandLine& line) {
+  const auto longCases = std::make_shared<bool>(false);
+  addInputs(app, line, "case", "case files or folders of them (default: cases/hard)", 0, anyNumber);
+  addSelection(app, line);
+  addRun(app, line);
+  addResume(app, line);
+  addFlag(app, "--quick", line.quick, "only cases marked as quick");
+  addFlag(app, "--long", *longCases, "also cases marked as long");
+  excludeEachOther(app, "--quick", "--long");
+  return [&line, longCases] {
+    return stability(line, line.quick   ? SuitePart::quick
+                           : *longCases ? SuitePart::withLong
+                                        : SuitePart::usual);
+  };
+}
+
+}  // namespace
+
+extern const Command stabilityCommand = {
+    "stability", "hard cases: what stays stable on which engine, and what does not",
+    "crossgrain stability --engines all --out out              # all of cases/hard\n"
+    "crossgrain stability -k pile --engines grain --out out\n"
+    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out",
+    declare};
 
 }  // namespace crossgrain

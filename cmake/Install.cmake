@@ -1,11 +1,21 @@
 # What `cmake --install` and `cpack` lay out:
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
 #   share/crossgrain/cases, engines  what it reads at run time
+#   share/man/man1, share/bash-completion/completions  made by the program itself
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The program itself writes its manual pages and the completion for bash.
+install(CODE [[
+  set(share "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share")
+  set(program "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/crossgrain")
+  file(MAKE_DIRECTORY "${share}/bash-completion/completions")
+  execute_process(COMMAND "${program}" __manual "${share}/man/man1" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${program}" __completion COMMAND_ERROR_IS_FATAL ANY
+                  OUTPUT_FILE "${share}/bash-completion/completions/crossgrain")
+]])
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
 install(DIRECTORY engines/yade DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines

@@ -12,7 +12,9 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -53,7 +55,7 @@ struct ChildSide {
 
 /// Between fork and exec only async-signal-safe calls are allowed: another thread of the parent may
 /// have held any lock at the moment of the fork.
-[[noreturn]] void becomeChild(const ChildSide& side, char* const* argv) {
+[[noreturn]] void becomeChild(const ChildSide& side, char* const* argv, char* const* environment) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != side.parent) ::_exit(127);  // the parent died before prctl
@@ -72,11 +74,32 @@ struct ChildSide {
   if (::dup2(nothing, 0) >= 0 && ::dup2(log, 1) >= 0 && ::dup2(log, 2) >= 0 &&
       ::dup2(requests, 3) >= 0 && ::dup2(replies, 4) >= 0) {
     ::close_range(5, UINT_MAX, CLOSE_RANGE_CLOEXEC);  // what libraries opened without the flag
-    ::execvp(argv[0], argv);
+    ::execvpe(argv[0], argv, environment);
   }
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
   ::_exit(127);
+}
+
+/// As exec takes them: null at the end.
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
+/// This process' environment, with another HOME where its own cannot be used.
+std::vector<std::string> environmentWithHome(const std::filesystem::path& otherwise) {
+  const char* home = std::getenv("HOME");
+  std::error_code missing;
+  const bool usable =
+      home && std::filesystem::is_directory(home, missing) && ::access(home, W_OK | X_OK) == 0;
+  std::vector<std::string> variables;
+  for (char** each = environ; *each; ++each)
+    if (usable || !std::string_view(*each).starts_with("HOME=")) variables.emplace_back(*each);
+  if (!usable) variables.push_back("HOME=" + otherwise.string());
+  return variables;
 }
 
 int millisecondsUntil(ChildProcess::Clock::time_point deadline) {
@@ -105,9 +128,8 @@ std::string describeExit(const siginfo_t& info) {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log) {
-  std::vector<char*> arguments;
-  for (const std::string& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
+  const std::vector<std::string> variables = environmentWithHome(log.parent_path());
+  const std::vector<char*> arguments = pointers(argv), environment = pointers(variables);
 
   // A socket for the requests, because writing to it can be kept from raising SIGPIPE.
   int request[2], reply[2], failure[2];
@@ -127,7 +149,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::file
                        nothing.get(),       failureTheirs.get(), ::getpid()};
   pid_ = ::fork();
   if (pid_ < 0) systemFailure("fork", errno);
-  if (pid_ == 0) becomeChild(side, arguments.data());
+  if (pid_ == 0) becomeChild(side, arguments.data(), environment.data());
   ::setpgid(pid_, pid_);  // here too: whichever comes first
 
   failureTheirs.reset();

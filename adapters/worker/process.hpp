@@ -33,7 +33,8 @@ class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Starts argv[0], looked up in PATH, without a shell.
+  /// Starts argv[0], looked up in PATH, without a shell. Where HOME is no folder that can be
+  /// written, the child's is the folder of its log: there are programs that do not start without.
   /// @throws std::runtime_error if it cannot be started: why
   ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log);
   ~ChildProcess();

@@ -1,6 +1,7 @@
 #include "adapters/worker/worker_engine.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <deque>
@@ -176,23 +177,29 @@ std::string WorkerEngine::howItEnded(const std::string& what) const {
   const bool ended = process_->waitForExit(1s);
   const std::string how =
       ended ? fmt::format("ended ({})", process_->exitText()) : "closed its descriptors";
-  const std::string log = lastLinesOfLog();
-  return fmt::format("{} during {}{}", how, what,
-                     log.empty() ? "" : fmt::format("; the end of its log: {}", log));
+  const std::string words = lastWords();
+  return fmt::format("{} during {}{}{}", how, what, words.empty() ? "" : "; ", words);
 }
 
-std::string WorkerEngine::lastLinesOfLog() const {
-  constexpr std::size_t lines = 3;
+std::string WorkerEngine::lastWords() const {
+  constexpr std::size_t lines = 3, longest = 200;
   std::ifstream in(log_);
   std::deque<std::string> last;
+  std::string error;  // of Python: the line after the indented ones says what it was
+  bool inTraceback = false;
   for (std::string line; std::getline(in, line);) {
     if (line.empty()) continue;
-    last.push_back(shortened(line, 200));
+    if (inTraceback && line[0] != ' ') {
+      error = shortened(line, longest);
+      inTraceback = false;
+    }
+    if (line.starts_with("Traceback (most recent call last)")) inTraceback = true;
+    last.push_back(shortened(line, longest));
     if (last.size() > lines) last.pop_front();
   }
-  std::string text;
-  for (const std::string& line : last) text += (text.empty() ? "" : " | ") + line;
-  return text;
+  if (!error.empty()) return "its error: " + error;
+  if (last.empty()) return {};
+  return fmt::format("the end of its log: {}", fmt::join(last, " | "));
 }
 
 void WorkerEngine::fail(const std::string& what) const {

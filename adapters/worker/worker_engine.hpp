@@ -55,7 +55,8 @@ class WorkerEngine final : public Engine {
   /// One line: engine, scene, time, what went wrong, and when all was well last.
   std::string failure(const std::string& what) const;
   std::string howItEnded(const std::string& what) const;
-  std::string lastLinesOfLog() const;
+  /// "the end of its log: …", or the error that a traceback there ends with; empty without a log.
+  std::string lastWords() const;
 
   std::string name_;
   std::filesystem::path scratch_;

@@ -36,6 +36,12 @@ def settings(**changes):
     ]
 
 
+def environment(changes):
+    """This process' environment with changes; None takes a variable away."""
+    merged = os.environ | (changes or {})
+    return {name: value for name, value in merged.items() if value is not None}
+
+
 class Finished:
     """How a program ended and what it printed."""
 
@@ -170,7 +176,7 @@ class SystemTest(unittest.TestCase):
             capture_output=True,
             encoding="utf-8",
             cwd=self.folder,
-            env=os.environ | (env or {}),
+            env=environment(env),
             timeout=timeout,
             check=False,
             **options,

@@ -125,7 +125,7 @@ class CommandLine(SystemTest):
         self.assert_one_line(self.run_program(*arguments), BAD_INPUT, *fragments)
 
     def test_no_subcommand(self):
-        self.refuse([], "subcommand")
+        self.refuse([], "no command", "see crossgrain --help")
 
     def test_unknown_subcommand(self):
         self.refuse(["comprae", COUETTE], "comprae")

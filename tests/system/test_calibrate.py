@@ -1,5 +1,6 @@
 """calibrate: constants from wanted values and back, what a case's law means, refused input."""
 
+import math
 import re
 import tomllib
 import unittest
@@ -68,6 +69,31 @@ class Wanted(Calibrate):
         self.assertLessEqual({"mu", "kt", "gt"} & set(law), set())
         self.assertAlmostEqual(500 * 3.141592653589793**2, law["kn"], 9)  # m12 (π/t_c)²
 
+    def test_stiffness_instead_of_contact_time(self):
+        # By hand: m = m12 = 0.5e-3 kg, t_c = π/√(k_n/m − (γ_n/2m)²), e_n = exp(−γ_n t_c/2m).
+        mass, kn = 0.5e-3, 1e4
+        for en in (0.9, 0.3, 1.0):
+            text = self.calibrate(f"--en={en}", f"--kn={kn}", *PAIR)
+            law = tomllib.loads(text)["law"]
+            self.assertEqual(kn, law["kn"])
+            half = law["gn"] / (2 * mass)
+            time = math.pi / math.sqrt(kn / mass - half**2)
+            self.assertAlmostEqual(en, math.exp(-half * time), 12)
+            self.assertAlmostEqual(1, time / self.implied(text, "contact time t_c"), 5)
+        with_friction = self.calibrate("--en=0.9", f"--kn={kn}", "--et=0.5", "--mu=0.4", *PAIR)
+        self.assertEqual(0.5, self.implied(with_friction, "e_t0 without slip"))
+        self.assertIn("# e_n = 0.9, k_n = 10000 N/m, e_t0 = 0.5; masses", with_friction)
+
+    def test_stiffness_and_contact_time_are_two_ways_to_one_law(self):
+        for tension in ("allow", "cut"):
+            by_time = tomllib.loads(self.calibrate(*WANTED, *PAIR, f"--tension={tension}"))["law"]
+            arguments = [each for each in WANTED if not each.startswith("--tc")]
+            by_stiffness = tomllib.loads(
+                self.calibrate(*arguments, f"--kn={by_time['kn']!r}", *PAIR, f"--tension={tension}")
+            )["law"]
+            for key in ("kn", "gn", "kt", "gt"):
+                self.assertAlmostEqual(1.0, by_stiffness[key] / by_time[key], 12)
+
     def test_wall_is_twice_as_heavy(self):
         pair, wall = (
             tomllib.loads(self.calibrate(*WANTED, *PAIR, *mass2))["law"]
@@ -115,11 +141,17 @@ class Refused(SystemTest):
         inputs = {
             (): "one of",
             PAIR: "one of",
-            ("--en=0.9", "--kn=1", *PAIR): "one of",
             ("--en=0.9", str(COUETTE)): "one of",
             ("--en=0.9", "--tc=1e-3", "--radius=1"): "--mass is missing",
             ("--en=0.9", "--tc=1e-3", "--mass=1"): "--radius is missing",
             ("--en=0.9", *PAIR): "--tc is missing",
+            ("--en=0.9", "--tc=1e-3", "--kn=1", *PAIR): "--tc and --kn: with e_n each gives the other",
+            ("--en=0.9", "--gn=1", "--kn=1", *PAIR): "--en and --gn: e_n gives gn",
+            ("--en=0.9", "--et=0.5", "--kt=1", "--kn=1", *PAIR): "--et and --kt",
+            ("--en=0.9", "--et=0.5", "--gt=1", "--kn=1", *PAIR): "--et and --gt",
+            ("--et=0.5", "--kn=1", "--mu=0.4", *PAIR): "--en is missing",
+            ("--en=0.9", "--kn=-1", *PAIR): "--kn = -1: must be > 0 N/m",
+            (str(COUETTE), "--kn=1"): "one of",
             ("--tc=1e-3", *PAIR): "--en is missing",
             ("--en=0.9", "--tc=1e-3", "--mu=0.4", *PAIR): "--et is missing",
             ("--en=0", "--tc=1e-3", *PAIR): "--en = 0: must be > 0 and <= 1",
@@ -136,7 +168,7 @@ class Refused(SystemTest):
             (*WANTED, *PAIR, "--tension=cutt"): "did you mean cut?",
             (*WANTED, *PAIR, "--tangential=viscous"): "--tangential = viscous",
             (*WANTED, *PAIR, "--set=law.mu=1"): "--set",
-            ("--kn=1", *PAIR): "--gn is missing",
+            ("--kn=1", *PAIR): "--gn is missing: an undamped law says 0 [kg/s]; or --en, if kn is wanted",
             ("--kn=0", "--gn=0", *PAIR): "--kn = 0: must be > 0 N/m",
             ("--kn=352.1", "--gn=1", *PAIR): "must be < 0.839166 kg/s",
             (*THESIS, "--tangential=spring"): "--tangential",

@@ -2,10 +2,13 @@
 
 import json
 import re
+import shutil
+import subprocess
 import unittest
 
 from harness import (
     BAD_INPUT,
+    CASES,
     COLLISION,
     COUETTE,
     FELL_SHORT,
@@ -37,7 +40,7 @@ class Help(SystemTest):
     def test_lists_the_commands_and_exit_statuses(self):
         expected = {"engines", "check", "collide", "compare", "effects", "calibrate", "report"}
         self.assertLessEqual(expected, set(self.commands()))
-        self.assertIn("Exit status: 0 ", self.run_program("--help").stdout)
+        self.assertRegex(self.run_program("--help").stdout, r"Exit status:\n  0 +held[\s\S]*\n  130 +interrupted")
 
     def test_every_command_has_an_example(self):
         for command in self.commands():
@@ -79,6 +82,23 @@ class Engines(SystemTest):
 
         self.assertEqual({"optional"}, set(effects("grain").values()))
         self.assertEqual("never", effects("box2d-impulse")["bottom_friction"])
+
+    @unittest.skipUnless(shutil.which("dpkg-query"), "only a package says what is installed")
+    def test_version_of_box2d_is_the_package_s(self):
+        """2.4.1 calls itself 2.4.0."""
+        package = subprocess.run(
+            ["dpkg-query", "-W", "-f", "${Version}", "libbox2d-dev"],
+            capture_output=True, encoding="utf-8", check=True,
+        ).stdout.partition("-")[0]  # fmt: skip
+        readme = (CASES.parent / "README.md").read_text(encoding="utf-8")
+        for engine in json.loads(self.run_program("engines", "--json").stdout):
+            if not engine["name"].startswith("box2d"):
+                continue
+            version, _, says = engine["capabilities"]["version"].partition(", b2_version ")
+            self.assertEqual(package, version)
+            self.assertIn(f"`{engine['name']}` | Box2D {version} from Debian", readme)
+            if says:
+                self.assertIn(f"`b2_version` says {says}", readme)
 
     def test_text(self):
         done = self.run_program("engines")

@@ -5,7 +5,18 @@ import shutil
 import signal
 import unittest
 
-from harness import COLLISION, FELL_SHORT, HELD, INTERRUPTED, PATIENCE, SystemTest, settings, wait_for
+from harness import (
+    COLLISION,
+    COUETTE,
+    ENGINE_FAILED,
+    FELL_SHORT,
+    HELD,
+    INTERRUPTED,
+    PATIENCE,
+    SystemTest,
+    settings,
+    wait_for,
+)
 
 
 @unittest.skipUnless(shutil.which("yade"), "yade is not installed (Debian: package yade)")
@@ -36,6 +47,25 @@ class Yade(SystemTest):
         # The first steps of one packing: the mirror does what YADE does.
         first = {name: run["series"]["kinetic_energy"][0] for name, run in runs.items()}
         self.assertAlmostEqual(1.0, first["yade"] / first["grain-as-yade"], delta=0.02)
+
+    def test_without_a_home(self):
+        """It looks for its settings there and would not start."""
+        for home in (None, "/nonexistent"):
+            with self.subTest(home=home):
+                done = self.run_program("check", COUETTE, "--engines", "yade", env={"HOME": home})
+                self.assert_status(done, HELD)
+                self.assertRegex(done.stdout, r"(?m)^ *yade +can run it")
+
+    def test_that_dies_with_a_traceback(self):
+        """A yade that ends like a script with a mistake: the last line says which."""
+        fake = self.write("yade", "#!/usr/bin/env python3\nprint('Welcome')\nimport no_such_module\n")
+        fake.chmod(0o755)
+        env = {"PATH": f"{self.folder}:{os.environ['PATH']}"}
+        done = self.run_program("check", COUETTE, "--engines", "yade", env=env)
+        self.assert_one_line(
+            done, ENGINE_FAILED, "yade: ended (exit status 1) during hello",
+            "its error: ModuleNotFoundError: No module named 'no_such_module'",
+        )  # fmt: skip
 
     def test_collide(self):
         done = self.run_program(

@@ -81,6 +81,13 @@ double ToyEngine::advance(double t) {
     std::fputs("first line\n\nassertion failed: mass > 0\n", stderr);
     std::raise(SIGABRT);
   }
+  if (mischief_ == "traceback") {
+    std::fputs(
+        "Welcome\nTraceback (most recent call last):\n  File \"a.py\", line 1, in <module>\n"
+        "    import b\n           ^\nKeyError: 'HOME'\nbye\n",
+        stderr);
+    std::exit(1);
+  }
   if (mischief_ == "hang") {
     std::fputs("hanging\n", stderr);
     ::pause();

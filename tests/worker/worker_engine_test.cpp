@@ -104,6 +104,9 @@ TEST_F(Worker, SaysHowItEnded) {
   EXPECT_EQ(advanceFailure("die"),
             "toy, toy at t = 0 s: ended (signal 6 (Aborted)) during advance(t = 0.5 s);"
             " the end of its log: first line | assertion failed: mass > 0");
+  EXPECT_EQ(advanceFailure("traceback"),
+            "toy, toy at t = 0 s: ended (exit status 1) during advance(t = 0.5 s);"
+            " its error: KeyError: 'HOME'");
 }
 
 TEST_F(Worker, IsKilledWhenItHangs) {

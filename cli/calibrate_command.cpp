@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
 #include "cases/nearest.hpp"
+#include "cli/option_groups.hpp"
 
 namespace crossgrain {
 namespace {
@@ -37,10 +38,11 @@ const std::vector<Number> wantedValues = {
      [](double x) { return x > 0.0 && x <= 1.0; }},
     {"--et", &Request::et0, "wanted: tangential restitution e_t0 of a contact that never slips",
      "> -1 and <= 1", [](double x) { return x > -1.0 && x <= 1.0; }},
-    {"--tc", &Request::contactTime, "wanted: contact time [s]", "> 0 s", isPositive},
+    {"--tc", &Request::contactTime, "wanted: contact time [s]; or --kn", "> 0 s", isPositive},
 };
 const std::vector<Number> constants = {
-    {"--kn", &Request::kn, "given: normal stiffness [N/m]", "> 0 N/m", isPositive},
+    {"--kn", &Request::kn, "normal stiffness [N/m]: wanted, with --en instead of --tc; or given",
+     "> 0 N/m", isPositive},
     {"--gn", &Request::gn, "given: normal damping [kg/s]", ">= 0 kg/s", isNotNegative},
     {"--kt", &Request::kt, "given: tangential stiffness [N/m]", ">= 0 N/m", isNotNegative},
     {"--gt", &Request::gt, "given: tangential damping [kg/s]", ">= 0 kg/s", isNotNegative},
@@ -113,17 +115,48 @@ ContactLaw startOfLaw(const Request& request) {
   return law;
 }
 
+/// From e_n with t_c or k_n. @returns which, for the head
+std::string setNormal(ContactLaw& law, const Request& request, double en, double mass) {
+  if (request.kn) {
+    calibrateDamping(law, en, *request.kn, mass);
+    return fmt::format("k_n = {} N/m", *request.kn);
+  }
+  const double time =
+      need(request.contactTime, "--tc", "the contact time wanted [s]; or --kn, the stiffness");
+  calibrateNormal(law, en, time, mass);
+  if (!std::isnormal(law.kn)) throw BadInput(fmt::format("--tc = {}: no kn fits it", time));
+  return fmt::format("t_c = {} s", time);
+}
+
+/// Two options that say the same thing may say different things.
+void refuseContradictions(const Request& request) {
+  struct Pair {
+    const char* wanted;
+    bool isWanted;
+    const char* constant;
+    bool isGiven;
+    const char* why;
+  };
+  const Pair pairs[] = {
+      {"--tc", request.contactTime.has_value(), "--kn", request.kn.has_value(),
+       "with e_n each gives the other"},
+      {"--en", request.en.has_value(), "--gn", request.gn.has_value(), "e_n gives gn"},
+      {"--et", request.et0.has_value(), "--kt", request.kt.has_value(), "e_t0 gives kt and gt"},
+      {"--et", request.et0.has_value(), "--gt", request.gt.has_value(), "e_t0 gives kt and gt"}};
+  for (const Pair& pair : pairs)
+    if (pair.isWanted && pair.isGiven)
+      throw BadInput(fmt::format("{} and {}: {}; leave one of them out", pair.wanted, pair.constant,
+                                 pair.why));
+}
+
 int fromWanted(const Request& request) {
   const CollidingPair pair = askedPair(request);
   const double en = need(request.en, "--en", "the normal restitution wanted");
-  const double time = need(request.contactTime, "--tc", "the contact time wanted [s]");
   ContactLaw law = startOfLaw(request);
   setOption(law, "tangential", request.tangential.value_or("spring_dashpot"),
             {"spring", "spring_dashpot"});
-  std::string asked = fmt::format("e_n = {}, t_c = {} s", en, time);
   const ReducedPair two = reduced(pair);
-  calibrateNormal(law, en, time, two.mass);
-  if (!std::isnormal(law.kn)) throw BadInput(fmt::format("--tc = {}: no kn fits it", time));
+  std::string asked = fmt::format("e_n = {}, {}", en, setNormal(law, request, en, two.mass));
   if (request.et0) {
     calibrateTangential(law, *request.et0, two);
     // What slips at first touch is to stick again; see ImpliedImpact::firstTouchSticksToPsi.
@@ -151,7 +184,7 @@ int fromConstants(const Request& request) {
   const CollidingPair pair = askedPair(request);
   ContactLaw law = startOfLaw(request);
   law.kn = need(request.kn, "--kn", "the normal stiffness [N/m]");
-  law.gn = need(request.gn, "--gn", "an undamped law says 0 [kg/s]");
+  law.gn = need(request.gn, "--gn", "an undamped law says 0 [kg/s]; or --en, if kn is wanted");
   law.kt = request.kt.value_or(0.0);
   law.gt = request.gt.value_or(0.0);
   law.tangential = tangentialLaw(law);
@@ -221,33 +254,49 @@ int fromCase(const CommandLine& line, const Request& request) {
   return exitHeld;
 }
 
-}  // namespace
-
-void addCalibrationOptions(CLI::App& command, CommandLine& line, Request& request) {
-  command.add_option("case", line.inputs, "case file: what its law means for each pair")
-      ->expected(0, 1);
-  command.add_option("--set", line.overrides, "key=value: changes the case, e.g. law.gn=0.1")
-      ->allow_extra_args(false);
+void addOptions(CLI::App& command, CommandLine& line, Request& request) {
+  addInputs(command, line, "case", "case file: what its law means for each pair", 0, 1);
+  addOverrides(command, line);
   for (const auto* numbers : {&wantedValues, &constants, &bodies, &furtherNumbers})
     for (const Number& number : *numbers)
-      command.add_option(number.option, request.*number.member, number.what);
-  command.add_option("--tension", request.tension, "allow (default) or cut");
-  command.add_option("--tangential", request.tangential,
-                     "wanted: spring, or spring_dashpot (default)");
+      addNumber(command, number.option, request.*number.member, number.what);
+  addText(command, "--tension", request.tension, "whether contacts pull (default: allow)",
+          "allow|cut");
+  addText(command, "--tangential", request.tangential,
+          "tangential law wanted (default: spring_dashpot)", "spring|spring_dashpot");
 }
 
 int calibrate(const CommandLine& line, const Request& request) {
   checkRanges(request);
+  refuseContradictions(request);
   const Number* wanted = firstGiven(request, wantedValues);
-  const Number* constant = firstGiven(request, constants);
+  // A stiffness may be wanted, too.
+  const bool constant = request.gn || request.kt || request.gt || (request.kn && !wanted);
   const bool ofCase = !line.inputs.empty();
-  if ((wanted != nullptr) + (constant != nullptr) + ofCase != 1)
+  if ((wanted != nullptr) + constant + ofCase != 1)
     throw BadInput(
-        "calibrate takes one of: wanted values (--en, --et, --tc), constants (--kn, --gn, --kt, "
-        "--gt), a case file; see crossgrain calibrate --help");
+        "calibrate takes one of: wanted values (--en, --et, --tc or --kn), constants (--kn, --gn, "
+        "--kt, --gt), a case file; see crossgrain calibrate --help");
   if (ofCase) return fromCase(line, request);
   if (!line.overrides.empty()) throw BadInput("--set changes a case file, and there is none");
   return wanted ? fromWanted(request) : fromConstants(request);
 }
+
+Action declare(CLI::App& app, CommandLine& line) {
+  const auto request = std::make_shared<Request>();
+  addOptions(app, line, *request);
+  return [&line, request] { return calibrate(line, *request); };
+}
+
+}  // namespace
+
+extern const Command calibrateCommand = {
+    "calibrate", "law constants from wanted restitution and contact time, and back",
+    "crossgrain calibrate --en 0.9 --et 0.5 --tc 1e-3 --mass 1e-3 --radius 5e-3 --mu 0.4\n"
+    "crossgrain calibrate --en 0.9 --kn 1e4 --mass 1e-3 --radius 5e-3\n"
+    "crossgrain calibrate --kn 352.1 --gn 0.19 --kt 267.1 --gt 0.15 --mu 0.44 --mass 0.275e-3 "
+    "--radius 3.7e-3\n"
+    "crossgrain calibrate cases/couette/quick.toml",
+    declare};
 
 }  // namespace crossgrain

@@ -1,0 +1,26 @@
+#include "cli/one_case.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
+#include "runs/average.hpp"
+
+namespace crossgrain {
+namespace {
+
+int average(const CommandLine& line) {
+  const Case setup = onlyCase(line, "average");
+  return averaged(line, averageSnapshots(setup, line.snapshots, line.run.commandLine));
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addSnapshots(app, line);
+  return [&line] { return average(line); };
+}
+
+}  // namespace
+
+extern const Command averageCommand = {
+    "average", "average snapshots of a file, of a run or of any other source",
+    "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged",
+    declare};
+
+}  // namespace crossgrain

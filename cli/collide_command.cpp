@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+#include "cases/bad_input.hpp"
+#include "cases/case_files.hpp"
+#include "cases/loader.hpp"
+#include "cli/option_groups.hpp"
+#include "reports/report.hpp"
+#include "runs/collide.hpp"
+#include "runs/collision_folder.hpp"
+
+namespace crossgrain {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// Runs what was loaded into one report.
+int collideCases(const std::vector<Case>& variants, const std::optional<fs::path>& folder,
+                 const CommandLine& line) {
+  const fs::path& out = line.run.out;
+  json results = collideEngines(variants, line.run);
+  if (folder) describeFolder(results, *folder, variants);
+  writeReport(results, out);
+
+  int failed = 0, fellShort = 0;
+  std::map<std::string, std::string> reasons;
+  std::map<std::string, int> refused;
+  for (const json& variant : results["variants"])
+    for (const json& curve : variant["curves"]) {
+      const std::string engine = curve["engine"];
+      failed += curve["status"] == "failed";
+      if (curve["status"] == "failed") reasons.emplace(engine, curve["reason"]);
+      refused[engine] += curve["status"] == "refused";
+      fellShort += curve["score"]["verdict"] == "fell short";
+    }
+  for (const auto& [engine, reason] : reasons) fmt::print(stderr, "crossgrain: {}\n", reason);
+  for (const auto& [engine, count] : refused)
+    if (count > 0 && !line.json)
+      fmt::print("{} does not have the law of {} sweeps; the report says why\n", engine, count);
+  if (line.json)
+    fmt::print("{}\n", (out / "results.json").string());
+  else
+    fmt::print("{} curves fell short\nreport: {}\n", fellShort, (out / "report.html").string());
+  if (failed > 0) return exitEngineFailed;
+  return fellShort > 0 ? exitFellShort : exitHeld;
+}
+
+int collide(const CommandLine& line) {
+  const fs::path& input = line.inputs.front();
+  const bool isFolder = fs::is_directory(input);
+  std::vector<Case> variants =
+      isFolder ? collisionsOf(input, line.overrides) : loadCase(input, line.overrides);
+  if (variants.front().kind != CaseKind::collision)
+    throw BadInput(fmt::format("{}: collide cannot run a case of this kind", input.string()));
+  if (line.only) variants = selectedCases(variants, *line.only);
+  return collideCases(variants, isFolder ? std::optional(input) : std::nullopt, line);
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addCase(app, line, "case file or folder of case files");
+  addSelection(app, line);
+  addRun(app, line);
+  return [&line] { return collide(line); };
+}
+
+}  // namespace
+
+extern const Command collideCommand = {
+    "collide", "two-particle sweeps against the oracle",
+    "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out\n"
+    "crossgrain collide cases/collision -k glass --engines grain --out out",
+    declare};
+
+}  // namespace crossgrain

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cases/effect_switch.hpp"
+#include "cli/one_case.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
+#include "reports/report.hpp"
+#include "runs/effects.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+namespace {
+
+/// "grain  without friction  0.583 ± 0.012 of the time per step, 21 of 42 rings changed"
+void printLeg(const json& leg) {
+  const std::string engine = leg["engine"];
+  if (leg["effect"] == "") return;
+  const std::string name = leg["effect"];
+  if (leg["status"] != "ran") {
+    fmt::print("{:<16} without {:<22} {}: {}\n", engine, name, leg["status"].get<std::string>(),
+               leg["reason"].get<std::string>());
+    return;
+  }
+  int judged = 0, changed = 0;
+  for (const json& field : leg["fields"])
+    for (const json& ring : field["rings"]) {
+      judged += ring["resolved"].is_boolean();
+      changed += ring["resolved"] == true;
+    }
+  fmt::print("{:<16} without {:<22} {:.3f} of the time per step, {}\n", engine, name,
+             leg["time_ratio"].is_number() ? leg["time_ratio"].get<double>() : NAN,
+             judged == 0 ? "too few packings to tell what changed"
+                         : fmt::format("{} of {} rings changed", changed, judged));
+}
+
+int effects(const CommandLine& line) {
+  const Case setup = onlyCase(line, "effects");
+  TimingPlan plan;
+  if (line.quick) plan.seconds = 0.02;
+  const json results = measureEffects(setup, line.run, plan);
+  writeReport(results, line.run.out);
+  if (line.json)
+    fmt::print("{}\n", (line.run.out / "results.json").string());
+  else {
+    fmt::print("{}\n", effectsInWords(effectsOf(setup)));
+    for (const json& leg : results["legs"]) printLeg(leg);
+    fmt::print("report: {}\n", (line.run.out / "report.html").string());
+  }
+  printFailures(results["legs"]);
+  return countOf(results["legs"], "status", "failed") > 0 ? exitEngineFailed : exitHeld;
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addCase(app, line);
+  addRun(app, line);
+  addPackings(app, line);
+  return [&line] { return effects(line); };
+}
+
+}  // namespace
+
+extern const Command effectsCommand = {
+    "effects", "what each effect of a case costs and changes",
+    "crossgrain effects cases/couette/quick.toml --engines grain --out out", declare};
+
+}  // namespace crossgrain

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "adapters/worker/json.hpp"
+#include "cases/preparation.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/scratch_folder.hpp"
+#include "runs/engine_access.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+namespace {
+
+std::string supportMark(Support support) {
+  switch (support) {
+    case Support::optional:
+      return "yes";
+    case Support::always:
+      return "always";
+    case Support::never:
+      break;
+  }
+  return "no";
+}
+
+int listEngines(const CommandLine& line) {
+  const ScratchFolder scratch;
+  json list = json::array();
+  for (const EngineEntry& entry : engineRegistry()) {
+    json row = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
+    try {
+      row["capabilities"] = toJson(startEngine(entry, scratch.path, 60.0)->capabilities());
+    } catch (const std::exception& missing) {
+      row["missing"] = missing.what();
+    }
+    list.push_back(row);
+  }
+  if (line.json) {
+    fmt::print("{}\n", list.dump(2));
+    return exitHeld;
+  }
+  for (const json& row : list) {
+    if (row.contains("missing")) {
+      fmt::print("{:<16} not available: {}\n\n", row["name"].get<std::string>(),
+                 row["missing"].get<std::string>());
+      continue;
+    }
+    const Capabilities can = capabilitiesFromJson(row["capabilities"]);
+    std::vector<std::string> precisions;
+    for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
+    fmt::print("{:<16} {} (version {}, {})\n", row["name"].get<std::string>(),
+               row["summary"].get<std::string>(), can.version, fmt::join(precisions, " or "));
+    for (const auto& [effect, support] : can.effects)
+      fmt::print("  {:<22} {}\n", toString(effect), supportMark(support));
+    for (const auto& [option, values] : can.lawOptions)
+      fmt::print("  {:<22} {}\n", option, fmt::join(values, " | "));
+    for (const SettingSpec& setting : can.settings)
+      fmt::print("  setting {:<14} {} [{}]\n", setting.name, setting.doc,
+                 setting.unit.empty() ? "-" : setting.unit);
+    fmt::print("\n");
+  }
+  fmt::print("Prepared packings are kept in {} (CROSSGRAIN_CACHE says where else).\n",
+             packingCache().string());
+  return exitHeld;
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addFlag(app, "--json", line.json, "as JSON");
+  return [&line] { return listEngines(line); };
+}
+
+}  // namespace
+
+extern const Command enginesCommand = {"engines", "engines found, what they can do, their settings",
+                                       "crossgrain engines", declare};
+
+}  // namespace crossgrain

@@ -1,0 +1,37 @@
+#include "cli/one_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cases/bad_input.hpp"
+#include "cases/loader.hpp"
+
+namespace crossgrain {
+
+namespace fs = std::filesystem;
+
+Case onlyCase(const CommandLine& line, const char* command) {
+  const fs::path& file = line.inputs.front();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
+  if (cases.front().kind != CaseKind::couette)
+    throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
+  if (cases.size() > 1)
+    throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
+  if (!line.quick) return cases.front();
+  std::vector<std::string> overrides = {
+      "preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
+      "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
+  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
+  return loadCase(file, overrides).front();
+}
+
+std::string effectsInWords(const Effects& called) {
+  std::vector<std::string> in, out;
+  for (const Effect effect : allEffects)
+    (called.contains(effect) ? in : out).push_back(toString(effect));
+  return fmt::format("effects called for: {}; left out: {}",
+                     in.empty() ? "none" : fmt::format("{}", fmt::join(in, ", ")),
+                     out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
+}
+
+}  // namespace crossgrain

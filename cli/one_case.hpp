@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "adapters/effects.hpp"
+#include "cases/case.hpp"
+#include "cli/command.hpp"
+
+namespace crossgrain {
+
+/// The one Couette case that a command was given, without variants; shortened by --quick.
+/// @throws BadInput
+Case onlyCase(const CommandLine& line, const char* command);
+
+/// "effects called for: friction, rotation; left out: gravity"
+std::string effectsInWords(const Effects& called);
+
+}  // namespace crossgrain

@@ -1,0 +1,158 @@
+#include "cli/option_groups.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+
+#include "cases/bad_input.hpp"
+
+namespace crossgrain {
+namespace {
+
+std::string isNumber(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const bool whole =
+      !text.empty() && *end == '\0' && !std::isspace(static_cast<unsigned char>(text[0]));
+  return whole ? "" : fmt::format("must be a number, not '{}'", text);
+}
+
+/// Checks what CLI11 would tell in its own words.
+auto wholeNumber(std::int64_t least, std::int64_t most) {
+  return [=](const std::string& text) -> std::string {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && end == text.data() + text.size() && value >= least && value <= most)
+      return "";
+    return fmt::format("must be a whole number from {} to {}, not '{}'", least, most, text);
+  };
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// "grain, yade" is two names. @throws BadInput where nothing stands between two commas
+void addNames(const std::string& list, std::vector<std::string>& names) {
+  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
+    comma = list.find(',', from);
+    names.push_back(trimmed(list.substr(from, comma - from)));
+    if (names.back().empty())
+      throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
+  }
+}
+
+}  // namespace
+
+void addFlag(CLI::App& app, const std::string& name, bool& set, const std::string& what) {
+  app.add_flag(name, set, what);
+}
+
+void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
+             const std::string& what, const std::string& type) {
+  app.add_option(name, text, what)->type_name(type);
+}
+
+void addNumber(CLI::App& app, const std::string& name, std::optional<double>& number,
+               const std::string& what) {
+  app.add_option(name, number, what)->type_name("NUMBER")->check(isNumber);
+}
+
+void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
+                 const std::string& type) {
+  app.add_option(name, text, what)->type_name(type)->required();
+}
+
+void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other) {
+  app.get_option(one)->excludes(app.get_option(other));
+}
+
+void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
+               int least, int most) {
+  CLI::Option* inputs = app.add_option(name, line.inputs, what)->type_name("FILE");
+  if (most != anyNumber) inputs->expected(least, most);
+  if (least > 0) inputs->required();
+}
+
+void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
+  std::string what = "engines by name, separated by commas, or all; the first is the reference";
+  if (usual) what += fmt::format(" (default: {})", usual);
+  app.add_option_function<std::vector<std::string>>(
+         "--engines",
+         [&line](const std::vector<std::string>& lists) {
+           for (const std::string& list : lists) addNames(list, line.run.engines);
+         },
+         what)
+      ->type_name("NAMES")
+      ->allow_extra_args(false)
+      ->required(!usual);
+  if (usual)
+    app.callback([&line, usual] {
+      if (line.run.engines.empty()) line.run.engines = {usual};
+    });
+}
+
+void addOverrides(CLI::App& app, CommandLine& line) {
+  app.add_option("--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addCase(CLI::App& app, CommandLine& line, const std::string& what) {
+  addInputs(app, line, "case", what, 1, 1);
+}
+
+void addSelection(CLI::App& app, CommandLine& line) {
+  addText(app, "-k", line.only,
+          "only cases with this in their name or NAME/VARIANT; with * or ? a pattern of all of it",
+          "TEXT");
+}
+
+void addResults(CLI::App& app, CommandLine& line) {
+  addOverrides(app, line);
+  app.add_option("--out", line.run.out, "folder for results: new, or of an earlier run")
+      ->type_name("FOLDER")
+      ->required()
+      ->check([](const std::string& out) { return out.empty() ? "is empty" : ""; });
+  app.add_flag("--json", line.json, "print the path of results.json only, for scripts");
+}
+
+void addSnapshots(CLI::App& app, CommandLine& line) {
+  app.add_option("snapshots", line.snapshots, "HDF5 file of snapshots")
+      ->type_name("FILE")
+      ->required();
+  addCase(app, line, "case file: the cell, the law, how to average");
+  addResults(app, line);
+}
+
+void addRun(CLI::App& app, CommandLine& line) {
+  addEngines(app, line);
+  addResults(app, line);
+  constexpr int mostJobs = 4096;
+  app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
+      ->type_name("N")
+      ->check(wholeNumber(1, mostJobs));
+  addQuiet(app, line);
+}
+
+void addQuiet(CLI::App& app, CommandLine& line) {
+  app.add_flag("--quiet", line.run.quiet, "no progress");
+}
+
+void addResume(CLI::App& app, CommandLine& line) {
+  app.add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
+}
+
+void addPackings(CLI::App& app, CommandLine& line) {
+  app.add_option("--seed", line.seed, "preparation.seed of the case")
+      ->type_name("N")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
+  addResume(app, line);
+  app.add_flag("--quick", line.quick, "a short version, to see that everything works");
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "cli/command.hpp"
+
+namespace crossgrain {
+
+/// What commands take. CLI11 itself is slow to compile, so that only option_groups.cpp and
+/// program.cpp include it.
+
+/// @name Options of one command
+/// @{
+void addFlag(CLI::App& app, const std::string& name, bool& set, const std::string& what);
+void addNumber(CLI::App& app, const std::string& name, std::optional<double>& number,
+               const std::string& what);
+
+/// @param type  how its value is called: "TEXT", or all that it can be, "allow|cut"
+void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
+             const std::string& what, const std::string& type = "TEXT");
+
+/// An argument without a name that is required.
+void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
+                 const std::string& type = "TEXT");
+
+/// For options that the command has already.
+void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other);
+/// @}
+
+/// @name Options of several commands
+/// @{
+constexpr int anyNumber = std::numeric_limits<int>::max();
+
+/// Case files or folders, into CommandLine::inputs.
+void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
+               int least, int most);
+
+/// --engines, required unless there is a default.
+void addEngines(CLI::App& app, CommandLine& line, const char* usual = nullptr);
+
+/// --set
+void addOverrides(CLI::App& app, CommandLine& line);
+
+/// Of all commands that take one case file.
+void addCase(CLI::App& app, CommandLine& line, const std::string& what = "case file");
+
+/// -k: which of the cases.
+void addSelection(CLI::App& app, CommandLine& line);
+
+/// Of all commands that leave results: --set, --out, --json.
+void addResults(CLI::App& app, CommandLine& line);
+
+/// Of all commands that average a file of snapshots: the file, the case, results.
+void addSnapshots(CLI::App& app, CommandLine& line);
+
+/// Of all commands that run engines: --engines, results, --jobs, --quiet.
+void addRun(CLI::App& app, CommandLine& line);
+
+void addQuiet(CLI::App& app, CommandLine& line);
+
+void addResume(CLI::App& app, CommandLine& line);
+
+/// Of all commands that run engines on packings: --seed, --resume, --quick.
+void addPackings(CLI::App& app, CommandLine& line);
+/// @}
+
+}  // namespace crossgrain

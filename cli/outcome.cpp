@@ -1,0 +1,34 @@
+#include "cli/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/report.hpp"
+
+namespace crossgrain {
+
+using nlohmann::json;
+
+int countOf(const json& list, const char* key, const std::string& value) {
+  return static_cast<int>(
+      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
+}
+
+void printFailures(const json& rows) {
+  for (const json& row : rows)
+    if (row["status"] == "failed")
+      fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
+}
+
+int averaged(const CommandLine& line, const json& results) {
+  writeReport(results, line.run.out);
+  if (line.json)
+    fmt::print("{}\n", (line.run.out / "results.json").string());
+  else
+    fmt::print("{} snapshots averaged\nreport: {}\n", results["averaging"]["snapshots"].get<int>(),
+               (line.run.out / "report.html").string());
+  return exitHeld;
+}
+
+}  // namespace crossgrain

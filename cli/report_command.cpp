@@ -1,0 +1,30 @@
+#include <fmt/format.h>
+
+#include "cli/option_groups.hpp"
+#include "reports/report.hpp"
+
+namespace crossgrain {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int rebuildReports(const CommandLine& line) {
+  for (const fs::path& folder : line.inputs) {
+    writeReport(readResults(folder), folder);
+    fmt::print("report: {}\n", (folder / "report.html").string());
+  }
+  return exitHeld;
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addInputs(app, line, "folder", "folders that hold a results.json", 1, anyNumber);
+  return [&line] { return rebuildReports(line); };
+}
+
+}  // namespace
+
+extern const Command reportCommand = {"report", "rebuild reports from results.json",
+                                      "crossgrain report out", declare};
+
+}  // namespace crossgrain

@@ -1,0 +1,26 @@
+#include "cli/one_case.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
+#include "runs/rev.hpp"
+
+namespace crossgrain {
+namespace {
+
+int rev(const CommandLine& line) {
+  const Case setup = onlyCase(line, "rev");
+  return averaged(line, revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet));
+}
+
+Action declare(CLI::App& app, CommandLine& line) {
+  addSnapshots(app, line);
+  addQuiet(app, line);
+  return [&line] { return rev(line); };
+}
+
+}  // namespace
+
+extern const Command revCommand = {
+    "rev", "every field against ring width, under every weight",
+    "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev", declare};
+
+}  // namespace crossgrain

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace crossgrain {
+
+/// The value of --budget, "90s", "10m", "1h" [s]. @throws BadInput
+double secondsOf(const std::string& budget);
+
+/// The value of --want, "1%" or "1e-3", as a share: 0.01, 0.001. @throws BadInput
+double shareOf(const std::string& want);
+
+}  // namespace crossgrain

@@ -1,0 +1,149 @@
+"""What the program says of itself: lists, manual pages, completion."""
+
+import json
+import re
+import shutil
+import subprocess
+import unittest
+
+from harness import BAD_INPUT, CASES, HELD, PROGRAM, SystemTest
+from test_command_line import commands_of
+
+
+class List(SystemTest):
+    def listed(self, *arguments):
+        done = self.run_program("list", *arguments, "--json")
+        self.assert_status(done, HELD)
+        text = self.run_program("list", *arguments)
+        self.assert_status(text, HELD)
+        rows = json.loads(done.stdout)
+        self.assertEqual(len(rows), len(text.stdout.splitlines()))
+        for row, line in zip(rows, text.stdout.splitlines()):
+            self.assertIn(row.get("name") or row["key"], line)
+        return rows
+
+    def test_cases(self):
+        rows = {row["file"]: row for row in self.listed("cases", CASES)}
+        quick = rows[str(CASES / "couette/quick.toml")]
+        self.assertEqual(("quick", "couette"), (quick["name"], quick["kind"]))
+        self.assertIn("small cell", quick["what"])
+        self.assertFalse([file for file in rows if "/laws/" in file], "these are no cases")
+        for file in CASES.glob("hard/*.toml"):
+            self.assertIn(str(file), rows)
+        for row in rows.values():
+            self.assertNotEqual("", row["what"], row)
+
+    def test_cases_of_where_one_stands(self):
+        self.assertIn("cases/couette/quick.toml", " ".join(row["file"] for row in self.listed("cases")))
+        empty = self.run_program("list", "cases", ".")
+        self.assert_one_line(empty, BAD_INPUT, ".: there is no case file")
+        self.assert_one_line(self.run_program("list", "cases", "gone"), BAD_INPUT, "gone: No such file")
+        (self.folder / "cases").symlink_to(CASES / "cost")
+        self.assertEqual("cases/quick.toml", self.listed("cases")[0]["file"])
+
+    def test_fields(self):
+        rows = {row["name"]: row for row in self.listed("fields")}
+        self.assertEqual("m/s", rows["azimuthal_velocity"]["unit"])
+        self.assertIn("Σ", rows["stress_rr"]["what"])
+
+    def test_measures(self):
+        rows = {row["name"]: row for row in self.listed("measures")}
+        self.assertEqual("radii", rows["max_overlap"]["unit"])
+
+    def test_keys(self):
+        """That they are the loader's is tested beside the loader."""
+        rows = {(row["section"], row["key"]): row for row in self.listed("keys")}
+        kn = rows["law", "kn"]
+        self.assertEqual(("N/m", "required (linear)"), (kn["unit"], kn["default"]))
+        self.assertEqual("allow, cut", rows["law", "tension"]["default"])
+        self.assertIn("upward", rows["assembly.disks", "stack"]["what"])
+        self.assertFalse([row for row in rows.values() if "`" in row["what"] + row["default"]])
+
+    def test_something_else(self):
+        done = self.run_program("list", "feilds")
+        self.assert_one_line(done, BAD_INPUT, "'feilds'", "did you mean fields?")
+
+
+class Manual(SystemTest):
+    def options(self, command):
+        text = self.run_program(command, "--help").stdout
+        return set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z-]+)", text))
+
+    def test_pages(self):
+        self.assert_status(self.run_program("__manual", "man"), HELD)
+        pages = {page.name: page for page in (self.folder / "man").iterdir()}
+        commands = commands_of(self)
+        self.assertEqual({"crossgrain.1"} | {f"crossgrain-{name}.1" for name in commands}, set(pages))
+        for command in commands:
+            self.assertIn(f"crossgrain\\-{command}", pages["crossgrain.1"].read_text())
+            plain = self.read(pages[f"crossgrain-{command}.1"])
+            for option in self.options(command):
+                self.assertRegex(plain, rf"(?m)^ *(-\w,\s*)?{option}\b")
+            for part in ("NAME", "SYNOPSIS", "EXAMPLES", "EXIT STATUS", "CROSSGRAIN_CACHE"):
+                self.assertIn(part, plain)
+
+    def read(self, page):
+        """As man shows it, where groff is there."""
+        if not shutil.which("groff"):
+            return page.read_text().replace("\\-", "-").replace("\\fB", "").replace("\\fR", "")
+        done = subprocess.run(
+            ["groff", "-man", "-Tutf8", "-Kutf8", "-P-c", "-ww", "-rLL=200n", page], capture_output=True, encoding="utf-8", check=True
+        )
+        self.assertEqual("", done.stderr)
+        return re.sub(".\b", "", done.stdout).replace("\u2010", "-").replace("−", "-")
+
+
+class Completion(SystemTest):
+    """In a real bash."""
+
+    def setUp(self):
+        super().setUp()
+        done = self.run_program("__completion")
+        self.assert_status(done, HELD)
+        self.script = self.write("completion.bash", done.stdout)
+
+    def complete(self, *words):
+        """Of the last word, as bash calls it: --option=value are three words."""
+        quoted = " ".join(f"'{word}'" for word in ("crossgrain", *words))
+        done = subprocess.run(
+            ["bash", "-c", f"set -u; source {self.script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)};"
+             " _crossgrain; printf '%s\\n' \"${COMPREPLY[@]}\""],
+            capture_output=True, encoding="utf-8", check=True, cwd=self.folder,
+        )  # fmt: skip
+        self.assertEqual("", done.stderr)
+        return set(done.stdout.split())
+
+    def test_is_bound(self):
+        done = subprocess.run(
+            ["bash", "-c", f"source {self.script}; complete -p crossgrain"],
+            capture_output=True, encoding="utf-8", check=True,
+        )  # fmt: skip
+        self.assertIn("-F _crossgrain crossgrain", done.stdout)
+
+    def test_commands(self):
+        self.assertLessEqual(set(commands_of(self)), self.complete(""))
+        self.assertEqual({"compare"}, self.complete("comp"))
+        self.assertEqual({"--version"}, self.complete("--v"))
+        self.assertFalse([word for word in self.complete("") if word.startswith("__")])
+
+    def test_every_option_of_every_command(self):
+        for command in commands_of(self):
+            with self.subTest(command):
+                self.assertEqual(Manual.options(self, command), self.complete(command, "--"))
+
+    def test_values(self):
+        self.assertEqual({"grain-as-yade"}, self.complete("compare", "x.toml", "--engines", "grain-as-y"))
+        self.assertEqual({"grain,yade"}, self.complete("compare", "--engines", "grain,y"))
+        self.assertEqual({"yade"}, self.complete("compare", "--engines", "=", "y"))
+        self.assertEqual({"allow", "cut"}, self.complete("calibrate", "--tension", "="))
+        self.assertEqual({"measures"}, self.complete("list", "m"))
+        self.assertEqual({"stability"}, self.complete("help", "sta"))
+        self.assertEqual(set(), self.complete("compare", "x"), "files are bash's own")
+
+    def test_syntax(self):
+        if shutil.which("shellcheck"):
+            subprocess.run(["shellcheck", "-s", "bash", self.script], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
