@@ -118,7 +118,9 @@ std::filesystem::path packingCache() {
     return fs::path(cache) / "crossgrain";
   else if (const std::string home = variable("HOME"); !home.empty())
     return fs::path(home) / ".cache" / "crossgrain";
-  return fs::temp_directory_path() / "crossgrain-cache";
+  std::error_code none;  // of TMPDIR
+  const fs::path scratch = fs::temp_directory_path(none);
+  return (none ? "/tmp" : scratch) / "crossgrain-cache";
 }
 
 std::filesystem::path packingCacheFile(const std::string& hash) {

@@ -4,13 +4,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "adapters/data_folder.hpp"
 #include "averaging/fields.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/case_files.hpp"
 #include "cases/keys.hpp"
 #include "cases/nearest.hpp"
 #include "cases/stability_measures.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 
 namespace crossgrain {
@@ -53,11 +53,6 @@ json listKeys(const fs::path&) {
                     {"default", key.usual},
                     {"what", key.meaning}});
   return rows;
-}
-
-/// Those of the folder that one stands in, else those that came with the program.
-fs::path shippedCases() {
-  return fs::is_directory("cases") ? "cases" : dataFolder() / "cases";
 }
 
 /// What can be listed, and the columns that the text has.
@@ -118,10 +113,11 @@ int list(const CommandLine& line, const std::string& subject, const fs::path& fo
 Action declare(CLI::App& app, CommandLine& line) {
   const auto subject = std::make_shared<std::string>();
   addArgument(app, "what", *subject, "what is to be listed", "cases|fields|measures|keys");
-  addInputs(app, line, "folder", "of the cases to be listed (default: cases, here or as installed)", 0, 1);
+  addInputs(app, line, "folder", "of the cases to be listed (default: cases, here or as installed)",
+            0, 1);
   addFlag(app, "--json", line.json, "as JSON");
   return [&line, subject] {
-    return list(line, *subject, line.inputs.empty() ? shippedCases() : line.inputs.front());
+    return list(line, *subject, line.inputs.empty() ? shippedCases("cases") : line.inputs.front());
   };
 }
 

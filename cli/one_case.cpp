@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "adapters/data_folder.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
 
@@ -23,6 +24,10 @@ Case onlyCase(const CommandLine& line, const char* command) {
       "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(file, overrides).front();
+}
+
+fs::path shippedCases(const std::string& folder) {
+  return fs::is_directory(folder) ? fs::path(folder) : dataFolder() / folder;
 }
 
 std::string effectsInWords(const Effects& called) {

@@ -3,16 +3,24 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <stdexcept>
+
+#include "cases/bad_input.hpp"
 
 namespace crossgrain {
 
 namespace fs = std::filesystem;
 
 ScratchFolder::ScratchFolder() {
-  std::string name = (fs::temp_directory_path() / "crossgrain-XXXXXX").string();
+  std::error_code none;
+  const fs::path folder = fs::temp_directory_path(none);
+  const char* wanted = std::getenv("TMPDIR");
+  if (none)
+    throw BadInput(fmt::format("TMPDIR = {}: there is no such folder for scratch files",
+                               wanted ? wanted : "/tmp"));
+  std::string name = (folder / "crossgrain-XXXXXX").string();
   if (!::mkdtemp(name.data()))
-    throw std::runtime_error(fmt::format("{}: cannot be made", fs::temp_directory_path().string()));
+    throw BadInput(fmt::format("{}: no scratch folder can be made there; TMPDIR may name another",
+                               folder.string()));
   path = name;
 }
 

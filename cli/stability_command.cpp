@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cases/case_files.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "reports/report.hpp"
 #include "runs/engine_access.hpp"
@@ -32,7 +33,7 @@ void printVerdict(const json& row) {
 
 int stability(const CommandLine& line, SuitePart part) {
   std::vector<fs::path> inputs = line.inputs;
-  if (inputs.empty()) inputs.emplace_back("cases/hard");
+  if (inputs.empty()) inputs.push_back(shippedCases("cases/hard"));
   std::vector<Case> cases = hardCases(inputs, line.overrides, part);
   if (line.only) cases = selectedCases(cases, *line.only);
   const json results = testStability(cases, selectEngines(line.run.engines), line.run);

@@ -23,8 +23,8 @@ BUILD = pathlib.Path(os.environ["CROSSGRAIN_BUILD"])
 # Modules that only exist inside the program that runs the script.
 INSIDE_PROGRAMS = {"yade": "yade"}
 
-# Words of the shell scripts that are asked for before they are used.
-OPTIONAL_PROGRAMS = {"sudo", "ccache"}
+# Programs that are asked for before they are used.
+OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff"}
 
 
 def sources(pattern):
