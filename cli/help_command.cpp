@@ -20,8 +20,9 @@ int help(const CLI::App& program, const std::optional<std::string>& name) {
     asked = program.get_subcommand(*name);
   }
   // App::help() would show the command that is running.
-  fmt::print("{}", program.get_formatter()->make_help(asked, name ? "crossgrain " + *name : "",
-                                                      CLI::AppFormatMode::Normal));
+  fmt::print("{}",
+             program.get_formatter()->make_help(asked, name ? "crossgrain " + *name : "crossgrain",
+                                                CLI::AppFormatMode::Normal));
   return exitHeld;
 }
 

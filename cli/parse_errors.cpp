@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/nearest.hpp"
@@ -31,16 +32,20 @@ std::string namesOf(const std::vector<const CLI::Option*>& options) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string oneTooMany(const std::string& argument, const CLI::App& command) {
+  const auto arguments =
+      command.get_options([](const CLI::Option* option) { return option->get_positional(); });
+  return fmt::format("'{}' is one argument too many: {} takes {}", argument, command.get_name(),
+                     arguments.empty() ? "none" : namesOf(arguments));
+}
+
 std::string unexpected(const std::vector<std::string>& extras, const CLI::App& command) {
   const auto unknown = std::ranges::find_if(extras, isOption);
   if (unknown != extras.end()) {
     const std::string name = unknown->substr(0, unknown->find('='));
     return fmt::format("there is no option '{}'{}", name, suggestion(name, optionNames(command)));
   }
-  const auto arguments =
-      command.get_options([](const CLI::Option* option) { return option->get_positional(); });
-  return fmt::format("'{}' is one argument too many: {} takes {}", extras.front(),
-                     command.get_name(), arguments.empty() ? "none" : namesOf(arguments));
+  return oneTooMany(extras.front(), command);
 }
 
 std::string missing(const CLI::App& command) {
@@ -52,13 +57,18 @@ std::string missing(const CLI::App& command) {
   return fmt::format("{} are missing", namesOf(lacking));
 }
 
-/// CLI11's messages about one option begin with its name.
+/// CLI11's messages about one option begin with its name, "--jobs: …" or "Could not convert: --json
+/// = …".
 const CLI::Option* optionOf(const CLI::ParseError& error, const CLI::App& command) {
-  const std::string text = error.what();
-  return command.get_option_no_throw(text.substr(0, text.find(':')));
+  std::string text = error.what();
+  const std::string_view conversion = "Could not convert: ";
+  if (text.starts_with(conversion)) text.erase(0, conversion.size());
+  return command.get_option_no_throw(text.substr(0, text.find_first_of(": ")));
 }
 
-std::string wrongCount(const CLI::Option& option) {
+std::string wrongCount(const CLI::Option& option, const CLI::App& command) {
+  if (option.get_positional() && option.count() > 0)
+    return oneTooMany(option.results().back(), command);
   if (option.count() > 1) return option.get_name() + " is given twice";
   return fmt::format("{} needs a value ({})", option.get_name(), option.get_description());
 }
@@ -67,7 +77,8 @@ std::string reason(const CLI::ParseError& error, const CLI::App& command) {
   if (const auto extras = command.remaining(); !extras.empty()) return unexpected(extras, command);
   const CLI::Option* option = optionOf(error, command);
   if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing(command);
-  if (option && dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return wrongCount(*option);
+  if (option && dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+    return wrongCount(*option, command);
   if (option && option->get_expected_max() == 0) return option->get_name() + " takes no value";
   return error.what();
 }

@@ -38,7 +38,8 @@ int runProgram(int argc, char** argv) {
 
   CLI::App app{
       "crossgrain: one granular scene on several engines, averaged and held against each "
-      "other"};
+      "other",
+      "crossgrain"};
   app.set_version_flag("-V,--version", programVersion);
   app.require_subcommand(1);
   app.footer(footer(nullptr));

@@ -39,8 +39,8 @@ class List(SystemTest):
         empty = self.run_program("list", "cases", ".")
         self.assert_one_line(empty, BAD_INPUT, ".: there is no case file")
         self.assert_one_line(self.run_program("list", "cases", "gone"), BAD_INPUT, "gone: No such file")
-        (self.folder / "cases").symlink_to(CASES / "cost")
-        self.assertEqual("cases/quick.toml", self.listed("cases")[0]["file"])
+        (self.folder / "cases").symlink_to(CASES)
+        self.assertTrue(self.listed("cases")[0]["file"].startswith("cases/"))
 
     def test_fields(self):
         rows = {row["name"]: row for row in self.listed("fields")}
@@ -68,7 +68,7 @@ class List(SystemTest):
 class Manual(SystemTest):
     def options(self, command):
         text = self.run_program(command, "--help").stdout
-        return set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z-]+)", text))
+        return set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z0-9-]+)", text))
 
     def test_pages(self):
         self.assert_status(self.run_program("__manual", "man"), HELD)
