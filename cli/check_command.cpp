@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "adapters/suitability.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/collision_scene.hpp"
@@ -11,6 +10,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/scratch_folder.hpp"
+#include "runs/check_lines.hpp"
 #include "runs/collision_sweep.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/engine_access.hpp"
@@ -21,26 +21,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The scene of a case as far as `check` needs it: all disks are there, but not yet in their
-/// places.
+/// The scene of a case as far as `check` needs it: all disks are there, but not yet where a packing
+/// will have them.
 Scene unplacedScene(const Case& setup) {
   if (setup.kind == CaseKind::collision)
     return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
   if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
   Packing unplaced;
-  unplaced.disks = diskKinds(setup.particles);
+  unplaced.disks = spreadDisks(setup);
   return couetteScene(setup, unplaced, timeStep(setup));
 }
 
 void printSuitability(const EngineEntry& entry, const Case& setup, const Scene& scene,
                       const fs::path& scratch) {
   const auto engine = startEngine(entry, scratch, setup.run.timeout);
-  const Capabilities can = engine->capabilities();
-  settingsFor(setup, entry.name, can);
-  const Adapted adapted = adaptScene(can, scene, setup.run.mayDiffer);
-  fmt::print("  {:<16} can run it\n", entry.name);
-  for (const Deviation& deviation : adapted.deviations)
-    fmt::print("    differs: {}\n", deviation.note);
+  const std::vector<std::string> lines = checkLines(*engine, entry, setup, scene);
+  fmt::print("  {:<16} {}\n", entry.name, lines.front());
+  for (std::size_t k = 1; k < lines.size(); ++k) fmt::print("    {}\n", lines[k]);
 }
 
 int checkCase(const CommandLine& line) {
