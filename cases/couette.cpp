@@ -11,11 +11,19 @@
 
 namespace crossgrain {
 
+int wallDiskCount(const Cell& cell, double radius) {
+  return static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / cell.wallSpacing));
+}
+
+double wallHole(const Cell& cell, double radius, double dilation) {
+  const double half = std::numbers::pi / wallDiskCount(cell, radius);
+  return 2.0 * dilation * radius * std::sin(half) - 2.0 * cell.wallRadius;
+}
+
 WallBody wallRing(const char* name, const Cell& cell, double radius, double angle) {
   WallBody body;
   body.name = name;
-  const double circumference = 2.0 * std::numbers::pi * radius;
-  const auto count = static_cast<int>(circumference / cell.wallSpacing);
+  const int count = wallDiskCount(cell, radius);
   for (int k = 0; k < count; ++k) {
     const double phi = angle + 2.0 * std::numbers::pi * k / count;
     body.diskPosition.emplace_back(radius * std::cos(phi), radius * std::sin(phi));

@@ -10,9 +10,19 @@ inline constexpr const char* wheelName = "wheel";
 inline constexpr const char* ringName = "ring";
 
 /// The Couette cell filled with a packing: the wheel (turning with Ω about the origin) and the ring
-/// (at rest) are rigid bodies of wall disks with centres on R_i and R_o, as many as fit at the
-/// spacing wanted. Where the case blocks rotation, the packing's spins are dropped.
+/// (at rest) are rigid bodies of wall disks with centres on R_i and R_o, evenly spread. Where the
+/// case blocks rotation, the packing's spins are dropped.
 Scene couetteScene(const Case& setup, const Packing& packing, double dt);
+
+/// How many disks the wall of that radius has: 2π·radius/wall_spacing, rounded to the nearest, so
+/// that the real spacing is as near the wanted one as whole numbers allow. Wheel:
+/// `cell.innerRadius`, ring: `cell.outerRadius`.
+int wallDiskCount(const Cell& cell, double radius);
+
+/// The width of the holes in that wall, 2·dilation·radius·sin(π/count) − 2·wall_radius: a disk of
+/// that diameter or a smaller one slips through [m]; negative where wall disks overlap. With the
+/// ring at dilation·R_o, as while a packing is prepared, it has the same disks.
+double wallHole(const Cell& cell, double radius, double dilation = 1.0);
 
 /// The wall disks of one wall: centres on `radius`, turned by `angle`.
 WallBody wallRing(const char* name, const Cell& cell, double radius, double angle);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_print.hpp"
 #include "cases/loader_sections.hpp"
@@ -63,6 +64,25 @@ void checkDamping(const Reader& law, const Case& c) {
                                c.law.gn * critical / used));
 }
 
+/// No disk may slip through a wall, nor through the ring where a packing begins.
+void checkHoles(const Reader& cell, const Case& c) {
+  const auto check = [&](const char* wall, double radius, double dilation, const char* when) {
+    const double hole = wallHole(c.cell, radius, dilation);
+    if (hole >= 2.0 * c.particles.smallRadius)
+      cell.fail(
+          "wall_spacing",
+          fmt::format("a disk of radius {} m slips through holes of {:.4g} m between the {} "
+                      "disks of the {}{}",
+                      c.particles.smallRadius, hole, wallDiskCount(c.cell, radius), wall, when));
+  };
+  check("wheel", c.cell.innerRadius, 1.0, "");
+  check("ring", c.cell.outerRadius, 1.0, "");
+  if (c.particles.file) return;  // nothing is prepared
+  const double dilation = c.preparation.dilation;
+  check("ring", c.cell.outerRadius, dilation,
+        fmt::format(" before it shrinks from preparation.dilation = {:g} R_o", dilation).c_str());
+}
+
 void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
   const Particles& p = c.particles;
   const double gap = c.cell.outerRadius - c.cell.innerRadius - 2.0 * c.cell.wallRadius;
@@ -70,10 +90,7 @@ void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
     cell.fail("outer_radius", fmt::format("a disk of radius {} m does not fit between the walls, "
                                           "{:.4g} m apart",
                                           p.largeRadius, gap));
-  const double hole = c.cell.wallSpacing - 2.0 * c.cell.wallRadius;
-  if (hole >= 2.0 * p.smallRadius)
-    cell.fail("wall_spacing", fmt::format("a disk of radius {} m slips through holes of {:.4g} m",
-                                          p.smallRadius, hole));
+  checkHoles(cell, c);
   if (volumeFraction(c) >= 1.0)
     particles.fail("small", fmt::format("the disks have {:.4g} times the area of the cell",
                                         volumeFraction(c)));

@@ -108,12 +108,13 @@ void convertList(const Value& value, std::vector<Element>& target, const Constra
 
 bool Range::contains(double value) const {
   if (std::isinf(value) && value > 0.0 && mayBeInfinite) return true;
-  return std::isfinite(value) && (lowOpen ? value > low : value >= low) &&
-         (highOpen ? value < high : value <= high);
+  return std::isfinite(value) && !(notZero && value == 0.0) &&
+         (lowOpen ? value > low : value >= low) && (highOpen ? value < high : value <= high);
 }
 
 std::string Range::text() const {
   const std::string tail = unit.empty() ? "" : " " + unit;
+  if (notZero) return "> 0 or < 0" + tail;
   if (std::isinf(low) && std::isinf(high)) return "a finite number" + tail;
   if (std::isinf(high)) return fmt::format("{} {}{}", lowOpen ? ">" : ">=", low, tail);
   return fmt::format("in {}{}, {}{}{}", lowOpen ? '(' : '[', low, high, highOpen ? ')' : ']', tail);
@@ -141,6 +142,10 @@ Range inside(double low, double high, std::string unit) {
 
 Range aboveZeroTo(double high) {
   return {.low = 0.0, .high = high, .lowOpen = true, .unit = {}};
+}
+
+Range eitherSign(std::string unit) {
+  return {.unit = std::move(unit), .notZero = true};
 }
 
 Reader::Reader(const toml::table* table, std::string path, std::string file)

@@ -23,6 +23,7 @@ struct Range {
   bool lowOpen = false, highOpen = false;  ///< whether the end itself is out
   std::string unit = {};
   bool mayBeInfinite = false;
+  bool notZero = false;
 
   bool contains(double value) const;
   std::string text() const;  ///< "> 0 m", ">= 1", "in (0, 1)"
@@ -34,6 +35,7 @@ Range atLeast(double low, std::string unit = {});
 Range between(double low, double high, std::string unit = {});  ///< ends included
 Range inside(double low, double high, std::string unit = {});   ///< ends excluded
 Range aboveZeroTo(double high);                                 ///< (0, high]
+Range eitherSign(std::string unit = {});                        ///< any but 0
 
 /// Reads one table of a case file: knows every key asked for, so that finish() can name the others.
 /// A key that is absent leaves its target alone. All members throw BadInput.

@@ -145,7 +145,8 @@ void readCell(Reader& in, Cell& cell) {
   in.require("wall_radius", cell.wallRadius, positive("m"));
   in.require("wall_spacing", cell.wallSpacing, positive("m"));
   in.require("height", cell.height, positive("m"));
-  in.require("omega", cell.omega, positive("rad/s"));
+  in.require("omega", cell.omega,
+             eitherSign("rad/s: all is timed in rotations of the wheel; < 0 is clockwise"));
   in.finish();
   if (!(cell.outerRadius > cell.innerRadius))
     in.fail("outer_radius", fmt::format("must be > inner_radius = {} m", cell.innerRadius));

@@ -6,6 +6,7 @@
 
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
+#include "cases/couette.hpp"
 #include "cases/files.hpp"
 #include "cases/hdf5_file.hpp"
 
@@ -46,18 +47,20 @@ std::uint64_t packingSeed(const Case& setup, int index) {
 
 std::string packingHash(const Case& setup, int index, double dt) {
   // The leading tag changes whenever the preparation itself does.
-  std::string text = fmt::format("preparation 1; dt {};", dt);
+  std::string text = fmt::format("preparation 2; dt {};", dt);
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
     text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
-  text += fmt::format("law {} {} {} {} {} {};", law.kn, law.kn3, law.gn, law.kt, law.gt, law.mu);
+  text += fmt::format("law {} {} {} {} {} {} {} {};", law.kn, law.kn3, law.gn, law.kt, law.gt,
+                      law.mu, law.en, law.et0);
   if (setup.bottom)
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
                         setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,
                         setup.bottom->spin);
   const Cell& cell = setup.cell;
-  text += fmt::format("cell {} {} {} {} {};", cell.innerRadius, cell.outerRadius, cell.wallRadius,
-                      cell.wallSpacing, cell.omega);
+  text += fmt::format("cell {} {} {} {} {} {};", cell.innerRadius, cell.outerRadius,
+                      cell.wallRadius, wallDiskCount(cell, cell.innerRadius),
+                      wallDiskCount(cell, cell.outerRadius), cell.omega);
   const Particles& disks = setup.particles;
   text += fmt::format("disks {} {} {} {} {} {} {};", disks.small, disks.large, disks.smallRadius,
                       disks.largeRadius, disks.smallMass, disks.largeMass, disks.inertiaFactor);

@@ -30,12 +30,29 @@ Case quickCell() {
   return setup;
 }
 
-TEST(Couette, WallsHoldAsManyDisksAsFitAtTheSpacing) {
+TEST(Couette, WallsHaveTheNumberOfDisksNearestToTheSpacing) {
   Cell cell = quickCell().cell;
   cell.innerRadius = 0.1032;
   cell.outerRadius = 0.2524;
-  EXPECT_EQ(wallRing("wheel", cell, cell.innerRadius, 0.0).diskRadius.size(), 259u);
-  EXPECT_EQ(wallRing("ring", cell, cell.outerRadius, 0.0).diskRadius.size(), 634u);
+  const auto counts = [&] {
+    return std::pair(wallRing("wheel", cell, cell.innerRadius, 0.0).diskRadius.size(),
+                     wallRing("ring", cell, cell.outerRadius, 0.0).diskRadius.size());
+  };
+  EXPECT_EQ(counts(),
+            std::pair(259ul, 634ul));  // 2π·0.1032/0.0025 = 259.4, 2π·0.2524/0.0025 = 634.3
+  cell.wallSpacing = 7e-3;
+  EXPECT_EQ(counts(), std::pair(93ul, 227ul));  // 92.6, 226.6
+}
+
+TEST(Couette, HolesAreTheGapsBetweenNeighbouringWallDisks) {
+  Cell cell = quickCell().cell;
+  cell.wallSpacing = 7e-3;
+  for (const double radius : {cell.innerRadius, cell.outerRadius}) {
+    const WallBody wall = wallRing("wall", cell, radius, 0.3);
+    const double gap = (wall.diskPosition[1] - wall.diskPosition[0]).norm() - 2.0 * cell.wallRadius;
+    EXPECT_NEAR(wallHole(cell, radius), gap, 1e-15);
+    EXPECT_NEAR(wallHole(cell, radius, 1.25), 1.25 * gap + 0.5 * cell.wallRadius, 1e-15);
+  }
 }
 
 TEST(Couette, PreparationFillsTheCell) {
@@ -82,7 +99,13 @@ TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
   EXPECT_NE(hash, changed([](Case& c) { c.law.conventions.leverArm = LeverArm::contactPoint; }));
   EXPECT_NE(hash, changed([](Case& c) { c.bottom = BottomPlate{}; }));
   EXPECT_NE(hash, changed([](Case& c) { c.cell.omega = 0.5; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.cell.omega = -1.0; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.cell.wallSpacing = 7e-3; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.law.en = 0.9; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.law.et0 = 0.5; }));
   EXPECT_NE(hash, changed([](Case& c) { c.preparation.seed = 9; }));
+  // 75 and 188 wall disks, whether 75.4 and 188.5 are wanted or 75.1 and 187.7: the same packing.
+  EXPECT_EQ(hash, changed([](Case& c) { c.cell.wallSpacing = 2.51e-3; }));
   // What comes after the preparation does not matter to it.
   EXPECT_EQ(hash, changed([](Case& c) { c.averaging.rings = 40; }));
 }

@@ -61,7 +61,9 @@ TEST_F(LoaderErrors, NumbersOutOfRangeSayTheRange) {
       {line(4, "kn = nan"), "case.toml:4:6: law.kn = nan: must be >= 0 N/m"},
       {line(15, "height = inf"), "case.toml:15:10: cell.height = inf: must be > 0 m"},
       {line(14, "wall_spacing = 0"), "case.toml:14:16: cell.wall_spacing = 0: must be > 0 m"},
-      {line(16, "omega = 0"), "case.toml:16:9: cell.omega = 0: must be > 0 rad/s"},
+      {line(16, "omega = 0"),
+       "case.toml:16:9: cell.omega = 0: must be > 0 or < 0 rad/s: all is timed in rotations "
+       "of the wheel; < 0 is clockwise"},
       {plus("inertia_factor = 0\n"),
        "case.toml:24:18: particles.inertia_factor = 0: must be in (0, 1]"},
       {plus("[preparation]\npackings = 0\n"),
@@ -142,10 +144,21 @@ TEST_F(LoaderErrors, TheCellMustHoldItsDisks) {
       {line(12, "outer_radius = 0.0414"),  // 11.4 mm − 2.5 mm of wall disks, the large one has 8.99
        "case.toml:12:16: cell.outer_radius = 0.0414: a disk of radius 0.004495 m does not fit "
        "between the walls, 0.0089 m apart"},
-      {line(14, "wall_spacing = 0.01"),  // 10 − 2.5 = 7.5 mm lets 7.4 mm through
+      // Chords less 2.5 mm: 60 sin(π/19) = 9.88 mm hold 7.4 mm back, 150 sin(π/47) = 10.02 mm do
+      // not.
+      {line(14, "wall_spacing = 0.01"),
        "case.toml:14:16: cell.wall_spacing = 0.01: a disk of radius 0.0037 m slips through holes "
-       "of "
-       "0.0075 m"},
+       "of 0.007519 m between the 47 disks of the ring"},
+      // 60 sin(π/18) = 10.42 mm: fewer disks than 2π·30/10.2 = 18.5 stand further apart than
+      // wanted.
+      {line(14, "wall_spacing = 0.0102"),
+       "case.toml:14:16: cell.wall_spacing = 0.0102: a disk of radius 0.0037 m slips through holes "
+       "of 0.007919 m between the 18 disks of the wheel"},
+      // 150 sin(π/59) − 2.5 = 5.48 mm, and 7.48 mm with the ring at 1.25 R_o.
+      {line(14, "wall_spacing = 0.008"),
+       "case.toml:14:16: cell.wall_spacing = 0.008: a disk of radius 0.0037 m slips through holes "
+       "of 0.007478 m between the 59 disks of the ring before it shrinks from "
+       "preparation.dilation = 1.25 R_o"},
       {line(14, "wall_spacing = 0.04"),
        "case.toml:14:16: cell.wall_spacing = 0.04: must be <= inner_radius = 0.03 m"},
       {line(18, "small = 300"),  // (300·3.7² + 34·4.495²)/4725 = 1.015
