@@ -137,7 +137,7 @@ void DistributionAccumulator::addDisk(std::size_t disk, const Snapshot& snapshot
   const double azimuthal =
       (radial.x() * velocity.y() - radial.y() * velocity.x()) / scales_.velocity;
   const std::size_t azimuthalSlot = azimuthalBins.slot(azimuthal);
-  all_[first].counts.count(radialBins.slot(radial.dot(velocity) / scales_.velocity));
+  all_[first].counts.count(radialBins.slot(radial.dot(velocity) / std::abs(scales_.velocity)));
   all_[first + 1].counts.count(azimuthalSlot);
   if (!snapshot.spin) return;
   const std::size_t spinSlot = spinBins.slot((*snapshot.spin)[disk] / scales_.spin);

@@ -55,7 +55,8 @@ struct Distribution {
 };
 
 /// What velocities and spins are divided by: ΩR_i [m/s] and ΩD/d [rad/s], D = 2R_i (Lätzel 2003,
-/// section 6.4).
+/// section 6.4), both < 0 where the wheel turns clockwise. Radial velocities know no sense of
+/// rotation: they are divided by |ΩR_i|.
 struct DistributionScales {
   double velocity;
   double spin;
@@ -63,12 +64,12 @@ struct DistributionScales {
 
 /// Collects distributions over a run, snapshot by snapshot; nothing of a snapshot is kept.
 ///
-/// Per ring that holds a disk's centre, every disk counting once: `radial_velocity` and
-/// `azimuthal_velocity` in units of ΩR_i, `spin` in units of ΩD/d; and `contact_direction`, the
-/// angle of the outward normals of its contacts, those with walls included, from e_r towards e_φ in
-/// [−π, π) (Lätzel 2003, section 6.3). For disks whose centre is within
-/// one d of R_i: `azimuthal_velocity_and_spin`, joint (Lätzel 2003, Figs. 6.10 and 6.11). For the
-/// whole cell `coordination`, contacts of a disk, and of contacts `normal_force` and
+/// Per ring that holds a disk's centre, every disk counting once: `radial_velocity` in
+/// units of |ΩR_i|, `azimuthal_velocity` in units of ΩR_i, `spin` in units of ΩD/d; and
+/// `contact_direction`, the angle of the outward normals of its contacts, those with walls
+/// included, from e_r towards e_φ in [−π, π) (Lätzel 2003, section 6.3). For disks whose centre is
+/// within one d of R_i: `azimuthal_velocity_and_spin`, joint (Lätzel 2003, Figs. 6.10 and 6.11).
+/// For the whole cell `coordination`, contacts of a disk, and of contacts `normal_force` and
 /// `tangential_force`, f_n and |f_t| over their means in the same snapshot. Absent where the
 /// snapshots have no spins or contacts.
 class DistributionAccumulator {

@@ -192,7 +192,7 @@ std::vector<Figure> distributionFigures(const Json& results, const Engines& engi
           "velocities", "Distributions of velocities and spin at the wheel",
           "Radial and azimuthal velocity and spin of single disks in ring 1, next to the wheel "
           "(Lätzel 2003, section 6.4).",
-          {densityPanel(engines, "radial_velocity", 0.0, "v_{r} / (Ω R_{i})", true),
+          {densityPanel(engines, "radial_velocity", 0.0, "v_{r} / |Ω R_{i}|", true),
            densityPanel(engines, "azimuthal_velocity", 0.0, speedAxis, true),
            densityPanel(engines, "spin", 0.0, spinAxis, true)}),
       figureOf("joint", "Joint distribution of velocity and spin at the wheel",

@@ -60,6 +60,8 @@ Scaled scaled(const ProfilePlot& plot, const Json& cell) {
     return {1.0 / (*omega * *radius), "v_{φ} / (Ω R_{i})"};
   if (turning && diameter && plot.field == "spin")
     return {*diameter / (*omega * 2.0 * *radius), "S d / (Ω D)"};
+  // Shear stress follows the sense of rotation; a logarithmic axis shows no negative values.
+  if (turning && *omega < 0.0 && plot.field == "stress_rp") return {-1.0, "−" + plot.label};
   return {1.0, plot.label};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "runs/paired_rings.hpp"
 #include "runs/records.hpp"
@@ -97,16 +98,22 @@ json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison&
   const auto bound = [&](const std::optional<double>& value) {
     return value ? json(inUnit(ring, *value)) : json(nullptr);
   };
+  const auto size = [&](const std::optional<double>& value) {
+    return value ? json(std::abs(inUnit(ring, *value))) : json(nullptr);
+  };
+  // The larger of two negative values has the smaller logarithm.
+  const auto& [low, high] =
+      ring.sign < 0.0 ? std::tie(found.high, found.low) : std::tie(found.low, found.high);
   json error = toJson(found.standardError);
   if (ring.logarithmic && found.standardError)
     error = ring.reference * std::exp(found.difference) * *found.standardError;
   return {{"ring", index},
           {"difference", inUnit(ring, found.difference)},
           {"stderr", error},
-          {"low", bound(found.low)},
-          {"high", bound(found.high)},
+          {"low", bound(low)},
+          {"high", bound(high)},
           {"margin", margin.relative ? margin.value * ring.reference : margin.value},
-          {"detects", bound(detects)},
+          {"detects", size(detects)},
           {"within_share", toJson(found.withinShare)},
           {"scale", ring.logarithmic ? "logarithmic" : "linear"},
           {"packings", found.packings},

@@ -53,13 +53,17 @@ TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numb
   ring.reference = mean ? std::abs(mean->mean) : 0.0;
   ring.sample = {
       reference, other, margin.relative ? margin.value * ring.reference : margin.value, {}};
-  const auto positive = [](const std::optional<double>& value) { return !value || *value > 0.0; };
-  ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, positive) &&
-                     std::ranges::all_of(other, positive);
+  const double sign = mean && mean->mean < 0.0 ? -1.0 : 1.0;
+  const auto ofThatSign = [&](const std::optional<double>& value) {
+    return !value || sign * *value > 0.0;
+  };
+  ring.logarithmic = margin.relative && mean && std::ranges::all_of(reference, ofThatSign) &&
+                     std::ranges::all_of(other, ofThatSign);
   if (!ring.logarithmic) return ring;
+  ring.sign = sign;
   for (auto* values : {&ring.sample.reference, &ring.sample.other})
     for (auto& value : *values)
-      if (value) value = std::log(*value);
+      if (value) value = std::log(sign * *value);
   ring.sample.margin = std::log1p(margin.value);
   return ring;
 }
@@ -83,7 +87,7 @@ void addWithinVariance(TestedRing& ring, const Numbers& referenceError, const Nu
 }
 
 double inUnit(const TestedRing& ring, double value) {
-  return ring.logarithmic ? ring.reference * std::expm1(value) : value;
+  return ring.logarithmic ? ring.sign * ring.reference * std::expm1(value) : value;
 }
 
 }  // namespace crossgrain

@@ -32,13 +32,14 @@ std::vector<Numbers> fieldByRing(const std::vector<const nlohmann::json*>& runs,
                                  std::size_t packings, const char* what = "mean");
 
 /// One ring as it is put to the test. A relative margin is one on the ratio of the two engines:
-/// where every packing has a positive value it is tested on logarithms, whose paired differences
-/// scatter far less than those of the values, for a packing that is stiffer for one engine is so
-/// for all.
+/// where every packing has a value of one and the same sign it is tested on logarithms, whose
+/// paired differences scatter far less than those of the values, for a packing that is stiffer for
+/// one engine is so for all. Which sign does not matter: σ_rφ < 0 where the wheel turns clockwise.
 struct TestedRing {
   PairedSample sample;
   bool logarithmic = false;
-  double reference = 0.0;  ///< mean over packings, in the field's unit
+  double sign = 1.0;       ///< of the values, where they are taken as logarithms
+  double reference = 0.0;  ///< |mean over packings|, in the field's unit
 };
 
 TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numbers& other);

@@ -79,6 +79,30 @@ TEST(AgreementTable, RelativeMarginsAreTestedOnRatios) {
   EXPECT_NEAR(ringOf(table)["margin"].get<double>(), 93.75, 1e-9);
 }
 
+TEST(AgreementTable, TheSignOfAFieldDoesNotMatterToItsRatios) {
+  // The shear stress of a wheel that turns clockwise: the verdict and all bounds of the mirror
+  // image.
+  json turned[2];
+  for (const double sign : {1.0, -1.0}) {
+    json runs = json::array();
+    for (const int packing : {0, 1, 2, 3}) {
+      const double stress = sign * 100.0 * std::pow(2.0, packing);
+      runs.push_back(runOf("a", packing, "stress_rp", stress));
+      runs.push_back(runOf("b", packing, "stress_rp", stress * (1.1 + 0.001 * packing)));
+    }
+    const json table = agreementOf(withMargin("stress_rp", {0.25, true, "because"}), runs,
+                                   {{"a", "b", "peer", ""}});
+    EXPECT_EQ(table[0]["verdict"], "agree");
+    turned[sign < 0.0] = ringOf(table);
+  }
+  EXPECT_EQ(turned[1]["scale"], "logarithmic");
+  for (const char* same : {"stderr", "margin", "detects"})
+    EXPECT_DOUBLE_EQ(turned[1][same].get<double>(), turned[0][same].get<double>()) << same;
+  EXPECT_DOUBLE_EQ(turned[1]["difference"].get<double>(), -turned[0]["difference"].get<double>());
+  EXPECT_DOUBLE_EQ(turned[1]["low"].get<double>(), -turned[0]["high"].get<double>());
+  EXPECT_DOUBLE_EQ(turned[1]["high"].get<double>(), -turned[0]["low"].get<double>());
+}
+
 TEST(AgreementTable, RelativeMarginsOfASignChangingFieldAreLinear) {
   json runs = json::array();
   for (const int packing : {0, 1, 2, 3}) {
