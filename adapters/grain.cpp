@@ -162,7 +162,7 @@ class GrainEngine : public Engine {
   }
 
   Realised load(const Scene& scene, const Settings& settings) override {
-    const bool rigid = !scene.law.soft();
+    const bool rigid = rigid_ = !scene.law.soft();
     const Capabilities can = capabilities();
     const std::vector<std::string>& normals = can.lawOptions.at("normal");
     if (std::ranges::find(normals, lawOptionValue(scene.law, "normal")) == normals.end())
@@ -279,11 +279,14 @@ class GrainEngine : public Engine {
   }
 
   Stats stats() const override {
-    return {simulation_->steps(),
-            simulation_->contactEvaluations(),
-            stopwatch_.wallSeconds,
-            stopwatch_.cpuSeconds,
-            {{"rebuilds", static_cast<double>(simulation_->neighbours().rebuilds)}}};
+    Stats stats{simulation_->steps(),
+                simulation_->contactEvaluations(),
+                stopwatch_.wallSeconds,
+                stopwatch_.cpuSeconds,
+                {{"rebuilds", static_cast<double>(simulation_->neighbours().rebuilds)}}};
+    if (rigid_)
+      stats.counters["unfinished_impacts"] = static_cast<double>(simulation_->unfinishedImpacts());
+    return stats;
   }
 
  private:
@@ -318,6 +321,7 @@ class GrainEngine : public Engine {
   LawConventionSets conventions_;
   double stiffness_;
   std::vector<WallBody> bodies_;
+  bool rigid_ = false;
   bool spins_ = false;  ///< whether snapshots tell them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;

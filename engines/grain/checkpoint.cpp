@@ -9,7 +9,7 @@
 namespace grain {
 namespace {
 
-constexpr std::uint64_t magic = 0x33'6e'69'61'72'67;  // "grain3"
+constexpr std::uint64_t magic = 0x34'6e'69'61'72'67;  // "grain4"
 
 template <class T>
 void write(std::ostream& out, const T& value) {
@@ -69,6 +69,7 @@ void Core<Real>::save(std::ostream& out) const {
   write(out, fingerprint_);
   write(out, steps_);
   write(out, contactEvaluations_);
+  write(out, unfinishedImpacts_);
   writeAll(out, numberAt_);
   const_cast<Core*>(this)->forDiskArrays([&](const auto& array) { writeAll(out, array); });
   writeAll(out, lists_.stretched());
@@ -93,6 +94,7 @@ void Core<Real>::restore(std::istream& in) {
   require(number == fingerprint_, "of another setup");
   read(in, steps_);
   read(in, contactEvaluations_);
+  read(in, unfinishedImpacts_);
   readSame(in, numberAt_);
   for (std::size_t place = 0; place < moving_; ++place) {
     const auto disk = static_cast<std::size_t>(numberAt_[place]);

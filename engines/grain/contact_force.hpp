@@ -89,26 +89,10 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
 }
 
-/// Impulses divided by dt: J_n = −(1 + e_n) v_n m₁₂ of an approaching pair, J_t = −(1 + e_t0) v_t
-/// m_t within ±µ J_n, with dv_t = J_t/m_t (Walton 1992). A pair that parts, or keeps together, is
-/// let be.
-template <class L, class Real>
-GRAIN_INLINE ContactForce<Real> impulseForce(const L& law, const ContactMotion<Real>& contact) {
-  const Real approach = larger(-contact.normalVelocity, Real(0));
-  const Real normal = (Real(1) + law.en) * approach / (Real(2) * contact.normalCompliance);
-  if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
-  const Real bound = law.mu * normal;
-  const Real sticking =
-      -(Real(1) + law.et0) * contact.tangentialVelocity / (Real(2) * contact.tangentialCompliance);
-  const bool slides = magnitude(sticking) > bound;
-  return {normal, slides ? signedLike(bound, sticking) : sticking, slides ? Real(1) : Real(0)};
-}
-
 /// The force on i. `spring` is ξ, kept as long as the contact lasts.
 template <class L, class Real>
 GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<Real>& contact,
                                              Real& spring) {
-  if (law.normal == Normal::impulse) return impulseForce(law, contact);
   const Real normal = normalForce(law, contact);
   if (law.tangential == Tangential::none) return {normal, Real(0), Real(0)};
   const Real bound = coulombBound(law, normal);

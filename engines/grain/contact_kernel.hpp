@@ -92,7 +92,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     if (law.normal == Normal::hertz) motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
-    if (seesCompliances(law)) motion.normalCompliance = complianceTime(law) * b.inverseMass[p];
+    if (seesCompliances(law)) motion.normalCompliance = law.halfStep * b.inverseMass[p];
     Real leverI = 0, leverJ = 0, armI = 0, armJ = 0;  // of the force, of the velocity
     if (friction) motion.tangentialVelocity = b.velocity[p].y * nx - b.velocity[p].x * ny;
     if (law.rotation) {
@@ -105,8 +105,8 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     if (seesCompliances(law)) {
       motion.tangentialCompliance = motion.normalCompliance;
       if (law.rotation)
-        motion.tangentialCompliance += complianceTime(law) * (armI * leverI * b.inverseInertiaI[p] +
-                                                              armJ * leverJ * b.inverseInertiaJ[p]);
+        motion.tangentialCompliance += law.halfStep * (armI * leverI * b.inverseInertiaI[p] +
+                                                       armJ * leverJ * b.inverseInertiaJ[p]);
     }
 
     Real spring = history ? b.spring[p] : Real(0);

@@ -74,7 +74,8 @@ Core<Real>::Core(Setup setup)
              Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_),
       team_(partCount(setup)),
       reports_(partCount(setup)),
-      touching_(partCount(setup)) {
+      touching_(partCount(setup)),
+      impactLaw_{setup.law.en, setup.law.et0, setup.law.friction() ? setup.law.mu : 0.0} {
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
   if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engines/grain/impacts.hpp"
 #include "engines/grain/kernels.hpp"
 #include "engines/grain/ledger.hpp"
 #include "engines/grain/pair_lists.hpp"
@@ -56,6 +57,7 @@ class Core {
   const EnergyLedger* energyLedger() const { return ledger_ ? &ledger_->ledger : nullptr; }
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
+  std::uint64_t unfinishedImpacts() const { return unfinishedImpacts_; }
   const PairLists<Real>& lists() const { return lists_; }
   const char* instructions() const { return kernels_.instructions; }
 
@@ -76,10 +78,18 @@ class Core {
   void rememberChoice();
   std::span<const double> travel();
   void addForces(bool record);
+  void addSoftForces(bool record);
   std::size_t addPairs(std::size_t part, Sort sort, bool record);
   void addFromLowerParts(std::size_t part);
   void addFromHigherParts(std::size_t part);
   void kick(Real dt);
+
+  // The same of rigid disks.
+  void addImpacts();
+  void findPairImpacts();
+  void findPlaneImpacts(std::size_t plane);
+  void addImpulse(const Impact& impact);
+  std::vector<Contact> impactContacts() const;
 
   // The beginning.
   void buildWalls(std::vector<Wall> walls);
@@ -139,7 +149,7 @@ class Core {
   double halfKick_ = 0.0;  ///< from the stored velocity to the one at time() [s]
   std::size_t moving_;
   std::uint64_t fingerprint_;  ///< of the setup
-  std::uint64_t steps_ = 0, contactEvaluations_ = 0;
+  std::uint64_t steps_ = 0, contactEvaluations_ = 0, unfinishedImpacts_ = 0;
   MotionConstants<Real> motionConstants_;
   std::vector<double> mass_, inertia_;  ///< by number
 
@@ -184,6 +194,9 @@ class Core {
   std::vector<MotionReport<Real>> reports_;
   std::vector<std::size_t> touching_;
   bool recorded_ = false;
+  ImpactLaw impactLaw_;
+  std::vector<ImpactBody> impactBodies_;
+  std::vector<Impact> impacts_;  ///< of the last step
   mutable std::optional<std::vector<Contact>> known_;
 
   std::optional<LedgerSums> ledger_;

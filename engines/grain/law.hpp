@@ -11,9 +11,8 @@ enum class Normal {
   linear,  ///< k_n δ
   hertz,  ///< k_n √R₁₂ δ^(3/2), k_n = 4/3 E₁₂ [Pa]; the tangential stiffness is k_t √(R₁₂ δ)
   polynomial,  ///< k_n δ² + k_n3 δ³ [N/m², N/m³]
-  /// No elastic part: rigid disks, an impulse within the step that finds them touching and
-  /// approaching. Every contact for itself: where one disk meets several at once, their impulses
-  /// are not solved together. For semi-implicit Euler steps, in which f dt is an impulse.
+  /// No elastic part: rigid disks, impulses within the step that finds them touching and
+  /// approaching (impacts.hpp). For semi-implicit Euler steps, in which f dt is an impulse.
   impulse
 };
 /// What a dashpot's constant multiplies besides the velocity; S is f_el′(δ), or the tangential
@@ -82,7 +81,7 @@ struct ContactMotion {
   Real overlap;             ///< δ [m]
   Real normalVelocity;      ///< v_n [m/s]
   Real tangentialVelocity;  ///< v_t [m/s]
-  Real normalCompliance;  ///< dt/2 · (1/m_i + 1/m_j); read by implicit damping and impulses [s/kg]
+  Real normalCompliance;    ///< dt/2 · (1/m_i + 1/m_j); read by implicit damping [s/kg]
   /// dt/2 · (1/m_i + 1/m_j + c_i l_i/J_i + c_j l_j/J_j), likewise [s/kg]
   Real tangentialCompliance;
   Real radius = 0;  ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]

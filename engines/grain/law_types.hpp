@@ -7,7 +7,7 @@ namespace grain {
 /// The constants of a law, in the precision of the state.
 template <class Real>
 struct LawConstants {
-  Real kn, kn3, gn, kt, inverseKt, gt, mu, en, et0;
+  Real kn, kn3, gn, kt, inverseKt, gt, mu;
   Real dt;        ///< [s]
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
@@ -63,13 +63,7 @@ bool hasThesisConventions(const GeneralLaw<Real>& law) {
 /// Whether a law asks for the compliances of ContactMotion.
 template <class L>
 GRAIN_INLINE constexpr bool seesCompliances(const L& law) {
-  return law.implicitDamping || law.normal == Normal::impulse;
-}
-
-/// dt/2 in them. An impulse acts at t = 0 as at any time.
-template <class L>
-GRAIN_INLINE constexpr auto complianceTime(const L& law) {
-  return law.normal == Normal::impulse ? law.dt / 2 : law.halfStep;
+  return law.implicitDamping;
 }
 
 /// Whether a law asks for inverse masses.
@@ -88,8 +82,6 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.inverseKt = static_cast<Real>(law.kt > 0.0 ? 1.0 / law.kt : 0.0);
   to.gt = static_cast<Real>(law.gt);
   to.mu = static_cast<Real>(law.mu);
-  to.en = static_cast<Real>(law.en);
-  to.et0 = static_cast<Real>(law.et0);
   to.dt = static_cast<Real>(dt);
   to.halfStep = static_cast<Real>(0.5 * dt);
   to.normal = law.normal;
@@ -102,7 +94,7 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.planeLever = law.planeLever;
   to.stretch = law.stretch;
   to.cutTension = law.cutTension;
-  to.normalDamping = law.gn > 0.0 || law.normal == Normal::impulse;  // both look at v_n
+  to.normalDamping = law.gn > 0.0;
   to.implicitDamping = law.damping == Damping::implicit;
   to.dashpotOutsideBound = law.dashpotOutsideBound;
   to.resetSpringOnly = law.resetSpringOnly;

@@ -62,8 +62,9 @@ template <class Real>
 const std::vector<Contact>& Core<Real>::contacts() const {
   if (!known_) {
     if (!recorded_) throw std::logic_error("the last step did not record its contacts");
-    std::vector<Contact> contacts = pairContacts();
-    appendPlaneContacts(contacts);
+    const bool rigid = law_.normal == Normal::impulse;
+    std::vector<Contact> contacts = rigid ? impactContacts() : pairContacts();
+    if (!rigid) appendPlaneContacts(contacts);
     std::ranges::sort(contacts, [](const Contact& a, const Contact& b) {
       return std::tie(a.i, a.j) < std::tie(b.i, b.j);
     });

@@ -39,11 +39,10 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       if (law.damper == Damper::critical) motion.mass = Real(1) / disks.inverseMass[i];
       if (law.rotation) motion.tangentialVelocity -= arm * disks.spin[i];
       if (seesCompliances(law)) {
-        motion.normalCompliance = complianceTime(law) * disks.inverseMass[i];
+        motion.normalCompliance = law.halfStep * disks.inverseMass[i];
         motion.tangentialCompliance = motion.normalCompliance;
         if (law.rotation)
-          motion.tangentialCompliance +=
-              complianceTime(law) * arm * lever * disks.inverseInertia[i];
+          motion.tangentialCompliance += law.halfStep * arm * lever * disks.inverseInertia[i];
       }
       force = contactForce(law, motion, spring);
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;

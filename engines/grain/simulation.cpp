@@ -84,6 +84,10 @@ const std::vector<Contact>& Simulation::contacts() const {
       core_, [](const auto& core) -> const auto& { return core.contacts(); });
 }
 
+std::uint64_t Simulation::unfinishedImpacts() const {
+  return with(core_, [](const auto& core) { return core.unfinishedImpacts(); });
+}
+
 std::uint64_t Simulation::contactEvaluations() const {
   return with(core_, [](const auto& core) { return core.contactEvaluations(); });
 }

@@ -57,6 +57,8 @@ class Simulation {
   /// Contacts of the last force evaluation, that is at time(), by ascending i, j.
   const std::vector<Contact>& contacts() const;
   std::uint64_t contactEvaluations() const;
+  /// Steps after which rigid disks still approached each other (impacts.hpp).
+  std::uint64_t unfinishedImpacts() const;
 
   WallState wallState(std::size_t wall) const;
   WallLoad wallLoad(std::size_t wall) const;

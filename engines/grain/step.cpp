@@ -104,14 +104,25 @@ void Core<Real>::rememberChoice() {
   sampled_ = false;
 }
 
+template <class Real>
+void Core<Real>::addForces(bool record) {
+  recorded_ = record;
+  const auto begin = std::chrono::steady_clock::now();
+  if (law_.normal == Normal::impulse)
+    addImpacts();
+  else
+    addSoftForces(record);
+  if (!std::exchange(sampled_, true))  // one step in some tells the lists what a pair costs
+    lists_.pairsTook(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
 /// Contacts add to the disks' forces in one order, whatever the number of threads: those with
 /// disks of lower parts, those inside the part, those with disks of higher parts, walls, planes.
 /// That is the order of one list of all pairs, since parts are consecutive.
 template <class Real>
-void Core<Real>::addForces(bool record) {
-  recorded_ = record;
+void Core<Real>::addSoftForces(bool record) {
   if (record) makeRoomForRecords();
-  const auto begin = std::chrono::steady_clock::now();
   if (lists_.parts() > 1) {
     team_.run([&](std::size_t part) { touching_[part] = addPairs(part, Sort::across, record); });
   } else {
@@ -127,9 +138,6 @@ void Core<Real>::addForces(bool record) {
                                  lists_.partBegin(part), lists_.partBegin(part + 1));
   });
   for (const std::size_t touching : touching_) contactEvaluations_ += touching;
-  if (!std::exchange(sampled_, true))  // one step in some tells the lists what a pair costs
-    lists_.pairsTook(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 
 template <class Real>

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/unit/grain_scenes.hpp"
 
@@ -66,6 +69,188 @@ TEST(GrainImpulse, OnAPlaneTheDiskIsTheWholeMass) {
   EXPECT_NEAR(simulation.velocityX(0), en * 0.5 * speed, 1e-12);
   const double slip = simulation.velocityY(0) - test::radius * simulation.spin(0);
   EXPECT_NEAR(slip, -et0 * 0.25 * speed, 1e-4 * speed);
+}
+
+/// Walton's model in closed form, for two disks of any masses and radii: arms a_i, and the normal
+/// at the instant of the impact.
+TEST(GrainImpulse, IsWaltonsClosedFormToRounding) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> one(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    grain::Setup setup = headOn(0.0);
+    setup.law.lever = Lever::radius;
+    grain::Disks& d = setup.disks;
+    for (const std::size_t k : {0u, 1u}) {
+      d.radius[k] *= std::exp(one(random));
+      d.mass[k] *= std::exp(2.0 * one(random));
+      d.inertia[k] = (0.5 + 0.1 * one(random)) * d.mass[k] * d.radius[k] * d.radius[k];
+      d.vx[k] = one(random);
+      d.vy[k] = one(random);
+      d.spin[k] = 300.0 * one(random);
+    }
+    const double angle = M_PI * one(random), reach = (1.0 - 1e-12) * (d.radius[0] + d.radius[1]);
+    d.x = {reach * std::cos(angle), 0.0};
+    d.y = {reach * std::sin(angle), 0.0};
+    const double nx = std::cos(angle), ny = std::sin(angle);
+    const double vn = (d.vx[0] - d.vx[1]) * nx + (d.vy[0] - d.vy[1]) * ny;
+    if (vn >= -0.01) continue;
+    const double vt = (d.vy[0] - d.vy[1]) * nx - (d.vx[0] - d.vx[1]) * ny -
+                      (d.radius[0] * d.spin[0] + d.radius[1] * d.spin[1]);
+    const double mn = d.mass[0] * d.mass[1] / (d.mass[0] + d.mass[1]);
+    double compliance = 1.0 / mn;
+    for (const std::size_t k : {0u, 1u}) compliance += d.radius[k] * d.radius[k] / d.inertia[k];
+    const double jn = -(1.0 + en) * mn * vn;
+    const double stick = -(1.0 + et0) * vt / compliance;
+    const double jt = std::copysign(std::min(std::abs(stick), mu * jn), stick);
+
+    Simulation after(setup);
+    after.advance(1);
+    for (const std::size_t k : {0u, 1u}) {
+      const double side = k == 0 ? 1.0 : -1.0;
+      const double vx = d.vx[k] + side * (jn * nx - jt * ny) / d.mass[k];
+      const double vy = d.vy[k] + side * (jn * ny + jt * nx) / d.mass[k];
+      const double spin = d.spin[k] - d.radius[k] * jt / d.inertia[k];
+      EXPECT_NEAR(after.velocityX(k), vx, 1e-14 * 10.0);  // of velocities of up to 10 m/s
+      EXPECT_NEAR(after.velocityY(k), vy, 1e-14 * 10.0);
+      EXPECT_NEAR(after.spin(k), spin, 1e-14 * 3000.0);
+    }
+  }
+}
+
+/// Ten equal disks in a row that touch: the last one leaves with the speed of the first, which
+/// stops, whichever way their contacts are taken.
+TEST(GrainImpulse, ARowOfDisksPassesTheImpactOn) {
+  for (const double direction : {1.0, -1.0}) {
+    grain::Setup setup = headOn(0.0);
+    setup.law.en = 1.0;
+    setup.law.mu = 0.0;
+    setup.disks = {};
+    for (int k = 0; k < 10; ++k)
+      test::addDisk(setup.disks, direction * k * (2.0 - 1e-9) * test::radius, 0.0,
+                    k == 0 ? direction * speed : 0.0, 0.0, 0.0);
+    Simulation simulation(setup);
+    simulation.advance(3);
+    for (std::size_t k = 0; k < 10; ++k)
+      EXPECT_NEAR(simulation.velocityX(k), k == 9 ? direction * speed : 0.0, 1e-14 * speed) << k;
+    EXPECT_EQ(simulation.unfinishedImpacts(), 0u);
+  }
+}
+
+/// A gas of 38 % in a box, in which many a disk meets several others within a step.
+grain::Setup gas(double restitution, double friction) {
+  grain::Setup setup = headOn(0.0, 5e-4);
+  setup.law.en = restitution;
+  setup.law.mu = friction;
+  setup.disks = {};
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> velocity(0.0, 0.3);
+  const double spacing = std::sqrt(M_PI / 0.38) * test::radius;
+  for (int row = 0; row < 12; ++row)
+    for (int column = 0; column < 12; ++column)
+      test::addDisk(setup.disks, (column + 0.5) * spacing, (row + 0.5) * spacing, velocity(random),
+                    velocity(random), friction > 0.0 ? 100.0 * velocity(random) : 0.0);
+  grain::Wall box;
+  const double side = 12.0 * spacing;
+  box.planes = {
+      {0.0, 0.0, 1.0, 0.0}, {side, 0.0, -1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {0.0, side, 0.0, -1.0}};
+  box.motion = [](double) { return grain::WallState{}; };
+  box.moves = false;
+  setup.walls.push_back(box);
+  return setup;
+}
+
+TEST(GrainImpulse, AnElasticGasKeepsItsEnergyToRounding) {
+  Simulation simulation(gas(1.0, 0.0));
+  const double before = simulation.kineticEnergy();
+  std::uint64_t crowded = 0;  // steps with more contacts than disks could have in pairs
+  for (int look = 0; look < 200; ++look) {
+    simulation.advance(50);
+    EXPECT_NEAR(simulation.kineticEnergy(), before, 1e-12 * before);
+    std::vector<int> partners(simulation.movingCount(), 0);
+    for (const Contact& contact : simulation.contacts())
+      for (const auto id : {contact.i, contact.j})
+        if (static_cast<std::size_t>(id) < partners.size())
+          ++partners[static_cast<std::size_t>(id)];
+    crowded += *std::ranges::max_element(partners) > 1 ? 1 : 0;
+  }
+  EXPECT_GT(crowded, 20u);  // else it tests nothing but pairs
+  EXPECT_GT(simulation.contactEvaluations(), 10'000u);
+}
+
+/// Every impact takes energy or leaves it, friction or not: no look finds more than the one before.
+TEST(GrainImpulse, NoGasGains) {
+  for (const double restitution : {1.0, 0.7, 0.0})
+    for (const double friction : {0.0, 0.4}) {
+      Simulation simulation(gas(restitution, friction));
+      double last = simulation.kineticEnergy();
+      const double initial = last;
+      for (int look = 0; look < 100; ++look) {
+        simulation.advance(20);
+        EXPECT_LE(simulation.kineticEnergy(), last + 1e-13 * initial) << restitution << friction;
+        last = simulation.kineticEnergy();
+      }
+    }
+}
+
+/// Three disks on top of each other that do not rebound stay where they are under gravity.
+TEST(GrainImpulse, WhatRestsDoesNotSink) {
+  grain::Setup setup = headOn(0.0, 1e-4);
+  setup.law.en = 0.0;
+  setup.disks = {};
+  for (int k = 0; k < 3; ++k)
+    test::addDisk(setup.disks, (1.0 - 1e-9 + k * (2.0 - 2e-9)) * test::radius, 0.0, 0.0, 0.0, 0.0);
+  setup.gravityX = -9.81;
+  grain::Wall floor;
+  floor.planes = {{0.0, 0.0, 1.0, 0.0}};
+  floor.motion = [](double) { return grain::WallState{}; };
+  floor.moves = false;
+  setup.walls.push_back(floor);
+  Simulation simulation(setup);
+  simulation.advance(10'000);  // a second, in which free fall would be 5 m
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(simulation.x(k), setup.disks.x[k], 1e-8 * test::radius) << k;
+  // What each contact carries: the weight above it.
+  const double weight = 9.81 * test::mass;
+  const auto& contacts = simulation.contacts();
+  ASSERT_EQ(contacts.size(), 3u);
+  EXPECT_NEAR(contacts[0].normalForce, 2.0 * weight, 1e-6 * weight);
+  EXPECT_NEAR(contacts[1].normalForce, 3.0 * weight, 1e-6 * weight);
+  EXPECT_NEAR(contacts[2].normalForce, weight, 1e-6 * weight);
+  EXPECT_EQ(simulation.unfinishedImpacts(), 0u);
+}
+
+/// A disk between two walls that close in can never part from both: the step goes on, and says so.
+TEST(GrainImpulse, SaysWhereImpactsDoNotEnd) {
+  grain::Setup setup = headOn(0.0);
+  setup.law.en = 0.5;
+  test::putOnPlane(setup);
+  setup.disks.x = {0.999 * test::radius};
+  grain::Wall press;
+  press.planes = {{1.998 * test::radius, 0.0, -1.0, 0.0}};
+  press.motion = [](double t) {
+    grain::WallState state;
+    state.x = -0.01 * t;
+    state.vx = -0.01;
+    return state;
+  };
+  setup.walls.push_back(press);
+  Simulation simulation(setup);
+  simulation.advance(10);
+  EXPECT_GT(simulation.unfinishedImpacts(), 5u);
+  EXPECT_TRUE(std::isfinite(simulation.kineticEnergy()));
+}
+
+TEST(GrainImpulse, TheSameBitsOnAnyNumberOfThreads) {
+  grain::Setup setup = gas(0.9, 0.3);
+  Simulation one(setup);
+  setup.threads = 3;
+  Simulation three(setup);
+  one.advance(2000);
+  three.advance(2000);
+  for (std::size_t k = 0; k < one.movingCount(); ++k) {
+    ASSERT_EQ(one.x(k), three.x(k)) << k;
+    ASSERT_EQ(one.spin(k), three.spin(k)) << k;
+  }
 }
 
 TEST(GrainImpulse, NeedsTheSchemeInWhichAKickIsAnImpulse) {

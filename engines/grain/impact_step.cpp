@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "engines/grain/contact_force.hpp"
+#include "engines/grain/core.hpp"
+
+// A step of rigid disks: which ones touch, and their impulses as forces of that one step.
+
+namespace grain {
+
+/// Impulses act on the velocities that the coming kick would bring about without them: a disk that
+/// rests on another is held, and does not sink by what gravity gives it in a step.
+template <class Real>
+void Core<Real>::addImpacts() {
+  impactBodies_.clear();
+  for (std::size_t k = 0; k < position_.size(); ++k) {
+    ImpactBody body{velocity_[k].x, velocity_[k].y, 0.0, inverseMass_[k], 0.0};
+    if (law_.rotation) {
+      body.spin = spin_[k];
+      body.inverseInertia = inverseInertia_[k];
+    }
+    if (k < moving_) {
+      body.vx += dt_ * static_cast<double>(force_[k].x) * body.inverseMass;
+      body.vy += dt_ * static_cast<double>(force_[k].y) * body.inverseMass;
+      if (law_.rotation) body.spin += dt_ * static_cast<double>(torque_[k]) * body.inverseInertia;
+    }
+    impactBodies_.push_back(body);
+  }
+  impacts_.clear();
+  findPairImpacts();
+  // One order, whatever the lists and the number of threads.
+  std::ranges::sort(impacts_, [](const Impact& a, const Impact& b) {
+    return std::tie(a.i, a.j) < std::tie(b.i, b.j);
+  });
+  for (std::size_t p = 0; p < placedPlanes_.size(); ++p) findPlaneImpacts(p);
+
+  if (!solveImpacts(impactLaw_, impactBodies_, impacts_)) ++unfinishedImpacts_;
+  contactEvaluations_ += impacts_.size();
+  for (const Impact& impact : impacts_) addImpulse(impact);
+}
+
+template <class Real>
+void Core<Real>::findPairImpacts() {
+  for (std::size_t part = 0; part < lists_.parts(); ++part)
+    for (const Sort sort : {Sort::inside, Sort::across, Sort::walls}) {
+      const PairList<Real>& list = lists_.list(part, sort);
+      for (std::size_t k = 0; k < list.count; ++k) {
+        const auto i = static_cast<std::size_t>(list.i[k]);
+        const auto j = static_cast<std::size_t>(list.j[k]);
+        Vec<Real> d = position_[i] - position_[j];
+        if (!list.shift.empty()) d += list.shift[k];
+        const double x = d.x, y = d.y;
+        const double reach = static_cast<double>(radius_[i]) + static_cast<double>(radius_[j]);
+        const double distance2 = x * x + y * y;
+        if (!(distance2 < reach * reach)) continue;
+        const double distance = squareRoot(distance2);
+        Impact impact{
+            .i = i, .j = j, .nx = x / distance, .ny = y / distance, .overlap = reach - distance};
+        const auto radiusI = static_cast<double>(radius_[i]);
+        const auto radiusJ = static_cast<double>(radius_[j]);
+        impact.leverI = armOf(law_.lever, radiusI, radiusJ, impact.overlap);
+        impact.leverJ = armOf(law_.lever, radiusJ, radiusI, impact.overlap);
+        impact.armI = armOf(law_.velocityLever, radiusI, radiusJ, impact.overlap);
+        impact.armJ = armOf(law_.velocityLever, radiusJ, radiusI, impact.overlap);
+        impacts_.push_back(impact);
+      }
+    }
+}
+
+/// A plane's points move each in its own way, so each contact has a body of its own.
+template <class Real>
+void Core<Real>::findPlaneImpacts(std::size_t p) {
+  const PlacedPlane& placed = placedPlanes_[p];
+  const Plane& plane = placed.plane;
+  const WallState& wall = walls_[placed.wall].state();
+  for (std::size_t i = 0; i < moving_; ++i) {
+    Vec<double> origin{0.0, 0.0};
+    if constexpr (hasLocalCoordinates<Real>)
+      origin = {static_cast<double>(origin_[i].x), static_cast<double>(origin_[i].y)};
+    const double dx = origin.x - plane.x + static_cast<double>(position_[i].x);
+    const double dy = origin.y - plane.y + static_cast<double>(position_[i].y);
+    const double height = dx * plane.nx + dy * plane.ny;
+    const auto radius = static_cast<double>(radius_[i]);
+    if (!(height < radius)) continue;
+    const double reach = planePoint(law_, radius, height);
+    const double armX = plane.x + dx - reach * plane.nx - wall.x;
+    const double armY = plane.y + dy - reach * plane.ny - wall.y;
+    Impact impact{.i = i,
+                  .j = impactBodies_.size(),
+                  .nx = plane.nx,
+                  .ny = plane.ny,
+                  .overlap = radius - height};
+    impact.leverI = planeArmOf(law_.lever, law_.planeLever, radius, height);
+    impact.armI = planeArmOf(law_.velocityLever, law_.planeLever, radius, height);
+    impact.plane = static_cast<std::int32_t>(p);
+    impactBodies_.push_back(
+        {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0, 0.0, 0.0});
+    impacts_.push_back(impact);
+  }
+}
+
+template <class Real>
+void Core<Real>::addImpulse(const Impact& impact) {
+  const double fx = (impact.normal * impact.nx - impact.tangential * impact.ny) / dt_;
+  const double fy = (impact.normal * impact.ny + impact.tangential * impact.nx) / dt_;
+  const Vec<Real> force{static_cast<Real>(fx), static_cast<Real>(fy)};
+  const double turning = impact.tangential / dt_;
+  force_[impact.i] += force;
+  if (law_.rotation) torque_[impact.i] -= static_cast<Real>(impact.leverI * turning);
+  if (impact.j >= moving_) return;
+  force_[impact.j] -= force;
+  if (law_.rotation) torque_[impact.j] -= static_cast<Real>(impact.leverJ * turning);
+}
+
+/// Impulses over dt, the forces of the step.
+template <class Real>
+std::vector<Contact> Core<Real>::impactContacts() const {
+  std::vector<Contact> contacts;
+  for (const Impact& impact : impacts_) {
+    Contact contact{numberAt_[impact.i],
+                    impact.plane >= 0 ? static_cast<std::int32_t>(position_.size()) + impact.plane
+                    : impact.j < moving_ ? numberAt_[impact.j]
+                                         : static_cast<std::int32_t>(impact.j),
+                    impact.nx,
+                    impact.ny,
+                    impact.overlap,
+                    impact.normal / dt_,
+                    impact.tangential / dt_,
+                    0.0,
+                    impact.slid};
+    if (contact.j < contact.i) {
+      std::swap(contact.i, contact.j);
+      contact.nx = -contact.nx;
+      contact.ny = -contact.ny;
+    }
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+template class Core<double>;
+template class Core<float>;
+
+}  // namespace grain
