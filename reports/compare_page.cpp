@@ -66,7 +66,8 @@ Json numberCheckRows(const Engines& engines) {
                       {"found", readable(number(list(check, "value")[0]),
                                          number(element(list(check, "stderr"), 0)))},
                       {"expected", readable(number(element(list(check, "reference"), 0)),
-                                            number(check, "reference_stderr"))}});
+                                            number(check, "reference_stderr"))},
+                      {"note", mathHtml(text(check, "note"))}});
     }
   std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
     return text(a, "check") < text(b, "check");

@@ -11,6 +11,7 @@ using nlohmann::json;
 
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
     : setup_(setup),
+      scene_(scene),
       profiles_(ringsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
       series_(setup, scene),
       distributions_(ringsOf(setup), scene, distributionScales(setup)),
@@ -21,6 +22,9 @@ void CouetteAverages::add(const Snapshot& snapshot) {
   series_.add(snapshot);
   distributions_.add(snapshot);
   spin_.add(snapshot);
+  // As the pressure on the ring: only of snapshots that hold the walls.
+  if (snapshot.wallPosition.empty()) return;
+  if (const auto wall = outerWallBalance(ringsOf(setup_), scene_, snapshot)) wall_.push_back(*wall);
 }
 
 void CouetteAverages::describe(const Realised& realised, json& run) const {
@@ -34,7 +38,7 @@ void CouetteAverages::describe(const Realised& realised, json& run) const {
   run["steadiness"] = couetteSteadiness(setup_, series);
   run["fits"] = couetteFits(setup_, profiles);
   for (const json& fit : spinFits(setup_, spin_)) run["fits"].push_back(fit);
-  run["checks"] = couetteChecks(setup_, profiles, series);
+  run["checks"] = couetteChecks(setup_, profiles, series, wall_);
   run["distributions"] = toJson(distributions_.distributions());
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "averaging/distributions.hpp"
 #include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
+#include "averaging/wall_balance.hpp"
 #include "runs/couette_series.hpp"
 
 namespace crossgrain {
@@ -25,10 +27,12 @@ class CouetteAverages {
 
  private:
   const Case& setup_;
+  const Scene& scene_;
   ProfileAccumulator profiles_;
   CouetteSeries series_;
   DistributionAccumulator distributions_;
   LayerSpin spin_;
+  std::vector<WallBalance> wall_;  ///< one a snapshot that holds the walls and contacts
 };
 
 }  // namespace crossgrain

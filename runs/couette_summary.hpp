@@ -7,6 +7,7 @@
 #include "averaging/distributions.hpp"
 #include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
+#include "averaging/wall_balance.hpp"
 #include "cases/case.hpp"
 
 namespace crossgrain {
@@ -30,8 +31,10 @@ nlohmann::json couetteFits(const Case& setup, const std::vector<Profile>& profil
 nlohmann::json spinFits(const Case& setup, const LayerSpin& spin);
 
 /// What must hold in a steady state, ring by ring, as "checks": the torque carried at every ring is
-/// the wheel's, σ_rr in the outermost ring is the pressure on the ring.
+/// the wheel's, σ_rr in the outermost ring is what the pressure on the ring calls for.
+/// @param wall  one for each entry of the series' outer_pressure, or none: then that is not checked
 nlohmann::json couetteChecks(const Case& setup, const std::vector<Profile>& profiles,
-                             const nlohmann::json& series);
+                             const nlohmann::json& series,
+                             const std::vector<WallBalance>& wall = {});
 
 }  // namespace crossgrain

@@ -52,6 +52,34 @@ TEST(CouetteSummary, TorqueBalanceOfAnExactStressFieldIsOne) {
   }
 }
 
+TEST(CouetteSummary, WallPressureIsHeldAgainstStressAlongBranchesAndTheRestIsTakenApart) {
+  // P = 100; R_o/r_m = 75/71.25 adds 5.26, the hoop stress takes 3.26: 102. Along branches there
+  // are 101, which leaves −1; slicing shows 106.
+  json series;
+  series["wheel_torque"] = json::array();
+  series["outer_pressure"] = std::vector<double>(50, 100.0);
+  const std::vector<Profile> profiles = {profile("stress_rr", [](double) { return 106.0; })};
+  const double hoop = 100.0 * 75.0 / 71.25 - 102.0;
+  const std::vector<WallBalance> wall(50, {101.0, hoop});
+  const json checks = couetteChecks(cell(), profiles, series, wall);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0]["name"], "wall_pressure");
+  EXPECT_NEAR(checks[0]["value"][0].get<double>(), 101.0, 1e-12);
+  EXPECT_NEAR(checks[0]["reference"][0].get<double>(), 102.0, 1e-12);
+  EXPECT_EQ(
+      checks[0]["note"],
+      "The averaged σ_rr of that ring (slicing) is +6.0 % off P: +5.3 % as its mean radius is "
+      "smaller than R_o, -3.3 % by the hoop stress in it, +5.0 % as the weights share a disk's "
+      "stress otherwise than its branches do and disks at a wall all stand alike, -1.0 % left "
+      "(what flows and accelerates).");
+  // Without contacts nothing is known of branches, and nothing is checked.
+  EXPECT_TRUE(couetteChecks(cell(), profiles, series).empty());
+  // No pressure at all: the check stands, and there is no share of it to tell.
+  series["outer_pressure"] = std::vector<double>(50, 0.0);
+  const json none = couetteChecks(cell(), profiles, series, std::vector<WallBalance>(50));
+  EXPECT_FALSE(none[0].contains("note"));
+}
+
 TEST(CouetteSummary, ExponentOfAnExactPowerLawIsFound) {
   const std::vector<Profile> profiles = {
       profile("stress_rp", [](double r) { return 1e-2 / (r * r); })};
