@@ -11,12 +11,25 @@
 
 namespace crossgrain {
 
-namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw OutputError(fmt::format("{}: cannot be written: {}", path.string(),
-                                std::generic_category().message(error)));
+OutputError::OutputError(const std::filesystem::path& path, int error)
+    : OutputError(path, systemReason(error)) {
+  noRoom = error == ENOSPC || error == EDQUOT || error == EFBIG;
 }
+
+OutputError::OutputError(const std::filesystem::path& path, const std::string& why)
+    : std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), why)) {}
+
+OutputError OutputError::with(const std::string& more) const {
+  OutputError longer(what() + more);
+  longer.noRoom = noRoom;
+  return longer;
+}
+
+std::string systemReason(int error) {
+  return error == 0 ? "the system does not say why" : std::generic_category().message(error);
+}
+
+namespace {
 
 /// @returns 0 or the errno of what went wrong
 int writeAll(int descriptor, std::string_view content) {
@@ -35,19 +48,19 @@ int writeAll(int descriptor, std::string_view content) {
 void makeDirectory(const std::filesystem::path& dir) {
   std::error_code error;
   std::filesystem::create_directories(dir, error);
-  if (error) fail(dir, error.value());
+  if (error) throw OutputError(dir, error.value());
 }
 
 void writeFile(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path part = file.string() + fmt::format(".part{}", ::getpid());
   const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(file, errno);
+  if (descriptor < 0) throw OutputError(file, errno);
   int error = writeAll(descriptor, content);
   if (::close(descriptor) != 0 && error == 0) error = errno;
   if (error == 0 && ::rename(part.c_str(), file.c_str()) != 0) error = errno;
   if (error == 0) return;
   ::unlink(part.c_str());
-  fail(file, error);
+  throw OutputError(file, error);
 }
 
 std::optional<std::string> readFile(const std::filesystem::path& file) {

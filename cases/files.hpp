@@ -10,8 +10,22 @@ namespace crossgrain {
 
 /// A folder or file cannot be written; what() names it and says why.
 struct OutputError : std::runtime_error {
+  /// @param error errno; 0 where nobody set it
+  OutputError(const std::filesystem::path& path, int error);
+  OutputError(const std::filesystem::path& path, const std::string& why);
+
+  /// The same, with more said after it.
+  OutputError with(const std::string& more) const;
+
+  /// The disk is full, or a quota or limit reached: room has to be made, the input is not at fault.
+  bool noRoom = false;
+
+ private:
   using std::runtime_error::runtime_error;
 };
+
+/// What the system says to errno; never "Success", which is what it says to 0.
+std::string systemReason(int error);
 
 /// Creates the folder and those above it. @throws OutputError
 void makeDirectory(const std::filesystem::path& dir);

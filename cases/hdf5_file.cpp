@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
+#include <regex>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "cases/files.hpp"
@@ -34,6 +33,29 @@ class Handle {
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   H5Eclear2(H5E_DEFAULT);
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+}
+
+/// The innermost of the errors that HDF5 has recorded, in its own words; empty without one.
+std::string libraryReason() {
+  std::string reason;
+  const auto first = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
+    auto& kept = *static_cast<std::string*>(text);
+    if (kept.empty() && error->desc) kept = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &reason);
+  H5Eclear2(H5E_DEFAULT);
+  return reason;
+}
+
+/// errno would be of any call since; what HDF5's drivers were told is in its record: "… errno = 28,
+/// …".
+OutputError notWritten(const std::filesystem::path& file) {
+  const std::string reason = libraryReason();
+  static const std::regex told("errno = ([0-9]+)");
+  if (std::smatch found; std::regex_search(reason, found, told))
+    return OutputError(file, std::stoi(found[1]));
+  return OutputError(file, reason.empty() ? "HDF5 does not say why" : "HDF5: " + reason);
 }
 
 std::unique_lock<std::mutex> lockLibrary() {
@@ -79,10 +101,7 @@ Hdf5File Hdf5File::append(const std::filesystem::path& file) {
   H5Pset_file_locking(access, /*use=*/false, /*ignore when disabled=*/true);
   const hid_t id = there ? H5Fopen(file.c_str(), H5F_ACC_RDWR, access)
                          : H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access);
-  if (id < 0) {
-    H5Eclear2(H5E_DEFAULT);
-    throw OutputError(fmt::format("{}: cannot be written as an HDF5 file", file.string()));
-  }
+  if (id < 0) throw notWritten(file);
   return {id, file, Place::disk, std::move(lock)};
 }
 
@@ -104,11 +123,9 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
 }
 
 void Hdf5File::check(herr_t status, const std::string& what) const {
-  const std::error_code cause(errno, std::generic_category());
   if (status >= 0) return;
   if (place_ == Place::memory) fail(name_, fmt::format("{} cannot be put into it", what));
-  H5Eclear2(H5E_DEFAULT);
-  throw OutputError(fmt::format("{}: cannot be written: {}", name_.string(), cause.message()));
+  throw notWritten(name_);
 }
 
 void Hdf5File::writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,

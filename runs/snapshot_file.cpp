@@ -124,8 +124,7 @@ void SnapshotFile::close() {
   if (kept_.empty()) return;
   std::error_code error;
   std::filesystem::rename(part_, file_, error);
-  if (error)
-    throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), error.message()));
+  if (error) throw OutputError(file_, error.value());
   std::filesystem::path xdmf = file_;
   writeFile(
       xdmf.replace_extension(".xdmf"),

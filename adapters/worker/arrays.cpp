@@ -53,13 +53,15 @@ void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
 }
 
 nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
+  errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes_.data()),
             static_cast<std::streamsize>(bytes_.size()));
   out.close();
   if (!out)
-    throw std::runtime_error(
-        fmt::format("cannot write {}: {}", file.string(), std::generic_category().message(errno)));
+    throw std::runtime_error(fmt::format(
+        "cannot write {}: {}", file.string(),
+        errno ? std::generic_category().message(errno) : "the system does not say why"));
   return list_;
 }
 
