@@ -8,6 +8,7 @@
 #include "reports/figures.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/json_view.hpp"
+#include "reports/junit.hpp"
 #include "reports/pages.hpp"
 #include "reports/pictures.hpp"
 #include "reports/schema.hpp"
@@ -33,11 +34,11 @@ std::vector<Picture> noPictures(const Json&) {
 Kind kindOf(const Json& results) {
   const std::string kind = text(results, "kind");
   if (kind == kindCollide)
-    return {{{"collisions.csv", collisionsCsv}}, collideFigures, noPictures, collidePage};
+    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}}, collideFigures, noPictures, collidePage};
   if (kind == kindEffects)
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
   if (kind == kindStability)
-    return {{{"stability.csv", stabilityCsv}}, stabilityFigures, stabilityPictures, stabilityPage};
+    return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}}, stabilityFigures, stabilityPictures, stabilityPage};
   if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
   if (kind == kindRev)
     return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},

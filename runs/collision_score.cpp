@@ -66,6 +66,7 @@ json scoreQuantity(const Case& setup, const CollisionQuantity& quantity,
       margin->second.relative ? margin->second.value : margin->second.value / unit.value;
   score["limit"] = limit;
   score["held"] = largest / unit.value <= limit;
+  score["why"] = margin->second.why;
   return score;
 }
 

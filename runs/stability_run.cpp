@@ -27,6 +27,7 @@ json rowOf(const StabilityTask& task) {
   return {{"engine", task.entry.name},
           {"case", task.setup->name},
           {"variant", task.setup->variant},
+          {"status", "finished"},
           {"verdict", "refused"},
           {"measure", hard.measure},
           {"value", nullptr},
@@ -43,7 +44,7 @@ json rowOf(const StabilityTask& task) {
 }
 
 void refuse(json& row, const std::string& reason) {
-  row["verdict"] = "refused";
+  row["status"] = row["verdict"] = "refused";
   row["reason"] = reason;
 }
 
@@ -82,6 +83,7 @@ json pictureAt(const Recording& run, std::size_t look) {
 
 /// The engine did not get to the end.
 void judgeFailure(json& row, const Recording& run) {
+  row["status"] = "failed";
   row["verdict"] = "unstable";
   row["reason"] = "failed: " + run.failure;
   if (run.snapshots.empty()) return;
@@ -200,6 +202,7 @@ json runStability(const StabilityTask& task, const std::function<void(double)>& 
   } catch (const BadInput& refusal) {
     refuse(row, refusal.what());
   } catch (const std::exception& failure) {
+    row["status"] = "failed";
     row["verdict"] = "unstable";
     row["reason"] = std::string("failed: ") + failure.what();
   }
