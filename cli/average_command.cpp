@@ -8,7 +8,8 @@ namespace {
 
 int average(const CommandLine& line) {
   const Case setup = onlyCase(line, "average");
-  return averaged(line, averageSnapshots(setup, line.snapshots, line.run.commandLine));
+  RunStore store(line.run, "average", {});
+  return averaged(line, store, averageSnapshots(setup, line.snapshots, line.run.commandLine));
 }
 
 Action declare(CLI::App& app, CommandLine& line) {

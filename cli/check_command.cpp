@@ -9,11 +9,11 @@
 #include "cases/time_step.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "cli/scratch_folder.hpp"
 #include "runs/check_lines.hpp"
 #include "runs/collision_sweep.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/scratch_folder.hpp"
 
 namespace crossgrain {
 

@@ -7,9 +7,11 @@
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "reports/report.hpp"
 #include "runs/collide.hpp"
 #include "runs/collision_folder.hpp"
+#include "runs/resumable.hpp"
 
 namespace crossgrain {
 
@@ -22,7 +24,9 @@ namespace {
 int collideCases(const std::vector<Case>& variants, const std::optional<fs::path>& folder,
                  const CommandLine& line) {
   const fs::path& out = line.run.out;
-  json results = collideEngines(variants, line.run);
+  RunStore store(line.run, "collide", keysOfEach(variants));
+  if (line.run.dryRun) return told(collidePlan(variants, line.run, store));
+  json results = collideEngines(variants, line.run, store);
   if (folder) describeFolder(results, *folder, variants);
   writeReport(results, out);
 
@@ -64,7 +68,7 @@ Action declare(CLI::App& app, CommandLine& line) {
   addCase(app, line, "case file or folder of case files");
   addSelection(app, line);
   addRun(app, line);
-  return [&line] { return collide(line); };
+  return [&line] { return resumably(line.run, [&] { return collide(line); }); };
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ enum ExitStatus {
   exitHeld = 0,
   exitFellShort = 1,
   exitBadInput = 2,
-  exitEngineFailed = 3,
+  exitEngineFailed = 3,  ///< or the machine: no room on the disk
   exitInterrupted = 130
 };
 

@@ -8,6 +8,7 @@
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
 #include "runs/compare.hpp"
+#include "runs/resumable.hpp"
 
 namespace crossgrain {
 
@@ -25,7 +26,9 @@ json peerRows(const json& results) {
 
 int compare(const CommandLine& line, bool strict) {
   const Case setup = onlyCase(line, "compare");
-  const json results = compareEngines(setup, line.run);
+  RunStore store(line.run, "compare", soleCase(setup));
+  if (line.run.dryRun) return told(comparePlan(setup, line.run, store));
+  const json results = compareEngines(setup, line.run, store);
   writeReport(results, line.run.out);
 
   const json rows = peerRows(results);
@@ -57,7 +60,7 @@ Action declare(CLI::App& app, CommandLine& line) {
   addRun(app, line);
   addPackings(app, line);
   addFlag(app, "--strict", *strict, "undecided verdicts count as falling short");
-  return [&line, strict] { return compare(line, *strict); };
+  return [&line, strict] { return resumably(line.run, [&] { return compare(line, *strict); }); };
 }
 
 }  // namespace

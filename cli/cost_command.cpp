@@ -7,11 +7,13 @@
 #include "cases/loader.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "cli/units.hpp"
 #include "reports/report.hpp"
 #include "runs/cost.hpp"
 #include "runs/cost_advice.hpp"
 #include "runs/cost_analysis.hpp"
+#include "runs/resumable.hpp"
 
 namespace crossgrain {
 
@@ -66,8 +68,10 @@ int cost(const CommandLine& line, double budget, std::optional<double> want) {
   CostRequest request{line.run, budget, {}};
   if (!line.json && !line.run.quiet)
     request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
-  json results = measureCost(
-      setup, [&](const std::string& fragment) { return caseWith(line, fragment); }, request);
+  RunStore store(line.run, "cost", soleCase(setup));
+  const CaseWith with = [&](const std::string& fragment) { return caseWith(line, fragment); };
+  if (line.run.dryRun) return told(costPlan(setup, with, request, store));
+  json results = measureCost(setup, with, request, store);
   std::vector<double> wants = usualWants();
   if (want) wants.push_back(*want);
   addCostAnalysis(results, wants);
@@ -100,8 +104,9 @@ Action declare(CLI::App& app, CommandLine& line) {
   addText(app, "--want", own->want,
           "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine");
   return [&line, own] {
-    return cost(line, secondsOf(own->budget.value_or("12m")),
-                own->want ? std::optional(shareOf(*own->want)) : std::nullopt);
+    const double budget = secondsOf(own->budget.value_or("12m"));
+    const auto want = own->want ? std::optional(shareOf(*own->want)) : std::nullopt;
+    return resumably(line.run, [&] { return cost(line, budget, want); });
   };
 }
 
@@ -110,7 +115,7 @@ Action declare(CLI::App& app, CommandLine& line) {
 extern const Command costCommand = {
     "cost", "error against time, for every engine and every knob that trades one for the other",
     "crossgrain cost cases/cost/quick.toml --engines all --out out --budget 10m\n"
-    "crossgrain cost cases/cost/quick.toml --engines all --out out --resume --want 1%",
+    "crossgrain cost cases/cost/quick.toml --engines all --out out --want 1%",
     declare};
 
 }  // namespace crossgrain

@@ -8,6 +8,7 @@
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
 #include "runs/effects.hpp"
+#include "runs/resumable.hpp"
 
 namespace crossgrain {
 
@@ -39,9 +40,11 @@ void printLeg(const json& leg) {
 
 int effects(const CommandLine& line) {
   const Case setup = onlyCase(line, "effects");
+  RunStore store(line.run, "effects", soleCase(setup));
   TimingPlan plan;
   if (line.quick) plan.seconds = 0.02;
-  const json results = measureEffects(setup, line.run, plan);
+  if (line.run.dryRun) return told(effectsPlan(setup, line.run, store, plan));
+  const json results = measureEffects(setup, line.run, store, plan);
   writeReport(results, line.run.out);
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
@@ -58,7 +61,7 @@ Action declare(CLI::App& app, CommandLine& line) {
   addCase(app, line);
   addRun(app, line);
   addPackings(app, line);
-  return [&line] { return effects(line); };
+  return [&line] { return resumably(line.run, [&] { return effects(line); }); };
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "adapters/worker/json.hpp"
 #include "cases/preparation.hpp"
 #include "cli/option_groups.hpp"
-#include "cli/scratch_folder.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/scratch_folder.hpp"
 
 namespace crossgrain {
 

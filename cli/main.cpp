@@ -8,6 +8,7 @@
 
 #include "adapters/engine.hpp"
 #include "cases/bad_input.hpp"
+#include "cases/files.hpp"
 #include "cli/command.hpp"
 #include "cli/program.hpp"
 #include "runs/interrupt.hpp"
@@ -48,7 +49,10 @@ int runAndExplain(int argc, char** argv) {
     return explain(error, exitBadInput);
   } catch (const EngineFailure& error) {
     return explain(error, exitEngineFailed);
-  } catch (const std::exception& error) {  // a folder that cannot be written, a full disk
+  } catch (const OutputError& error) {
+    // A folder that cannot be written is the user's to change; that the disk is full is not.
+    return explain(error, error.noRoom ? exitEngineFailed : exitBadInput);
+  } catch (const std::exception& error) {
     return explain(error, exitBadInput);
   }
 }

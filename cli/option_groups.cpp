@@ -114,10 +114,13 @@ void addSelection(CLI::App& app, CommandLine& line) {
 
 void addResults(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
-  app.add_option("--out", line.run.out, "folder for results: new, or of an earlier run")
+  app.add_option("--out", line.run.out,
+                 "folder for results: new, or of the same command and case, which then goes on")
       ->type_name("FOLDER")
       ->required()
       ->check([](const std::string& out) { return out.empty() ? "is empty" : ""; });
+  app.add_flag("--fresh", line.run.fresh,
+               "begin anew; what is in --out is moved to earlier/ there");
   app.add_flag("--json", line.json, "print the path of results.json only, for scripts");
 }
 
@@ -137,21 +140,20 @@ void addRun(CLI::App& app, CommandLine& line) {
       ->type_name("N")
       ->check(wholeNumber(1, mostJobs));
   addQuiet(app, line);
+  app.add_flag("--dry-run", line.run.dryRun,
+               "say what would run, and what is finished; compute and write nothing");
+  app.add_flag_function(
+      "--resume", [](std::int64_t) {}, "take up what is finished in --out: what happens anyway");
 }
 
 void addQuiet(CLI::App& app, CommandLine& line) {
   app.add_flag("--quiet", line.run.quiet, "no progress");
 }
 
-void addResume(CLI::App& app, CommandLine& line) {
-  app.add_flag("--resume", line.run.resume, "take up what an earlier run in --out finished");
-}
-
 void addPackings(CLI::App& app, CommandLine& line) {
   app.add_option("--seed", line.seed, "preparation.seed of the case")
       ->type_name("N")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
-  addResume(app, line);
   app.add_flag("--quick", line.quick, "a short version, to see that everything works");
 }
 

@@ -49,20 +49,19 @@ void addCase(CLI::App& app, CommandLine& line, const std::string& what = "case f
 /// -k: which of the cases.
 void addSelection(CLI::App& app, CommandLine& line);
 
-/// Of all commands that leave results: --set, --out, --json.
+/// Of all commands that leave results: --set, --out, --fresh, --json.
 void addResults(CLI::App& app, CommandLine& line);
 
 /// Of all commands that average a file of snapshots: the file, the case, results.
 void addSnapshots(CLI::App& app, CommandLine& line);
 
-/// Of all commands that run engines: --engines, results, --jobs, --quiet.
+/// Of all commands that run engines: --engines, results, --jobs, --quiet,
+/// --dry-run, --resume.
 void addRun(CLI::App& app, CommandLine& line);
 
 void addQuiet(CLI::App& app, CommandLine& line);
 
-void addResume(CLI::App& app, CommandLine& line);
-
-/// Of all commands that run engines on packings: --seed, --resume, --quick.
+/// Of all commands that run engines on packings: --seed, --quick.
 void addPackings(CLI::App& app, CommandLine& line);
 /// @}
 

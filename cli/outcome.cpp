@@ -21,13 +21,19 @@ void printFailures(const json& rows) {
       fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
 }
 
-int averaged(const CommandLine& line, const json& results) {
+int averaged(const CommandLine& line, RunStore& store, const json& results) {
+  store.begin();
   writeReport(results, line.run.out);
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else
     fmt::print("{} snapshots averaged\nreport: {}\n", results["averaging"]["snapshots"].get<int>(),
                (line.run.out / "report.html").string());
+  return exitHeld;
+}
+
+int told(const std::string& plan) {
+  fmt::print("{}", plan);
   return exitHeld;
 }
 

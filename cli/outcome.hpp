@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "runs/run_store.hpp"
 
 namespace crossgrain {
 
@@ -14,6 +15,9 @@ int countOf(const nlohmann::json& list, const char* key, const std::string& valu
 void printFailures(const nlohmann::json& rows);
 
 /// What the commands that only average leave and print. @returns an ExitStatus
-int averaged(const CommandLine& line, const nlohmann::json& results);
+int averaged(const CommandLine& line, RunStore& store, const nlohmann::json& results);
+
+/// Prints what --dry-run tells. @returns an ExitStatus
+int told(const std::string& plan);
 
 }  // namespace crossgrain

@@ -2,6 +2,7 @@
 
 #include "cli/option_groups.hpp"
 #include "reports/report.hpp"
+#include "runs/folder_lock.hpp"
 
 namespace crossgrain {
 
@@ -11,7 +12,9 @@ namespace {
 
 int rebuildReports(const CommandLine& line) {
   for (const fs::path& folder : line.inputs) {
-    writeReport(readResults(folder), folder);
+    const nlohmann::json results = readResults(folder);
+    const FolderLock lock(folder, "report");
+    writeReport(results, folder);
     fmt::print("report: {}\n", (folder / "report.html").string());
   }
   return exitHeld;

@@ -8,7 +8,9 @@ namespace {
 
 int rev(const CommandLine& line) {
   const Case setup = onlyCase(line, "rev");
-  return averaged(line, revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet));
+  RunStore store(line.run, "rev", {});
+  return averaged(line, store,
+                  revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet));
 }
 
 Action declare(CLI::App& app, CommandLine& line) {

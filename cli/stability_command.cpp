@@ -6,8 +6,10 @@
 #include "cases/case_files.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "reports/report.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/resumable.hpp"
 #include "runs/stability.hpp"
 
 namespace crossgrain {
@@ -36,7 +38,10 @@ int stability(const CommandLine& line, SuitePart part) {
   if (inputs.empty()) inputs.push_back(shippedCases("cases/hard"));
   std::vector<Case> cases = hardCases(inputs, line.overrides, part);
   if (line.only) cases = selectedCases(cases, *line.only);
-  const json results = testStability(cases, selectEngines(line.run.engines), line.run);
+  RunStore store(line.run, "stability", keysOfEach(cases));
+  const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
+  if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store));
+  const json results = testStability(cases, engines, line.run, store);
   writeReport(results, line.run.out);
 
   const auto count = [&](const char* verdict) {
@@ -61,14 +66,14 @@ Action declare(CLI::App& app, CommandLine& line) {
   addInputs(app, line, "case", "case files or folders of them (default: cases/hard)", 0, anyNumber);
   addSelection(app, line);
   addRun(app, line);
-  addResume(app, line);
   addFlag(app, "--quick", line.quick, "only cases marked as quick");
   addFlag(app, "--long", *longCases, "also cases marked as long");
   excludeEachOther(app, "--quick", "--long");
   return [&line, longCases] {
-    return stability(line, line.quick   ? SuitePart::quick
+    const SuitePart part = line.quick   ? SuitePart::quick
                            : *longCases ? SuitePart::withLong
-                                        : SuitePart::usual);
+                                        : SuitePart::usual;
+    return resumably(line.run, [&] { return stability(line, part); });
   };
 }
 

@@ -14,7 +14,6 @@
 #include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 #include "runs/task_pool.hpp"
-#include "runs/version.hpp"
 
 namespace crossgrain {
 
@@ -29,12 +28,13 @@ double stepOf(const Case& setup) {
 
 }  // namespace
 
-Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines)
+Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
+                   RunStore& store)
     : setup_(setup),
       command_(command),
       engines_(std::move(engines)),
       dt_(stepOf(setup)),
-      store_(command.out),
+      store_(store),
       progress_(command.quiet),
       predicted_(engines_.size(), 1.0),
       versions_(engines_.size()),
@@ -55,6 +55,7 @@ void Campaign::askEngines() {
       const Capabilities can = engine->capabilities();
       versions_[e] = can.version;
       checkSuitable(can, entry, setup_, scene);
+      if (command_.dryRun) can_[e] = can;
     } catch (const UnsupportedScene& refusal) {
       // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
       if (isNamed(command_.engines, entry)) throw;
@@ -63,7 +64,6 @@ void Campaign::askEngines() {
       progress_.say(failure.what());  // its runs will tell, one by one
     }
   }
-  if (!command_.resume) store_.startAfresh();
 }
 
 void Campaign::preparePackings() {
@@ -97,6 +97,7 @@ void Campaign::preparePackings() {
   runTasks(tasks, command_.jobs);
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
+  store_.begin();
 }
 
 void Campaign::timeEngines() {
@@ -124,17 +125,19 @@ void Campaign::timeEngines() {
   }
 }
 
-std::string Campaign::keyOf(std::size_t engine, int packing, const std::string& without) const {
-  return fmt::format("{} | {} | {} | {} | {} | {}", programBuild, engines_[engine].name,
-                     versions_[engine], packings_[static_cast<std::size_t>(packing)].hash,
-                     setup_.resolvedToml, without);
+CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {
+  CaseKeys key = runKey(setup_, engines_[engine].name, versions_[engine]);
+  key["packing"] = packings_[static_cast<std::size_t>(packing)].hash;
+  if (!part.empty()) key["part"] = part;
+  return key;
 }
 
 namespace {
 
-/// "grain", "grain without friction"
-std::string labelOf(const EngineEntry& entry, const Leg& leg) {
-  return leg.without.empty() ? entry.name : fmt::format("{} without {}", entry.name, leg.without);
+/// "grain packing 0", "grain without friction packing 0"
+std::string labelOf(const EngineEntry& entry, const Leg& leg, int packing) {
+  return fmt::format("{}{} packing {}", entry.name,
+                     leg.without.empty() ? "" : " without " + leg.without, packing);
 }
 
 std::string runName(const EngineEntry& entry, const Leg& leg, int packing) {
@@ -144,18 +147,11 @@ std::string runName(const EngineEntry& entry, const Leg& leg, int packing) {
 
 }  // namespace
 
-void Campaign::runOne(const Leg& leg, int packing, std::size_t task) {
+KeptTask::Outcome Campaign::runOne(const Leg& leg, int packing,
+                                   const std::function<void(double)>& progress) const {
   const EngineEntry& entry = engines_[leg.engine];
   const std::string name = runName(entry, leg, packing);
-  const std::string key = keyOf(leg.engine, packing, leg.without);
-  const std::string label = fmt::format("{} packing {}", labelOf(entry, leg), packing);
-  json& result = runs_[task];
-  result = {{"engine", entry.name}, {"packing", packing}, {"status", "missing"}, {"reason", ""}};
-  if (const auto before = store_.find(name, key)) {
-    result = *before;
-    progress_.finish(task, label + ": finished in an earlier run");
-    return;
-  }
+  json result = {{"engine", entry.name}, {"packing", packing}};
   try {
     const CouetteRun run{leg.setup,
                          entry,
@@ -165,14 +161,10 @@ void Campaign::runOne(const Leg& leg, int packing, std::size_t task) {
                          store_.scratch(name),
                          store_.snapshots(name),
                          store_.unfinished(name),
-                         key};
-    json finished =
-        runCouette(run, [&](double fraction) { progress_.update(task, label, fraction); });
-    if (!leg.without.empty()) finished["without"] = leg.without;
-    store_.keep(name, key, finished);
-    result = std::move(finished);
-    progress_.finish(task,
-                     fmt::format("{}: {:.1f} s", label, result["stats"]["wall_s"].get<double>()));
+                         json(keyOf(leg.engine, packing, leg.without)).dump()};
+    result = runCouette(run, progress);
+    if (!leg.without.empty()) result["without"] = leg.without;
+    return {result, true, fmt::format("{:.1f} s", result["stats"]["wall_s"].get<double>())};
   } catch (const Interrupted&) {
     throw;
   } catch (const OutputError&) {
@@ -181,7 +173,7 @@ void Campaign::runOne(const Leg& leg, int packing, std::size_t task) {
     result["status"] = "failed";
     result["reason"] = fmt::format("packing {}: {}", packing, error.what());
     if (!leg.without.empty()) result["without"] = leg.without;
-    progress_.finish(task, fmt::format("{}: failed: {}", label, error.what()));
+    return {result, false, fmt::format("failed: {}", error.what())};
   }
 }
 
@@ -193,25 +185,51 @@ std::vector<Leg> Campaign::wholeCase() const {
 }
 
 void Campaign::run(const std::vector<Leg>& legs) {
-  std::vector<Task> tasks;
-  std::vector<double> weights;
-  for (const Leg& leg : legs)
-    for (int k = 0; k < packingCount(); ++k) {
-      const std::size_t task = tasks.size();
-      tasks.push_back({predicted_[leg.engine], [this, &leg, k, task] { runOne(leg, k, task); }});
-      weights.push_back(predicted_[leg.engine]);
-    }
-  runs_.resize(tasks.size());
-  progress_.begin("running engines", weights);
-  runTasks(tasks, command_.jobs);
+  runs_ = doOrTakeUp(tasksOf(legs), store_, progress_, "running engines", command_.jobs);
 }
 
-void resumably(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Interrupted&) {
-    throw Interrupted("interrupted; the same command with --resume takes up what is finished");
+std::vector<KeptTask> Campaign::tasksOf(const std::vector<Leg>& legs) const {
+  std::vector<KeptTask> tasks;
+  for (const Leg& leg : legs)
+    for (int k = 0; k < packingCount(); ++k)
+      tasks.push_back({runName(engines_[leg.engine], leg, k), labelOf(engines_[leg.engine], leg, k),
+                       keyOf(leg.engine, k, leg.without), predicted_[leg.engine],
+                       [this, &leg, k](const std::function<void(double)>& progress) {
+                         return runOne(leg, k, progress);
+                       }});
+  return tasks;
+}
+
+void Campaign::lookForPackings() {
+  packings_.resize(static_cast<std::size_t>(packingCount()));
+  for (std::size_t k = 0; k < packings_.size(); ++k) {
+    Packing& packing = packings_[k];
+    if (setup_.particles.file) {
+      packing.hash = contentHash(readPacking(*setup_.particles.file, setup_));
+      packing.fromCache = true;
+    } else {
+      packing.hash = packingHash(setup_, static_cast<int>(k), dt_);
+      packing.fromCache = std::filesystem::exists(packingCacheFile(packing.hash));
+    }
   }
+}
+
+std::string Campaign::planHead() const {
+  return fmt::format("{}: {} packings, {} of them prepared already\n", setup_.name,
+                     packings_.size(), std::ranges::count_if(packings_, &Packing::fromCache));
+}
+
+std::vector<PlannedWork> Campaign::plan(const std::vector<Leg>& legs) const {
+  std::vector<PlannedWork> works;
+  for (const Leg& leg : legs) {
+    const EngineEntry& entry = engines_[leg.engine];
+    PlannedWork work{entry.name + (leg.without.empty() ? "" : " without " + leg.without), "runs"};
+    for (const KeptTask& task : tasksOf({leg})) count(work, store_.find(task.name, task.key));
+    works.push_back(work);
+  }
+  for (std::size_t e = 0; e < engines_.size(); ++e)
+    if (!refusals_[e].empty()) works.push_back({engines_[e].name, "runs", refusals_[e]});
+  return works;
 }
 
 }  // namespace crossgrain

@@ -9,7 +9,9 @@
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
+#include "runs/dry_run.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/kept_task.hpp"
 #include "runs/options.hpp"
 #include "runs/progress.hpp"
 #include "runs/run_store.hpp"
@@ -24,24 +26,34 @@ struct Leg {
 };
 
 /// Engines on the packings of one Couette case, side by side where `jobs` allows. Every finished
-/// run is kept in out/runs at once; a failed one ends by itself and is reported.
+/// run is kept in out/runs at once and taken up by the next campaign there; a failed one ends by
+/// itself and is reported.
 ///
 ///   askEngines ── preparePackings ── timeEngines ── run ── results
 class Campaign {
  public:
-  /// @throws BadInput for a packing file without a time step; what RunStore throws
-  Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines);
+  /// @param store  of the case, opened with soleCase()
+  /// @throws BadInput for a packing file without a time step
+  Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
+           RunStore& store);
 
   /// Asks every engine, before anything is computed, whether it can run the case.
   /// @throws UnsupportedScene of an engine named that cannot
   void askEngines();
-  /// @throws BadInput
+  /// With them, the campaign begins: its folder is its own. @throws BadInput
   void preparePackings();
   /// Times some steps of every engine on the first packing, so that the longest runs start first.
   void timeEngines();
   /// Every engine with the case as it is.
   std::vector<Leg> wholeCase() const;
   void run(const std::vector<Leg>& legs);
+
+  /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
+  void lookForPackings();
+  /// What `run` would do, engine by engine, those that refuse too.
+  std::vector<PlannedWork> plan(const std::vector<Leg>& legs) const;
+  /// "compare of quick: 4 packings, 3 of them prepared already"
+  std::string planHead() const;
 
   /// results.json as far as it does not depend on what the runs are for: head, cell, averaging,
   /// effects, engines, rings, packings, runs, notes, elapsed_s.
@@ -55,23 +67,26 @@ class Campaign {
   const std::optional<Realised>& realised(std::size_t engine) const { return realised_[engine]; }
   const std::vector<Packing>& packings() const { return packings_; }
   double dt() const { return dt_; }  ///< the case's [s]
-  const RunStore& store() const { return store_; }
+  RunStore& store() const { return store_; }
   Progress& progress() { return progress_; }
 
-  /// Everything that a result of this engine on this packing depends on.
-  std::string keyOf(std::size_t engine, int packing, const std::string& without) const;
+  /// What a result of this engine on this packing depends on besides the case.
+  /// @param part  what is switched off, or which part of the campaign the result is
+  CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
 
  private:
   /// A file is one packing, however many a case would prepare.
   int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
-  void runOne(const Leg& leg, int packing, std::size_t task);
+  std::vector<KeptTask> tasksOf(const std::vector<Leg>& legs) const;
+  KeptTask::Outcome runOne(const Leg& leg, int packing,
+                           const std::function<void(double)>& progress) const;
   nlohmann::json enginesJson() const;
 
   const Case& setup_;
   const RunCommand& command_;
   std::vector<EngineEntry> engines_;
   double dt_;
-  RunStore store_;
+  RunStore& store_;
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::vector<double> predicted_;  ///< seconds of one run, per engine
@@ -81,8 +96,5 @@ class Campaign {
   std::vector<Packing> packings_;
   std::vector<nlohmann::json> runs_;  ///< leg by leg, packing by packing
 };
-
-/// Does the work. @throws Interrupted saying that --resume takes up what is finished
-void resumably(const std::function<void()>& work);
 
 }  // namespace crossgrain

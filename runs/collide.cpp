@@ -8,7 +8,8 @@
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/time_step.hpp"
-#include "runs/collision_sweep.hpp"
+#include "runs/dry_run.hpp"
+#include "runs/engine_sweeps.hpp"
 #include "runs/interrupt.hpp"
 #include "runs/progress.hpp"
 #include "runs/records.hpp"
@@ -51,19 +52,6 @@ json fineOracle(const Case& setup) {
   return columnsOf(starts, outcomesOf(oracleCurve(setup, starts)));
 }
 
-struct Sweep {
-  const Case* setup;
-  std::vector<CollisionStart> starts;
-  OracleCurve oracle;
-  std::vector<double> steps;
-
-  /// Whether an engine takes part: mirrors only where the case wants them.
-  bool wants(const EngineEntry& entry, const std::vector<std::string>& named) const {
-    if (entry.mirrors.empty() || isNamed(named, entry)) return true;
-    return setup->run.mirrors && standsForItsPeer(entry, setup->law);
-  }
-};
-
 /// The engines of any of the cases, those named first. @throws BadInput
 std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
                                        const std::vector<std::string>& names) {
@@ -74,68 +62,18 @@ std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
   return engines;
 }
 
-/// All sweeps of one engine in one worker. Failures end up in the curve that failed; the worker is
-/// started again for the next one. @throws BadInput, Interrupted
-void runEngine(const EngineEntry& entry, const std::vector<Sweep>& sweeps,
-               const std::vector<std::string>& named, const RunStore& store,
-               const std::function<void(double)>& progress, std::vector<json>& curves) {
-  std::unique_ptr<Engine> engine;
-  std::size_t total = 0, done = 0, planned = 0;
-  for (const Sweep& sweep : sweeps)
-    if (sweep.wants(entry, named)) total += sweep.steps.size();
-  for (const Sweep& sweep : sweeps) {
-    json list = json::array();
-    const std::vector<double> steps =
-        sweep.wants(entry, named) ? sweep.steps : std::vector<double>();
-    planned += steps.size();
-    for (const double dt : steps) {
-      throwIfInterrupted();
-      try {
-        if (!engine)
-          engine = startEngine(entry, store.scratch(entry.name), sweep.setup->run.timeout);
-        json curve = runSweep(*engine, entry, *sweep.setup, dt, sweep.starts, sweep.oracle,
-                              dt == std::ranges::max(steps));
-        // An engine that keeps its own step has nothing new to say at another of the case's.
-        const bool known = std::ranges::any_of(
-            list, [&](const json& earlier) { return earlier["dt"] == curve["dt"]; });
-        if (!known) list.push_back(std::move(curve));
-      } catch (const Interrupted&) {
-        throw;
-      } catch (const BadInput&) {
-        throw;
-      } catch (const std::exception& error) {
-        const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
-        list.push_back({{"engine", entry.name},
-                        {"dt", dt},
-                        {"steps_per_contact", nullptr},
-                        {"status", refused ? "refused" : "failed"},
-                        {"reason", error.what()},
-                        {"realised", nullptr},
-                        {"points", json::object()},
-                        {"score", noScore()}});
-        if (!refused) engine.reset();
-        // What a law lacks, it lacks at every time step.
-        if (refused) break;
-      }
-      progress(static_cast<double>(++done) / static_cast<double>(total));
-    }
-    done = planned;
-    curves.push_back(std::move(list));
-  }
-}
-
 /// An engine that can run no variant at all was asked for in vain.
-void throwIfAllRefused(const std::vector<json>& curves) {
+void throwIfAllRefused(const EngineSweeps& engine, std::size_t cases) {
   std::string reason;
-  for (const json& list : curves)
-    for (const json& curve : list) {
+  for (std::size_t k = 0; k < cases; ++k)
+    for (const json& curve : *engine.curves(k)) {
       if (curve["status"] != "refused") return;
       reason = curve["reason"];
     }
   throw UnsupportedScene(reason);
 }
 
-json variantJson(const Sweep& sweep) {
+json variantJson(const CollisionCase& sweep) {
   const Case& setup = *sweep.setup;
   const CollidingPair pair = collidingPair(setup);
   return {{"case", setup.name},
@@ -150,40 +88,78 @@ json variantJson(const Sweep& sweep) {
           {"curves", json::array()}};
 }
 
-}  // namespace
-
-json collideEngines(const std::vector<Case>& variants, const RunCommand& command) {
-  const auto started = std::chrono::steady_clock::now();
-  const std::vector<EngineEntry> engines = enginesForAny(variants, command.engines);
+void requireInstalled(const std::vector<EngineEntry>& engines) {
   for (const EngineEntry& entry : engines)
     if (entry.missing && !entry.missing().empty())
       startEngine(entry, {}, 1.0);  // throws, saying why
-  const RunStore store(command.out);
-  Progress progress(command.quiet);
+}
 
-  std::vector<Sweep> sweeps;
+}  // namespace
+
+std::string collidePlan(const std::vector<Case>& variants, const RunCommand& command,
+                        RunStore& store) {
+  const std::vector<EngineEntry> entries = enginesForAny(variants, command.engines);
+  requireInstalled(entries);
+  std::vector<CollisionCase> sweeps;
+  std::string head;
+  for (const Case& setup : variants) {
+    sweeps.push_back({&setup, collisionTimeSteps(setup)});
+    head += fmt::format("{}{}: {} sweeps of {} collisions\n", setup.name,
+                        setup.variant.empty() ? "" : " " + setup.variant,
+                        sweeps.back().steps.size(), collisionStarts(setup).size());
+  }
+  std::vector<PlannedWork> works;
+  for (const EngineEntry& entry : entries) {
+    EngineSweeps engine(entry, command.engines, store);
+    engine.start(variants.front().run.timeout);
+    engine.takeUp(sweeps);
+    PlannedWork work{entry.name, "cases"};
+    for (std::size_t s = 0; s < sweeps.size(); ++s)
+      if (sweeps[s].wants(entry, command.engines)) count(work, engine.curves(s));
+    works.push_back(work);
+  }
+  return dryRunInWords(head, works, store, command);
+}
+
+json collideEngines(const std::vector<Case>& variants, const RunCommand& command, RunStore& store) {
+  const auto started = std::chrono::steady_clock::now();
+  const std::vector<EngineEntry> entries = enginesForAny(variants, command.engines);
+  requireInstalled(entries);
+  Progress progress(command.quiet);
+  store.begin();
+
+  std::vector<CollisionCase> sweeps;
   for (const Case& setup : variants) {
     throwIfInterrupted();
-    Sweep sweep{&setup, collisionStarts(setup), {}, collisionTimeSteps(setup)};
+    CollisionCase sweep{&setup, collisionTimeSteps(setup), collisionStarts(setup)};
     sweep.oracle = oracleCurve(setup, sweep.starts);
     sweeps.push_back(std::move(sweep));
   }
+  std::vector<EngineSweeps> engines;
+  for (const EngineEntry& entry : entries) {
+    engines.emplace_back(entry, command.engines, store);
+    engines.back().start(variants.front().run.timeout);
+    engines.back().takeUp(sweeps);
+  }
 
-  std::vector<std::vector<json>> curves(engines.size());
   std::vector<Task> tasks;
   progress.begin("collisions", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
-    // Workers in another language start slowly, so they go first.
-    tasks.push_back({engines[e].command ? 2.0 : 1.0, [&, e] {
-                       runEngine(
-                           engines[e], sweeps, command.engines, store,
-                           [&](double f) { progress.update(e, engines[e].name, f); }, curves[e]);
-                       progress.finish(e, engines[e].name + ": done");
+    // Workers in another language are slow, so they go first.
+    tasks.push_back({entries[e].command ? 2.0 : 1.0, [&, e] {
+                       EngineSweeps& engine = engines[e];
+                       const std::string& name = engine.entry().name;
+                       engine.runRest(sweeps, [&](double f) { progress.update(e, name, f); });
+                       std::string line = name + ": done";
+                       if (const std::size_t before = engine.takenUp())
+                         line += fmt::format(", {} of {} cases finished in an earlier run", before,
+                                             sweeps.size());
+                       progress.finish(e, line);
                      }});
   }
   runTasks(tasks, command.jobs);
-  for (std::size_t e = 0; e < engines.size(); ++e)
-    if (isNamed(command.engines, engines[e])) throwIfAllRefused(curves[e]);
+  for (const EngineSweeps& engine : engines)
+    if (isNamed(command.engines, engine.entry())) throwIfAllRefused(engine, sweeps.size());
 
   json results = resultsHead("collide", variants.front(), command.commandLine);
   results["case"]["variant"] = "";
@@ -193,13 +169,13 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
     json variant = variantJson(sweeps[s]);
     for (std::size_t e = 0; e < engines.size(); ++e) {
       std::vector<const json*> list;
-      for (const json& curve : curves[e][s]) list.push_back(&curve);
+      for (const json& curve : *engines[e].curves(s)) list.push_back(&curve);
       if (auto order = convergenceOrder(list)) {
         (*order)["case"] = variant["case"];
         (*order)["variant"] = variant["variant"];
         results["orders"].push_back(*order);
       }
-      for (const json& curve : curves[e][s]) variant["curves"].push_back(curve);
+      for (const json& curve : *engines[e].curves(s)) variant["curves"].push_back(curve);
     }
     results["variants"].push_back(std::move(variant));
   }
@@ -207,18 +183,18 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   for (std::size_t e = 0; e < engines.size(); ++e) {
     // Refusing some variants is no failure; the curves say which.
     std::string status = "ran", reason, version;
-    for (const json& list : curves[e])
-      for (const json& curve : list) {
+    for (std::size_t s = 0; s < sweeps.size(); ++s)
+      for (const json& curve : *engines[e].curves(s)) {
         if (curve["status"] == "failed") {
           status = "failed";
           reason = curve["reason"];
         }
         if (curve["realised"].is_object()) version = curve["realised"]["version"];
       }
-    results["engines"].push_back({{"name", engines[e].name},
-                                  {"summary", engines[e].summary},
+    results["engines"].push_back({{"name", entries[e].name},
+                                  {"summary", entries[e].summary},
                                   {"version", version},
-                                  {"mirrors", engines[e].mirrors},
+                                  {"mirrors", entries[e].mirrors},
                                   {"status", status},
                                   {"reason", reason}});
   }

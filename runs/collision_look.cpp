@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runs/interrupt.hpp"
+
 namespace crossgrain {
 
 namespace {
@@ -172,6 +174,7 @@ std::vector<std::optional<ContactAccount>> lookThrough(Engine& engine, const Wat
   const auto steps = std::llround(end / dt);
   bool over = false;
   for (long long step = 1; step <= steps && !over; ++step) {
+    throwIfInterrupted();
     engine.advance(static_cast<double>(step) * dt);
     const Snapshot now = engine.snapshot(ContactReport::instant);
     if (now.contactInterval > 0.0) break;  // means over a step: no forces of one instant

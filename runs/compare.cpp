@@ -34,14 +34,19 @@ std::vector<ComparedPair> pairsOf(const std::vector<EngineEntry>& engines,
 
 }  // namespace
 
-json compareEngines(const Case& setup, const RunCommand& command) {
-  Campaign campaign(setup, command, enginesFor(setup, command.engines));
-  resumably([&] {
-    campaign.askEngines();
-    campaign.preparePackings();
-    campaign.timeEngines();
-    campaign.run(campaign.wholeCase());
-  });
+std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& store) {
+  Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
+  campaign.askEngines();
+  campaign.lookForPackings();
+  return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), store, command);
+}
+
+json compareEngines(const Case& setup, const RunCommand& command, RunStore& store) {
+  Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
+  campaign.askEngines();
+  campaign.preparePackings();
+  campaign.timeEngines();
+  campaign.run(campaign.wholeCase());
   json results = campaign.results("compare");
   std::vector<std::string> names;
   for (const EngineEntry& entry : campaign.engines()) names.push_back(entry.name);

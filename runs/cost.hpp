@@ -7,6 +7,7 @@
 
 #include "runs/cost_settings.hpp"
 #include "runs/options.hpp"
+#include "runs/run_store.hpp"
 
 namespace crossgrain {
 
@@ -18,12 +19,19 @@ struct CostRequest {
 };
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
-/// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in out/runs
+/// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in the store
 /// at once. A setting that an engine fails at ends by itself.
 /// @param caseWith  the case that a fragment makes of `setup`
 /// @returns results.json of kind "cost", without its analysis; "engine_failures" lists what failed
 ///          for other reasons than a step beyond the stability limit
 /// @throws BadInput, UnsupportedScene, OutputError, Interrupted
-nlohmann::json measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request);
+nlohmann::json measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                           RunStore& store);
+
+/// Which settings that would measure, for people. Engines are asked what they can do; nothing is
+/// computed, so that neither the time nor what fits into a budget is known.
+/// @throws BadInput, UnsupportedScene, Interrupted
+std::string costPlan(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                     RunStore& store);
 
 }  // namespace crossgrain

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <set>
 
@@ -37,11 +38,12 @@ Engine& Workers::of(std::size_t engine) {
   return *worker;
 }
 
-CostCampaign::CostCampaign(const Case& setup, const CaseWith& caseWith, const CostRequest& request)
+CostCampaign::CostCampaign(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                           RunStore& store)
     : setup_(setup),
       caseWith_(caseWith),
       request_(request),
-      campaign_(setup, request.run, selectEngines(request.run.engines)),
+      campaign_(setup, request.run, selectEngines(request.run.engines), store),
       workers_(campaign_, setup.run.timeout),
       engines_(campaign_.engines().size()),
       inHouse_(engineRegistry().front()),
@@ -78,15 +80,19 @@ void CostCampaign::prepare() {
       continue;
     }
     if (!can) continue;
-    for (const CostKind kind : allKinds)
-      if (wants(kind))
-        engines_[e].settings[static_cast<std::size_t>(kind)] =
-            costSettings(setup_, kind, entryOf(e).name, *can, caseWith_);
+    listSettings(e, *can);
     engines_[e].takesPart = true;
     campaign_.progress().finish(
         e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines_[e].step));
   }
   measureChaos();
+}
+
+void CostCampaign::listSettings(std::size_t engine, const Capabilities& can) {
+  for (const CostKind kind : allKinds)
+    if (wants(kind))
+      engines_[engine].settings[static_cast<std::size_t>(kind)] =
+          costSettings(setup_, kind, entryOf(engine).name, can, caseWith_);
 }
 
 void CostCampaign::timeStart(std::size_t engine) {
@@ -115,7 +121,7 @@ void CostCampaign::measureChaos() {
   inHouseStep_ = track.wallSeconds / static_cast<double>(track.steps);
   if (!wants(CostKind::trajectory)) return;
   const Capabilities can = inHouseEngine_->capabilities();
-  const std::string key = campaign_.keyOf(0, 0, "cost: chaos");
+  const CaseKeys key = inHouseKey(0, "cost: chaos");
   if (const auto kept = campaign_.store().find("chaos", key)) {
     chaos_ = chaosStudyFromJson(*kept);
     return;
@@ -231,29 +237,54 @@ std::optional<std::string> CostCampaign::knownFailure(const PlannedPoint& point)
   return kept ? std::optional(kept->at("reason").get<std::string>()) : std::nullopt;
 }
 
+/// By what it is, not by its place in lists that may grow: "averages-grain-time_step-t_c-50-p0".
 std::string CostCampaign::nameOf(const PlannedPoint& point, int packing) const {
-  return fmt::format("{}-{}-{:03}-p{}", toString(point.kind), entryOf(point.engine).name,
-                     point.setting, packing);
+  const CostSetting& setting = settingOf(point);
+  std::string what = fmt::format("{}-{}", setting.knob, setting.setting);
+  std::ranges::replace_if(
+      what, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_'; }, '-');
+  return fmt::format("{}-{}-{}-p{}", toString(point.kind), entryOf(point.engine).name, what,
+                     packing);
 }
 
-std::string CostCampaign::keyOf(const PlannedPoint& point, int packing) const {
+CaseKeys CostCampaign::inHouseKey(std::size_t packing, const std::string& part) const {
+  CaseKeys key = runKey(setup_, inHouse_.name, inHouseEngine_->capabilities().version);
+  key["packing"] = campaign_.packings()[packing].hash;
+  key["part"] = part;
+  return key;
+}
+
+CaseKeys CostCampaign::keyOf(const PlannedPoint& point, int packing) const {
   return campaign_.keyOf(
       point.engine, packing,
       fmt::format("cost: {} {}", toString(point.kind), settingOf(point).fragment));
 }
 
-json measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request) {
+namespace {
+
+void checkEngineNames(const Case& setup) {
   checkEngineSections(setup);
   for (const auto& [name, values] : setup.cost.settings)
     if (!findEngine(name))
       throw BadInput(fmt::format("{}: [cost.settings.{}]: there is no such engine",
                                  setup.file.string(), name));
-  CostCampaign campaign(setup, caseWith, request);
-  resumably([&] {
-    campaign.prepare();
-    campaign.plan();
-    campaign.measure();
-  });
+}
+
+}  // namespace
+
+std::string costPlan(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                     RunStore& store) {
+  checkEngineNames(setup);
+  return CostCampaign(setup, caseWith, request, store).dryRun();
+}
+
+json measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                 RunStore& store) {
+  checkEngineNames(setup);
+  CostCampaign campaign(setup, caseWith, request, store);
+  campaign.prepare();
+  campaign.plan();
+  campaign.measure();
   return campaign.results();
 }
 

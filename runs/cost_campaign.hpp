@@ -35,8 +35,11 @@ class Workers {
 ///   prepare ── plan ── measure ── results
 class CostCampaign {
  public:
-  CostCampaign(const Case& setup, const CaseWith& caseWith, const CostRequest& request);
+  CostCampaign(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+               RunStore& store);
 
+  /// What there is to measure, in place of all that follows.
+  std::string dryRun();
   /// Engines, packings, settings, what a step costs, and how long the trajectories' window is.
   void prepare();
   /// What fits into the budget, told before it runs.
@@ -63,11 +66,12 @@ class CostCampaign {
   /// Whether an averages setting is another look at the runs of the case as it is.
   static bool sharesRuns(const CostSetting& setting);
 
+  void listSettings(std::size_t engine, const Capabilities& can);
   void timeStart(std::size_t engine);
   void measureChaos();
   void averagesReference();
   const TrajectoryReference& ownReference(std::size_t engine, const CostSetting& setting);
-  TrajectoryReference keptReference(const std::string& name, const std::string& key, Engine& engine,
+  TrajectoryReference keptReference(const std::string& name, const CaseKeys& key, Engine& engine,
                                     const EngineEntry& entry, const std::string& fragment,
                                     const Capabilities& can);
 
@@ -83,9 +87,11 @@ class CostCampaign {
   bool isKept(const PlannedPoint& point) const;
   std::optional<std::string> knownFailure(const PlannedPoint& point) const;
   std::string averagesReferenceName(std::size_t packing) const;
-  std::string averagesReferenceKey(std::size_t packing) const;
+  CaseKeys averagesReferenceKey(std::size_t packing) const;
   std::size_t missingReferences() const;
-  std::string keyOf(const PlannedPoint& point, int packing) const;
+  /// Of what the in-house engine does for all: it need not be among the engines named.
+  CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;
+  CaseKeys keyOf(const PlannedPoint& point, int packing) const;
   std::string nameOf(const PlannedPoint& point, int packing) const;
   nlohmann::json falls() const;
   nlohmann::json references() const;

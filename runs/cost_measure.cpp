@@ -128,7 +128,8 @@ void CostCampaign::addWithout(const PlannedPoint& point, const std::string& stat
 
 std::vector<CostPoint> CostCampaign::measured(const PlannedPoint& point) {
   if (point.kind == CostKind::averages) return averagesOf(point);
-  const std::string name = nameOf(point, 0), key = keyOf(point, 0);
+  const std::string name = nameOf(point, 0);
+  const CaseKeys key = keyOf(point, 0);
   std::vector<CostPoint> found;
   if (const auto kept = campaign_.store().find(name, key)) {
     for (const json& entry : *kept) found.push_back(costPointFromJson(entry));
@@ -150,7 +151,7 @@ std::vector<CostPoint> CostCampaign::measured(const PlannedPoint& point) {
   return found;
 }
 
-TrajectoryReference CostCampaign::keptReference(const std::string& name, const std::string& key,
+TrajectoryReference CostCampaign::keptReference(const std::string& name, const CaseKeys& key,
                                                 Engine& engine, const EngineEntry& entry,
                                                 const std::string& fragment,
                                                 const Capabilities& can) {
@@ -177,9 +178,8 @@ const TrajectoryReference& CostCampaign::ownReference(std::size_t engine,
                                                       const CostSetting& setting) {
   const EngineEntry& entry = entryOf(engine);
   if (!inHouseReference_)
-    inHouseReference_ =
-        keptReference("in-house", campaign_.keyOf(0, 0, "cost: reference"), *inHouseEngine_,
-                      inHouse_, "", inHouseEngine_->capabilities());
+    inHouseReference_ = keptReference("in-house", inHouseKey(0, "cost: reference"), *inHouseEngine_,
+                                      inHouse_, "", inHouseEngine_->capabilities());
   const std::string integrator = integratorOf(setting);
   if (integrator.empty() && entry.name == inHouse_.name) return *inHouseReference_;
   const auto at = std::pair(engine, integrator);
@@ -196,8 +196,8 @@ std::string CostCampaign::averagesReferenceName(std::size_t packing) const {
   return fmt::format("reference-averages-p{}", packing);
 }
 
-std::string CostCampaign::averagesReferenceKey(std::size_t packing) const {
-  return campaign_.keyOf(0, static_cast<int>(packing), "cost: reference");
+CaseKeys CostCampaign::averagesReferenceKey(std::size_t packing) const {
+  return inHouseKey(packing, "cost: reference");
 }
 
 std::size_t CostCampaign::missingReferences() const {
@@ -217,7 +217,7 @@ void CostCampaign::averagesReference() {
   for (std::size_t k = 0; k < count; ++k)
     tasks.push_back({1.0, [&, k] {
                        const std::string name = averagesReferenceName(k);
-                       const std::string key = averagesReferenceKey(k);
+                       const CaseKeys key = averagesReferenceKey(k);
                        const std::string label = fmt::format("reference, packing {}", k);
                        const auto kept = campaign_.store().find(name, key);
                        if (kept) {
@@ -241,7 +241,8 @@ std::vector<json> CostCampaign::averagesRuns(const PlannedPoint& point) {
   std::vector<json> runs;
   for (std::size_t k = 0; k < campaign_.packings().size(); ++k) {
     const auto packing = static_cast<int>(k);
-    const std::string name = nameOf(point, packing), key = keyOf(point, packing);
+    const std::string name = nameOf(point, packing);
+    const CaseKeys key = keyOf(point, packing);
     if (auto kept = campaign_.store().find(name, key)) {
       runs.push_back(std::move(*kept));
       continue;

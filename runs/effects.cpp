@@ -65,11 +65,12 @@ struct PlannedLeg {
 
 class EffectCampaign {
  public:
-  EffectCampaign(const Case& setup, const RunCommand& command, const TimingPlan& plan)
+  EffectCampaign(const Case& setup, const RunCommand& command, RunStore& store,
+                 const TimingPlan& plan)
       : setup_(setup),
         plan_(plan),
         switches_(effectSwitches(setup)),
-        campaign_(setup, command, selectEngines(command.engines)) {}
+        campaign_(setup, command, selectEngines(command.engines), store) {}
 
   void run() {
     campaign_.askEngines();
@@ -77,10 +78,27 @@ class EffectCampaign {
     campaign_.timeEngines();
     planLegs();
     timeLegs();
-    std::vector<Leg> legs;
+    campaign_.run(legsThatRun());
+  }
+
+  /// What run() would do.
+  std::string plan(const RunCommand& command) {
+    campaign_.askEngines();
+    campaign_.lookForPackings();
+    planLegs();
+    std::vector<PlannedWork> works = campaign_.plan(legsThatRun());
     for (const PlannedLeg& leg : legs_)
-      if (leg.refusal.empty()) legs.push_back({leg.engine, leg.without(), caseOf(leg)});
-    campaign_.run(legs);
+      if (!leg.refusal.empty())
+        works.push_back(
+            {fmt::format("{} without {}", campaign_.engines()[leg.engine].name, leg.without()),
+             "runs", leg.refusal});
+    for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
+      if (!campaign_.refusal(e).empty()) continue;
+      PlannedWork timing{campaign_.engines()[e].name, "timing of steps"};
+      count(timing, campaign_.store().find(timingName(e), timingKey(e)));
+      works.push_back(timing);
+    }
+    return dryRunInWords(campaign_.planHead(), works, campaign_.store(), command);
   }
 
   json results() const {
@@ -106,6 +124,19 @@ class EffectCampaign {
  private:
   const Case* caseOf(const PlannedLeg& leg) const { return leg.off ? &leg.off->without : &setup_; }
 
+  std::vector<Leg> legsThatRun() const {
+    std::vector<Leg> legs;
+    for (const PlannedLeg& leg : legs_)
+      if (leg.refusal.empty()) legs.push_back({leg.engine, leg.without(), caseOf(leg)});
+    return legs;
+  }
+
+  std::string timingName(std::size_t e) const { return "timing-" + campaign_.engines()[e].name; }
+  CaseKeys timingKey(std::size_t e) const {
+    return campaign_.keyOf(e, 0,
+                           fmt::format("timing {} rounds of {} s", plan_.rounds, plan_.seconds));
+  }
+
   void planLegs() {
     for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
       if (!campaign_.refusal(e).empty()) continue;
@@ -128,9 +159,8 @@ class EffectCampaign {
     for (const PlannedLeg& leg : legs_)
       if (leg.engine == e && leg.refusal.empty()) timed.push_back(&leg);
     if (timed.empty()) return;
-    const std::string kept = "timing-" + name;
-    const std::string key =
-        campaign_.keyOf(e, 0, fmt::format("timing {} rounds of {} s", plan_.rounds, plan_.seconds));
+    const std::string kept = timingName(e);
+    const CaseKeys key = timingKey(e);
     json times = campaign_.store().find(kept, key).value_or(json::array());
     if (times.empty()) {
       std::vector<TimedLeg> legs;
@@ -214,11 +244,18 @@ class EffectCampaign {
 
 }  // namespace
 
-json measureEffects(const Case& setup, const RunCommand& command, const TimingPlan& plan) {
+json measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
+                    const TimingPlan& plan) {
   checkEngineSections(setup);
-  EffectCampaign campaign(setup, command, plan);
-  resumably([&] { campaign.run(); });
+  EffectCampaign campaign(setup, command, store, plan);
+  campaign.run();
   return campaign.results();
+}
+
+std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
+                        const TimingPlan& plan) {
+  checkEngineSections(setup);
+  return EffectCampaign(setup, command, store, plan).plan(command);
 }
 
 }  // namespace crossgrain

@@ -6,6 +6,7 @@
 #include "cases/case.hpp"
 #include "cases/effect_switch.hpp"
 #include "runs/options.hpp"
+#include "runs/run_store.hpp"
 #include "runs/step_times.hpp"
 
 namespace crossgrain {
@@ -16,9 +17,15 @@ std::string switchRefusal(const Capabilities& can, const Case& setup, const Effe
 
 /// Runs a Couette case as it is and with each of its effects switched off, on every engine that can
 /// do without it and on the case's packings; and times a step of each, one at a time. Everything
-/// finished is kept in out/runs at once. @returns results.json of kind "effects"
+/// finished is kept in the store at once. @returns results.json of kind "effects"
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case itself), OutputError,
 /// Interrupted
-nlohmann::json measureEffects(const Case& setup, const RunCommand& command, const TimingPlan& plan);
+nlohmann::json measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
+                              const TimingPlan& plan);
+
+/// What that would run, for people. Engines are asked what they can do; nothing is computed.
+/// @throws BadInput, UnsupportedScene, Interrupted
+std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
+                        const TimingPlan& plan);
 
 }  // namespace crossgrain

@@ -11,7 +11,8 @@ struct RunCommand {
   std::vector<std::string> engines;  ///< names, "all" allowed
   std::filesystem::path out;
   int jobs = 1;         ///< engines side by side
-  bool resume = false;  ///< take up what an earlier run of the same in `out` finished
+  bool fresh = false;   ///< set aside what an earlier command left in `out`, and begin anew
+  bool dryRun = false;  ///< say what would run; write and hold nothing
   bool quiet = false;
   std::string commandLine;  ///< for the report
 };

@@ -11,14 +11,14 @@
 #include "cases/preparation.hpp"
 #include "cases/stability_measures.hpp"
 #include "cases/time_step.hpp"
+#include "runs/dry_run.hpp"
 #include "runs/interrupt.hpp"
+#include "runs/kept_task.hpp"
 #include "runs/progress.hpp"
 #include "runs/recorder.hpp"
 #include "runs/records.hpp"
 #include "runs/run_store.hpp"
 #include "runs/stability_run.hpp"
-#include "runs/task_pool.hpp"
-#include "runs/version.hpp"
 
 namespace crossgrain {
 
@@ -60,15 +60,15 @@ namespace {
 
 class Suite {
  public:
-  Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command)
+  Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command,
+        RunStore& store)
       : cases_(cases),
         command_(command),
         engines_(std::move(engines)),
-        store_(command.out),
+        store_(store),
         progress_(command.quiet),
         packings_(cases.size()),
-        versions_(engines_.size()),
-        rows_(cases.size() * engines_.size()) {
+        versions_(engines_.size()) {
     for (const Case& setup : cases) checkEngineSections(setup);
     for (const EngineEntry& entry : engines_)
       if (entry.missing && !entry.missing().empty())
@@ -86,7 +86,7 @@ class Suite {
         progress_.say(failure.what());  // its runs will tell, one by one
       }
     }
-    if (!command_.resume) store_.startAfresh();
+    store_.begin();
   }
 
   void preparePackings() {
@@ -102,17 +102,32 @@ class Suite {
     }
   }
 
-  void run() {
-    std::vector<Task> tasks;
-    std::vector<double> weights;
+  /// What run() would do.
+  std::string plan() {
     for (std::size_t c = 0; c < cases_.size(); ++c)
-      for (std::size_t e = 0; e < engines_.size(); ++e) {
-        const std::size_t task = tasks.size();
-        weights.push_back(predicted(cases_[c], engines_[e]));
-        tasks.push_back({weights.back(), [this, c, e, task] { runOne(c, e, task); }});
+      if (cases_[c].kind == CaseKind::couette)
+        packings_[c].hash = packingHash(cases_[c], 0, timeStep(cases_[c]));
+    std::vector<PlannedWork> works;
+    for (std::size_t e = 0; e < engines_.size(); ++e) {
+      PlannedWork work{engines_[e].name, "hard cases"};
+      for (std::size_t c = 0; c < cases_.size(); ++c) {
+        const KeptTask task = taskOf(c, e);
+        count(work, store_.find(task.name, task.key));
       }
-    progress_.begin("hard cases", weights);
-    runTasks(tasks, command_.jobs);
+      works.push_back(work);
+    }
+    std::string head;
+    for (const Case& setup : cases_)
+      head += fmt::format("{}{}{}", head.empty() ? "" : ", ", setup.name,
+                          setup.variant.empty() ? "" : " " + setup.variant);
+    return dryRunInWords(head + "\n", works, store_, command_);
+  }
+
+  void run() {
+    std::vector<KeptTask> tasks;
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf(c, e));
+    rows_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
   }
 
   json results() const {
@@ -154,27 +169,29 @@ class Suite {
     return *std::ranges::find(cases_, setup.name, &Case::name);
   }
 
-  void runOne(std::size_t c, std::size_t e, std::size_t task) {
+  KeptTask taskOf(std::size_t c, std::size_t e) const {
     const Case& setup = cases_[c];
     const EngineEntry& entry = engines_[e];
-    const std::string label = fmt::format("{} {}{}{}", entry.name, setup.name,
-                                          setup.variant.empty() ? "" : " ", setup.variant);
-    std::string name = label;
-    std::ranges::replace(name, ' ', '-');
+    KeptTask task;
+    task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
+                             setup.variant);
+    task.name = task.label;
+    std::ranges::replace(task.name, ' ', '-');
+    task.key = runKey(setup, entry.name, versions_[e]);
+    if (!packings_[c].hash.empty()) task.key["packing"] = packings_[c].hash;
     const Case& original = originalOf(setup);
-    const std::string key =
-        fmt::format("{} | {} | {} | {} | {} | {}", programBuild, entry.name, versions_[e],
-                    packings_[c].hash, setup.resolvedToml, original.resolvedToml);
-    json& row = rows_[task];
-    if (const auto before = store_.find(name, key)) {
-      row = *before;
-      progress_.finish(task, label + ": finished in an earlier run");
-      return;
-    }
-    row = runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)},
-                       [&](double fraction) { progress_.update(task, label, fraction); });
-    store_.keep(name, key, row);
-    progress_.finish(task, fmt::format("{}: {}", label, row["verdict"].get<std::string>()));
+    if (!stabilityMeasure(setup.stability->measure).curve)
+      task.key["held against"] = original.variant;
+    task.weight = predicted(setup, entry);
+    task.work = [this, &setup, &original, &entry, c,
+                 name = task.name](const std::function<void(double)>& progress) {
+      json row =
+          runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)}, progress);
+      const std::string verdict = row["verdict"];
+      const bool finished = row["status"] != "failed";
+      return KeptTask::Outcome{std::move(row), finished, verdict};
+    };
+    return task;
   }
 
   static json caseJson(const Case& setup) {
@@ -189,7 +206,7 @@ class Suite {
   const std::vector<Case>& cases_;
   const RunCommand& command_;
   std::vector<EngineEntry> engines_;
-  RunStore store_;
+  RunStore& store_;
   Progress progress_;
   std::vector<Packing> packings_;  ///< of Couette cases
   std::vector<std::string> versions_;
@@ -199,9 +216,9 @@ class Suite {
 }  // namespace
 
 json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                   const RunCommand& command) {
+                   const RunCommand& command, RunStore& store) {
   const auto started = std::chrono::steady_clock::now();
-  Suite suite(cases, std::move(engines), command);
+  Suite suite(cases, std::move(engines), command, store);
   suite.askVersions();
   suite.preparePackings();
   suite.run();
@@ -209,6 +226,13 @@ json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engi
   results["elapsed_s"] =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
+}
+
+std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                          const RunCommand& command, RunStore& store) {
+  Suite suite(cases, std::move(engines), command, store);
+  suite.askVersions();
+  return suite.plan();
 }
 
 }  // namespace crossgrain

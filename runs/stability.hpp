@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "adapters/registry.hpp"
 #include "cases/case.hpp"
 #include "runs/options.hpp"
+#include "runs/run_store.hpp"
 
 namespace crossgrain {
 
@@ -20,9 +22,14 @@ std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part);
 
 /// Runs every hard case on every engine, each in a worker of its own, and returns results.json of
-/// kind "stability". Finished runs are kept in out/runs at once.
+/// kind "stability". Finished runs are kept in the store at once.
 /// @throws BadInput, OutputError, Interrupted
 nlohmann::json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                             const RunCommand& command);
+                             const RunCommand& command, RunStore& store);
+
+/// What that would run, for people. Engines are asked for their version; nothing is computed.
+/// @throws BadInput, Interrupted
+std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                          const RunCommand& command, RunStore& store);
 
 }  // namespace crossgrain

@@ -130,7 +130,8 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   RunCommand command;
   command.out = folder_;
   command.quiet = true;
-  Campaign campaign(setup, command, engines);
+  RunStore store(command, "compare", soleCase(setup));
+  Campaign campaign(setup, command, engines, store);
   campaign.askEngines();
   campaign.preparePackings();
   campaign.timeEngines();

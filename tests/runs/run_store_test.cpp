@@ -1,6 +1,8 @@
 #include "runs/run_store.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -11,44 +13,208 @@ namespace {
 
 using namespace crossgrain;
 namespace fs = std::filesystem;
+using Cases = std::map<std::string, CaseKeys>;
 
-fs::path freshFolder(const char* name) {
-  const fs::path folder = fs::path(testing::TempDir()) / name;
-  fs::remove_all(folder);
-  return folder;
+const CaseKeys key = {{"engine", "a"}, {"engine version", "1"}};
+const Cases rings20 = {{"", {{"averaging.rings", "20"}, {"law.mu", "0.44"}}}};
+const Cases rings40 = {{"", {{"averaging.rings", "40"}, {"law.kn", "1.0"}}}};
+
+class RunStores : public testing::Test {
+ protected:
+  void SetUp() override {
+    command_.out = fs::path(testing::TempDir()) /
+                   testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(command_.out);
+  }
+
+  /// A command that finishes one run.
+  void finish(const std::string& name = "compare", const Cases& cases = rings20) {
+    RunStore store(command_, name, cases);
+    store.begin();
+    store.keep("a-p0", key, {{"value", 0.1}});
+  }
+
+  std::string refusal(const std::string& name, const Cases& cases) {
+    try {
+      const RunStore store(command_, name, cases);
+    } catch (const BadInput& refused) {
+      return refused.what();
+    }
+    return "none";
+  }
+
+  bool isFinished() { return fs::exists(command_.out / "runs" / "a-p0.json"); }
+
+  RunCommand command_;
+};
+
+TEST_F(RunStores, TheSameCaseGoesOn) {
+  finish();
+  const RunStore again(command_, "compare", rings20);
+  ASSERT_TRUE(again.find("a-p0", key));
+  EXPECT_EQ((*again.find("a-p0", key))["value"], 0.1);
+  EXPECT_FALSE(again.find("a-p1", key));
 }
 
-TEST(RunStore, GivesBackOnlyRunsOfTheSameKey) {
-  const fs::path out = freshFolder("store");
-  RunStore(out).keep("a-p0", "key", {{"value", 0.1}});
-  const RunStore again(out);
-  ASSERT_TRUE(again.find("a-p0", "key"));
-  EXPECT_EQ((*again.find("a-p0", "key"))["value"], 0.1);
-  EXPECT_FALSE(again.find("a-p0", "another key"));
-  EXPECT_FALSE(again.find("a-p1", "key"));
-  again.startAfresh();
-  EXPECT_FALSE(again.find("a-p0", "key"));
+TEST_F(RunStores, AChangedCaseIsRefusedKeyByKey) {
+  finish();
+  const std::string why = refusal("compare", rings40);
+  EXPECT_NE(why.find("averaging.rings: 20 → 40; law.kn: none → 1.0; law.mu: 0.44 → none"),
+            std::string::npos)
+      << why;
+  EXPECT_NE(why.find("--fresh"), std::string::npos) << why;
+  EXPECT_TRUE(isFinished());
 }
 
-TEST(RunStore, NeverTouchesAFolderThatIsNotItsOwn) {
-  const fs::path out = freshFolder("foreign");
-  fs::create_directories(out / "runs");
-  std::ofstream(out / "runs" / "thesis.txt") << "ten years of work";
-  EXPECT_THROW(RunStore{out}, BadInput);
-  EXPECT_TRUE(fs::exists(out / "runs" / "thesis.txt"));
+TEST_F(RunStores, AnotherCommandIsRefused) {
+  finish();
+  const std::string why = refusal("collide", {});
+  EXPECT_NE(why.find("'crossgrain compare', not of 'collide'"), std::string::npos) << why;
+  EXPECT_TRUE(isFinished());
 }
 
-TEST(RunStore, ADamagedRunIsRunAgain) {
-  const fs::path out = freshFolder("damaged");
-  RunStore(out).keep("a-p0", "key", {{"value", 1}});
-  std::ofstream(out / "runs" / "a-p0.json") << "{\"key\": \"key\", ";
-  EXPECT_FALSE(RunStore(out).find("a-p0", "key"));
+TEST_F(RunStores, AReportAloneBelongsToItsCommandToo) {
+  {
+    RunStore store(command_, "average", {});
+    store.begin();
+  }
+  std::ofstream(command_.out / "results.json") << "{}";
+  EXPECT_EQ(refusal("average", {}), "none");
+  EXPECT_NE(refusal("rev", {}).find("'crossgrain average'"), std::string::npos);
 }
 
-TEST(RunStore, AFolderThatCannotBeMadeIsAnOutputError) {
-  const fs::path file = freshFolder("file");
-  std::ofstream(file) << "not a folder";
-  EXPECT_THROW(RunStore(file / "out"), OutputError);
+TEST_F(RunStores, RunsOfAnotherBuildAreRefusedWithBothNamed) {
+  finish();
+  const fs::path marker = command_.out / ".crossgrain";
+  auto said = nlohmann::json::parse(*readFile(marker));
+  const std::string own = said["program"];
+  said["program"] = "0.0.9 (abc)";
+  std::ofstream(marker) << said;
+  const std::string why = refusal("compare", rings20);
+  EXPECT_NE(why.find("another build of crossgrain: 0.0.9 (abc) → " + own), std::string::npos)
+      << why;
+}
+
+TEST_F(RunStores, ARunOfAnotherEngineVersionIsRefusedWithBothNamed) {
+  finish();
+  const RunStore again(command_, "compare", rings20);
+  try {
+    again.find("a-p0", {{"engine", "a"}, {"engine version", "2"}});
+    FAIL() << "not refused";
+  } catch (const BadInput& refused) {
+    EXPECT_NE(std::string(refused.what()).find("a-p0"), std::string::npos) << refused.what();
+    EXPECT_NE(std::string(refused.what()).find("engine version: 1 → 2"), std::string::npos);
+  }
+  // An engine that did not answer is not known to be another.
+  EXPECT_TRUE(again.find("a-p0", {{"engine", "a"}, {"engine version", ""}}));
+}
+
+TEST_F(RunStores, FurtherCasesOfASuiteAreTakenInAndTheEarlierOnesRemembered) {
+  finish("collide", {{"one", {{"law.mu", "0.1"}}}});
+  {
+    RunStore store(command_, "collide", {{"two", {{"law.mu", "0.2"}}}});
+    store.begin();
+  }
+  EXPECT_EQ(refusal("collide", {{"two", {{"law.mu", "0.2"}}}}), "none");
+  EXPECT_NE(refusal("collide", {{"one", {{"law.mu", "0.3"}}}}).find("law.mu: 0.1 → 0.3"),
+            std::string::npos);
+}
+
+TEST_F(RunStores, WithoutAnythingFinishedAFolderTakesAnything) {
+  {
+    RunStore store(command_, "compare", rings20);
+    store.begin();
+  }
+  EXPECT_EQ(refusal("compare", rings40), "none");
+  EXPECT_EQ(refusal("collide", {}), "none");
+}
+
+TEST_F(RunStores, ACommandThatDidNotBeginLeavesTheFolderToTheNext) {
+  { const RunStore store(command_, "compare", rings20); }
+  EXPECT_FALSE(fs::exists(command_.out));
+  fs::create_directories(command_.out);
+  { const RunStore store(command_, "compare", rings20); }
+  EXPECT_TRUE(fs::exists(command_.out));
+  EXPECT_EQ(refusal("collide", {}), "none");
+}
+
+TEST_F(RunStores, FreshSetsAsideAndNothingIsLost) {
+  finish();
+  std::ofstream(command_.out / "results.json") << "{}";
+  command_.fresh = true;
+  for (const char* number : {"1", "2"}) {
+    testing::internal::CaptureStderr();
+    RunStore store(command_, "collide", rings40);
+    store.begin();
+    const fs::path aside = command_.out / "earlier" / number;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "what was there is now in " + aside.string() + "\n");
+    EXPECT_FALSE(store.find("a-p0", key));
+    EXPECT_TRUE(fs::exists(aside / "runs" / "a-p0.json"));
+    store.keep("a-p0", key, {{"value", 0.2}});
+  }
+  // What was set aside is a folder like any other.
+  command_.fresh = false;
+  command_.out /= "earlier/1";
+  EXPECT_TRUE(RunStore(command_, "compare", rings20).find("a-p0", key));
+  EXPECT_TRUE(fs::exists(command_.out / "results.json"));
+}
+
+TEST_F(RunStores, NeverTouchesAFolderThatIsNotItsOwn) {
+  fs::create_directories(command_.out / "runs");
+  std::ofstream(command_.out / "runs" / "thesis.txt") << "ten years of work";
+  for (const bool fresh : {false, true}) {
+    command_.fresh = fresh;
+    EXPECT_THROW(RunStore(command_, "compare", rings20), BadInput);
+  }
+  EXPECT_TRUE(fs::exists(command_.out / "runs" / "thesis.txt"));
+}
+
+TEST_F(RunStores, ADamagedRunIsRunAgain) {
+  finish();
+  std::ofstream(command_.out / "runs" / "a-p0.json") << R"({"key": {"engine": "a"}, )";
+  EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));
+}
+
+TEST_F(RunStores, AFolderThatCannotBeMadeIsAnOutputError) {
+  std::ofstream(command_.out) << "not a folder";
+  command_.out /= "out";
+  EXPECT_THROW(RunStore(command_, "compare", rings20), OutputError);
+}
+
+TEST_F(RunStores, ADryRunLooksAndLeavesNothing) {
+  command_.dryRun = true;
+  fs::path scratch;
+  {
+    RunStore store(command_, "compare", rings20);
+    store.begin();
+    scratch = store.scratch("a");
+    EXPECT_FALSE(fs::exists(command_.out));
+  }
+  EXPECT_FALSE(fs::exists(scratch.parent_path()));
+  command_.dryRun = false;
+  finish();
+  command_.dryRun = true;
+  EXPECT_TRUE(RunStore(command_, "compare", rings20).find("a-p0", key));
+  EXPECT_NE(refusal("compare", rings40), "none");
+  command_.fresh = true;
+  EXPECT_FALSE(RunStore(command_, "compare", rings40).find("a-p0", key));
+  EXPECT_TRUE(isFinished());
+}
+
+TEST_F(RunStores, OnlyOneProcessHoldsAFolder) {
+  const RunStore store(command_, "compare", rings20);
+  const std::string why = refusal("compare", rings20);
+  EXPECT_NE(why.find(fmt::format("in use by crossgrain compare, process {}, since ", ::getpid())),
+            std::string::npos)
+      << why;
+}
+
+TEST_F(RunStores, ALockFileOfADeadProcessLocksNothing) {
+  finish();
+  std::ofstream(command_.out / FolderLock::name) << "crossgrain compare, process 1, since long ago";
+  EXPECT_EQ(refusal("compare", rings20), "none");
+  EXPECT_FALSE(fs::exists(command_.out / FolderLock::name));
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ TEST(StabilitySuite, MisbehavingEnginesEndTheirOwnRunsOnly) {
   command.out = folder.path() / "out";
   command.jobs = 2;
   command.quiet = true;
-  const json results = testStability(cases, engines, command);
+  RunStore store(command, "stability", keysOfEach(cases));
+  const json results = testStability(cases, engines, command, store);
 
   ASSERT_EQ(results["runs"].size(), engines.size());
   for (const json& row : results["runs"]) {
@@ -113,10 +114,12 @@ TEST(StabilitySuite, FinishedRunsAreTakenUp) {
   RunCommand command;
   command.out = folder.path() / "out";
   command.quiet = true;
-  json first = testStability(cases, engines, command)["runs"][0];
-  command.resume = true;
+  const auto stats = [&] {
+    RunStore store(command, "stability", keysOfEach(cases));
+    return testStability(cases, engines, command, store)["runs"][0]["stats"];
+  };
   // Times are measured: the same ones again were not measured anew.
-  EXPECT_EQ(testStability(cases, engines, command)["runs"][0]["stats"], first["stats"]);
+  EXPECT_EQ(stats(), stats());
 }
 
 TEST(HardCases, WhatIsNoneIsBadInput) {

@@ -107,7 +107,7 @@ class Resume(CostTest):
     def test_finished_points_are_not_measured_again(self):
         self.assert_status(self.cost("--quiet", *FEW), HELD)
         runs, points = self.finished_runs(), self.points()
-        done = self.cost("--quiet", "--resume", *FEW)
+        done = self.cost("--quiet", *FEW)
         self.assert_status(done, HELD)
         self.assertEqual(runs, self.finished_runs())
         self.assertEqual(points, self.points())
@@ -117,7 +117,7 @@ class Resume(CostTest):
         running.worker_at_work("grain", 1.5, stage="measuring, one at a time")
         os.kill(running.process.pid, signal.SIGINT)
         done = self.check_no_crash(running.end())
-        self.assert_one_error(done, INTERRUPTED, "--resume")
+        self.assert_one_error(done, INTERRUPTED, "the same command goes on")
         self.assertTrue(any(name.startswith("collision-grain") for name in self.finished_runs()))
 
 

@@ -155,10 +155,10 @@ class Interruption(EffectsTest):
         running.worker_at_work("grain", cpu_seconds=0.05)
         os.kill(running.process.pid, signal.SIGINT)
         done = self.check_no_crash(running.end())
-        self.assert_one_error(done, INTERRUPTED, "--resume")
+        self.assert_one_error(done, INTERRUPTED, "the same command goes on")
         finished = self.finished_runs()
         self.assertIn("timing-grain", finished)
-        done = self.effects("--resume", "--jobs=1", *settings(averaging__rotations=0.3))
+        done = self.effects("--jobs=1", *settings(averaging__rotations=0.3))
         self.assert_status(done, HELD)
         now = self.finished_runs()
         self.assertEqual(1 + 2 * 10, len(now))  # the timing; 2 packings of the case and 9 switches

@@ -1,5 +1,5 @@
 """A worker dies or hangs, the user interrupts, or crossgrain itself is killed: what was finished stays,
-nothing is left running, and --resume goes on from there."""
+nothing is left running, and the same command goes on from there."""
 
 import html
 import os
@@ -9,7 +9,9 @@ import time
 import unittest
 
 from harness import (
+    CASES,
     COLLISION,
+    COUETTE,
     ENGINE_FAILED,
     FELL_SHORT,
     HELD,
@@ -21,17 +23,15 @@ from harness import (
     wait_for,
 )
 
+HARD = CASES / "hard"
 SLOW = "box2d-penalty"
 BOTH = f"grain,{SLOW}"
 
 
 class FailureTest(SystemTest):
-    def resume(self, *arguments):
-        return self.compare("--resume", *arguments, engines=BOTH)
-
     def assert_resumes(self, finished, *arguments):
-        """--resume completes all four runs without touching those that were finished."""
-        done = self.resume(*arguments)
+        """The same command completes all four runs without touching those that were finished."""
+        done = self.compare(*arguments, engines=BOTH)
         self.assert_status(done, HELD, FELL_SHORT)
         self.assertEqual([], done.error_lines())
         now = self.finished_runs()
@@ -97,14 +97,15 @@ class WorkerDies(FailureTest):
 
 class CollideWorkerDies(FailureTest):
     def collide(self):
-        running = self.start(
+        self.arguments = [
             "collide", COLLISION, "--engines", BOTH, "--out", self.out,
             *settings(
                 run__mirrors="false",
                 collision__psi="{ from = 0.0, to = 4.0, count = 100 }",
                 collision__steps_per_contact=1000,
             ),
-        )  # fmt: skip
+        ]  # fmt: skip
+        running = self.start(*self.arguments)
         return running, running.worker_at_work(SLOW, stage="collisions:")
 
     def test_killed(self):
@@ -124,9 +125,26 @@ class CollideWorkerDies(FailureTest):
         running, _ = self.collide()
         os.kill(running.process.pid, signal.SIGINT)
         done = self.check_no_crash(running.end())
-        self.assert_one_error(done, INTERRUPTED, "interrupted")
-        self.assertNotIn("--resume", done.stderr, "collide keeps no runs that it could take up")
+        self.assert_one_error(done, INTERRUPTED, "interrupted", "the same command goes on")
         self.assert_nothing_runs(running)
+
+    def test_the_same_command_goes_on(self):
+        running, worker = self.collide()
+        wait_for(lambda: any(SLOW in name for name in self.finished_runs()), PATIENCE, "a case of it")
+        os.kill(worker, signal.SIGKILL)
+        self.assert_one_error(self.check_no_crash(running.end()), ENGINE_FAILED, SLOW)
+        finished = self.finished_runs()
+        self.assertEqual(15, len(finished))  # of 2 engines × 8 variants, all but the one that failed
+        done = self.run_program(*self.arguments)
+        self.assert_status(done, HELD, FELL_SHORT)
+        now = self.finished_runs()
+        self.assertEqual(16, len(now))
+        self.assertEqual(finished, {name: now[name] for name in finished})
+        curves = [c for variant in self.results()["variants"] for c in variant["curves"]]
+        self.assertEqual({"finished"}, {curve["status"] for curve in curves})
+        once = (self.out / "collisions.csv").read_bytes()
+        self.run_program(*self.arguments, "--fresh")
+        self.assertEqual(once, (self.out / "collisions.csv").read_bytes())
 
 
 class UserInterrupts(FailureTest):
@@ -144,7 +162,7 @@ class UserInterrupts(FailureTest):
         finished = self.finished_runs()
         os.kill(running.process.pid, signal_number)
         done = self.check_no_crash(running.end())
-        self.assert_one_error(done, INTERRUPTED, "interrupted", "--resume")
+        self.assert_one_error(done, INTERRUPTED, "interrupted", "the same command goes on")
         self.assertEqual(finished, self.finished_runs())
         self.assert_nothing_runs(running)
         return finished, slow
@@ -168,21 +186,38 @@ class UserInterrupts(FailureTest):
         self.assertEqual({}, self.finished_runs())
         left = self.out / "unfinished" / "grain-p0"
         self.assertTrue((left / "index.json").exists(), list(self.out.rglob("*")))
-        done = self.compare("--resume", *one, engines="grain")
+        done = self.compare(*one, engines="grain")
         self.assertEqual([], done.error_lines())
         self.assertFalse(left.exists())
         tables = ("profiles.csv", "series.csv")
         resumed = [(self.out / name).read_bytes() for name in tables]
-        self.compare(*one, engines="grain")
+        self.compare("--fresh", *one, engines="grain")
         self.assertEqual(resumed, [(self.out / name).read_bytes() for name in tables])
 
-    def test_interrupt_while_packings_are_prepared(self):
-        running = self.start_compare(
-            *settings(preparation__rotations=3.0, preparation__seed=77), engines=BOTH,
+    def test_while_packings_are_prepared(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            for command in ("compare", "effects", "cost"):
+                with self.subTest(command, signal=number):
+                    self.ends(
+                        number, "preparing packings", command, COUETTE, "--quick",
+                        *settings(preparation__rotations=3.0, preparation__seed=77),
+                    )  # fmt: skip
+
+    def test_while_hard_cases_are_run(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number):
+                self.ends(number, "hard cases", "stability", HARD, "--quick")
+
+    def ends(self, number, stage, command, *arguments):
+        """A command that is at some stage ends by that signal, with its workers, and says so."""
+        out = self.folder / f"{command}-{number}"
+        running = self.start(
+            command, *arguments, "--engines", SLOW, "--out", out,
             env={"CROSSGRAIN_CACHE": str(self.folder / "cache")},
         )  # fmt: skip
-        wait_for(lambda: "preparing packings" in running.stderr(), PATIENCE, "the preparation to begin")
-        os.kill(running.process.pid, signal.SIGINT)
+        wait_for(lambda: stage in running.stderr(), PATIENCE, "the stage to begin")
+        time.sleep(0.2)
+        os.kill(running.process.pid, number)
         done = self.check_no_crash(running.end())
         self.assert_one_error(done, INTERRUPTED, "interrupted")
         self.assert_nothing_runs(running)
@@ -204,25 +239,13 @@ class UserInterrupts(FailureTest):
 
 
 class Resume(FailureTest):
-    def test_another_case_is_run_afresh(self):
-        short = settings(averaging__rotations=0.02)
-        self.assert_status(self.compare(*short), HELD)
-        before = self.finished_runs()
-        done = self.compare("--resume", *short, "--set", "averaging.rings=5")
-        self.assert_status(done, HELD)
-        self.assertNotIn("earlier run", done.stderr)
-        now = self.finished_runs()
-        self.assertEqual(set(before), set(now))
-        for name, changed in before.items():
-            self.assertGreater(now[name], changed)
-
     def test_damaged_run_file_is_run_again(self):
         short = settings(averaging__rotations=0.02)
         self.assert_status(self.compare(*short), HELD)
         damaged = self.out / "runs/grain-p0.json"
         profiles = (self.out / "profiles.csv").read_bytes()
         os.truncate(damaged, damaged.stat().st_size // 2)
-        done = self.compare("--resume", *short)
+        done = self.compare(*short)
         self.assert_status(done, HELD)
         self.assertEqual(1, done.stderr.count("finished in an earlier run"), str(done))
         self.assertEqual(profiles, (self.out / "profiles.csv").read_bytes())

@@ -1,4 +1,5 @@
-"""The output folder cannot be written, or has no room: status 2 and the system's own reason."""
+"""The output folder cannot be written (status 2), or has no room (status 3): the system's own reason, and
+how to go on."""
 
 import os
 import resource
@@ -7,7 +8,16 @@ import subprocess
 import unittest
 
 from harness import (
-    BAD_INPUT, COLLISION, COUETTE, HELD, PATIENCE, PROGRAM, Finished, SystemTest, settings,
+    BAD_INPUT,
+    COLLISION,
+    COUETTE,
+    ENGINE_FAILED,
+    HELD,
+    PATIENCE,
+    PROGRAM,
+    Finished,
+    SystemTest,
+    settings,
 )
 
 SHORT = settings(averaging__rotations=0.02, preparation__rotations=0.0)
@@ -48,7 +58,9 @@ class Unwritable(SystemTest):
 
 
 class Full(SystemTest):
-    """The status is that of bad input, not of an engine: no engine can help it."""
+    """The input is not at fault, and what is finished is taken up once there is room."""
+
+    ROOM = "what is finished is kept: make room, and the same command goes on"
 
     def on_small_disk(self, kib, disk, *arguments):
         """A `compare` while a file system of that size lies over the folder `disk`, in a mount
@@ -78,7 +90,9 @@ class Full(SystemTest):
         for kib in (16, 64, 128, 256):
             with self.subTest(kib=kib):
                 done = self.on_small_disk(kib, self.out)
-                self.assert_one_line(done, BAD_INPUT, str(self.out), "No space left on device")
+                self.assert_one_line(
+                    done, ENGINE_FAILED, str(self.out), "No space left on device", self.ROOM
+                )
 
     def test_full_disk_under_the_packings(self):
         cache = self.folder / "cache"
@@ -96,10 +110,35 @@ class Full(SystemTest):
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
 
+        def limited(*arguments):
+            return self.compare("--quiet", *SHORT, *arguments, preexec_fn=limit, restore_signals=False)
+
         self.assert_status(self.compare("--quiet", *SHORT), HELD)  # the packings are in the cache
-        done = self.compare("--quiet", *SHORT, preexec_fn=limit, restore_signals=False)
-        self.assert_one_line(done, BAD_INPUT, str(self.out), "File too large")
+        done = limited("--fresh")
+        self.assertIn(f"{self.out / 'earlier/1'}\n", done.stderr)
+        self.assert_one_error(
+            done, ENGINE_FAILED, str(self.out), "File too large", "without --fresh goes on"
+        )
         self.assertEqual([], list(self.out.rglob("*.part*")), "nothing half written is left")
+        self.assertEqual({}, self.finished_runs())
+
+    def test_what_is_finished_is_taken_up_when_there_is_room(self):
+        """Two packings are finished; of two more the disk takes no byte."""
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))
+
+        self.assert_status(self.compare("--quiet", *SHORT), HELD)
+        more = [*SHORT, *settings(preparation__packings=3)]
+        finished, report = self.finished_runs(), (self.out / "results.json").read_bytes()
+        done = self.compare("--quiet", *more, preexec_fn=limit, restore_signals=False)
+        self.assert_one_line(done, ENGINE_FAILED, "grain-p2", "File too large", self.ROOM)
+        self.assertEqual(finished, self.finished_runs())
+        self.assertEqual(report, (self.out / "results.json").read_bytes())
+        done = self.compare(*more)
+        self.assert_status(done, HELD)
+        self.assertEqual(2, done.stderr.count("finished in an earlier run"), str(done))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ class PackingFiles(SystemTest):
             averaging__rotations=0.01,
             averaging__settle_rotations=0.0,
         )
-        return self.compare("--quiet", *short, *arguments)
+        return self.compare("--quiet", "--fresh", *short, *arguments)
 
     def refuse(self, *fragments, **datasets):
         self.assert_one_line(self.compare_it(**datasets), BAD_INPUT, "mine.h5", *fragments)
@@ -154,7 +154,7 @@ class PackingCache(SystemTest):
             averaging__rotations=0.01,
             averaging__settle_rotations=0.0,
         )
-        return self.compare(*short, *arguments, env=self.env)
+        return self.compare("--fresh", *short, *arguments, env=self.env)
 
     def test_second_call_takes_them_from_the_cache(self):
         first = self.compare_with_cache()

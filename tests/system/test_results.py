@@ -155,7 +155,7 @@ class Compare(ResultsTest):
     def test_another_seed_gives_other_bits(self):
         self.assert_status(self.compare(*self.short), HELD)
         one = (self.out / "profiles.csv").read_bytes()
-        self.assert_status(self.compare(*self.short, "--seed=9"), HELD)
+        self.assert_status(self.compare(*self.short, "--seed=9", "--fresh"), HELD)
         self.assertNotEqual(one, (self.out / "profiles.csv").read_bytes())
 
     def test_case_in_the_results_gives_the_same_again(self):
@@ -173,7 +173,7 @@ class Compare(ResultsTest):
         """Two packings decide nothing: held as it is, fallen short under --strict."""
         args = [*self.short, "--quiet"]
         self.assert_status(self.compare(*args, engines="grain,box2d-penalty"), HELD)
-        done = self.compare(*args, "--strict", "--resume", engines="grain,box2d-penalty")
+        done = self.compare(*args, "--strict", engines="grain,box2d-penalty")
         self.assert_status(done, FELL_SHORT)
         self.assertEqual("", done.stderr)
 

@@ -4,8 +4,11 @@
 
 namespace crossgrain {
 
-/// A folder of this process' own, gone at the end of the scope.
-struct ScratchFolder {
+/// A folder of this process' own in the system's place for temporary files, gone at the end of the
+/// scope.
+class ScratchFolder {
+ public:
+  /// @throws BadInput naming TMPDIR
   ScratchFolder();
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

@@ -1,4 +1,4 @@
-#include "cli/scratch_folder.hpp"
+#include "runs/scratch_folder.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,29 @@
+#include "runs/resumable.hpp"
+
+#include <fmt/format.h>
+
+#include "cases/files.hpp"
+#include "runs/interrupt.hpp"
+
+namespace crossgrain {
+
+int resumably(const RunCommand& command, const std::function<int()>& work) {
+  const std::string same =
+      fmt::format("the same command{} goes on from there", command.fresh ? " without --fresh" : "");
+  const Interrupted stopped(
+      fmt::format("interrupted; what is finished is kept in {}: {}", command.out.string(), same));
+  try {
+    return work();
+  } catch (const Interrupted&) {
+    throw stopped;
+  } catch (const OutputError& error) {
+    if (!error.noRoom) throw;
+    throw error.with(fmt::format("; what is finished is kept: make room, and {}", same));
+  } catch (const std::exception&) {
+    // Ctrl-C goes to all programs of a terminal: what fails after it failed of it.
+    if (interrupted()) throw stopped;
+    throw;
+  }
+}
+
+}  // namespace crossgrain
