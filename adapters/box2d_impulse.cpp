@@ -52,13 +52,15 @@ std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Mo
   std::vector<Deviation> deviations;
   if (scene.law.normal != NormalLaw::rigid && !pairs.empty()) {
     std::string each;
-    for (const PairCoefficients& pair : pairs)
-      each += fmt::format("{}{}: {:.4f}, {:.4f}", each.empty() ? "" : "; ", pair.pair, pair.en,
-                          pair.et0);
-    deviations.push_back({"normal", pairs.front().en, "-",
-                          "rigid contacts with the soft law's e_n, and its -psi_f/psi_i at psi_i = "
-                          "0.5 as e_t0 (" +
-                              each + ")"});
+    for (const PairCoefficients& pair : pairs) {
+      each += fmt::format("{}{}: {:.4f}", each.empty() ? "" : "; ", pair.pair, pair.en);
+      if (pair.mu > 0.0) each += fmt::format(", {:.4f}", pair.et0);
+    }
+    const char* tangential =
+        pairs.front().mu > 0.0 ? ", and its -psi_f/psi_i at psi_i = 0.5 as e_t0" : "";
+    deviations.push_back(
+        {"normal", pairs.front().en, "-",
+         fmt::format("rigid contacts with the soft law's e_n{} ({})", tangential, each)});
   }
   const double unit = model.lengthUnit;
   deviations.push_back({"rounding", box2d_granular::roundingAt(box2d_granular::extentOf(model)),
@@ -138,13 +140,16 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   realised.precision = "float";
   realised.integrator = "semi_implicit_euler with sequential impulses";
   realised.effects = simulatedEffects(capabilities(), scene);
-  realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double reducedMass) {
-    pair.mu = friction(law_);
+  realised.pairs = pairTable(scene, [&](double reducedMass) {
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
     const Restitution used =
         restitutionOf({1.0 / reducedMass, (1.0 + (rotation_ ? 1.0 / q : 0.0)) / reducedMass});
-    pair.en = used.normal;
-    pair.et0 = used.tangential;
+    ContactLaw law;
+    law.normal = NormalLaw::rigid;
+    law.mu = friction(law_);
+    law.en = used.normal;
+    law.et0 = used.tangential;
+    return coefficientsOf(law);
   });
   realised.deviations = deviationsOf(scene, model, realised.pairs);
   if (world_->restSpeed() > 0.0)

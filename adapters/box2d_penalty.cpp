@@ -52,13 +52,7 @@ Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
   realised.precision = "double";
   realised.integrator = "semi_implicit_euler";
   realised.effects = effectsOf(scene);
-  realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double) {
-    pair.kn = scene.law.kn;
-    pair.gn = scene.law.gn;
-    pair.kt = scene.law.kt;
-    pair.gt = scene.law.gt;
-    pair.mu = scene.law.mu;
-  });
+  realised.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
   return realised;
 }
 

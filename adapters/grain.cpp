@@ -174,7 +174,6 @@ class GrainEngine : public Engine {
     const double stiffness = setting(settings, "stiffness", stiffness_);
     if (!(stiffness > 0.0)) throw std::invalid_argument("the setting stiffness must be > 0");
     stiffen(law, stiffness);
-    const double gtUsed = law.tangential == TangentialLaw::spring ? 0.0 : law.gt;
 
     Scene own = scene;
     own.law = law;
@@ -206,17 +205,7 @@ class GrainEngine : public Engine {
     if (stiffness != 1.0)
       realised.deviations.push_back(
           {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
-    realised.pairs = pairTable(scene, [&](PairCoefficients& pair, double) {
-      pair.kn = law.kn;
-      pair.gn = law.gn;
-      pair.kt = law.kt;
-      pair.gt = gtUsed;
-      pair.mu = law.mu;
-      if (rigid) {
-        pair.en = law.en;
-        pair.et0 = law.et0;
-      }
-    });
+    realised.pairs = pairTable(scene, [&](double) { return coefficientsOf(law); });
     return realised;
   }
 

@@ -7,9 +7,28 @@
 
 namespace crossgrain {
 
+PairCoefficients coefficientsOf(const ContactLaw& law) {
+  PairCoefficients row;
+  const bool soft = law.soft();
+  const bool friction = law.mu > 0.0 && (!soft || law.tangential != TangentialLaw::none);
+  const bool dashpot =
+      law.tangential == TangentialLaw::springDashpot || law.tangential == TangentialLaw::viscous;
+  if (soft) {
+    row.kn = law.kn;
+    row.gn = law.gn;
+  } else {
+    row.en = law.en;
+  }
+  if (!friction) return row;
+  row.mu = law.mu;
+  if (!soft) row.et0 = law.et0;
+  if (soft && law.springs()) row.kt = law.kt;
+  if (soft && dashpot) row.gt = law.gt;
+  return row;
+}
+
 std::vector<PairCoefficients> pairTable(
-    const Scene& scene,
-    const std::function<void(PairCoefficients& row, double reducedMass)>& fill) {
+    const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients) {
   // A table of more kinds than this tells a reader nothing.
   constexpr std::size_t mostKinds = 4;
   std::set<std::pair<double, double>> kinds;  // radius, mass
@@ -21,9 +40,8 @@ std::vector<PairCoefficients> pairTable(
   };
   std::vector<PairCoefficients> table;
   const auto addRow = [&](const std::string& pair, double reducedMass) {
-    table.push_back({});
-    table.back().pair = pair;
-    fill(table.back(), reducedMass);
+    PairCoefficients& row = table.emplace_back(coefficients(reducedMass));
+    row.pair = pair;
   };
   for (auto a = kinds.begin(); a != kinds.end(); ++a) {
     for (auto b = a; b != kinds.end(); ++b)

@@ -7,10 +7,14 @@
 
 namespace crossgrain {
 
+/// The constants that a law has: springs and dashpots of a soft one, restitutions of a rigid one,
+/// and those of tangential forces as far as it has such forces; 0 of what it does not have.
+PairCoefficients coefficientsOf(const ContactLaw& law);
+
 /// One row for each kind of pair that the scene can bring together: each two of its distinct disks
 /// (radius and mass), and each of them with a wall.
-/// @param fill  sets the coefficients of one row from the pair's reduced mass [kg]
+/// @param coefficients  of the pairs of that reduced mass [kg]; their name is set here
 std::vector<PairCoefficients> pairTable(
-    const Scene& scene, const std::function<void(PairCoefficients& row, double reducedMass)>& fill);
+    const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients);
 
 }  // namespace crossgrain

@@ -25,6 +25,16 @@ constexpr double pi = std::numbers::pi;
 /// 0.)
 constexpr double inseparable = 0.95;
 
+/// Largest χ²/dof of a weighted fit. At 100 the points lie ten of their own errors off the curve,
+/// root mean square: what they follow is another curve, and parameters with errors blown up tenfold
+/// would be those of the wrong one. (Errors of a profile's rings are too small by a factor of two
+/// or three where rings share disks, so that a good fit may well have 10.)
+constexpr double largestChi2PerDof = 100.0;
+
+/// Largest value of a decaying curve at x = 0, in units of the spread of the points. A curve that
+/// rises tenfold between its first point and x = 0 is told by that point alone.
+constexpr double largestExtrapolation = 10.0;
+
 /// A law y = Σ_k c_k g_k(x; q), linear but for the shape q. The best of a grid of q starts the fit.
 struct Law {
   std::vector<std::string> names;
@@ -35,6 +45,8 @@ struct Law {
   std::function<std::vector<double>(const std::vector<double>& c, double q)> parameters;
   std::function<double(const std::vector<double>& p, double x)> value;
   bool constantIsNull;  ///< no signal means y = const rather than y = 0
+  /// Of a law that decays from x = 0: how far, in units of x, and by how much.
+  std::function<double(const std::vector<double>&p)> length, amplitude;
 };
 
 std::vector<double> geometric(double from, double to, int count) {
@@ -115,6 +127,35 @@ bool determined(const FitParameter& p) {
   return p.period == 0.0 || *p.standardError < 0.25 * p.period;
 }
 
+/// Why the points cannot tell the decay that was fitted to them; empty if they can. Longer than
+/// their range it is a straight line to them, of which only the slope, amplitude over length, is
+/// seen; shorter than half a spacing only the first point feels it.
+std::string outOfReach(const Law& law, const WeightedPoints& points, const Fit& fit) {
+  if (!law.length) return {};
+  std::vector<double> p;
+  for (const FitParameter& parameter : fit.parameters) p.push_back(parameter.value);
+  const double length = law.length(p), amplitude = std::abs(law.amplitude(p));
+  const auto [first, last] = std::ranges::minmax(points.x);
+  const double range = last - first;
+  const double spacing = range / (static_cast<double>(points.x.size()) - 1.0);
+  if (length > range)
+    return fmt::format(
+        "the decay length {:.3g} is beyond the range {:.3g} of the points: they "
+        "show a straight line",
+        length, range);
+  if (length < 0.5 * spacing)
+    return fmt::format("the decay length {:.3g} is below half the spacing {:.3g} of the points",
+                       length, spacing);
+  const auto [low, high] = std::ranges::minmax(points.y);
+  const double spread = law.constantIsNull ? high - low : std::max(std::abs(low), std::abs(high));
+  if (amplitude > largestExtrapolation * spread)
+    return fmt::format(
+        "the amplitude {:.3g} is more than {:g} times the {:.3g} that the points "
+        "span",
+        amplitude, largestExtrapolation, spread);
+  return {};
+}
+
 /// Why the fit is not to be believed; empty if it is.
 std::string objection(const Law& law, const WeightedPoints& points,
                       const NonlinearSolution& solution, const Fit& fit) {
@@ -129,6 +170,7 @@ std::string objection(const Law& law, const WeightedPoints& points,
   if (shape.value < law.shapes.front() || shape.value > law.shapes.back())
     return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is looked at",
                        shape.name, shape.value, law.shapes.front(), law.shapes.back());
+  if (std::string reach = outOfReach(law, points, fit); !reach.empty()) return reach;
   const auto [nullChi2, nullParameters] = nullModel(law, points);
   const double gained = static_cast<double>(fit.parameters.size()) - nullParameters;
   const double ratio = (nullChi2 - fit.chi2) / gained / (fit.chi2 / fit.dof);
@@ -137,6 +179,9 @@ std::string objection(const Law& law, const WeightedPoints& points,
   if (!(chance < 0.01))
     return fmt::format("no better than {} (F test: p = {:.2g}, 0.01 wanted)",
                        law.constantIsNull ? "a constant" : "zero", chance);
+  if (fit.weighted && fit.chi2 / fit.dof > largestChi2PerDof)
+    return fmt::format("the points do not follow the curve: χ²/dof = {:.3g}, at most {:g} wanted",
+                       fit.chi2 / fit.dof, largestChi2PerDof);
   return {};
 }
 
@@ -206,7 +251,7 @@ void makeCanonical(Fit& fit) {
 }  // namespace
 
 Fit fitPowerLaw(std::span<const FitPoint> points) {
-  Law law{{"A", "p"}, {0.0, 0.0}, {}, 1, {}, {}, {}, false};
+  Law law{{"A", "p"}, {0.0, 0.0}, {}, 1, {}, {}, {}, false, {}, {}};
   for (int k = -40; k <= 20; ++k) law.shapes.push_back(0.25 * k);
   law.basis = [](double x, double p) { return std::vector{std::pow(x, p)}; };
   law.parameters = [](const auto& c, double p) { return std::vector{c[0], p}; };
@@ -215,23 +260,37 @@ Fit fitPowerLaw(std::span<const FitPoint> points) {
 }
 
 Fit fitVelocityDecay(std::span<const FitPoint> points) {
-  Law law{{"A", "B"}, {0.0, 0.0}, geometric(0.05, 50.0, 61), 1, {}, {}, {}, false};
+  Law law{{"A", "B"}, {0.0, 0.0}, geometric(0.05, 50.0, 61), 1, {}, {}, {}, false, {}, {}};
   law.basis = [](double x, double b) { return std::vector{std::exp(-x / b)}; };
   law.parameters = [](const auto& c, double b) { return std::vector{c[0], b}; };
   law.value = [](const auto& p, double x) { return p[0] * std::exp(-x / p[1]); };
+  law.length = [](const auto& p) { return p[1]; };
+  law.amplitude = [](const auto& p) { return p[0]; };
   return fitLaw(law, inRange(points, [](double x) { return x > 0.0 && x < 6.0; }));
 }
 
 Fit fitDilation(std::span<const FitPoint> points) {
-  Law law{{"nu0", "B", "C"}, {0.0, 0.0, 0.0}, geometric(0.02, 20.0, 61), 2, {}, {}, {}, true};
+  Law law{
+      {"nu0", "B", "C"}, {0.0, 0.0, 0.0}, geometric(0.02, 20.0, 61), 2, {}, {}, {}, true, {}, {}};
   law.basis = [](double x, double c) { return std::vector{1.0, -std::exp(-c * x)}; };
   law.parameters = [](const auto& c, double shape) { return std::vector{c[0], c[1], shape}; };
   law.value = [](const auto& p, double x) { return p[0] - p[1] * std::exp(-p[2] * x); };
+  law.length = [](const auto& p) { return 1.0 / p[2]; };
+  law.amplitude = [](const auto& p) { return p[1]; };
   return fitLaw(law, inRange(points, [](double x) { return x >= 0.5 && x <= 8.5; }));
 }
 
 Fit fitSpinOscillation(std::span<const FitPoint> points) {
-  Law law{{"A", "B", "phi"}, {0.0, 0.0, 2.0 * pi}, geometric(0.02, 20.0, 61), 1, {}, {}, {}, false};
+  Law law{{"A", "B", "phi"},
+          {0.0, 0.0, 2.0 * pi},
+          geometric(0.02, 20.0, 61),
+          1,
+          {},
+          {},
+          {},
+          false,
+          {},
+          {}};
   law.basis = [](double x, double b) {
     return std::vector{std::exp(-b * x) * std::cos(pi * x), -std::exp(-b * x) * std::sin(pi * x)};
   };
@@ -241,6 +300,8 @@ Fit fitSpinOscillation(std::span<const FitPoint> points) {
   law.value = [](const auto& p, double x) {
     return p[0] * std::exp(-p[1] * x) * std::cos(pi * x + p[2]);
   };
+  law.length = [](const auto& p) { return 1.0 / p[1]; };
+  law.amplitude = [](const auto& p) { return p[0]; };
   Fit fit = fitLaw(law, points);
   makeCanonical(fit);
   return fit;

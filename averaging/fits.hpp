@@ -23,9 +23,9 @@ struct FitParameter {
   double period = 0.0;  ///< > 0: an angle, known up to multiples of this
 };
 
-/// A fit, or why there is none. The points are weighted by 1/error² if every one of them has a
-/// positive error, else equally. A fit is refused when it is no better than no signal (F test, 1
-/// %), when its shape runs out of the range searched, or when the points leave a parameter open.
+/// A fit, or why there is none: no better than no signal, a parameter that the points leave open, a
+/// curve beyond their reach, or one that misses them (averaging/fits.cpp has the bounds and why).
+/// The points are weighted by 1/error² if every one of them has a positive error, else equally.
 /// Parameter errors come from the covariance matrix; it is scaled by χ²/dof without weights, and
 /// with weights where that exceeds 1 (the points scatter more than their errors say).
 struct Fit {

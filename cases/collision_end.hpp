@@ -86,10 +86,10 @@ struct CollisionEnd {
   std::optional<double> duration;    ///< from the first touch to separation [s]; none if rigid
   std::optional<double> maxOverlap;  ///< [m]; none if rigid
   std::optional<EnergySplit> lost;
-  /// The law has no limit of small time steps here: a slip ended at v_t = 0 while the bound fell
-  /// faster than the dashpot relaxes. The spring, reset to the bound, is caught by it again after a
-  /// time ∝ v_t, so v_t grows from its rounding by a factor per reset: where that leads is a
-  /// function of log dt. The outcome is one of a narrow family.
+  /// The law has no limit of small time steps here: it jumps (jumpsAtTouch()), or a slip ended at
+  /// v_t = 0 while the bound fell faster than the dashpot relaxes. Reset to the bound, the spring
+  /// is caught by it again after a time ∝ v_t, so v_t grows from its rounding by a factor per
+  /// reset: where that leads is a function of log dt. The outcome is one of a narrow family.
   bool limitless = false;
 };
 

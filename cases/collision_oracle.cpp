@@ -61,6 +61,7 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
 
   State now = firstTouch(start);
   stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
+  limitless_ = jumpsAtTouch(start);
   enterPhase(now);
 
   std::array<double, dimension> error{};
@@ -178,6 +179,10 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
   if (!law.soft()) return rigidOutcome(law, pair, start);
   requireContinuousLimit(law);
   return TwoBodyProblem(law, pair).solve(start);
+}
+
+bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {
+  return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(start);
 }
 
 }  // namespace crossgrain

@@ -16,6 +16,11 @@ namespace crossgrain {
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start);
 
+/// Whether the law jumps at this start: spring and dashpot at |Ψ_i| = µγ_n/γ_t, where the outcome
+/// is another on either side and rounding decides which one an engine finds
+/// (cases/two_body_events.cpp has the derivation).
+bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start);
+
 /// Walton's law, an impulse at the first touch: Ψ_f = max(−e_t0 Ψ_i, Ψ_i − (1 + 1/q)(1 + e_n) µ)
 /// for Ψ_i > 0, odd in Ψ_i (Walton 1992; Luding 1998), 1 + 1/q = tangentialCompliance()·m₁₂. It
 /// has no duration, no overlap, and does not tell sticking's loss from sliding's.

@@ -103,6 +103,49 @@ double TwoBodyProblem::firstGuard(const State& s) const {
   return guard;
 }
 
+/// Whether the outcome jumps with Ψ_i at this very start.
+///
+/// At the first touch only dashpots act: the tested force is f* = −γ_t v_t, its bound µ γ_n v, and
+/// they are equal at |Ψ_i| = Ψ_j = µ γ_n/γ_t (of dampers that follow a stiffness: of the two γ(δ),
+/// δ → 0). Just below, the contact sticks, with a spring that is still relaxed. Just above, it
+/// slips, and the law resets the spring to all of the force, −k_t ξ = f_t: in the next step the
+/// dashpot comes on top of that, f* exceeds the bound by γ_t |v_t|, and so the slip goes on until
+/// v_t = 0. Both begin with the same force, and part unless the sticking contact slips at once as
+/// well, that is unless f* grows at least as fast as the bound:
+///   d|f*|/dt = k_t |v_t| + dashpotRate() ≥ boundRate().
+/// A law that resets only the spring's part,
+/// −k_t ξ = f_t − (−γ_t v_t), leaves at Ψ_j the spring relaxed too and does not jump; nor does one
+/// with its dashpot outside the test, which does not see it at the first touch.
+///
+/// Starts within `alike` of Ψ_j count as Ψ_j: what the six figures of a case file, or an engine
+/// with float32 velocities, cannot tell from it.
+bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
+  constexpr double alike = 1e-6;
+  const LawConventions& how = law_.conventions;
+  if (law_.tangential != TangentialLaw::springDashpot || !(law_.gt > 0.0) || !(law_.gn > 0.0) ||
+      how.dashpot == Dashpot::outside || how.springReset == SpringReset::springOnly)
+    return false;
+  const State s = firstTouch(start);
+  const Phase before = phase_;
+  phase_ = {Phase::Tangential::stick, 0.0, true};
+  const Kinematics touch = kinematics(s);
+  const double limit = bound(normalForce(touch)), tested = testedForce(touch, s.spring);
+  phase_.side = sign(tested);
+  bool jumps = std::abs(std::abs(tested) - limit) <= alike * limit;
+  if (jumps) {
+    // The rates are those at Ψ_j itself: near δ = 0 those of a law that stiffens are differences
+    // of large numbers.
+    State exact = s;
+    exact.spinI += (1.0 - limit / std::abs(tested)) * touch.tangentialVelocity / touch.leverI;
+    const Kinematics k = kinematics(exact);
+    const double stretching =
+        -tangentialStiffness(k.overlap).value * k.tangentialVelocity * phase_.side;
+    jumps = stretching + dashpotRate(exact, k) < boundRate(exact, k);
+  }
+  phase_ = before;
+  return jumps;
+}
+
 /// Begins the phase that holds right after `s`, an event or the start. While a contact slips, the
 /// energy in its spring is part of the slip's account.
 void TwoBodyProblem::enterPhase(State& s) {

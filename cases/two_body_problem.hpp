@@ -52,6 +52,8 @@ class TwoBodyProblem {
  public:
   TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair);
   CollisionEnd solve(const CollisionStart& start);
+  /// As the free function below.
+  bool jumpsAtTouch(const CollisionStart& start);
 
  private:
   // How stiff a contact is and how much it damps

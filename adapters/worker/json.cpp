@@ -19,6 +19,22 @@ Effect effectFromName(const std::string& name) {
   return *found;
 }
 
+/// Whether a contact is carried by springs; else it rebounds with restitutions.
+bool springs(const PairCoefficients& pair) {
+  return pair.kn > 0.0;
+}
+
+/// A spring, dashpot or friction of strength 0 is none, which is told as absent. (A restitution of
+/// 0 is one.)
+json unlessNone(double constant) {
+  return constant != 0.0 ? json(constant) : json(nullptr);
+}
+
+double orNone(const json& in, const char* key) {
+  const auto found = in.find(key);
+  return found == in.end() || found->is_null() ? 0.0 : found->get<double>();
+}
+
 json toJson(const SettingValue& value) {
   return std::visit([](const auto& held) { return json(held); }, value);
 }
@@ -95,13 +111,13 @@ json toJson(const Realised& realised) {
   json pairs = json::array();
   for (const PairCoefficients& pair : realised.pairs)
     pairs.push_back({{"pair", pair.pair},
-                     {"kn", pair.kn},
-                     {"gn", pair.gn},
-                     {"kt", pair.kt},
-                     {"gt", pair.gt},
-                     {"mu", pair.mu},
-                     {"en", pair.en},
-                     {"et0", pair.et0}});
+                     {"kn", unlessNone(pair.kn)},
+                     {"gn", unlessNone(pair.gn)},
+                     {"kt", unlessNone(pair.kt)},
+                     {"gt", unlessNone(pair.gt)},
+                     {"mu", unlessNone(pair.mu)},
+                     {"en", springs(pair) ? json(nullptr) : json(pair.en)},
+                     {"et0", springs(pair) || pair.mu == 0.0 ? json(nullptr) : json(pair.et0)}});
   json deviations = json::array();
   for (const Deviation& deviation : realised.deviations)
     deviations.push_back({{"name", deviation.name},
@@ -127,8 +143,9 @@ Realised realisedFromJson(const json& in) {
   realised.integrator = in.at("integrator");
   for (const json& effect : in.at("effects")) realised.effects.insert(effectFromName(effect));
   for (const json& pair : in.at("pairs"))
-    realised.pairs.push_back({pair.at("pair"), pair.at("kn"), pair.at("gn"), pair.at("kt"),
-                              pair.at("gt"), pair.at("mu"), pair.at("en"), pair.at("et0")});
+    realised.pairs.push_back({pair.at("pair"), orNone(pair, "kn"), orNone(pair, "gn"),
+                              orNone(pair, "kt"), orNone(pair, "gt"), orNone(pair, "mu"),
+                              orNone(pair, "en"), orNone(pair, "et0")});
   for (const json& deviation : in.at("deviations"))
     realised.deviations.push_back(
         {deviation.at("name"), deviation.at("value"), deviation.at("unit"), deviation.at("note")});

@@ -22,7 +22,8 @@ class Law:
         self.kn, self.gn = law["kn"], law["gn"]
         self.mu = law["mu"] if self.friction else 0.0
         self.kt = law["kt"] if self.friction else 0.0
-        self.gt = law["gt"] if self.friction and kind == "spring_dashpot" else 0.0
+        self.dashpot = self.friction and kind == "spring_dashpot"
+        self.gt = law["gt"] if self.dashpot else 0.0
         if self.gt > 0 and self.kt == 0:
             raise Unsupported(
                 "holds no tangential dashpot to the Coulomb bound without a spring (kt = 0)"
@@ -34,6 +35,11 @@ class Law:
                 f'has only damper = "{only}" with normal = "{law["normal"]}", '
                 f'not "{law["damper"]}"'
             )
+
+    def without_absent(self, constants):
+        """Those that contacts have: without friction no tangential one, of a spring no dashpot."""
+        has = {"mu": self.friction, "kt": self.friction, "gt": self.dashpot}
+        return {name: value for name, value in constants.items() if has.get(name, True)}
 
     def scale_inertia(self, factor):
         """Told when the masses are set to so many times what they were, which must not change a

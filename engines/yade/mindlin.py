@@ -57,7 +57,7 @@ class Mindlin(Law):
         return {
             "kn": phys.kno / root,
             "gn": 2 * phys.betan,
-            "kt": phys.kso / root if self.friction else 0.0,
+            "kt": phys.kso / root,
             "gt": 2 * phys.betas,
             "mu": phys.tangensOfFrictionAngle,
         }

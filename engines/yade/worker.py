@@ -139,7 +139,7 @@ class Yade:
             radius[: self.disks], self.mass, wall_disks, planes
         ):
             made = self.law.coefficients(utils.createInteraction(i, j))
-            pairs.append({"pair": name, **made, "en": 0.0, "et0": 0.0})
+            pairs.append({"pair": name, **self.law.without_absent(made)})
         O.interactions.clear()
         return {
             "engine": "yade",

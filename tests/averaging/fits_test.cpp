@@ -203,6 +203,61 @@ TEST(Fits, SpinScaleIsOneForRolling) {
   EXPECT_NEAR(spinScale(rings, 0.1) * rolling, 1.0, 1e-15);
 }
 
+/// A fit with an objection, whose reason has these words.
+void expectRefused(const Fit& fit, const std::string& words) {
+  EXPECT_FALSE(fit.converged);
+  EXPECT_NE(fit.reason.find(words), std::string::npos) << fit.reason;
+}
+
+std::vector<FitPoint> curve(const std::function<double(double)>& y, int count, double noise,
+                            std::optional<double> error) {
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  std::vector<FitPoint> points;
+  for (int k = 0; k < count; ++k) {
+    const double x = 0.5 + 8.0 * k / (count - 1.0);
+    points.push_back({x, y(x) + noise * normal(generator), error});
+  }
+  return points;
+}
+
+TEST(Fits, AStraightLineIsNoDecay) {
+  // ν = 0.7 + 0.01 r̃ is the limit of large B and small C: only BC = 0.01 is there to be seen.
+  expectRefused(fitDilation(curve([](double x) { return 0.7 + 0.01 * x; }, 20, 1e-4, 1e-4)), "");
+  const Fit bent =
+      fitDilation(curve([](double x) { return 0.8 - 0.2 * std::exp(-x / 12.0); }, 40, 1e-6, 1e-6));
+  expectRefused(bent, "beyond the range 8 of the points");
+  expectRefused(
+      fitVelocityDecay(curve([](double x) { return 0.9 * std::exp(-x / 30.0); }, 40, 1e-6, 1e-6)),
+      "beyond the range");
+  EXPECT_TRUE(
+      fitDilation(curve([](double x) { return 0.8 - 0.2 * std::exp(-x / 4.0); }, 40, 1e-6, 1e-6))
+          .converged);
+}
+
+TEST(Fits, ADecayWithinHalfASpacingIsNotSeen) {
+  // Twenty points are 0.42 apart.
+  expectRefused(
+      fitDilation(curve([](double x) { return 0.8 - 20.0 * std::exp(-x / 0.1); }, 20, 1e-5, 1e-5)),
+      "below half the spacing");
+}
+
+TEST(Fits, AnAmplitudeFarBeyondThePointsIsNone) {
+  // The first point is at 0.5: with a length of 0.18 the curve is 16 times as high at 0.
+  expectRefused(
+      fitDilation(curve([](double x) { return 0.8 - 3.0 * std::exp(-x / 0.18); }, 80, 1e-6, 1e-6)),
+      "times the");
+}
+
+TEST(Fits, PointsThatFollowAnotherCurveAreNotDescribedByThisOne) {
+  // Layers at the wall, as in a small cell: an oscillation that the exponential runs through.
+  const auto layered = [](double x) {
+    return 0.8 - 0.3 * std::exp(-x) + 0.05 * std::cos(2.0 * pi * x);
+  };
+  expectRefused(fitDilation(curve(layered, 20, 0.0, 1e-3)), "χ²/dof");
+  EXPECT_TRUE(fitDilation(curve(layered, 20, 0.0, 2e-2)).converged);
+}
+
 TEST(EnsembleFit, MeansOverThePackingsThatConverged) {
   Fit one, two, failed;
   one.converged = two.converged = true;

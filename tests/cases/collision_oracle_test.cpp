@@ -134,6 +134,68 @@ TEST(CollisionOracle, SaysWhereTheLawHasNoLimitOfSmallSteps) {
   EXPECT_GT(spread(unsettled), 1e-3);
 }
 
+/// The Ψ_i at which both dashpots alone bring f_t to its bound at the first touch.
+double jumpOf(const ContactLaw& law) {
+  return law.mu * law.gn / law.gt;
+}
+
+TEST(CollisionOracle, SaysWhereTheLawJumps) {
+  const ContactLaw law = thesisLaw();
+  const auto outcome = [](const ContactLaw& of, double psi) {
+    return oracleOutcome(of, smallPair(), {psi, 1e-3});
+  };
+  const double jump = jumpOf(law);
+  EXPECT_NEAR(jump, 0.557333, 1e-6);
+  for (const double sign : {1.0, -1.0}) {
+    const CollisionEnd end = outcome(law, sign * jump);
+    EXPECT_TRUE(end.limitless);
+    const double written = std::round(jump * 1e6) * 1e-6;  // as a file has it
+    EXPECT_TRUE(jumpsAtTouch(law, smallPair(), {sign * written, 1e-3}));
+    EXPECT_TRUE(outcome(law, sign * written).limitless);
+    for (const double nearby : {1.0 - 1e-4, 1.0 + 1e-4})
+      EXPECT_FALSE(outcome(law, sign * nearby * jump).limitless) << nearby;
+    // It does jump: the two sides, 2e-4 apart, end far apart.
+    const double below = outcome(law, sign * (1.0 - 1e-4) * jump).psi,
+                 above = outcome(law, sign * (1.0 + 1e-4) * jump).psi;
+    EXPECT_GT(std::abs(above - below), 0.02) << below << " " << above;
+  }
+}
+
+TEST(CollisionOracle, WhereTheLawDoesNotJumpItSaysNothing) {
+  const auto difference = [](const ContactLaw& law) {
+    const double jump = jumpOf(law);
+    EXPECT_FALSE(jumpsAtTouch(law, smallPair(), {jump, 1e-3}));
+    return std::abs(oracleOutcome(law, smallPair(), {jump * (1.0 + 1e-6), 1e-3}).psi -
+                    oracleOutcome(law, smallPair(), {jump * (1.0 - 1e-6), 1e-3}).psi);
+  };
+  ContactLaw springOnly = thesisLaw();  // leaves the spring relaxed where the two meet
+  springOnly.conventions.springReset = SpringReset::springOnly;
+  springOnly.conventions.springUpdate = SpringUpdate::before;
+  EXPECT_LT(difference(springOnly), 1e-4);
+  ContactLaw stiff = thesisLaw();  // the spring outgrows the bound at once: both sides slip
+  stiff.kt = 20.0 * stiff.kn;
+  EXPECT_LT(difference(stiff), 1e-4);
+}
+
+/// The law of Hertz has its jump where the dashpots' two γ(δ) meet at δ → 0.
+TEST(CollisionOracle, ALawThatStiffensJumpsWhereItsDashpotsMeet) {
+  ContactLaw law = thesisLaw();
+  law.normal = NormalLaw::hertz;
+  law.damper = Damper::viscoelastic;
+  law.kn = 1e6;
+  law.kt = 0.8e6;
+  law.gn = 1e-5;
+  law.gt = 2e-5;
+  // γ_n(δ) = g_n·(3/2) k_n √(Rδ), γ_t(δ) = g_t k_t √(Rδ).
+  const double jump = law.mu * 1.5 * law.gn * law.kn / (law.gt * law.kt);
+  const auto at = [&](double psi) { return oracleOutcome(law, smallPair(), {psi, 1e-2}); };
+  EXPECT_TRUE(at(jump).limitless);
+  EXPECT_TRUE(jumpsAtTouch(law, smallPair(), {jump, 1e-2}));
+  EXPECT_FALSE(at(jump * 1.0001).limitless);
+  EXPECT_FALSE(at(jump * 0.9999).limitless);
+  EXPECT_GT(std::abs(at(jump * 1.0001).psi - at(jump * 0.9999).psi), 0.01);
+}
+
 struct Convention {
   TangentialLaw tangential;
   SpringUpdate update;

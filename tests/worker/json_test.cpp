@@ -140,7 +140,17 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   EXPECT_EQ(again.dt, realised.dt);
   ASSERT_EQ(again.pairs.size(), 1u);
   EXPECT_EQ(again.pairs[0].pair, "a – b");
-  EXPECT_EQ(again.pairs[0].et0, 0.6);
+  EXPECT_EQ(again.pairs[0].kt, 0.2);
+  // What a contact does not have is absent, not 0: springs have no restitutions, and rebounds no
+  // springs.
+  const nlohmann::json soft = toJson(realised)["pairs"][0];
+  EXPECT_TRUE(soft["en"].is_null() && soft["et0"].is_null());
+  Realised rigid = realised;
+  rigid.pairs[0] = {"a – b", 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.6};
+  const nlohmann::json rebounding = toJson(rigid)["pairs"][0];
+  for (const char* key : {"kn", "gn", "kt", "gt"}) EXPECT_TRUE(rebounding[key].is_null()) << key;
+  EXPECT_EQ(rebounding["en"], 0.0);
+  EXPECT_EQ(realisedFromJson(toJson(rigid)).pairs[0].et0, 0.6);
   ASSERT_EQ(again.deviations.size(), 1u);
   EXPECT_EQ(again.deviations[0].value, 1e-300);
 
