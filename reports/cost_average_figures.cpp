@@ -62,10 +62,12 @@ Figure costPartsFigure(const Rows& rows, const Engines& engines) {
   figure.title = "Systematic and statistical part of averages";
   figure.caption =
       "The two parts of an average's error, at the time steps. Filled, joined: the systematic "
-      "part, ± the statistical one; longer runs do not lessen it. ▽: its upper bound where it may "
-      "be none. Open, dashed: the statistical part.";
+      "part, ± the statistical one; longer runs do not lessen it. Open, dashed: the statistical "
+      "part.";
   for (const CostMeasure& measure : costMeasures(rows))
     if (measure.kind == "averages") figure.panels.push_back(partsPanel(rows, engines, measure));
+  if (drawsMark(figure, openTriangle))
+    figure.caption += " ▽: the upper bound of the systematic part where it may be none.";
   arrange(figure);
   return figure;
 }
@@ -116,13 +118,16 @@ Figure costGrowthFigure(const Json& results) {
         time && distance)
       grown.points.push_back({*time, *distance, {}});
   panel.curves.push_back(std::move(grown));
-  if (const auto window = number(trajectory, "window_s")) panel.shaded = Range{0.0, *window};
+  const auto window = number(trajectory, "window_s");
+  if (window) panel.shaded = Range{0.0, *window};
   Figure figure;
   figure.name = "cost_growth";
   figure.title = "How fast trajectories part";
   figure.caption =
-      "Root mean square distance of the disks of two runs of one engine that began next to alike. "
-      "Shaded: the window in which trajectories are compared, before chaos takes over.";
+      "Root mean square distance of the disks of two runs of one engine that began next to alike.";
+  if (window)
+    figure.caption +=
+        " Shaded: the window in which trajectories are compared, before chaos takes over.";
   figure.panels.push_back(std::move(panel));
   arrange(figure);
   return figure;

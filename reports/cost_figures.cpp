@@ -20,10 +20,12 @@ std::optional<double> contactsOf(const CostRow& row) {
   return row.contacts;
 }
 
+constexpr const char* frontName = "Pareto front";
+
 /// Steps down from point to point: what the best setting reaches in a given time.
 Curve frontCurve(const Json& results, const Rows& all, const CostMeasure& measure,
                  const CostAxis& axis) {
-  Curve curve{"Pareto front", {"#c9d3dc", 7, false}, Draw::lines, {}, 6.0};
+  Curve curve{frontName, {"#c9d3dc", 7, false}, Draw::lines, {}, 6.0};
   for (const Json& front : list(results, "fronts")) {
     if (!text(front, "engine").empty() || text(front, "error_kind") != measure.kind ||
         text(front, "measure") != measure.name)
@@ -92,6 +94,27 @@ std::string numbersInWords(const Rows& rows, const std::string& kind) {
   return words.empty() ? "" : fmt::format(" Other settings: {}.", fmt::join(words, ", "));
 }
 
+/// What the figure's marks and colours mean, of those that are in it.
+std::string drawnInWords(const Figure& figure) {
+  std::string words = " Lines join the time steps of an engine";
+  if (draws(figure, [](const Curve& curve) {
+        return curve.style.dashed && curve.draw == Draw::linesAndPoints;
+      }))
+    words += ", dashed with another integrator";
+  if (draws(figure, [](const Curve& curve) {
+        return std::ranges::any_of(curve.points, [](const Point& p) { return !p.label.empty(); });
+      }))
+    words += "; numbered open marks: other settings";
+  words += ".";
+  if (draws(figure, [](const Curve& curve) { return curve.name == frontName; }))
+    words += " Pale line: Pareto front.";
+  if (std::ranges::any_of(figure.panels, [](const Panel& p) { return p.shadedTo.has_value(); }))
+    words += " Grey: what the reference is uncertain by.";
+  if (drawsMark(figure, openTriangle)) words += " ▽ may be chance: drawn at its upper bound.";
+  if (drawsMark(figure, crossMark)) words += " ×, at the upper edge: failed.";
+  return words;
+}
+
 std::string barsInWords(const Rows& rows, const std::string& kind) {
   const bool any = std::ranges::any_of(
       rows, [&](const CostRow& row) { return row.kind == kind && row.statistical; });
@@ -106,16 +129,13 @@ Figure costTimeFigure(const Json& results, const Rows& rows, const Engines& engi
   Figure figure;
   figure.name = "cost_" + kind;
   figure.title = "Error against time: " + kind;
-  figure.caption = fmt::format(
-      "Error against the wall time of {}. Lines join the time steps of an engine, dashed with "
-      "another integrator; numbered open marks: other settings. Pale line: Pareto front. Grey: "
-      "what the reference is uncertain by. ▽ may be chance: drawn at its upper bound. ×, at the "
-      "upper edge: failed.{}{}",
-      timeUnit(kind), barsInWords(rows, kind), numbersInWords(rows, kind));
   for (const CostMeasure& measure : costMeasures(rows))
     if (measure.kind == kind)
       figure.panels.push_back(
           costPanel(rows, engines, measure, axis, frontCurve(results, rows, measure, axis)));
+  figure.caption =
+      fmt::format("Error against the wall time of {}.{}{}{}", timeUnit(kind), drawnInWords(figure),
+                  barsInWords(rows, kind), numbersInWords(rows, kind));
   arrange(figure);
   figure.png = true;
   return figure;

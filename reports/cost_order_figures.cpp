@@ -19,6 +19,8 @@ const CostAxis& stepAxis() {
   return axis;
 }
 
+const LineStyle claimedStyle{"#8a949e", 7, true};
+
 /// The claimed slope through the middle of the points that were fitted.
 std::optional<Curve> claimedLine(const Json& order, bool named) {
   const auto theory = number(order, "theory"), low = number(order, "dt_low_s"),
@@ -28,7 +30,7 @@ std::optional<Curve> claimedLine(const Json& order, bool named) {
   constexpr double beyond = 1.4;
   const double middle = std::sqrt(*low * *high);
   const double error = *amplitude * std::pow(middle, *fitted);
-  Curve line{named ? "claimed order" : "", {"#8a949e", 7, true}, Draw::lines, {}, 1.2};
+  Curve line{named ? "claimed order" : "", claimedStyle, Draw::lines, {}, 1.2};
   for (const double dt : {*low / beyond, *high * beyond})
     line.points.push_back({dt, error * std::pow(dt / middle, *theory), {}});
   return line;
@@ -86,9 +88,12 @@ Figure costOrderFigure(const Json& results, const Rows& rows, const Engines& eng
   figure.title = "Order of convergence: " + kind;
   figure.caption =
       "Error against the time step. Filled: the points that an order was fitted to; open: left "
-      "out. Grey, dashed: the order that is claimed, through the middle of the fit. × failed.";
+      "out.";
   for (const CostMeasure& measure : costMeasures(rows))
     if (measure.kind == kind) figure.panels.push_back(orderPanel(results, rows, engines, measure));
+  if (draws(figure, [](const Curve& curve) { return curve.style == claimedStyle; }))
+    figure.caption += " Grey, dashed: the order that is claimed, through the middle of the fit.";
+  if (drawsMark(figure, crossMark)) figure.caption += " × failed.";
   arrange(figure);
   return figure;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "reports/cost_tables.hpp"
@@ -23,12 +24,18 @@ std::string leadOf(const Json& results) {
   return wantInWords(results, finest);
 }
 
-std::string countsOf(const std::vector<CostRow>& rows) {
+std::string countsOf(const Json& results, const std::vector<CostRow>& rows) {
   std::map<std::string, std::size_t> counts;
   for (const CostRow& row : rows) ++counts[row.status];
   std::string words = fmt::format("{} points: {} ran", rows.size(), counts["ran"]);
-  for (const char* status : {"failed", "refused", "undecided"})
+  for (const char* status : {"failed", "refused"})
     if (counts[status] > 0) words += fmt::format(", {} {}", counts[status], status);
+  if (counts["undecided"] == 0) return words + ".";
+  words += fmt::format(", {} not measured, for they did not fit into the budget of {}",
+                       counts["undecided"], readableDuration(number(results, "budget_s")));
+  if (const auto left = number(results, "budget_for_the_rest_s"))
+    words += fmt::format(": with --resume and a budget of about {} they would",
+                         readableDuration(std::ceil(*left / 10.0) * 10.0));
   return words + ".";
 }
 
@@ -51,7 +58,7 @@ Json sentencesOf(const Json& results, const std::vector<CostRow>& rows, const st
   for (const std::string& finding : unmetOrders(results)) sentences.push_back(finding);
   if (const std::string words = trajectoryInWords(results); !words.empty())
     sentences.push_back(words);
-  sentences.push_back(countsOf(rows));
+  sentences.push_back(countsOf(results, rows));
   for (const Json& engine : list(results, "engines"))
     if (text(engine, "status") == "refused")
       sentences.push_back(

@@ -52,8 +52,8 @@ Panel errorPanel(const Rows& rows, const std::string& measure, const CostAxis& a
   panel.yLabel = "error";
   panel.logX = panel.logY = true;
   panel.yRange = errorRange(rows);
-  if (const auto reference = referenceOf(rows))
-    panel.shadedTo = std::clamp(*reference, panel.yRange->low, panel.yRange->high);
+  if (const auto reference = referenceOf(rows); reference && *reference > panel.yRange->low)
+    panel.shadedTo = std::min(*reference, panel.yRange->high);
   return panel;
 }
 
@@ -80,6 +80,18 @@ Curve failures(const Panel& panel, const Rows& rows, const EngineResults& engine
 void addCurves(Panel& panel, std::vector<Curve> curves) {
   for (Curve& curve : curves)
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+}
+
+bool draws(const Figure& figure, const std::function<bool(const Curve&)>& isOfKind) {
+  return std::ranges::any_of(figure.panels, [&](const Panel& panel) {
+    return std::ranges::any_of(panel.curves, isOfKind);
+  });
+}
+
+bool drawsMark(const Figure& figure, int pointType) {
+  return draws(figure, [&](const Curve& curve) {
+    return curve.draw == Draw::points && curve.style.pointType == pointType;
+  });
 }
 
 void arrange(Figure& figure) {

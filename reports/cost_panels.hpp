@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ Curve failures(const Panel& panel, const std::vector<CostRow>& rows, const Engin
 
 /// Adds those of the curves that have points.
 void addCurves(Panel& panel, std::vector<Curve> curves);
+
+/// Whether some panel has a curve of that kind: captions name nothing else.
+bool draws(const Figure& figure, const std::function<bool(const Curve&)>& isOfKind);
+bool drawsMark(const Figure& figure, int pointType);
 
 /// Lays out the panels that have points, which share one key above them.
 void arrange(Figure& figure);

@@ -77,13 +77,16 @@ std::string plainWords(const std::string& measure) {
 
 }  // namespace
 
+MeasuredError CostRow::measured() const {
+  return {error.value_or(0.0), statistical, reference, kindScatters(kind)};
+}
+
 bool CostRow::mayBeChance() const {
-  return error && (*error < statistical.value_or(0.0) || *error < reference.value_or(0.0));
+  return error && measured().mayBeChance();
 }
 
 std::optional<double> CostRow::counted() const {
-  if (!ran() || !error) return std::nullopt;
-  return mayBeChance() ? *error + statistical.value_or(0.0) + reference.value_or(0.0) : *error;
+  return ran() && error ? measured().counted() : std::nullopt;
 }
 
 std::optional<std::string> CostRow::scheme() const {

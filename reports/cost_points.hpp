@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "averaging/error_bounds.hpp"
 #include "reports/engines.hpp"
 #include "reports/json_view.hpp"
 
@@ -19,8 +20,9 @@ struct CostRow {
   bool onFront = false;                                             ///< over all engines
 
   bool ran() const { return status == "ran"; }
-  /// What it counts with where it is compared: the error, or its upper bound where it is below its
-  /// statistical error or the reference's own.
+  /// @pre the row has an error
+  MeasuredError measured() const;
+  /// MeasuredError::counted() of a point that ran: absent of averages over a single packing.
   std::optional<double> counted() const;
   bool mayBeChance() const;
   /// Of points that are joined over their time steps: empty, or the integrator of a setting

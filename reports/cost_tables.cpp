@@ -8,6 +8,7 @@
 
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
+#include "reports/page.hpp"
 
 namespace crossgrain::reports {
 
@@ -24,6 +25,7 @@ Look lookOf(const std::string& verdict) {
   if (verdict == "reached") return {"✓", "agree"};
   if (verdict == "undecided") return {"○", "undecided"};
   if (verdict == "not reached") return {"✗", "disagree"};
+  if (verdict == "not measured") return {"…", ""};
   return {"", ""};
 }
 
@@ -45,8 +47,16 @@ std::string settingOf(const Json& one) {
   return settingWords({text(one, "knob"), text(one, "setting")});
 }
 
+/// What a point's status is called where people read: "undecided" is a verdict, a point that the
+/// budget did not allow was not measured.
+std::string statusText(const CostRow& row) {
+  return row.status == "undecided" ? "not measured" : row.status;
+}
+
 std::string errorText(const CostRow& row) {
-  if (!row.ran()) return row.status;
+  if (!row.ran()) return statusText(row);
+  if (row.error && row.measured().saysNothing())
+    return shareText(row.error) + ", of one packing: no statistical error";
   return shareText(row.error) + (row.statistical ? " ± " + shareText(row.statistical) : "");
 }
 
@@ -86,7 +96,9 @@ Json adviceCell(const Rows& rows, const Json& one) {
   if (text(one, "setting").empty()) return cell(verdict, verdict, {decidesText(one)});
   const bool reached = verdict == "reached";
   return cell(verdict, reached ? settingOf(one) : verdict,
-              {reached ? "" : "best: " + settingOf(one),
+              {reached                     ? ""
+               : verdict == "not measured" ? "best so far: " + settingOf(one)
+                                           : "best: " + settingOf(one),
                costText(number(one, "wall_s"), text(one, "cost_kind")),
                member(one, "cheapest") == Json(true) ? "the cheapest engine" : "",
                reached ? lengthText(number(one, "length")) : "",
@@ -114,22 +126,34 @@ std::vector<double> costWants(const Json& results) {
 
 std::string wantInWords(const Json& results, double want) {
   const Json* cheapest = nullptr;
-  std::size_t reached = 0, undecided = 0, all = 0;
+  std::map<std::string, std::size_t> count;
+  std::size_t all = 0;
   for (const Json& one : list(results, "advice")) {
     if (number(one, "want") != want) continue;
     ++all;
-    reached += text(one, "verdict") == "reached";
-    undecided += text(one, "verdict") == "undecided";
+    ++count[text(one, "verdict")];
     if (member(one, "cheapest") == Json(true)) cheapest = &one;
   }
-  const std::string open =
-      undecided > 0 ? fmt::format("; of {} it is undecided", undecided) : std::string();
-  if (!cheapest) return fmt::format("{}: no engine is shown to reach it{}.", wantText(want), open);
+  std::vector<std::string> others;
+  if (count["undecided"] > 0)
+    others.push_back(fmt::format("of {} it is undecided", count["undecided"]));
+  if (count["not measured"] > 0)
+    others.push_back(fmt::format("of {} not measured far enough to tell", count["not measured"]));
+  if (count["not reached"] > 0)
+    others.push_back(fmt::format("{} {} not reach it with any setting measured",
+                                 count["not reached"], count["not reached"] == 1 ? "does" : "do"));
+  const std::string open = others.empty() ? "" : fmt::format("; {}", fmt::join(others, ", "));
+  if (all == 0) return fmt::format("{}: nothing was measured.", wantText(want));
+  if (count["not reached"] == all)
+    return fmt::format("{}: no engine reaches it with any setting measured.", wantText(want));
+  if (!cheapest)
+    return fmt::format("{}: of {}, none is shown to reach it{}.", wantText(want),
+                       counted(all, "engine"), open);
   return fmt::format(
       "{}: cheapest with {} at {}, {} (measured in {}); {} of {} engines reach it{}.",
       wantText(want), text(*cheapest, "engine"), settingOf(*cheapest),
       costText(number(*cheapest, "wall_s"), text(*cheapest, "cost_kind")), kindsInWords(*cheapest),
-      reached, all, open);
+      count["reached"], all, open);
 }
 
 namespace {
@@ -365,7 +389,7 @@ Json notRunRows(const Json& results) {
                      {"kind", trouble.first->kind},
                      {"measures", fmt::format("{}", fmt::join(trouble.measures, ", "))},
                      {"setting", settingOf(*trouble.first)},
-                     {"status", trouble.first->status},
+                     {"status", statusText(*trouble.first)},
                      {"reason", trouble.first->reason}});
   return lines;
 }

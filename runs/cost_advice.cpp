@@ -20,9 +20,9 @@ enum class Standing { meets, may, cannot };
 
 /// @pre the point has an error
 Standing standingOf(const CostPoint& point, double want) {
-  const ErrorBounds bounds = *errorBounds(point);
-  if (bounds.high <= want) return Standing::meets;
-  return bounds.low <= want ? Standing::may : Standing::cannot;
+  const MeasuredError error = *measuredError(point);
+  if (error.high() <= want) return Standing::meets;
+  return error.low() <= want ? Standing::may : Standing::cannot;
 }
 
 double timeOf(const CostPoint& point) {
@@ -32,7 +32,7 @@ double timeOf(const CostPoint& point) {
 /// What would tell whether the error lies above or below the want. Repeats are taken to show the
 /// same error with a smaller uncertainty.
 std::string whatDecides(const CostPoint& point, double want) {
-  if (std::isinf(errorBounds(point)->high)) return "more packings: one shows no statistical error";
+  if (measuredError(point)->saysNothing()) return "more packings: one shows no statistical error";
   const double distance = std::abs(want - *point.error);
   const double statistical = point.statistical.value_or(0.0);
   const double reference = point.referenceError.value_or(0.0);
@@ -61,6 +61,23 @@ std::optional<std::size_t> least(const Indices& among, Value value) {
   return found == among.end() ? std::nullopt : std::optional(*found);
 }
 
+/// Of the points that were not run the one with the largest step that may yet be better than the
+/// best: not those at the same or larger time steps of an engine's own scheme.
+std::optional<std::size_t> mayYetReach(const Points& points, const Indices& notRun,
+                                       const CostPoint& best) {
+  Indices open = notRun;
+  std::erase_if(open, [&](std::size_t k) {
+    return points[k].knob == "time_step" && points[k].dt >= best.dt;
+  });
+  return least(open, [&](std::size_t k) { return -points[k].dt; });
+}
+
+std::string notRunInWords(const CostPoint& point, std::size_t count) {
+  const std::string more =
+      count > 1 ? fmt::format(" and {} more, which were", count - 1) : ", which was";
+  return fmt::format("{}{} not run: {}", point.setting, more, point.reason);
+}
+
 }  // namespace
 
 std::vector<double> usualWants() {
@@ -75,7 +92,7 @@ Cheapest cheapest(const std::vector<CostPoint>& points, const std::string& engin
     const CostPoint& point = points[k];
     if (point.engine != engine || point.errorKind != errorKind || point.measure != measure)
       continue;
-    if (point.status == "undecided" && point.knob == "time_step") notRun.push_back(k);
+    if (point.status == "undecided") notRun.push_back(k);
     if (point.status != "ran" || !point.error) continue;
     all.push_back(k);
     const Standing standing = standingOf(point, want);
@@ -83,7 +100,7 @@ Cheapest cheapest(const std::vector<CostPoint>& points, const std::string& engin
     if (standing == Standing::may) may.push_back(k);
   }
   const auto time = [&](std::size_t k) { return timeOf(points[k]); };
-  const auto high = [&](std::size_t k) { return errorBounds(points[k])->high; };
+  const auto high = [&](std::size_t k) { return measuredError(points[k])->high(); };
   const auto fastestThatMay = least(may, time);
   if (!meet.empty()) {
     found.verdict = "reached";
@@ -96,14 +113,12 @@ Cheapest cheapest(const std::vector<CostPoint>& points, const std::string& engin
   } else if (!all.empty()) {
     found.verdict = "not reached";
     found.point = least(all, high);
-    // A smaller step that was not run may yet reach it.
-    std::erase_if(notRun, [&](std::size_t k) { return points[k].dt >= points[*found.point].dt; });
-    if (!notRun.empty()) {
-      const auto step = [&](std::size_t k) { return -points[k].dt; };
-      const CostPoint& missing = points[*least(notRun, step)];
-      found.verdict = "undecided";
-      found.decides = fmt::format("{}, which was not run: {}", missing.setting, missing.reason);
+    if (const auto missing = mayYetReach(points, notRun, points[*found.point])) {
+      found.verdict = "not measured";
+      found.decides = notRunInWords(points[*missing], notRun.size());
     }
+  } else if (!notRun.empty()) {
+    found.decides = notRunInWords(points[notRun.front()], notRun.size());
   }
   if (found.point) {
     found.high = high(*found.point);
@@ -163,6 +178,15 @@ Indices grounds(const Points& points, const std::string& engine) {
   return found;
 }
 
+/// Those that it would have rested on too, had the budget allowed them.
+Indices plannedOnly(const Points& points, const std::string& engine) {
+  Indices found;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].engine == engine && points[k].status == "undecided" && decidesAdvice(points[k]))
+      found.push_back(k);
+  return found;
+}
+
 template <class Value>
 void addOnce(std::vector<Value>& values, const Value& value) {
   if (std::ranges::find(values, value) == values.end()) values.push_back(value);
@@ -195,9 +219,9 @@ void judge(Candidate& candidate, const Points& points, double want, const std::s
   candidate.worst = candidate.obstacle = candidate.points.front();
   for (const std::size_t k : candidate.points) {
     candidate.standing = std::max(candidate.standing, standingOf(points[k], want));
-    if (errorBounds(points[k])->high > errorBounds(points[candidate.worst])->high)
+    if (measuredError(points[k])->high() > measuredError(points[candidate.worst])->high())
       candidate.worst = k;
-    if (errorBounds(points[k])->low > errorBounds(points[candidate.obstacle])->low)
+    if (measuredError(points[k])->low() > measuredError(points[candidate.obstacle])->low())
       candidate.obstacle = k;
     if (points[k].errorKind == costKind)
       candidate.time = std::min(candidate.time, timeOf(points[k]));
@@ -210,7 +234,7 @@ const Candidate& bestOf(const std::vector<Candidate>& settings, const Points& po
   return *std::ranges::min_element(settings, [&](const Candidate& a, const Candidate& b) {
     if (a.standing != b.standing) return a.standing < b.standing;
     if (a.standing == Standing::meets && a.time != b.time) return a.time < b.time;
-    return errorBounds(points[a.worst])->high < errorBounds(points[b.worst])->high;
+    return measuredError(points[a.worst])->high() < measuredError(points[b.worst])->high();
   });
 }
 
@@ -229,6 +253,7 @@ Advice adviceFor(const Points& points, const std::string& engine, double want) {
   if (measures.empty()) return found;
   found.costKind = found.kinds.back();
   std::vector<Candidate> settings = candidates(points, among, measures);
+  const Indices notRun = plannedOnly(points, engine);
   if (settings.empty()) {
     found.decides = "a setting that was measured in every measure";
     return found;
@@ -247,6 +272,12 @@ Advice adviceFor(const Points& points, const std::string& engine, double want) {
                                                    : "not reached";
   if (best.standing != Standing::meets) found.obstacle = best.obstacle;
   if (best.standing == Standing::may) found.decides = whatDecides(points[best.obstacle], want);
+  if (best.standing != Standing::cannot) return found;
+  // Only where all was run that may be better is it shown that nothing reaches the want.
+  if (const auto missing = mayYetReach(points, notRun, points[best.worst])) {
+    found.verdict = "not measured";
+    found.decides = notRunInWords(points[*missing], notRun.size());
+  }
   return found;
 }
 
@@ -289,9 +320,9 @@ std::string settingInWords(const Advice& one) {
 }
 
 std::string obstacleInWords(const CostPoint& point) {
-  const ErrorBounds bounds = *errorBounds(point);
+  const MeasuredError error = *measuredError(point);
   return fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale\n", point.errorKind, point.measure,
-                     bounds.low, bounds.high);
+                     error.low(), error.high());
 }
 
 std::string asToml(const Advice& one, const Points& points) {
@@ -299,7 +330,10 @@ std::string asToml(const Advice& one, const Points& points) {
       fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.want, one.verdict);
   const bool reached = one.verdict == "reached";
   if (!one.setting.empty())
-    text += fmt::format("{}{}{} (measured in {}){}", reached ? " by " : "; the best is ",
+    text += fmt::format("{}{}{} (measured in {}){}",
+                        reached                         ? " by "
+                        : one.verdict == "not measured" ? " far enough; the best so far is "
+                                                        : "; the best is ",
                         settingInWords(one), costInWords(one), fmt::join(one.kinds, " and "),
                         one.cheapest ? "; the cheapest engine" : "");
   text += "\n";

@@ -18,9 +18,11 @@ std::vector<double> usualWants();
 struct Cheapest {
   std::string engine, errorKind, measure;
   double want = 0.0;
-  std::string verdict;  ///< "reached" | "undecided" | "not reached" | "not measured"
-  /// Reached: the cheapest that meets the want. Undecided: the cheapest that may. Not reached: the
-  /// one with the smallest upper bound. Absent if no point has an error.
+  /// "reached" | "undecided" | "not reached" | "not measured". Not reached is said where every
+  /// setting of the plan was run that may do better than the best; else it is not measured.
+  std::string verdict;
+  /// Reached: the cheapest that meets the want. Undecided: the cheapest that may. Not reached and
+  /// not measured: the one with the smallest upper bound. Absent if no point has an error.
   std::optional<std::size_t> point;
   std::optional<double> high;  ///< that point's upper bound
   /// Simulated time that makes its statistical part as small as the want, in units of what was

@@ -170,6 +170,7 @@ double CostCampaign::predicted(std::size_t engine, CostKind kind,
 void CostCampaign::plan() {
   const double contact = costContactTime(setup_);
   const double window = chaos_.window.length;
+  double referenceLeftOut = 0.0;
   if (wants(CostKind::averages)) {
     const double length =
         (setup_.averaging.settleRotations + setup_.averaging.rotations) * rotationTime(setup_);
@@ -177,11 +178,13 @@ void CostCampaign::plan() {
         length * setup_.cost.averageReference / contact * inHouseStep_ *
         static_cast<double>(missingReferences()) /
         std::min<double>(request_.run.jobs, static_cast<double>(campaign_.packings().size()));
-    if (takes > 0.8 * request_.budget)
+    constexpr double largestShare = 0.8;
+    if (takes > largestShare * request_.budget)
       noAverages_ = fmt::format("the reference alone would take about {:.3g} s of {:.3g} s", takes,
                                 request_.budget);
     else
       common_ += takes;
+    if (!noAverages_.empty()) referenceLeftOut = takes / largestShare;
   }
   bool newTrajectories = false;
   for (std::size_t e = 0; e < engines_.size(); ++e) {
@@ -222,6 +225,7 @@ void CostCampaign::plan() {
           undecidedReason(overhead_[point.engine], shares[point.engine], shares[point.engine]);
     if (point.kind == CostKind::averages && !noAverages_.empty()) point.undecided = noAverages_;
   }
+  budgetForTheRest_ = referenceLeftOut + budgetOfLeftOut(plan_, overhead_);
   if (request_.tellPlan)
     request_.tellPlan(planInWords(plan_, names, overhead_, common_, request_.budget));
 }

@@ -104,9 +104,10 @@ class CostCampaign {
   std::vector<EngineState> engines_;
   const EngineEntry& inHouse_;
   std::unique_ptr<Engine> inHouseEngine_;
-  double inHouseStep_ = 0.0;  ///< what a step of it takes [s]
-  double common_ = 0.0;       ///< what all references of the in-house engine take [s]
-  std::string noAverages_;    ///< why there are none
+  double inHouseStep_ = 0.0;       ///< what a step of it takes [s]
+  double common_ = 0.0;            ///< what all references of the in-house engine take [s]
+  double budgetForTheRest_ = 0.0;  ///< for what does not fit [s]
+  std::string noAverages_;         ///< why there are none
   std::vector<double> overhead_;
   std::vector<PlannedPoint> plan_;
   /// By kind, engine and setting, in whatever order they are measured.

@@ -1,33 +1,19 @@
 #include "runs/cost_front.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace crossgrain {
 
-namespace {
-
-double uncertaintyOf(const CostPoint& point) {
-  if (point.errorKind == "averages" && !point.statistical)
-    return std::numeric_limits<double>::infinity();
-  return point.statistical.value_or(0.0) + point.referenceError.value_or(0.0);
-}
-
-}  // namespace
-
-std::optional<ErrorBounds> errorBounds(const CostPoint& point) {
+std::optional<MeasuredError> measuredError(const CostPoint& point) {
   if (!point.error) return std::nullopt;
-  const double uncertainty = uncertaintyOf(point);
-  return ErrorBounds{std::max(0.0, *point.error - uncertainty), *point.error + uncertainty};
+  return MeasuredError{*point.error, point.statistical, point.referenceError,
+                       kindScatters(point.errorKind)};
 }
 
 std::optional<double> countedError(const CostPoint& point) {
-  if (point.status != "ran" || !point.error || std::isinf(uncertaintyOf(point)))
-    return std::nullopt;
-  const bool chance = *point.error < point.referenceError.value_or(0.0) ||
-                      *point.error < point.statistical.value_or(0.0);
-  return chance ? errorBounds(point)->high : *point.error;
+  const auto error = measuredError(point);
+  return point.status == "ran" && error ? error->counted() : std::nullopt;
 }
 
 std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {

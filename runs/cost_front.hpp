@@ -4,21 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "averaging/error_bounds.hpp"
 #include "runs/cost_point.hpp"
 
 namespace crossgrain {
 
-/// The interval that a point's true error lies in: error ∓ (statistical error + the reference's own
-/// error), the lower end at least 0. Averages of a single packing have no statistical error: theirs
-/// is 0 … ∞. Absent without an error.
-struct ErrorBounds {
-  double low = 0.0, high = 0.0;
-};
-std::optional<ErrorBounds> errorBounds(const CostPoint& point);
+/// A point's error with what it is uncertain by. Absent without an error.
+std::optional<MeasuredError> measuredError(const CostPoint& point);
 
-/// The error that a point counts with on a front: as measured, but its upper bound where it is
-/// below the reference's or its own statistical error, since such a small error may be chance.
-/// Absent unless the point ran and has an error with a finite upper bound.
+/// What a point counts with on a front. Absent unless it ran and its error says anything.
 std::optional<double> countedError(const CostPoint& point);
 
 /// The points that no other beats: none is at most as slow and at most as wrong, and less in one of

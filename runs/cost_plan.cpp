@@ -53,6 +53,18 @@ std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
   return shares;
 }
 
+double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
+                       const std::vector<double>& overhead) {
+  std::vector<double> references(overhead.size(), 0.0);
+  double seconds = 0.0;
+  for (const PlannedPoint& point : points) {
+    if (point.undecided.empty()) continue;
+    seconds += point.seconds;
+    if (point.kind == CostKind::trajectory) references[point.engine] = overhead[point.engine];
+  }
+  return std::accumulate(references.begin(), references.end(), seconds);
+}
+
 std::string planInWords(const std::vector<PlannedPoint>& points,
                         const std::vector<std::string>& engines,
                         const std::vector<double>& overhead, double common, double budget) {

@@ -29,6 +29,10 @@ std::vector<double> fairShares(const std::vector<double>& wanted, double budget)
 std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
                                   const std::vector<double>& overhead, double budget);
 
+/// The budget that a later run needs for what this one leaves out, when all else is kept [s].
+double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
+                       const std::vector<double>& overhead);
+
 /// The order in which an engine's points are measured.
 bool comesBefore(const PlannedPoint& one, const PlannedPoint& other);
 

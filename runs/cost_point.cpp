@@ -6,6 +6,21 @@ namespace crossgrain {
 
 using nlohmann::json;
 
+namespace {
+
+/// What was not measured is 0 in a point and null in its entry.
+template <class Number>
+json unlessZero(Number value) {
+  return value > Number{} ? json(value) : json(nullptr);
+}
+
+template <class Number>
+Number orZero(const json& value) {
+  return value.is_null() ? Number{} : value.get<Number>();
+}
+
+}  // namespace
+
 json toJson(const CostPoint& point) {
   return {{"engine", point.engine},
           {"knob", point.knob},
@@ -13,7 +28,7 @@ json toJson(const CostPoint& point) {
           {"fragment", point.fragment},
           {"error_kind", point.errorKind},
           {"measure", point.measure},
-          {"dt_s", point.dt},
+          {"dt_s", unlessZero(point.dt)},
           {"steps_per_contact", toJson(point.stepsPerContact)},
           {"error", toJson(point.error)},
           {"statistical", toJson(point.statistical)},
@@ -21,8 +36,8 @@ json toJson(const CostPoint& point) {
           {"reference_error", toJson(point.referenceError)},
           {"wall_s", toJson(point.wallSeconds)},
           {"cpu_s", toJson(point.cpuSeconds)},
-          {"steps", point.steps},
-          {"contact_evaluations", point.contactEvaluations},
+          {"steps", unlessZero(point.steps)},
+          {"contact_evaluations", unlessZero(point.contactEvaluations)},
           {"status", point.status},
           {"reason", point.reason}};
 }
@@ -34,7 +49,7 @@ CostPoint costPointFromJson(const json& entry) {
           .fragment = entry.at("fragment"),
           .errorKind = entry.at("error_kind"),
           .measure = entry.at("measure"),
-          .dt = entry.at("dt_s"),
+          .dt = orZero<double>(entry.at("dt_s")),
           .stepsPerContact = optionalNumber(entry.at("steps_per_contact")),
           .error = optionalNumber(entry.at("error")),
           .statistical = optionalNumber(entry.at("statistical")),
@@ -42,8 +57,8 @@ CostPoint costPointFromJson(const json& entry) {
           .referenceError = optionalNumber(entry.at("reference_error")),
           .wallSeconds = optionalNumber(entry.at("wall_s")),
           .cpuSeconds = optionalNumber(entry.at("cpu_s")),
-          .steps = entry.at("steps"),
-          .contactEvaluations = entry.at("contact_evaluations"),
+          .steps = orZero<std::uint64_t>(entry.at("steps")),
+          .contactEvaluations = orZero<std::uint64_t>(entry.at("contact_evaluations")),
           .status = entry.at("status"),
           .reason = entry.at("reason")};
 }

@@ -19,7 +19,7 @@ struct CostPoint {
   std::string fragment;   ///< TOML that, in a case that extends this one, gives this setting
   std::string errorKind;  ///< "collision" | "trajectory" | "averages"
   std::string measure;    ///< what the error is of: "psi_f", "position_rms_own", "stress_rr", …
-  double dt = 0.0;        ///< [s]
+  double dt = 0.0;        ///< 0: not known, as where an engine refused [s]
   std::optional<double> stepsPerContact;  ///< t_c of the stiffest, lightest pair divided by dt
 
   /// Relative to a scale that the kind names (a curve's range, d, a profile's largest value) [-].
@@ -32,7 +32,7 @@ struct CostPoint {
   /// Of the advance alone, per unit that all points of one kind and measure share: a sweep of
   /// collisions, the trajectory's window, one rotation [s].
   std::optional<double> wallSeconds, cpuSeconds;
-  std::uint64_t steps = 0, contactEvaluations = 0;  ///< per the same unit
+  std::uint64_t steps = 0, contactEvaluations = 0;  ///< per the same unit; 0: not measured
 
   std::string status = "ran";  ///< "ran" | "failed" | "refused" | "undecided"
   std::string reason;          ///< of the last three: one line

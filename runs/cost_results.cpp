@@ -70,6 +70,7 @@ json CostCampaign::results() const {
   for (const auto& [at, points] : points_)
     for (const CostPoint& point : points) results["points"].push_back(toJson(point));
   results["budget_s"] = request_.budget;
+  results["budget_for_the_rest_s"] = budgetForTheRest_;
   results["startup"] = json::array();
   results["theory"] = json::object();
   for (std::size_t e = 0; e < engines_.size(); ++e) {

@@ -160,6 +160,34 @@ TEST_F(CostPage, BeginsWithItsVerdicts) {
   EXPECT_TRUE(has(*page_, "box2d-impulse refused the scene: odd &lt;b&gt;"));
 }
 
+TEST_F(CostPage, NotMeasuredIsNeitherUndecidedNorNotReached) {
+  EXPECT_TRUE(has(*page_,
+                  " not measured, for they did not fit into the budget of 12 min 00 s: with "
+                  "--resume and a budget of about 23 min 20 s they would."))
+      << page_->substr(page_->find(" points: "), 300);
+  EXPECT_TRUE(has(*page_, "<b>… not measured</b>"));
+  EXPECT_FALSE(has(*page_, ">undecided</td>"));  // a status of points: they were not measured
+}
+
+/// Under a budget that left most out, no engine is said not to reach anything.
+TEST(CostPageOf, ABudgetThatLeftOutFinerStepsSaysSo) {
+  Json results = byHand();
+  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not measured"}},
+                       {{"engine", "b"}, {"want", 1e-6}, {"verdict", "undecided"}}};
+  EXPECT_EQ(
+      wantInWords(results, 1e-6),
+      "10⁻⁶: of 2 engines, none is shown to reach it; of 1 it is undecided, of 1 not measured "
+      "far enough to tell.");
+  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not reached"}}};
+  EXPECT_EQ(wantInWords(results, 1e-6), "10⁻⁶: no engine reaches it with any setting measured.");
+  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not reached"}},
+                       {{"engine", "b"}, {"want", 1e-6}, {"verdict", "not measured"}}};
+  EXPECT_EQ(
+      wantInWords(results, 1e-6),
+      "10⁻⁶: of 2 engines, none is shown to reach it; of 1 not measured far enough to tell, 1 "
+      "does not reach it with any setting measured.");
+}
+
 TEST_F(CostPage, HasWhatDidNotRunWithItsReason) {
   EXPECT_TRUE(has(*page_, "would take about 140 s, budget 60 s"));
   EXPECT_TRUE(has(*page_, "a disk left the cell at step 37; odd &lt;b&gt;"));

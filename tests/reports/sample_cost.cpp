@@ -120,6 +120,8 @@ Json costResults() {
   }
   Json results = head("cost", "quick");
   results["notes"] = Json::array();
+  results["budget_s"] = 720.0;
+  results["budget_for_the_rest_s"] = 1396.0;
   results["engines"] = {engine("grain", "the in-house engine"), engine("yade", "YADE"),
                         engine("box2d-penalty", "Box2D"),
                         engine("box2d-impulse", "Box2D", "", "refused", awkward)};

@@ -182,8 +182,8 @@ TEST(CostFront, CountsAnErrorThatMayBeChanceWithItsUpperBound) {
   clear.statistical = 0.02;
   clear.referenceError = 0.01;
   EXPECT_EQ(*countedError(clear), 0.1);
-  EXPECT_NEAR(errorBounds(clear)->low, 0.07, 1e-15);
-  EXPECT_NEAR(errorBounds(clear)->high, 0.13, 1e-15);
+  EXPECT_NEAR(measuredError(clear)->low(), 0.07, 1e-15);
+  EXPECT_NEAR(measuredError(clear)->high(), 0.13, 1e-15);
 }
 
 TEST(CostFront, IsOverAllEnginesAndOverEach) {
@@ -258,12 +258,26 @@ TEST(CostCheapest, WhatWasNotRunMayStillReachIt) {
   points[2] = failed(points[2], "would take about 90 s, budget 60 s");
   points[2].status = "undecided";
   const Cheapest row = ofSynthetic(points, 0.02);
-  EXPECT_EQ(row.verdict, "undecided");
+  EXPECT_EQ(row.verdict, "not measured");  // which is neither "undecided" nor "not reached"
   EXPECT_EQ(row.point, 1u);
   EXPECT_EQ(row.decides,
             points[2].setting + ", which was not run: would take about 90 s, budget 60 s");
   points[2].dt = 1.0;  // a larger step would not help
   EXPECT_EQ(ofSynthetic(points, 0.02).verdict, "not reached");
+  points[2].knob = "precision";  // another knob may
+  EXPECT_EQ(ofSynthetic(points, 0.02).verdict, "not measured");
+}
+
+TEST(CostCheapest, OfPointsThatWereAllLeftOutSaysWhatIsMissing) {
+  Points points = halvings({}, 2);
+  for (CostPoint& point : points) {
+    point = failed(point, "would take about 90 s");
+    point.status = "undecided";
+  }
+  const Cheapest row = ofSynthetic(points, 0.1);
+  EXPECT_EQ(row.verdict, "not measured");
+  EXPECT_EQ(row.decides,
+            points[0].setting + " and 1 more, which were not run: would take about 90 s");
 }
 
 TEST(CostCheapest, OfNothingOrOfFailuresIsNotMeasured) {
@@ -312,6 +326,45 @@ TEST(CostAdvice, IsTheSettingThatMeetsTheWantInCollisionsAndAverages) {
   EXPECT_EQ(all[1].obstacle, 7u);  // averages at that step: 0.052 to 0.056
   EXPECT_EQ(all[1].decides, "");
   EXPECT_FALSE(all[1].cheapest);
+}
+
+/// One rule for all: averages over a single packing say nothing, wherever they would count.
+TEST(CostFront, AveragesWithoutAStatisticalErrorCountNowhere) {
+  CostPoint point = at(0.001, 1.0);
+  point.errorKind = "averages";
+  EXPECT_FALSE(countedError(point));
+  EXPECT_TRUE(paretoFront({point}).empty());
+  EXPECT_EQ(measuredError(point)->low(), 0.0);
+  EXPECT_TRUE(std::isinf(measuredError(point)->high()));
+  point.statistical = 1e-4;
+  EXPECT_EQ(countedError(point), 0.001);
+  EXPECT_EQ(countedError(at(0.001, 1.0)), 0.001);  // a collision's error does not scatter
+}
+
+TEST(CostAdvice, SaysNotReachedOnlyWhereAllThatMayBeBetterWasRun) {
+  Points points = bothKinds({}, 0.05, 0.002);
+  EXPECT_EQ(advice(points, {0.01})[0].verdict, "not reached");
+  CostPoint left = points.back();
+  left.dt *= 0.5;
+  left.setting = "half of it";
+  left = failed(left, "would take about 90 s");
+  left.status = "undecided";
+  points.push_back(left);
+  const Advice one = advice(points, {0.01})[0];
+  EXPECT_EQ(one.verdict, "not measured");
+  EXPECT_EQ(one.decides, "half of it, which was not run: would take about 90 s");
+  EXPECT_NE(adviceAsToml({one}, points).find("not measured far enough; the best so far is"),
+            std::string::npos);
+  EXPECT_EQ(advice(points, {0.1})[0].verdict, "reached");
+}
+
+TEST(CostPoint, WhatWasNotMeasuredIsNullInItsEntry) {
+  CostPoint point = pointOf({}, 0.5);
+  point.dt = 0.0;
+  const nlohmann::json entry = toJson(point);
+  for (const char* key : {"dt_s", "steps", "contact_evaluations", "statistical"})
+    EXPECT_TRUE(entry[key].is_null()) << key;
+  EXPECT_EQ(costPointFromJson(entry).steps, 0u);
 }
 
 TEST(CostAdvice, IsUndecidedWhereNoiseHidesTheError) {
