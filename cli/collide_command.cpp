@@ -8,6 +8,7 @@
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/collide_table.hpp"
 #include "reports/report.hpp"
 #include "runs/collide.hpp"
 #include "runs/collision_folder.hpp"
@@ -30,27 +31,28 @@ int collideCases(const std::vector<Case>& variants, const std::optional<fs::path
   if (folder) describeFolder(results, *folder, variants);
   writeReport(results, out);
 
-  int failed = 0, fellShort = 0;
   std::map<std::string, std::string> reasons;
   std::map<std::string, int> refused;
   for (const json& variant : results["variants"])
     for (const json& curve : variant["curves"]) {
       const std::string engine = curve["engine"];
-      failed += curve["status"] == "failed";
       if (curve["status"] == "failed") reasons.emplace(engine, curve["reason"]);
       refused[engine] += curve["status"] == "refused";
-      fellShort += curve["score"]["verdict"] == "fell short";
     }
   for (const auto& [engine, reason] : reasons) fmt::print(stderr, "crossgrain: {}\n", reason);
   for (const auto& [engine, count] : refused)
     if (count > 0 && !line.json)
       fmt::print("{} does not have the law of {} sweeps; the report says why\n", engine, count);
+  const reports::CollideCount count = reports::countOf(results);
   if (line.json)
     fmt::print("{}\n", (out / "results.json").string());
   else
-    fmt::print("{} curves fell short\nreport: {}\n", fellShort, (out / "report.html").string());
-  if (failed > 0) return exitEngineFailed;
-  return fellShort > 0 ? exitFellShort : exitHeld;
+    fmt::print("{} curves held, {} fell short, {} not judged\nreport: {}\n", count.held,
+               count.fellShort, count.notJudged, (out / "report.html").string());
+  if (count.failed > 0) return exitEngineFailed;
+  if (count.judged() == 0)
+    fmt::print(stderr, "crossgrain: nothing was judged: {}\n", reports::nothingJudged(results));
+  return count.judged() == 0 || count.fellShort > 0 ? exitFellShort : exitHeld;
 }
 
 int collide(const CommandLine& line) {

@@ -46,11 +46,21 @@ const Json& worstRing(const Json& entry) {
   return *worst;
 }
 
+/// low and high are the ring's own interval. That it lies outside the margin alone is no verdict:
+/// among so many rings some do by chance.
+std::string aloneBeyond(const Json& ring) {
+  const auto low = number(ring, "low"), high = number(ring, "high"),
+             margin = number(ring, "margin");
+  if (text(ring, "verdict") != "undecided" || !low || !high || !margin) return {};
+  if (!(*low > *margin || *high < -*margin)) return {};
+  return "; alone it would be beyond, among all rings and fields (Holm) that is not shown";
+}
+
 std::string ringInWords(const Json& ring) {
   if (!number(ring, "difference")) return {};
-  return fmt::format("{}: {}, margin {}", ringName(ring),
+  return fmt::format("{}: {}, margin {}{}", ringName(ring),
                      readableDifference(number(ring, "difference"), number(ring, "stderr")),
-                     readable(number(ring, "margin")));
+                     readable(number(ring, "margin")), aloneBeyond(ring));
 }
 
 /// More packings, or longer runs of the same ones; where those cannot decide, packings differ.

@@ -12,6 +12,15 @@ namespace crossgrain::reports {
 namespace {
 
 const LineStyle asymptoteStyle{"#999999", 0, true};
+const LineStyle limitlessStyle{"#cc3311", 4, false};  ///< open squares
+
+bool draws(const Figure& figure, const LineStyle& style) {
+  return std::ranges::any_of(figure.panels, [&](const Panel& panel) {
+    return std::ranges::any_of(panel.curves, [&](const Curve& curve) {
+      return curve.style == style && !curve.points.empty();
+    });
+  });
+}
 
 /// Points of a column; `stride` 1: all of them.
 std::vector<Point> pointsOf(const Json& table, const char* column, std::size_t stride) {
@@ -57,6 +66,15 @@ std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
   return curves;
 }
 
+/// Points of the sweep at which the law has no limit of small time steps, on the oracle's line.
+Curve limitless(const Json& variant) {
+  Curve marks{"", limitlessStyle, Draw::points, {}, 1.5};
+  for (const Json& point : list(variant, "no_limit"))
+    if (const auto psi = number(point, "psi_i"), found = number(point, "psi_f"); psi && found)
+      marks.points.push_back({*psi, *found, {}});
+  return marks;
+}
+
 /// Figure 4.3 of Lätzel (2003): each engine at the largest of its time steps.
 Panel sweepPanel(const Json& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "Ψ_{f}");
@@ -70,6 +88,7 @@ Panel sweepPanel(const Json& variant, const Styles& styles) {
       panel.curves.push_back(
           {"", style, Draw::points, pointsOf(table, "psi_f", markStride(table)), 1.0});
     }
+  panel.curves.push_back(limitless(variant));
   return panel;
 }
 
@@ -116,8 +135,13 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
   }
   figure.caption =
       "Ψ_f = v_t/v_n of the contact point after against Ψ_i before, and its distance from the "
-      "oracle (log axis), every engine at the largest of its time steps. Grey: the oracle; dashed "
-      "grey: hard disks, sticking and sliding.";
+      "oracle (log axis), every engine at the largest of its time steps.";
+  if (draws(figure, oracleStyle)) figure.caption += " Grey: the oracle.";
+  if (draws(figure, asymptoteStyle))
+    figure.caption += " Dashed grey: hard disks, sticking and sliding, as far as the law has them.";
+  if (draws(figure, limitlessStyle))
+    figure.caption +=
+        " Red squares: the law has no limit of small time steps there, nothing is judged.";
   arrange(figure, 4, group.variants.size());
   return figure;
 }

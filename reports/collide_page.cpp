@@ -30,28 +30,27 @@ std::string lawOf(const CaseGroup& group) {
   return mathHtml(fmt::format("Law of all variants: {}.", fmt::join(shared, ", ")));
 }
 
-/// Empty, or where the law has no limit of small time steps.
+/// Empty, or which points were not judged because the law has no limit of small time steps there.
 std::string limitsOf(const CaseGroup& group) {
-  std::vector<std::string> ranges;
+  std::vector<std::string> places;
   for (const Json* variant : group.variants) {
-    const Json& oracle = member(*variant, "oracle");
-    std::vector<double> psi;
-    for (std::size_t k = 0; k < rowCount(oracle); ++k)
-      if (element(list(oracle, "limitless"), k) == Json(true))
-        psi.push_back(at(oracle, "psi_i", k).value_or(0.0));
-    if (!psi.empty())
-      ranges.push_back(
-          fmt::format("{}: {}{}", text(*variant, "variant"), readable(psi.front()),
-                      psi.front() == psi.back() ? std::string() : " to " + readable(psi.back())));
+    std::vector<std::pair<std::string, std::vector<std::string>>> byReason;
+    for (const Json& point : list(*variant, "no_limit")) {
+      const std::string reason = text(point, "reason");
+      auto found = std::ranges::find(byReason, reason, [](const auto& one) { return one.first; });
+      if (found == byReason.end()) found = byReason.insert(found, {reason, {}});
+      const std::string psi = readableSetting(number(point, "psi_i"));
+      if (std::ranges::find(found->second, psi) == found->second.end())
+        found->second.push_back(psi);
+    }
+    for (const auto& [reason, psi] : byReason)
+      places.push_back(
+          fmt::format("{}, Ψ_i = {}: {}", text(*variant, "variant"), fmt::join(psi, ", "), reason));
     if (const std::string reason = text(*variant, "oracle_reason"); !reason.empty())
-      ranges.push_back(text(*variant, "variant") + ": " + reason);
+      places.push_back(text(*variant, "variant") + ": " + reason);
   }
-  if (ranges.empty()) return {};
-  return fmt::format(
-      "Here the outcome goes on varying with the time step, however small, and the oracle gives "
-      "one "
-      "of a narrow family, or none (variant: Ψ): {}.",
-      fmt::join(ranges, "; "));
+  if (places.empty()) return {};
+  return mathHtml(fmt::format("Not judged: {}.", fmt::join(places, "; ")));
 }
 
 Json caseViews(const Json& results, const std::vector<CaseGroup>& groups,
@@ -92,19 +91,18 @@ Json engineRows(const std::vector<EngineResults>& engines) {
 
 void addSummary(Json& view, const Json& results, const std::vector<EngineResults>& engines) {
   std::map<std::string, std::map<std::string, std::size_t>> counts;
-  std::size_t held = 0, fellShort = 0;
   for (const Json& variant : list(results, "variants"))
-    for (const Json& curve : list(variant, "curves")) {
-      const std::string verdict = verdictOf(curve);
-      ++counts[text(curve, "engine")][verdict];
-      held += verdict == "held";
-      fellShort += verdict == "fell short";
-    }
-  const std::size_t judged = held + fellShort;
-  view["lead"] = judged == 0
-                     ? "No sweep could be judged."
-                     : fmt::format("{} of {} held to the oracle within {} limit.", held,
-                                   counted(judged, "judged sweep"), judged == 1 ? "its" : "their");
+    for (const Json& curve : list(variant, "curves"))
+      ++counts[text(curve, "engine")][verdictOf(curve)];
+  const CollideCount all = countOf(results);
+  const auto judged = static_cast<std::size_t>(all.judged());
+  if (judged == 0)
+    view["lead"] = fmt::format("Nothing was judged: {}.", nothingJudged(results));
+  else
+    view["lead"] =
+        fmt::format("{} of {} held to the oracle within {} limit{}.", all.held,
+                    counted(judged, "judged sweep"), judged == 1 ? "its" : "their",
+                    all.notJudged == 0 ? "" : fmt::format("; {} not judged", all.notJudged));
   view["sentences"] = Json::array();
   for (const EngineResults& engine : engines) {
     if (!engine.mirrors.empty()) continue;
@@ -127,7 +125,8 @@ std::string collidePage(const Json& results, const Illustrations& shown) {
   for (const Json& variant : list(results, "variants"))
     for (const Json& curve : list(variant, "curves"))
       if (member(curve, "realised").is_object())
-        realised.push_back({text(curve, "engine"), &member(curve, "realised")});
+        realised.push_back(
+            {text(curve, "engine"), &member(curve, "realised"), &member(variant, "effects")});
 
   const std::vector<CaseGroup> groups = casesOf(results);
   Json view = commonView(results, shown);
@@ -135,7 +134,7 @@ std::string collidePage(const Json& results, const Illustrations& shown) {
   view["engines"] = engineRows(engines);
   view["matrix"] = matrixRows(groups, engines);
   view["cases"] = caseViews(results, groups, engines, shown);
-  addDetails(view, results, realised);
+  addDetails(view, realised);
   view["files"] = "Beside this page: results.json (everything) and collisions.csv.";
   return render("report_collide.html", view);
 }

@@ -107,15 +107,16 @@ Json variantCell(const Json& results, const Json& variant, const std::string& en
   return {{"text", headline(tally)}, {"class", tally.cssClass()}, {"lines", std::move(lines)}};
 }
 
-/// The law's members that variants of the case differ in.
+/// The law's members that variants of the case differ in, or that only some have.
 std::vector<std::string> changing(const CaseGroup& group) {
   std::vector<std::string> names;
-  const Json& first = member(*group.variants.front(), "law");
-  for (const auto& [name, value] : first.items())
-    if (std::ranges::any_of(group.variants, [&, &name = name, &value = value](const Json* v) {
-          return member(member(*v, "law"), name) != value;
-        }))
-      names.push_back(name);
+  for (const Json* variant : group.variants)
+    for (const auto& [name, value] : member(*variant, "law").items())
+      if (std::ranges::find(names, name) == names.end() &&
+          std::ranges::any_of(group.variants, [&, &name = name, &value = value](const Json* v) {
+            return member(member(*v, "law"), name) != value;
+          }))
+        names.push_back(name);
   return names;
 }
 
@@ -123,6 +124,7 @@ std::string lawWords(const Json& law, const std::vector<std::string>& names) {
   std::vector<std::string> words;
   for (const std::string& name : names) {
     const Json& value = member(law, name);
+    if (value.is_null()) continue;
     words.push_back(
         spaced(name) + " " +
         (value.is_string() ? spaced(value.get<std::string>()) : readableSetting(number(value))));

@@ -49,6 +49,37 @@ std::string verdictOf(const Json& curve) {
   return verdict.empty() || status == "refused" || status == "failed" ? status : verdict;
 }
 
+CollideCount countOf(const Json& results) {
+  CollideCount count;
+  for (const Json& variant : list(results, "variants"))
+    for (const Json& curve : list(variant, "curves")) {
+      const std::string verdict = verdictOf(curve);
+      count.held += verdict == "held";
+      count.fellShort += verdict == "fell short";
+      count.notJudged += verdict == "not judged";
+      count.refused += verdict == "refused";
+      count.failed += verdict == "failed";
+    }
+  return count;
+}
+
+std::string nothingJudged(const Json& results) {
+  if (countOf(results).judged() > 0) return {};
+  bool measured = false, limitless = false;
+  std::string noOracle;
+  for (const Json& variant : list(results, "variants")) {
+    if (noOracle.empty()) noOracle = text(variant, "oracle_reason");
+    limitless = limitless || !list(variant, "no_limit").empty();
+    for (const Json& curve : list(variant, "curves"))
+      for (const QuantityLabel& quantity : quantityLabels())
+        measured = measured || number(member(member(curve, "score"), quantity.name), "max");
+  }
+  if (measured) return "the case has no [collision.margins] for what was measured";
+  if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
+  if (limitless) return "the law has no limit of small time steps at any point of the sweep";
+  return "no engine has an outcome to judge";
+}
+
 const std::vector<QuantityLabel>& quantityLabels() {
   static const std::vector<QuantityLabel> labels = {{"psi_f", "Ψ_f"},
                                                     {"e_n", "e_n"},
@@ -64,6 +95,7 @@ const std::vector<QuantityLabel>& quantityLabels() {
                                                     {"lost_normal_damping", "normal"},
                                                     {"lost_tangential", "tangential"},
                                                     {"lost_tangential_damping", "sticking"},
+                                                    {"lost_stiffening", "stiffening"},
                                                     {"lost_sliding", "sliding"},
                                                     {"lost_stored", "stored"}};
   return labels;

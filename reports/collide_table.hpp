@@ -35,6 +35,16 @@ std::vector<const Json*> curvesOf(const Json& variant, const std::string& engine
 /// "held" | "fell short" | "not judged", else the status.
 std::string verdictOf(const Json& curve);
 
+/// How the sweeps of all engines came out.
+struct CollideCount {
+  int held = 0, fellShort = 0, notJudged = 0, refused = 0, failed = 0;
+  int judged() const { return held + fellShort; }
+};
+CollideCount countOf(const Json& results);
+
+/// Why no sweep was judged, in a clause; empty if one was. Nothing judged is no success.
+std::string nothingJudged(const Json& results);
+
 /// What can be scored, in the order of the tables.
 struct QuantityLabel {
   std::string_view name, symbol;  ///< as in "score"; for mathHtml()

@@ -22,9 +22,14 @@ const Json& fitOf(const EngineResults& engine, const std::string& name) {
 Json fitCell(const Json& fit) {
   const auto value = number(fit, "value");
   const auto chi2 = number(fit, "chi2_per_dof");
-  return {{"value", readable(value, number(fit, "stderr"))},
-          {"chi2", value && chi2 ? "χ²/dof " + readable(chi2) : std::string()},
-          {"reason", value ? std::string() : text(fit, "reason")}};
+  const auto found = number(fit, "packings"), of = number(fit, "of_packings");
+  std::vector<std::string> lines;
+  if (value && chi2) lines.push_back("χ²/dof " + readable(chi2));
+  if (found && of && *found < *of)
+    lines.push_back(fmt::format("{} of {} packings can be fitted", *found, *of));
+  if (!value) lines.push_back(text(fit, "reason"));
+  std::erase(lines, std::string());
+  return {{"value", readable(value, number(fit, "stderr"))}, {"lines", lines}};
 }
 
 Json fitRows(const Engines& engines) {
@@ -75,16 +80,6 @@ Json numberCheckRows(const Engines& engines) {
   return rows;
 }
 
-void addFitsAndNumberChecks(Json& view, const Engines& engines) {
-  Engines withData;
-  for (const EngineResults& engine : engines)
-    if (!engine.finished.empty()) withData.push_back(engine);
-  view["numberChecks"] = numberCheckRows(withData);
-  view["hasNumberChecks"] = !view["numberChecks"].empty();
-  view["fitTable"] = {{"columns", columnsView(withData)}, {"fits", fitRows(withData)}};
-  view["hasFits"] = !view["fitTable"]["fits"].empty();
-}
-
 std::string instantOf(const Engines& engines) {
   for (const EngineResults& engine : engines)
     for (const Json* run : engine.runs)
@@ -108,6 +103,18 @@ void addPictures(Json& view, const Engines& engines, const Illustrations& shown)
       "proportional to the normal force, each picture on its own scale.";
 }
 
+}  // namespace
+
+void addFitsAndNumberChecks(Json& view, const Engines& engines) {
+  Engines withData;
+  for (const EngineResults& engine : engines)
+    if (!engine.finished.empty()) withData.push_back(engine);
+  view["numberChecks"] = numberCheckRows(withData);
+  view["hasNumberChecks"] = !view["numberChecks"].empty();
+  view["fitTable"] = {{"columns", columnsView(withData)}, {"fits", fitRows(withData)}};
+  view["hasFits"] = !view["fitTable"]["fits"].empty();
+}
+
 void addFigures(Json& view, const Engines& engines, const Illustrations& shown) {
   view["bars"] = barsInWords(engines);
   view["profiles"] = figureViews(shown, "profile_");
@@ -117,15 +124,17 @@ void addFigures(Json& view, const Engines& engines, const Illustrations& shown) 
   view["distributions"] = figureViews(shown, "distribution_");
   view["hasDistributions"] = !view["distributions"].empty();
   view["hasSeries"] = !view["series"].empty();
+  view["hasSettling"] = std::ranges::any_of(shown.figures, [](const Figure& figure) {
+    return figure.name.starts_with("series_") && figure.panels.front().shaded.has_value();
+  });
 }
-
-}  // namespace
 
 std::string comparePage(const Json& results, const Illustrations& shown) {
   const Engines engines = engineResults(results);
   std::vector<RealisedOf> realised;
   for (const EngineResults& engine : engines)
-    if (engine.realised().is_object()) realised.push_back({engine.name, &engine.realised()});
+    if (engine.realised().is_object())
+      realised.push_back({engine.name, &engine.realised(), &member(results, "effects")});
 
   Json view = commonView(results, shown);
   addSummary(view, results, engines);
@@ -138,7 +147,7 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   addFitsAndNumberChecks(view, engines);
   addFigures(view, engines, shown);
   addPictures(view, engines, shown);
-  addDetails(view, results, realised);
+  addDetails(view, realised);
   view["packings"] = packingRows(results);
   view["files"] =
       "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv, "

@@ -10,7 +10,8 @@
 namespace crossgrain::reports {
 
 /// engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status
-/// One row per collision; a sweep without any is one row with its status and no numbers.
+/// then further quantities, reason (reports/README.md). One row per collision; a sweep without any
+/// is one row with its status, its reason and no numbers.
 std::string collisionsCsv(const Json& results);
 
 /// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,

@@ -97,7 +97,10 @@ Panel changePanel(const Legs& legs, const std::string& field, const Range& range
         if (!change || (change->change > 0.0) != up || change->detected.value_or(false) != filled)
           continue;
         Point point{100.0 * std::abs(change->change), static_cast<double>(k), {}};
-        if (change->error) point.error = 100.0 * *change->error;
+        if (change->low && change->high)
+          point.error = point.x - 100.0 * (change->change > 0.0 ? *change->low : -*change->high);
+        else if (change->error)
+          point.error = 100.0 * *change->error;
         marks.points.push_back(point);
       }
       if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
@@ -126,8 +129,13 @@ Figure costFigure(const Legs& legs, const std::string& name) {
   figure.caption =
       "Left: the share of a step's time that switching the effect off saves, ± one standard error. "
       "Right: the largest change of a profile when it is switched off, in % of the profile's "
-      "largest value, ± one standard error. ▲ larger without it, ▼ smaller; filled: told apart "
-      "from no change, open: not.";
+      "largest value. ▲ larger without it, ▼ smaller; " +
+      std::string(std::ranges::any_of(legs, &EffectLeg::decidable)
+                      ? "filled: told apart from no change, open: not. Bars: as far as the "
+                        "end nearer 0 of the interval that this rests on; one that leaves the axis "
+                        "on the left holds 0."
+                      : "open: too few packings to tell whether they are chance. Bars: one "
+                        "standard error.");
   figure.panels.push_back(costPanel(legs));
   const Range range = rangeOf(legs, fields);
   for (const std::string& field : fields) {

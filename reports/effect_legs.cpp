@@ -51,11 +51,17 @@ std::optional<FieldChange> changeOf(const Json& field) {
   FieldChange change;
   change.field = text(field, "field");
   change.verdict = text(field, "verdict");
+  change.verdictHere = text(*best, "verdict");
   change.ring = static_cast<std::size_t>(number(*best, "ring").value_or(0.0));
   change.change = *number(*best, "change") / scale;
   if (const auto error = number(*best, "stderr")) {
     change.error = *error / scale;
     if (*error > 0.0) change.inErrors = inErrors(*best);
+  }
+  const auto low = number(*best, "low"), high = number(*best, "high");
+  if (low && high) {
+    change.low = *low / scale;
+    change.high = *high / scale;
   }
   if (member(*best, "resolved").is_boolean()) change.detected = detected(*best);
   if (smallest) change.detectable = *smallest / scale;
@@ -108,6 +114,11 @@ bool EffectLeg::decidable() const {
 bool EffectLeg::changesSomething() const {
   return std::ranges::any_of(changes,
                              [](const FieldChange& c) { return c.detected.value_or(false); });
+}
+
+bool EffectLeg::withinMargins() const {
+  return !changes.empty() &&
+         std::ranges::all_of(changes, [](const FieldChange& c) { return c.verdict == "agree"; });
 }
 
 std::vector<EffectLeg> effectLegs(const Json& results) {

@@ -17,9 +17,12 @@ namespace crossgrain::reports {
 struct FieldChange {
   std::string field;
   std::string verdict;  ///< against the case's margin: "agree", "disagree", "undecided" or empty
+  std::string verdictHere;  ///< that of the ring alone
   std::size_t ring = 0;
-  double change = 0.0;                   ///< switched − everything on, a share
-  std::optional<double> error;           ///< a share too
+  double change = 0.0;          ///< switched − everything on, a share
+  std::optional<double> error;  ///< standard error, a share too
+  /// The interval that `detected` rests on, shares: it leaves out 0 exactly if it is true.
+  std::optional<double> low, high;
   std::optional<bool> detected;          ///< absent: too few packings to tell
   std::optional<double> inErrors;        ///< |change|/error
   std::optional<double> detectable;      ///< the smallest share that some ring would have shown
@@ -39,6 +42,7 @@ struct EffectLeg {
   bool ran() const { return status == "ran"; }
   bool decidable() const;  ///< enough packings to tell what changes
   bool changesSomething() const;
+  bool withinMargins() const;  ///< every field is shown to be
   /// Null where the field has no number.
   const FieldChange* of(const std::string& field) const;
 };

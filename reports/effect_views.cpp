@@ -19,12 +19,25 @@ std::string roughly(double percent) {
   return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
 }
 
+std::string signedRoughly(double percent) {
+  const std::string digits = roughly(std::abs(percent));
+  if (digits == "0") return digits;
+  return (percent < 0.0 ? "−" : "+") + digits;
+}
+
 std::optional<double> percent(std::optional<double> share) {
   return share ? std::optional(100.0 * *share) : std::nullopt;
 }
 
-std::string signedPercent(double share, std::optional<double> error) {
-  return readableDifference(100.0 * share, percent(error)) + " %";
+/// "−20 % (−25 to −15 %)": with the interval that the verdict rests on; else with one standard
+/// error, which is called so.
+std::string changePercent(const FieldChange& change) {
+  const auto value = percent(change.change);
+  if (change.low && change.high)
+    return fmt::format("{} % ({} to {} %)", signedRoughly(*value),
+                       signedRoughly(100.0 * *change.low), signedRoughly(100.0 * *change.high));
+  if (!change.error) return readableDifference(value, {}) + " %";
+  return readableDifference(value, percent(change.error)) + " % (one standard error)";
 }
 
 bool measured(const EffectLeg& leg) {
@@ -36,8 +49,7 @@ std::string ringName(const FieldChange& change) {
 }
 
 std::string changeInWords(const FieldChange& change) {
-  return fmt::format("{} ({}, {})", spaced(change.field),
-                     signedPercent(change.change, change.error), ringName(change));
+  return fmt::format("{} in {}, {}", spaced(change.field), ringName(change), changePercent(change));
 }
 
 std::vector<const FieldChange*> detectedOf(const EffectLeg& leg) {
@@ -79,6 +91,10 @@ std::string contactsInWords(const EffectLeg& leg) {
 
 }  // namespace
 
+bool costsTime(const EffectLeg& leg) {
+  return leg.saved && *leg.saved > 0.0 && measured(leg);
+}
+
 std::string costInWords(const EffectLeg& leg) {
   if (!leg.saved) return "was not timed";
   const std::string share = readable(percent(std::abs(*leg.saved)), percent(leg.savedError));
@@ -94,8 +110,8 @@ std::string costInWords(const EffectLeg& leg) {
 std::string changesInWords(const EffectLeg& leg) {
   const auto found = detectedOf(leg);
   if (found.empty())
-    return leg.decidable() ? "no change detected; the smallest that this run could see, field by "
-                             "field: " +
+    return leg.decidable() ? "no change told apart from none; the smallest that this run could "
+                             "have, field by field: " +
                                  detectableInWords(leg)
                            : std::string();
   constexpr std::size_t told = 3;
@@ -103,32 +119,37 @@ std::string changesInWords(const EffectLeg& leg) {
   for (std::size_t k = 0; k < std::min(found.size(), told); ++k)
     words.push_back(changeInWords(*found[k]));
   const std::size_t more = found.size() - words.size();
-  const bool one = found.size() == 1;
-  return fmt::format("without it {}{} {}", fmt::join(words, ", "),
-                     more == 0 ? "" : fmt::format(" and {}", counted(more, "further field")),
-                     one ? "changes" : "change");
+  return fmt::format("told apart from no change without it: {}{}", fmt::join(words, "; "),
+                     more == 0 ? "" : fmt::format("; and {}", counted(more, "further field")));
 }
 
 namespace {
 
+/// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
 std::string againstMargin(const FieldChange& change) {
-  if (change.verdict == "agree") return "within the margin";
-  if (change.verdict == "disagree") return "beyond the margin";
-  return change.verdict.empty() ? "" : "margin: undecided";
+  if (change.verdict.empty()) return {};
+  if (change.verdict == "agree") return "shown within the margin";
+  if (change.verdictHere == "disagree") return "shown beyond the margin";
+  return change.verdict == "disagree" ? "shown beyond the margin in another ring"
+                                      : "margin: undecided";
+}
+
+const char* symbolOf(const FieldChange& change) {
+  if (!change.detected) return "";
+  if (!*change.detected) return "○";
+  return change.change > 0.0 ? "▲" : "▼";
 }
 
 Json fieldCell(const FieldChange* change) {
   if (!change) return {{"symbol", ""}, {"text", absentText}, {"detail", ""}, {"class", ""}};
   const bool found = change->detected.value_or(false);
   std::string detail = ringName(*change);
-  if (change->inErrors) detail += fmt::format(", {:.2g} errors", *change->inErrors);
+  if (!change->detected) detail += "; too few packings to tell";
   if (!found && change->detectableHere)
     detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
   if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
-  return {{"symbol", !found                 ? "○"
-                     : change->change > 0.0 ? "▲"
-                                            : "▼"},
-          {"text", signedPercent(change->change, change->error)},
+  return {{"symbol", symbolOf(*change)},
+          {"text", changePercent(*change)},
           {"detail", detail},
           {"class", found ? "disagree" : "undecided"}};
 }

@@ -23,22 +23,45 @@ std::vector<EffectLeg> legsOf(const Json& results, const std::string& engine) {
 std::string dearestInWords(const std::vector<EffectLeg>& legs) {
   const EffectLeg* dearest = nullptr;
   for (const EffectLeg& leg : legs)
-    if (leg.saved && (!dearest || *leg.saved > *dearest->saved)) dearest = &leg;
-  if (!dearest || *dearest->saved <= 0.0) return "none costs time";
+    if (leg.saved && costsTime(leg) && (!dearest || *leg.saved > *dearest->saved)) dearest = &leg;
+  if (!dearest) return "none is shown to cost time";
   return fmt::format("the dearest is {}, {:.0f} % of a step", effectLabel(dearest->effect),
                      100.0 * *dearest->saved);
 }
 
+/// "1 of 3 effects of this scene changes a profile detectably, of 2 no change is told apart from
+/// none (1 is shown within every margin)": three things, each counted by itself.
+std::string changesInCounts(const std::vector<EffectLeg>& legs) {
+  const auto count = [&](const auto& is) {
+    return static_cast<std::size_t>(std::ranges::count_if(legs, is));
+  };
+  const std::size_t changing = count(&EffectLeg::changesSomething);
+  const std::size_t open =
+      count([](const EffectLeg& leg) { return leg.decidable() && !leg.changesSomething(); });
+  const std::size_t within = count(&EffectLeg::withinMargins);
+  const std::size_t untold = legs.size() - changing - open;
+  std::string words =
+      fmt::format("{} of {} of this scene {} a profile detectably", changing,
+                  counted(legs.size(), "effect"), changing == 1 ? "changes" : "change");
+  if (open > 0) words += fmt::format(", of {} no change is told apart from none", open);
+  if (untold > 0) words += fmt::format(", of {} it cannot be told", untold);
+  if (within > 0)
+    words += fmt::format(" ({} {} shown within every margin)", within, within == 1 ? "is" : "are");
+  return words;
+}
+
 std::string leadOf(const std::string& engine, std::vector<EffectLeg> legs) {
+  const std::size_t all = legs.size();
   std::erase_if(legs, [](const EffectLeg& leg) { return !leg.ran(); });
-  if (legs.empty()) return fmt::format("Nothing could be switched off on {}.", engine);
-  const auto changing =
-      static_cast<std::size_t>(std::ranges::count_if(legs, &EffectLeg::changesSomething));
-  const std::string effects = counted(legs.size(), "effect");
+  const std::string notRun =
+      legs.size() == all ? std::string()
+                         : fmt::format(" Not measured: {}.", counted(all - legs.size(), "effect"));
+  if (legs.empty()) return fmt::format("Nothing could be switched off on {}.{}", engine, notRun);
   if (std::ranges::none_of(legs, &EffectLeg::decidable))
-    return fmt::format("On {}, of {} of this scene {}.", engine, effects, dearestInWords(legs));
-  return fmt::format("On {}, {} of {} of this scene {} a profile detectably; {}.", engine, changing,
-                     effects, changing == 1 ? "changes" : "change", dearestInWords(legs));
+    return fmt::format("On {}, of {} of this scene {}.{}", engine, counted(legs.size(), "effect"),
+                       dearestInWords(legs), notRun);
+  return fmt::format("On {}, {}; {}.{}", engine, changesInCounts(legs), dearestInWords(legs),
+                     notRun);
 }
 
 std::string sentenceOf(const EffectLeg& leg) {
@@ -90,10 +113,14 @@ void addEffectSummary(Json& view, const Json& results, const Engines& engines) {
 }
 
 std::string barsOf(const Json& results) {
-  return list(results, "packings").size() > 1
-             ? "± one standard error of the change over packings, each packing held against itself"
-             : "± one standard error within the two runs of one packing: it says nothing about "
-               "other packings";
+  const std::size_t packings = list(results, "packings").size();
+  if (packings >= 4)
+    return "in brackets the interval that the verdict rests on, over packings, each held against "
+           "itself: it leaves out 0 exactly where the change is told apart";
+  return packings > 1 ? "± one standard error of the change over packings, each packing held "
+                        "against itself"
+                      : "± one standard error within the two runs of one packing: it says nothing "
+                        "about other packings";
 }
 
 Json switchRows(const Json& results) {
@@ -127,7 +154,8 @@ std::string effectsPage(const Json& results, const Illustrations& shown) {
   const Engines engines = engineResults(results);
   std::vector<RealisedOf> realised;
   for (const EngineResults& engine : engines)
-    if (engine.realised().is_object()) realised.push_back({engine.name, &engine.realised()});
+    if (engine.realised().is_object())
+      realised.push_back({engine.name, &engine.realised(), &member(results, "effects")});
 
   Json view = commonView(results, shown);
   addEffectSummary(view, results, engines);
@@ -143,7 +171,7 @@ std::string effectsPage(const Json& results, const Illustrations& shown) {
   view["averages"] = averagesInWords(results);
   view["switches"] = switchRows(results);
   view["studies"] = studies(results, engines, shown);
-  addDetails(view, results, realised);
+  addDetails(view, realised);
   view["packings"] = packingRows(results);
   view["files"] =
       "Beside this page: results.json (everything) and effects.csv (every ring of every field).";

@@ -164,6 +164,12 @@ void addEngineTable(Json& view, const Engines& engines) {
       "regime.";
 }
 
+void addStateTable(Json& view, const Engines& engines) {
+  view["engineGroups"] = Json::array({group("State", engines, stateRows(engines))});
+  view["hasState"] = !view["engineGroups"][0]["rows"].empty();
+  view["costNote"] = "Means over the snapshots.";
+}
+
 void addTroubles(Json& view, const Engines& engines) {
   Json rows = Json::array();
   for (const EngineResults& engine : engines) {

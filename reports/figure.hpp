@@ -19,6 +19,7 @@ struct LineStyle {
   std::string colour = "#000000";  ///< "#rrggbb"
   int pointType = 7;               ///< gnuplot's numbers
   bool dashed = false;
+  bool operator==(const LineStyle&) const = default;
 };
 
 /// Blocks reach from x = 0 to each point, in panels with rows; tiles fill the place of each point,

@@ -26,8 +26,8 @@ bool drawable(const Panel& panel, const Point& point) {
          (!panel.logY || point.y > 0.0);
 }
 
-/// The range of a log axis: whole decades, at most eight since below lies noise about zero; a
-/// narrow one just holds its data.
+/// The range of a log axis: whole decades, at most eight of the data since below lies noise about
+/// zero; a narrow one just holds its data. The panel's line is on it in any case.
 std::optional<Range> logRange(const Panel& panel) {
   double low = INFINITY, high = 0.0;
   for (const Curve& curve : panel.curves)
@@ -37,10 +37,14 @@ std::optional<Range> logRange(const Panel& panel) {
         high = std::max(high, point.y);
       }
   if (high <= 0.0) return std::nullopt;
+  low = std::max(low, std::pow(10.0, std::ceil(std::log10(high) - 1e-9) - 8.0));
+  if (panel.level && *panel.level > 0.0) {
+    low = std::min(low, *panel.level);
+    high = std::max(high, *panel.level);
+  }
   if (high < 50.0 * low) return Range{low / 1.3, high * 1.3};
-  const double top = std::ceil(std::log10(high) - 1e-9);
-  const double bottom = std::max(std::floor(std::log10(low) + 1e-9), top - 8.0);
-  return Range{std::pow(10.0, bottom), std::pow(10.0, top)};
+  return Range{std::pow(10.0, std::floor(std::log10(low) + 1e-9)),
+               std::pow(10.0, std::ceil(std::log10(high) - 1e-9))};
 }
 
 std::optional<Range> yRange(const Panel& panel) {
@@ -155,6 +159,13 @@ std::string rangeText(const std::optional<Range>& range) {
   return range ? fmt::format("[{}:{}]", range->low, range->high) : "[*:*]";
 }
 
+/// gnuplot's own choice is made from the data alone: the panel's line is to lie within it too.
+std::string yRangeText(const Panel& panel) {
+  const auto range = yRange(panel);
+  if (range || !panel.level) return rangeText(range);
+  return fmt::format("[*<{0}:{0}<*]", *panel.level);
+}
+
 std::string ticks(char axis, const std::vector<double>& at, bool log) {
   std::string places;
   for (const double tick : at) places += fmt::format("{}{:.6g}", places.empty() ? "" : ",", tick);
@@ -228,7 +239,7 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
       quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key), panel.logX ? "set" : "unset",
       panel.logY ? "set" : "unset", ticks('x', panel.xTicks, panel.logX),
       ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
-      rangeText(panel.xRange), rangeText(range));
+      rangeText(panel.xRange), yRangeText(panel));
   if (!panel.rows.empty()) script += "  " + rowNames(panel, firstInLine) + "\n";
   if (!panel.columns.empty()) script += "  " + columnNames(panel) + "\n";
   script += furniture(panel);

@@ -9,6 +9,7 @@
 #include "reports/base64.hpp"
 #include "reports/labels.hpp"
 #include "reports/numbers.hpp"
+#include "reports/schema.hpp"
 #include "reports/svg.hpp"
 #include "reports/templates.hpp"
 
@@ -93,6 +94,9 @@ Json commonView(const Json& results, const Illustrations& shown) {
           {"notes", list(results, "notes")},
           {"hasNotes", !list(results, "notes").empty()},
           {"plotsMissing", shown.missing.value_or("")},
+          {"caseHeading", kind == kindAverage || kind == kindRev
+                              ? "The case: its cell, rings and weights"
+                              : "The case as it was run"},
           {"toml", text(scene, "toml")},
           {"caseFile", text(scene, "file")},
           {"command", text(results, "command")},

@@ -35,11 +35,13 @@ Json packingRows(const Json& results);
 /// Rings, weights and snapshots that the profiles are means over.
 std::string averagesInWords(const Json& results);
 
-/// Realised scenes by engine → rows of the tables of deviations, pairs and effects, set in view.
+/// What an engine made of a scene.
 struct RealisedOf {
   std::string engine;
   const Json* realised;
+  const Json* calledFor;  ///< names of the effects that this scene calls for; no list: not known
 };
-void addDetails(Json& view, const Json& results, const std::vector<RealisedOf>& realised);
+/// Rows of the tables of deviations, pairs and effects, set in view.
+void addDetails(Json& view, const std::vector<RealisedOf>& realised);
 
 }  // namespace crossgrain::reports

@@ -165,7 +165,9 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines,
 std::string captionOf(const Json& results, const ProfilePlot& plot, const Panel& panel) {
   std::string caption = plot.title;
   caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
-  if (plot.guide)
+  const bool guided = std::ranges::any_of(
+      panel.curves, [](const Curve& curve) { return curve.name.starts_with("slope "); });
+  if (guided)
     caption += fmt::format("; grey: the slope of a power law of exponent {}",
                            readableSetting(*plot.guide));
   const bool hidden =

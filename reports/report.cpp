@@ -40,6 +40,15 @@ Kind kindOf(const Json& results) {
   if (kind == kindStability)
     return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}}, stabilityFigures, stabilityPictures, stabilityPage};
   if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
+  if (kind == kindAverage)
+    return {{{"profiles.csv", profilesCsv},
+             {"series.csv", seriesCsv},
+             {"regimes.csv", regimesCsv},
+             {"steadiness.csv", steadinessCsv},
+             {"distributions.csv", distributionsCsv}},
+            compareFigures,
+            noPictures,
+            averagePage};
   if (kind == kindRev)
     return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
             revFigures,

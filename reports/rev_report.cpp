@@ -78,19 +78,24 @@ std::string percent(std::optional<double> fraction) {
   return fraction ? fmt::format("{:.2g}", 100.0 * *fraction) : absentText;
 }
 
+/// Where the method meets slicing next to that width; a dash where no radius has room for it.
+std::string meetingOf(const Json& results, const char* field, const char* method, double near) {
+  for (const Json& row : list(results, "meetings"))
+    if (text(row, "field") == field && text(row, "method") == method && number(row, "near") == near)
+      return fmt::format("{:.2f} ({} %)", number(row, "width").value_or(0.0),
+                         percent(number(row, "difference")));
+  return absentText;
+}
+
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Json meetingRows(const Json& results) {
   Json rows = Json::array();
   for (const auto& [field, label] : drawnFields) {
     Json cells = Json::array();
     for (const char* method : {"centre", "line_gaussian", "line_heaviside"})
-      for (const double near : {1.0, 2.0})
-        for (const Json& row : list(results, "meetings"))
-          if (text(row, "field") == field && text(row, "method") == method &&
-              number(row, "near") == near)
-            cells.push_back(fmt::format("{:.2f} ({} %)", number(row, "width").value_or(0.0),
-                                        percent(number(row, "difference"))));
-    if (!cells.empty()) rows.push_back({{"field", fieldLabel(field)}, {"cells", cells}});
+      for (const double near : {1.0, 2.0}) cells.push_back(meetingOf(results, field, method, near));
+    if (std::ranges::any_of(cells, [](const Json& cell) { return cell != absentText; }))
+      rows.push_back({{"field", fieldLabel(field)}, {"cells", cells}});
   }
   return rows;
 }
@@ -105,14 +110,40 @@ std::vector<Figure> revFigures(const Json& results) {
   return figures;
 }
 
+namespace {
+
+/// "400 snapshots of grain: 12 fields under 5 weights, in rings of widths from 0.1 to 4 d."
+std::string leadOf(const Json& results) {
+  std::set<std::string> fields, methods;
+  std::set<double> widths;
+  for (const Json& curve : list(results, "curves")) {
+    fields.insert(text(curve, "field"));
+    methods.insert(text(curve, "method"));
+    for (const Json& width : list(curve, "width"))
+      if (const auto d = number(width)) widths.insert(*d);
+  }
+  if (widths.empty()) return "No ring fits into the cell: nothing was averaged.";
+  const auto snapshots = number(member(results, "averaging"), "snapshots").value_or(0.0);
+  return fmt::format("{} of {}: {} under {}, in rings of widths from {} to {} d.",
+                     counted(static_cast<std::size_t>(snapshots), "snapshot"),
+                     text(results, "engine"), counted(fields.size(), "field"),
+                     counted(methods.size(), "weight"), readableSetting(*widths.begin()),
+                     readableSetting(*widths.rbegin()));
+}
+
+}  // namespace
+
 std::string revPage(const Json& results, const Illustrations& shown) {
   Json view = commonView(results, shown);
   const Json& averaging = member(results, "averaging");
-  view["lead"] =
-      fmt::format("{} snapshots of {}, averaged in rings of widths from d/10 to 4 d.",
-                  readableCount(number(averaging, "snapshots")), text(results, "engine"));
-  view["sentences"] = {fmt::format("Kernels of the line methods have the width w = {} d.",
-                                   readableSetting(number(averaging, "line_width")))};
+  view["lead"] = leadOf(results);
+  view["sentences"] = {
+      "Nothing was run and nothing compared but ways of averaging the same "
+      "snapshots: what depends on the ring's width or on the weight is a matter "
+      "of averaging there, not of the field."};
+  if (const auto width = number(averaging, "line_width"))
+    view["sentences"].push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
+                                            readableSetting(width)));
   view["figures"] = figureViews(shown, "rev_");
   view["meetings"] = meetingRows(results);
   view["files"] =

@@ -17,7 +17,8 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = text(results, "kind");
-  const auto known = {kindCompare, kindCollide, kindEffects, kindCost, kindRev, kindStability};
+  const auto known = {kindCompare, kindCollide, kindEffects,  kindCost,
+                      kindAverage, kindRev,     kindStability};
   if (std::ranges::find(known, kind) == known.end())
     throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
                                kind, fmt::join(known, "\", \"")));

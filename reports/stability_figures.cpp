@@ -6,6 +6,7 @@
 #include "reports/engines.hpp"
 #include "reports/figures.hpp"
 #include "reports/labels.hpp"
+#include "reports/numbers.hpp"
 #include "reports/stability_table.hpp"
 
 namespace crossgrain::reports {
@@ -83,9 +84,10 @@ std::optional<Figure> trackOf(const Json& results, const std::vector<EngineResul
   Figure figure;
   figure.name = fmt::format("stability_{}", index);
   figure.title = fmt::format("{} over time, {}", spaced(text(*shown, "measure")), group.name);
-  figure.caption = fmt::format("{} [{}] over time{}; the grey line is the limit.",
-                               spaced(text(*shown, "measure")), text(*shown, "unit"),
-                               panel.name.empty() ? "" : ", variant " + panel.name);
+  figure.caption =
+      fmt::format("{} [{}] over time{}{}.", spaced(text(*shown, "measure")), text(*shown, "unit"),
+                  panel.name.empty() ? "" : ", variant " + panel.name,
+                  panel.level ? "; the grey line is the limit, " + readable(panel.level) : "");
   figure.panels.push_back(std::move(panel));
   figure.panelWidth = 640;
   figure.panelHeight = 330;

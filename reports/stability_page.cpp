@@ -189,11 +189,6 @@ Json scoreRows(const Json& results) {
 std::string stabilityPage(const Json& results, const Illustrations& shown) {
   const std::vector<EngineResults> engines = engineResults(results);
   const std::vector<HardGroup> groups = hardGroups(results);
-  std::vector<RealisedOf> realised;
-  for (const Json& run : list(results, "runs"))
-    if (member(run, "realised").is_object())
-      realised.push_back({text(run, "engine"), &member(run, "realised")});
-
   Json view = commonView(results, shown);
   addSummary(view, results, engines);
   view["engines"] = columnsView(engines);

@@ -13,29 +13,52 @@ using nlohmann::json;
 
 namespace {
 
-/// Mean and error over packings of one number per run.
-json ensembleRow(json row, const Numbers& perPacking) {
+/// Angles next to the first one, not on the far side of ±π.
+void unwrap(Numbers& angles, double period) {
+  std::optional<double> first;
+  for (auto& angle : angles) {
+    if (!angle) continue;
+    if (!first) first = angle;
+    angle = *first + std::remainder(*angle - *first, period);
+  }
+}
+
+/// Mean and error over packings of one number per run. A fit that most packings refuse is not one
+/// of the ensemble: those that let themselves be fitted are no sample of all.
+json ensembleRow(json row, Numbers perPacking, bool fit) {
+  if (row.contains("period")) unwrap(perPacking, row["period"]);
   const auto mean = ensembleMean(perPacking);
-  row["value"] = mean ? json(mean->mean) : json(nullptr);
-  row["stderr"] = mean ? toJson(mean->standardError) : json(nullptr);
-  row["packings"] = mean ? mean->packings : 0;
+  const int found = mean ? mean->packings : 0;
+  const bool most = 2 * found >= static_cast<int>(perPacking.size());
+  const bool says = mean && (most || !fit);
+  row["value"] = says ? json(mean->mean) : json(nullptr);
+  row["stderr"] = says ? toJson(mean->standardError) : json(nullptr);
+  row["packings"] = found;
+  if (fit) row["of_packings"] = perPacking.size();
   return row;
 }
 
 /// Rows of `list` ("fits" or "head") by name, averaged over runs.
 json ensembleRows(const std::vector<const json*>& runs, const char* list) {
+  const bool fits = std::string_view(list) == "fits";
   json rows = json::array();
   for (const json& first : (*runs.front())[list]) {
     Numbers perPacking, chi2;
+    std::string reason;
+    json like = first;
     for (const json* run : runs)
-      for (const json& row : (*run)[list])
-        if (row["name"] == first["name"]) {
-          perPacking.push_back(optionalNumber(row["value"]));
-          chi2.push_back(optionalNumber(row.value("chi2_per_dof", json())));
-        }
-    json row = ensembleRow(first, perPacking);
-    if (const auto mean = ensembleMean(chi2)) row["chi2_per_dof"] = mean->mean;
-    if (row["value"].is_number()) row["reason"] = "";
+      for (const json& row : (*run)[list]) {
+        if (row["name"] != first["name"]) continue;
+        perPacking.push_back(optionalNumber(row["value"]));
+        chi2.push_back(optionalNumber(row.value("chi2_per_dof", json())));
+        if (row.contains("period")) like["period"] = row["period"];
+        if (reason.empty()) reason = row.value("reason", "");
+      }
+    json row = ensembleRow(like, perPacking, fits);
+    const bool says = row["value"].is_number();
+    const auto mean = ensembleMean(chi2);
+    row["chi2_per_dof"] = says && mean ? json(mean->mean) : json(nullptr);
+    row["reason"] = says ? "" : reason;
     rows.push_back(row);
   }
   return rows;
@@ -91,6 +114,13 @@ json ensembleDistribution(const std::vector<const json*>& runs, json like) {
   return like;
 }
 
+/// In the field's unit; of a relative one none where the reference has nothing.
+json marginOf(const TestedRing& ring, const Margin& margin) {
+  if (!margin.relative) return margin.value;
+  const double size = std::abs(ring.reference);
+  return size > 0.0 ? json(margin.value * size) : json(nullptr);
+}
+
 /// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
 /// @param detects  the smallest difference that such a test finds, on its own scale
 json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison& found,
@@ -108,11 +138,11 @@ json ringJson(std::size_t index, const TestedRing& ring, const PairedComparison&
   if (ring.logarithmic && found.standardError)
     error = ring.reference * std::exp(found.difference) * *found.standardError;
   return {{"ring", index},
-          {"difference", inUnit(ring, found.difference)},
+          {"difference", found.packings > 0 ? json(inUnit(ring, found.difference)) : json(nullptr)},
           {"stderr", error},
           {"low", bound(low)},
           {"high", bound(high)},
-          {"margin", margin.relative ? margin.value * ring.reference : margin.value},
+          {"margin", marginOf(ring, margin)},
           {"detects", size(detects)},
           {"within_share", toJson(found.withinShare)},
           {"scale", ring.logarithmic ? "logarithmic" : "linear"},

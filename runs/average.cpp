@@ -29,7 +29,7 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
     }
   }
 
-  json results = couetteHead("compare", setup, commandLine, scene.disks);
+  json results = couetteHead("average", setup, commandLine, scene.disks);
   // Of a file's snapshots nobody says from when to when they are.
   for (const char* unknown :
        {"settle_rotations", "rotations", "from_rotation", "to_rotation", "prepared_rotations"})

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "adapters/law_options.hpp"
+#include "adapters/pair_table.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/time_step.hpp"
 #include "runs/dry_run.hpp"
@@ -22,17 +23,20 @@ using nlohmann::json;
 
 namespace {
 
+/// Options that matter to the law, and constants that it has.
 json lawJson(const ContactLaw& law) {
   json options;
   for (const LawOption& option : lawOptions())
-    options[std::string(option.name)] = option.values[option.get(law)];
-  options.update({{"kn", law.kn},
-                  {"kn3", law.kn3},
-                  {"gn", law.gn},
-                  {"kt", law.kt},
-                  {"gt", law.gt},
-                  {"mu", law.mu}});
-  if (law.normal == NormalLaw::rigid) options.update({{"e_n", law.en}, {"e_t0", law.et0}});
+    if (mattersTo(law, option.name))
+      options[std::string(option.name)] = option.values[option.get(law)];
+  const PairCoefficients has = coefficientsOf(law);
+  const std::pair<const char*, double> constants[] = {
+      {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
+  for (const auto& [name, value] : constants)
+    if (value > 0.0) options[name] = value;
+  if (!law.soft()) options["e_n"] = law.en;
+  if (!law.soft() && has.mu > 0.0) options["e_t0"] = law.et0;
+  if (law.normal == NormalLaw::polynomial) options["kn3"] = law.kn3;
   return options;
 }
 
@@ -73,18 +77,41 @@ void throwIfAllRefused(const EngineSweeps& engine, std::size_t cases) {
   throw UnsupportedScene(reason);
 }
 
+json effectsJson(const CollisionCase& sweep) {
+  json names = json::array();
+  for (const Effect effect :
+       effectsOf(collisionScene(*sweep.setup, sweep.starts, sweep.steps.front())))
+    names.push_back(toString(effect));
+  return names;
+}
+
+/// Points that no engine is held against, and why.
+json noLimitJson(const CollisionCase& sweep) {
+  json points = json::array();
+  for (std::size_t k = 0; k < sweep.starts.size(); ++k)
+    if (const std::string reason = noLimitReason(*sweep.setup, sweep.starts, sweep.oracle, k);
+        !reason.empty())
+      points.push_back({{"psi_i", sweep.starts[k].psi},
+                        {"v_n", sweep.starts[k].vn},
+                        {"psi_f", sweep.oracle.ends[k]->psi},
+                        {"reason", reason}});
+  return points;
+}
+
 json variantJson(const CollisionCase& sweep) {
   const Case& setup = *sweep.setup;
   const CollidingPair pair = collidingPair(setup);
   return {{"case", setup.name},
           {"variant", setup.variant.empty() ? setup.name : setup.variant},
           {"law", lawJson(setup.law)},
+          {"effects", effectsJson(sweep)},
           {"e_n_closed", toJson(closedRestitution(setup.law, pair.reducedMass()))},
           {"sticking", {{"e_t0", setup.law.soft() ? json(nullptr) : json(setup.law.et0)}}},
           {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
           {"oracle", fineOracle(setup)},
           {"oracle_reason", sweep.oracle.reason},
-          {"reference", columnsOf(sweep.starts, outcomesOf(sweep.oracle))},
+          {"reference", columnsOf(sweep.starts, referenceOf(sweep.oracle))},
+          {"no_limit", noLimitJson(sweep)},
           {"curves", json::array()}};
 }
 

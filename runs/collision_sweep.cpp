@@ -118,6 +118,23 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
   return outcomes;
 }
 
+Outcomes referenceOf(const OracleCurve& oracle) {
+  Outcomes outcomes = outcomesOf(oracle);
+  for (auto& outcome : outcomes)
+    if (outcome && outcome->end.limitless) outcome.reset();
+  return outcomes;
+}
+
+std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
+                          const OracleCurve& oracle, std::size_t k) {
+  if (!oracle.ends[k] || !oracle.ends[k]->limitless) return {};
+  return jumpsAtTouch(setup.law, collidingPair(setup), starts[k])
+             ? "no limit of small time steps: the law jumps at this psi_i = mu gn/gt, sticking "
+               "from the first touch on, and slipping, end elsewhere"
+             : "no limit of small time steps: a slip ends while its bound falls, and the outcome "
+               "goes on varying with log(dt), however small dt is";
+}
+
 namespace {
 
 /// The sweep's outcomes; those of a run that is looked at also with overlaps and work.
@@ -155,7 +172,11 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
   const Realised realised = loadScene(engine, entry, setup, scene);
   const Outcomes found = runOutcomes(engine, entry, setup, scene, realised, starts, look);
   json points = columnsOf(starts, found);
-  for (const auto& outcome : found) points["status"].push_back(outcome ? "parted" : "not parted");
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const std::string reason = noLimitReason(setup, starts, oracle, k);
+    points["status"].push_back(!found[k] ? "not parted" : reason.empty() ? "parted" : "no limit");
+    points["reason"].push_back(reason);
+  }
   const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
   const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
   return {{"engine", entry.name},
@@ -166,7 +187,7 @@ json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, doubl
           {"realised", toJson(realised)},
           {"stats", statsJson(engine.stats())},
           {"points", points},
-          {"score", scoreSweep(setup, starts, found, outcomesOf(oracle))}};
+          {"score", scoreSweep(setup, starts, found, referenceOf(oracle))}};
 }
 
 }  // namespace crossgrain

@@ -25,8 +25,17 @@ double sweepEnd(const Case& setup, double dt, double engineStep);
 
 Outcomes outcomesOf(const OracleCurve& oracle);
 
+/// Those that an engine can be held against: where the law has no limit of small time steps there
+/// is none.
+Outcomes referenceOf(const OracleCurve& oracle);
+
+/// Why the law has no limit of small time steps at the k-th start, in a clause; empty where it has.
+std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
+                          const OracleCurve& oracle, std::size_t k);
+
 /// A table of results.json, {name: [one value per start]}: Ψ_i, v_n and all that is known of the
-/// outcomes; null where one has none, and no column where all have none.
+/// outcomes; null where one has none, and no column where all have none. Of the oracle's,
+/// `limitless` marks points that have no limit of small time steps.
 nlohmann::json columnsOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
 /// One engine on one sweep: an entry of results.json's "curves".

@@ -13,7 +13,8 @@ using nlohmann::json;
 namespace {
 
 struct Ring {
-  PairedSample sample;
+  TestedRing test;                  ///< of no change: margin 0, on the scale of the case's margin
+  PairedSample plain;               ///< in the field's unit
   std::optional<double> reference;  ///< mean over packings
   std::optional<double> withinRun;  ///< error of the only packing's difference
 };
@@ -36,7 +37,17 @@ struct PairedRuns {
   std::size_t packings;
 };
 
-std::vector<Ring> ringsOf(const PairedRuns& runs, const json& method, const std::string& field) {
+/// Of a relative margin ratios are tested, as they are against the margin: so what is shown to lie
+/// beyond the margin is also told apart from no change, µ = 0 being the smaller claim of the same
+/// test.
+TestedRing testOfNoChange(const Margin* margin, const Numbers& whole, const Numbers& switched) {
+  TestedRing ring = testedRing(margin ? *margin : Margin{}, whole, switched);
+  ring.sample.margin = 0.0;
+  return ring;
+}
+
+std::vector<Ring> ringsOf(const PairedRuns& runs, const json& method, const std::string& field,
+                          const Margin* margin) {
   const auto means = [&](const auto& of) { return fieldByRing(of, method, field, runs.packings); };
   const auto errors = [&](const auto& of) {
     return fieldByRing(of, method, field, runs.packings, "stderr");
@@ -46,7 +57,8 @@ std::vector<Ring> ringsOf(const PairedRuns& runs, const json& method, const std:
   std::vector<Ring> rings;
   for (std::size_t ring = 0; ring < std::min(whole.size(), switched.size()); ++ring) {
     const auto mean = ensembleMean(whole[ring]);
-    rings.push_back({{whole[ring], switched[ring], 0.0, {}},
+    rings.push_back({testOfNoChange(margin, whole[ring], switched[ring]),
+                     {whole[ring], switched[ring], 0.0, {}},
                      mean ? std::optional(mean->mean) : std::nullopt,
                      combined(wholeError[ring], switchedError[ring])});
   }
@@ -60,51 +72,78 @@ std::vector<Field> fieldsOf(const Case& setup, const PairedRuns& runs) {
   for (const json& profile : (*runs.whole.front())["profiles"]) {
     if (profile["method"] != method) continue;
     const std::string name = profile["field"];
-    fields.push_back({name, profile["unit"], margins.empty() || margins.contains(name),
-                      ringsOf(runs, method, name)});
+    const auto margin = margins.find(name);
+    fields.push_back(
+        {name, profile["unit"], margins.empty() || margin != margins.end(),
+         ringsOf(runs, method, name, margin == margins.end() ? nullptr : &margin->second)});
   }
   return fields;
 }
 
 json ringJson(std::size_t index, const Ring& ring) {
-  return {{"ring", index},      {"reference", toJson(ring.reference)},
-          {"change", nullptr},  {"stderr", nullptr},
-          {"p", nullptr},       {"resolved", nullptr},
-          {"smallest", nullptr}};
+  return {{"ring", index},       {"reference", toJson(ring.reference)},
+          {"change", nullptr},   {"stderr", nullptr},
+          {"p", nullptr},        {"resolved", nullptr},
+          {"low", nullptr},      {"high", nullptr},
+          {"smallest", nullptr}, {"verdict", ""}};
 }
 
-/// Sets what the paired packings say. @param tests  in the family, 0: the field is not judged
-void describe(json& row, const Ring& ring, const PairedComparison& found, std::size_t tests,
-              double confidence) {
-  if (found.packings == 0) return;
-  row["change"] = found.difference;
-  row["stderr"] = toJson(found.packings == 1 ? ring.withinRun : found.standardError);
-  if (tests == 0 || !found.pDisagree) return;
+/// Sets what the paired packings say in the field's own unit.
+void describe(json& row, const Ring& ring) {
+  const auto found = comparePaired({&ring.plain, 1}, 0.95).front();
+  if (!found || found->packings == 0) return;
+  row["change"] = found->difference;
+  row["stderr"] = toJson(found->packings == 1 ? ring.withinRun : found->standardError);
+}
+
+/// How the family of a leg's tests ended.
+struct Family {
+  double confidence;
+  std::size_t tests = 0, rejected = 0;
+  bool resolves(const PairedComparison& one) const { return *one.pDisagree <= 1.0 - confidence; }
+};
+
+/// Sets the verdict and the interval that it rests on: half as wide as the smallest change that
+/// would have been told apart, so that it leaves out 0 exactly if the change is. Holm (1979) holds
+/// the largest t against the level α/m of m tests, the next against α/(m − 1), and stops at the
+/// first that fails, the K + 1st: all that he rejects pass α/(m − K + 1), all others fail
+/// α/(m − K).
+void judge(json& row, const Ring& ring, const PairedComparison& found, const Family& family) {
+  if (!found.pDisagree) return;
+  const bool resolved = family.resolves(found);
   row["p"] = *found.pDisagree;
-  row["resolved"] = *found.pDisagree <= 1.0 - confidence;
-  row["smallest"] =
-      toJson(smallestSignificant(*found.standardError, found.packings, tests, confidence));
+  row["resolved"] = resolved;
+  const auto half =
+      smallestSignificant(*found.standardError, found.packings,
+                          family.tests - family.rejected + (resolved ? 1 : 0), family.confidence);
+  row["low"] = inUnit(ring.test, found.difference - *half);
+  row["high"] = inUnit(ring.test, found.difference + *half);
+  row["smallest"] = std::abs(inUnit(ring.test, std::copysign(*half, found.difference)));
 }
 
 /// Field by field, each a list of its rings' rows.
 std::vector<json> rowsOf(const std::vector<Field>& fields, double confidence) {
-  std::vector<PairedSample> judged, others;
+  std::vector<PairedSample> judged;
   for (const Field& field : fields)
-    for (const Ring& ring : field.rings) (field.judged ? judged : others).push_back(ring.sample);
-  const auto ofJudged = comparePaired(judged, confidence);
-  const auto ofOthers = comparePaired(others, confidence);
-  std::size_t tests = 0;
-  for (const auto& found : ofJudged) tests += found && found->pDisagree;
+    for (const Ring& ring : field.rings)
+      if (field.judged) judged.push_back(ring.test.sample);
+  const auto results = comparePaired(judged, confidence);
+  Family family{confidence};
+  for (const auto& found : results)
+    if (found && found->pDisagree) {
+      ++family.tests;
+      family.rejected += family.resolves(*found);
+    }
 
-  auto nextJudged = ofJudged.begin();
-  auto nextOther = ofOthers.begin();
+  auto next = results.begin();
   std::vector<json> rows;
   for (const Field& field : fields) {
     json ofField = json::array();
     for (std::size_t ring = 0; ring < field.rings.size(); ++ring) {
       json row = ringJson(ring, field.rings[ring]);
-      const auto& found = field.judged ? *nextJudged++ : *nextOther++;
-      if (found) describe(row, field.rings[ring], *found, field.judged ? tests : 0, confidence);
+      describe(row, field.rings[ring]);
+      if (field.judged)
+        if (const auto& found = *next++) judge(row, field.rings[ring], *found, family);
       ofField.push_back(std::move(row));
     }
     rows.push_back(std::move(ofField));
@@ -138,8 +177,12 @@ json effectChanges(const Case& setup, const json& runs, const std::string& engin
                   {"judged", fields[k].judged},
                   {"verdict", ""},
                   {"rings", rows[k]}};
-    for (const json& row : margins)
-      if (row["field"] == fields[k].name) field["verdict"] = row["verdict"];
+    for (const json& row : margins) {
+      if (row["field"] != fields[k].name) continue;
+      field["verdict"] = row["verdict"];
+      for (const json& ring : row["rings"])
+        field["rings"].at(ring["ring"].get<std::size_t>())["verdict"] = ring["verdict"];
+    }
     changes["fields"].push_back(std::move(field));
   }
   return changes;

@@ -96,6 +96,7 @@ json fitJson(const Fit& fit, const std::string& parameter, const std::string& na
   const auto found = std::ranges::find(fit.parameters, parameter, &FitParameter::name);
   if (found == fit.parameters.end()) throw std::logic_error("no fit parameter " + parameter);
   row["value"] = found->value;
+  if (found->period > 0.0) row["period"] = found->period;
   row["stderr"] = toJson(found->standardError);
   if (fit.weighted) row["chi2_per_dof"] = fit.chi2 / fit.dof;
   return row;

@@ -93,9 +93,10 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
                     "lost_stored": [1e-9]},
       "curves": [
       {"engine": "one", "dt": 2e-5, "status": "finished", "points":
-        {"psi_i": [0.5], "v_n": [1e-4], "e_n": [0.25], "psi_f": [-0.125], "status": ["ok"],
-         "beta": [0.25]}},
-      {"engine": "two", "dt": null, "status": "failed", "points": {}}]}]})");
+        {"psi_i": [0.5], "v_n": [1e-4], "e_n": [0.25], "psi_f": [-0.125],
+         "status": ["no limit"], "reason": ["it jumps"], "beta": [0.25],
+         "lost_stiffening": [-2e-9]}},
+      {"engine": "two", "dt": null, "status": "failed", "reason": "it hung", "points": {}}]}]})");
   EXPECT_EQ(collisionsCsv(results),
             "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status,"
             "beta,beta_reference,centre_psi_f,centre_psi_f_reference,e_t,e_t_reference,"
@@ -106,10 +107,11 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
             "lost_normal_damping_J,lost_normal_damping_reference_J,"
             "lost_tangential_damping_J,lost_tangential_damping_reference_J,"
             "lost_sliding_J,lost_sliding_reference_J,lost_stored_J,lost_stored_reference_J,"
-            "lost_tangential_J,lost_tangential_reference_J\n"
-            "one,walton,\"soft, cut\",0.5,0.0001,0.25,-0.125,0.5,,2e-05,ok,"
-            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09,,\n"
-            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,\n");
+            "lost_tangential_J,lost_tangential_reference_J,"
+            "lost_stiffening_J,lost_stiffening_reference_J,reason\n"
+            "one,walton,\"soft, cut\",0.5,0.0001,0.25,-0.125,0.5,,2e-05,no limit,"
+            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09,,,-2e-09,,it jumps\n"
+            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,it hung\n");
 }
 
 TEST(Csv, QuotesCommasAndQuotesInNames) {

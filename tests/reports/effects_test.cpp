@@ -107,23 +107,51 @@ TEST(EffectsPage, SaysInASentenceWhatEachEffectCostsAndChanges) {
   writeReport(sample::effectsResults(4), folder.path());
   const std::string page = readFile(folder.path() / "report.html").value();
   EXPECT_TRUE(has(page,
-                  "On grain, 1 of 2 effects of this scene changes a profile detectably; the "
-                  "dearest is friction, 50 % of a step."));
+                  "On grain, 1 of 2 effects of this scene changes a profile detectably, of 1 no "
+                  "change is told apart from none; the dearest is friction, 50 % of a step. Not "
+                  "measured: 1 effect."));
   EXPECT_TRUE(
       has(page,
           "Friction takes 50.0\u00a0±\u00a01.0 % of a step (without it there are 45 contacts "
-          "instead of 424); without it azimuthal velocity (−20.0\u00a0±\u00a01.0 %, ring 2) "
-          "changes."));
+          "instead of 424); told apart from no change without it: azimuthal velocity in ring 2, "
+          "−20 % (−25 to −15 %)."));
   EXPECT_TRUE(has(page,
                   "Bottom friction costs nothing measurable (+0.5\u00a0±\u00a01.0 % of a step); no "
-                  "change detected; the smallest that this run could see, field by field: 5 % "
+                  "change told apart from none; the smallest that this run could have, field by "
+                  "field: 5 % "
                   "(azimuthal velocity)"))
       << page.substr(page.find("Bottom friction"), 300);
   EXPECT_TRUE(has(page, "Tension: refused: odd &lt;b&gt;"));
-  EXPECT_TRUE(has(page, "▼ −20.0\u00a0±\u00a01.0 %</b>"));
+  EXPECT_TRUE(has(page, "▼ −20 % (−25 to −15 %)</b>"));
   EXPECT_TRUE(has(page, "No &lt;tangential&gt; force."));
   for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script"})
     EXPECT_FALSE(has(page, bad)) << bad;
+}
+
+/// "−68.9 ± 7.3 %, beyond the margin" beside "not told apart" was one such sentence.
+TEST(EffectsPage, NotToldApartStandsBesideAnIntervalThatHoldsZero) {
+  Json results = sample::effectsResults(4);
+  Json& ring = results["legs"][2]["fields"][0]["rings"][0];  // bottom friction
+  ring["change"] = -0.01378;                                 // of 0.02
+  ring["stderr"] = 0.00146;                                  // 9 standard errors
+  ring["low"] = -0.0290;
+  ring["high"] = 0.0014;
+  ring["smallest"] = 0.0152;
+  const auto page = [&] {
+    const TemporaryFolder folder;
+    writeReport(results, folder.path());
+    return readFile(folder.path() / "report.html").value();
+  };
+  EXPECT_TRUE(has(page(),
+                  "○ −69 % (−150 to +7 %)</b><small>ring 1, 9.4 errors; seen from 76 %; "
+                  "margin: undecided"))
+      << page().substr(page().find("○"), 200);
+  EXPECT_FALSE(has(page(), "beyond the margin"));
+  // Beyond it only where that is shown, and in which ring.
+  results["legs"][1]["fields"][0]["verdict"] = "disagree";
+  EXPECT_TRUE(has(page(), "shown beyond the margin in another ring"));
+  results["legs"][1]["fields"][0]["rings"][1]["verdict"] = "disagree";
+  EXPECT_TRUE(has(page(), "ring 2, 20 errors; shown beyond the margin<"));
 }
 
 TEST(EffectsPage, OfFewPackingsSaysThatItCannotTell) {
@@ -132,7 +160,10 @@ TEST(EffectsPage, OfFewPackingsSaysThatItCannotTell) {
   const std::string page = readFile(folder.path() / "report.html").value();
   EXPECT_TRUE(has(page, "Fewer than 4 packings: what an effect changes cannot be told"));
   EXPECT_TRUE(has(page, "On grain, of 2 effects of this scene the dearest is friction, 50 %"));
-  EXPECT_FALSE(has(page, "no change detected"));
+  EXPECT_FALSE(has(page, "told apart from none"));
+  EXPECT_FALSE(has(page, "○ "));  // not told apart is one thing, no telling another
+  EXPECT_TRUE(has(page, "too few packings to tell"));
+  EXPECT_TRUE(has(page, "(one standard error)"));
   EXPECT_TRUE(has(page, "within the two runs of one packing"));
 }
 

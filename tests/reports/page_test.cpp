@@ -4,6 +4,7 @@
 #include <set>
 
 #include "cases/files.hpp"
+#include "reports/collide_table.hpp"
 #include "reports/report.hpp"
 #include "reports/svg.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -166,6 +167,62 @@ TEST(CollidePage, ScoresHeldAndFellShort) {
   EXPECT_TRUE(has(collided().page, "Ψ<sub>f</sub> 0.0024, order 2.00\u00a0±\u00a00.01"));
 }
 
+/// What engines simulate is held against the effects of the variant that they ran.
+TEST(CollidePage, EffectsAreThoseOfEachVariant) {
+  json results = sample::collideResults();
+  const auto pageOf = [](const json& of) { return Written(of).page; };
+  const std::string all = pageOf(results);
+  for (const char* effect : {"normal damping", "friction", "rotation"})
+    EXPECT_TRUE(has(all, std::string("<tr><th>") + effect +
+                             "</th><td>called for</td><td class=\"\">✓ simulated</td>"))
+        << effect;
+  // The sample's engines simulate moving walls, which no collision calls for.
+  EXPECT_TRUE(has(all,
+                  "<tr><th>moving walls</th><td>–</td><td class=\"disagree\">+ though not "
+                  "called for</td>"));
+  results["variants"][1]["effects"] = {"normal_damping", "rotation"};
+  const std::string one = pageOf(results);
+  EXPECT_TRUE(has(one,
+                  "<tr><th>friction</th><td>called for in 1 of 2 scenes</td><td "
+                  "class=\"disagree\">✓ simulated; + though not called for in 3 of 6 runs</td>"))
+      << one.substr(one.find("<tr><th>friction"), 300);
+  for (json& variant : results["variants"]) variant.erase("effects");  // of an earlier version
+  EXPECT_FALSE(has(pageOf(results), "though not called for"));
+}
+
+TEST(CollidePage, WhatAContactDoesNotHaveIsADash) {
+  EXPECT_TRUE(has(collided().page,
+                  "<td class=\"n\">0.44</td><td class=\"n\">–</td><td class=\"n\">–</td>"));
+}
+
+TEST(CollidePage, NothingJudgedIsNoSuccess) {
+  json results = sample::collideResults();
+  for (json& variant : results["variants"])
+    for (json& curve : variant["curves"]) {
+      curve["score"]["verdict"] = "not judged";
+      if (curve["score"].contains("psi_f"))
+        curve["score"]["psi_f"]["limit"] = curve["score"]["psi_f"]["held"] = nullptr;
+    }
+  EXPECT_TRUE(has(Written(results).page,
+                  "Nothing was judged: the case has no [collision.margins] for what was "
+                  "measured."));
+  EXPECT_EQ(reports::countOf(results).judged(), 0);
+  for (json& variant : results["variants"]) {
+    variant["oracle_reason"] = "no limit";
+    for (json& curve : variant["curves"]) curve["score"].erase("psi_f");
+  }
+  EXPECT_EQ(reports::nothingJudged(results), "there is no oracle to judge by: no limit");
+  EXPECT_EQ(reports::nothingJudged(sample::collideResults()), "");
+}
+
+TEST(CollidePage, NamesPointsWithoutALimitAndWhy) {
+  json results = sample::collideResults();
+  results["variants"][1]["no_limit"] = {
+      {{"psi_i", 0.5573}, {"v_n", 1e-4}, {"psi_f", 0.1}, {"reason", "the law jumps"}}};
+  EXPECT_TRUE(has(Written(results).page,
+                  "Not judged: spring and dashpot, Ψ<sub>i</sub> = 0.5573: the law jumps."));
+}
+
 TEST(CollidePage, EveryScoreIsThere) {
   // 2 variants × (3 + 3 + 1) curves and one that failed; one quantity.
   const std::string& page = collided().page;
@@ -177,6 +234,65 @@ TEST(CollidePage, EveryScoreIsThere) {
     ++rows;
   EXPECT_EQ(rows, 2u * 7u + 1u);
   EXPECT_TRUE(has(page, "<td class=\"n agree\">✓ 0.0024<small>0.0012</small></td>"));
+}
+
+/// What `average` writes: one run of one source, nothing run by crossgrain.
+json averaged() {
+  json results = sample::compareResults(1, 100);
+  results["kind"] = "average";
+  results["engines"] = {results["engines"][0]};
+  results["runs"] = {results["runs"][0]};
+  for (const char* none : {"realised", "stats", "picture"}) results["runs"][0].erase(none);
+  for (const char* none : {"agreement", "ensemble", "packings"}) results.erase(none);
+  results["averaging"] = {{"method", "slicing"}, {"snapshots", 12}, {"confidence", 0.95}};
+  return results;
+}
+
+TEST(AveragePage, SaysWhatItIs) {
+  const Written written(averaged());
+  const std::string page = withoutImages(written.page);
+  EXPECT_TRUE(has(page, "<p class=\"kicker\">crossgrain average</p>"));
+  EXPECT_TRUE(
+      has(page, "<p class=\"lead\">12 snapshots of grain averaged: 7 fields in 20 rings.</p>"))
+      << page.substr(page.find("class=\"lead\""), 200);
+  EXPECT_TRUE(has(page, "Nothing was run and nothing compared"));
+  EXPECT_TRUE(has(page, "The case: its cell, rings and weights"));
+  for (const char* claim : {"crossgrain compare", "could be compared",
+                            "No engine reports any "
+                            "deviation",
+                            "not simulated", "What ran", "as it was run", "{{", "}}",
+                            "agreement.csv", "after hand-over"})
+    EXPECT_FALSE(has(page, claim)) << claim;
+  EXPECT_TRUE(fs::exists(written.folder.path() / "profiles.csv"));
+  EXPECT_FALSE(fs::exists(written.folder.path() / "agreement.csv"));
+}
+
+TEST(RevPage, SaysWhatItIs) {
+  json results = {{"schema", "crossgrain-results-1"},
+                  {"kind", "rev"},
+                  {"engine", "grain"},
+                  {"averaging", {{"snapshots", 3}, {"line_width", 1.0}}}};
+  for (const char* method : {"slicing", "centre"})
+    results["curves"].push_back({{"method", method},
+                                 {"field", "volume_fraction"},
+                                 {"unit", "1"},
+                                 {"r", 0.12},
+                                 {"width", {0.5, 1.0, 2.2}},
+                                 {"mean", {0.7, 0.8, 0.8}},
+                                 {"stderr", {0.1, 0.1, 0.1}}});
+  results["meetings"] = {{{"method", "centre"},
+                          {"field", "volume_fraction"},
+                          {"near", 1.0},
+                          {"width", 0.95},
+                          {"difference", 0.01}}};
+  const std::string page = withoutImages(Written(results).page);
+  EXPECT_TRUE(has(page, "crossgrain rev"));
+  EXPECT_TRUE(has(page,
+                  "3 snapshots of grain: 1 field under 2 weights, in rings of widths from 0.5 "
+                  "to 2.2 d."));
+  EXPECT_TRUE(has(page, "Nothing was run and nothing compared but ways of averaging"));
+  // Under "near d" of the first method, and dashes where no width was there to meet at.
+  EXPECT_TRUE(has(page, "<td class=\"n\">0.95 (1 %)</td><td class=\"n\">–</td>"));
 }
 
 TEST(Svg, IsShortenedWithoutTouchingWords) {

@@ -56,6 +56,7 @@ Json variant(const std::string& name, double stick, double constant) {
       {"variant", name},
       {"law",
        {{"normal", "linear"}, {"tangential", "spring_dashpot"}, {"tension", "cut"}, {"mu", 0.44}}},
+      {"effects", {"normal_damping", "friction", "tangential_spring", "rotation"}},
       {"e_n_closed", 0.3408},
       {"sticking", {{"e_t0", stick}}},
       {"sliding_constant", constant},

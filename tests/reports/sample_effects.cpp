@@ -48,8 +48,12 @@ Json fields(double change, bool decided) {
                   {"stderr", 0.01 * scale},
                   {"p", changed ? 1e-5 : 1.0},
                   {"resolved", changed},
-                  {"smallest", 0.05 * scale}};
-      if (!decided) row["p"] = row["resolved"] = row["smallest"] = nullptr;
+                  {"low", (changed ? shift : 0.0005 * scale) - 0.05 * scale},
+                  {"high", (changed ? shift : 0.0005 * scale) + 0.05 * scale},
+                  {"smallest", 0.05 * scale},
+                  {"verdict", "undecided"}};
+      if (!decided)
+        for (const char* told : {"p", "resolved", "low", "high", "smallest"}) row[told] = nullptr;
       field["rings"].push_back(row);
     }
     all.push_back(field);

@@ -35,6 +35,108 @@ TEST(CollisionSweep, ScoresTheWholeCurveInUnitsOfItsRange) {
   EXPECT_EQ(shortOf["score"]["verdict"], "fell short");
 }
 
+TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
+  Case setup = test::smallPairCase();
+  const double jump = setup.law.mu * setup.law.gn / setup.law.gt;
+  setup.collision.psi = {0.2, jump, 3.0};
+  setup.collision.vn = {0.01};
+  setup.collision.margins["psi_f"] = {0.01, false, "because"};
+  const auto starts = collisionStarts(setup);
+  const auto oracle = oracleCurve(setup, starts);
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
+  const auto engine = makeGrain();
+  const json curve = runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, starts, oracle, false);
+  EXPECT_EQ(curve["points"]["status"], (json{"parted", "no limit", "parted"}));
+  EXPECT_NE(curve["points"]["reason"][1].get<std::string>().find("jumps"), std::string::npos);
+  EXPECT_EQ(curve["points"]["reason"][0], "");
+  EXPECT_EQ(curve["score"]["verdict"], "held");
+  EXPECT_FALSE(referenceOf(oracle)[1]);
+  // Against the branch that the oracle takes there the engine would have fallen short.
+  const double other = std::abs(oracle.ends[1]->psi - curve["points"]["psi_f"][1].get<double>());
+  EXPECT_GT(other, 0.01);
+
+  setup.collision.psi = {0.2, 0.95 * jump, 1.05 * jump, 3.0};
+  const auto nearby = collisionStarts(setup);
+  const json judged =
+      runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, nearby, oracleCurve(setup, nearby), false);
+  EXPECT_EQ(judged["points"]["status"], (json{"parted", "parted", "parted", "parted"}));
+  EXPECT_EQ(judged["score"]["verdict"], "held") << judged["score"].dump();
+}
+
+TEST(CollisionSweep, OfOneStartWithoutALimitNothingIsJudged) {
+  Case setup = test::smallPairCase();
+  setup.collision.psi = {setup.law.mu * setup.law.gn / setup.law.gt};
+  setup.collision.vn = {0.01};
+  setup.collision.margins["psi_f"] = {0.01, false, "because"};
+  const auto starts = collisionStarts(setup);
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
+  const auto engine = makeGrain();
+  EXPECT_EQ(runSweep(*engine, entry, setup, 2.18e-3 / 100.0, starts, oracleCurve(setup, starts),
+                     false)["score"]["verdict"],
+            "not judged");
+}
+
+/// What a table tells of where the energy went adds up to what was lost.
+void expectClosedAccount(const json& table, double within) {
+  constexpr const char* parts[] = {"lost_normal_damping", "lost_tangential_damping",
+                                   "lost_stiffening", "lost_sliding", "lost_stored"};
+  for (std::size_t k = 0; k < table["energy_before"].size(); ++k) {
+    const double before = table["energy_before"][k],
+                 lost = before - table["energy_after"][k].get<double>();
+    double sum = 0.0;
+    for (const char* part : parts)
+      if (table.contains(part)) sum += table[part][k].get<double>();
+    EXPECT_NEAR(sum, lost, within * before) << "psi " << table["psi_i"][k];
+    EXPECT_NEAR(
+        table["lost_normal_damping"][k].get<double>() + table["lost_tangential"][k].get<double>(),
+        lost, within * before)
+        << "psi " << table["psi_i"][k];
+  }
+}
+
+TEST(CollisionSweep, PartsOfTheEnergyAddUpToWhatWasLostForEveryLaw) {
+  Case setup = test::smallPairCase();
+  setup.collision.psi = {0.0, 0.3, 1.0, 2.0, 4.0};
+  setup.collision.vn = {0.01};
+  const auto starts = collisionStarts(setup);
+  bool stiffened = false;
+  for (const NormalLaw normal : {NormalLaw::linear, NormalLaw::hertz, NormalLaw::polynomial})
+    for (const TangentialLaw tangential :
+         {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous,
+          TangentialLaw::spring, TangentialLaw::springDashpot})
+      for (const History history : {History::displacement, History::force}) {
+        setup.law = test::thesisLaw();
+        setup.law.normal = normal;
+        setup.law.tangential = tangential;
+        setup.law.conventions.history = history;
+        if (normal == NormalLaw::hertz) {
+          setup.law.kn = 1e6;
+          setup.law.kt = 0.8e6;
+          setup.law.damper = Damper::viscoelastic;
+          setup.law.gn = setup.law.gt = 1e-5;
+        }
+        if (normal == NormalLaw::polynomial) setup.law.kn = 8.456e6;
+        const json table = columnsOf(starts, outcomesOf(oracleCurve(setup, starts)));
+        // Nine digits of each part.
+        expectClosedAccount(table, 1e-8);
+        for (const auto& part : table.value("lost_stiffening", json::array()))
+          stiffened = stiffened || std::abs(part.get<double>()) > 1e-3 * 1e-12;
+      }
+  EXPECT_TRUE(stiffened);  // else the part that was missing is not tested
+}
+
+TEST(CollisionSweep, PartsThatAnEngineShowsAddUpAsFarAsASumOverStepsCan) {
+  Case setup = test::smallPairCase();
+  setup.collision.psi = {0.3, 1.0, 2.0, 4.0};
+  setup.collision.vn = {0.01};
+  const auto starts = collisionStarts(setup);
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
+  const auto engine = makeGrain();
+  const json curve =
+      runSweep(*engine, entry, setup, 2.18e-3 / 400.0, starts, oracleCurve(setup, starts), true);
+  expectClosedAccount(curve["points"], 0.01);
+}
+
 TEST(CollisionSweep, ALawWithoutALimitHasNoReference) {
   Case setup = test::smallPairCase();
   setup.law.conventions.dashpot = Dashpot::outside;

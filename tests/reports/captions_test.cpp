@@ -1,0 +1,192 @@
+// Captions name what is drawn and nothing else, and lines that they name lie on the axis.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "cases/files.hpp"
+#include "reports/cost_panels.hpp"
+#include "reports/figures.hpp"
+#include "reports/gnuplot.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/reports/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+/// The y axis that a figure's script asks for: "LOW:HIGH".
+std::string yRangeOf(const Panel& panel) {
+  Figure figure;
+  figure.name = "one";
+  figure.panels = {panel};
+  const TemporaryFolder folder;
+  writeFigure(figure, folder.path());
+  const std::string script = readFile(folder.path() / "one.gp").value();
+  std::smatch found;
+  std::regex_search(script, found, std::regex(R"(set yrange \[(.*)\])"));
+  return found[1];
+}
+
+Panel panelWith(std::vector<double> values, double level, bool logarithmic) {
+  Panel panel;
+  panel.logY = logarithmic;
+  panel.level = level;
+  Curve curve;
+  for (const double value : values) curve.points.push_back({1.0, value, {}});
+  panel.curves = {curve};
+  return panel;
+}
+
+TEST(Axes, HoldThePanelsLine) {
+  // A limit of 0.01 beside values that never came near it, and one far below them.
+  EXPECT_EQ(yRangeOf(panelWith({1e-6, 3e-6}, 0.01, true)), "1e-06:0.01");
+  EXPECT_EQ(yRangeOf(panelWith({5.0, 2e4}, 0.01, true)), "0.01:100000");
+  EXPECT_EQ(yRangeOf(panelWith({2.0, 3.0}, 2.5, true)), fmt::format("{}:{}", 2.0 / 1.3, 3.9));
+  // Eight decades of data at most, whatever noise lies below, but the line in any case.
+  EXPECT_EQ(yRangeOf(panelWith({1e-30, 1.0}, 0.1, true)), "1e-08:1");
+  EXPECT_EQ(yRangeOf(panelWith({1e-30, 1.0}, 1e-12, true)), "1e-12:1");
+  // A linear axis is gnuplot's choice, bounded so that the line is within.
+  EXPECT_EQ(yRangeOf(panelWith({1.0, 2.0}, 3.5, false)), "*<3.5:3.5<*");
+}
+
+TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
+  int named = 0;
+  for (const Figure& figure : stabilityFigures(sample::stabilityResults())) {
+    if (!has(figure.caption, "the grey line is the limit")) continue;
+    ++named;
+    ASSERT_TRUE(figure.panels[0].level);
+  }
+  EXPECT_GT(named, 0);
+}
+
+/// What a cost figure's caption names against what its panels hold.
+TEST(Captions, OfCostNameMarksThatAreThere) {
+  Json results = sample::costResults();
+  const auto check = [](const std::vector<Figure>& figures) {
+    for (const Figure& figure : figures) {
+      if (!figure.name.starts_with("cost_")) continue;
+      const auto shaded = std::ranges::any_of(
+          figure.panels, [](const Panel& panel) { return panel.shadedTo.has_value(); });
+      const auto front = draws(figure, [](const Curve& c) { return c.name == "Pareto front"; });
+      if (figure.name == "cost_contacts") continue;  // its caption names no marks
+      EXPECT_EQ(has(figure.caption, "▽"), drawsMark(figure, openTriangle)) << figure.name;
+      EXPECT_EQ(has(figure.caption, "×"), drawsMark(figure, crossMark)) << figure.name;
+      EXPECT_EQ(has(figure.caption, "Pareto front"), front) << figure.name;
+      EXPECT_EQ(has(figure.caption, "Grey: what the reference"), shaded) << figure.name;
+    }
+  };
+  check(costFigures(results));
+  Json bare = results;  // no failure, no front, nothing uncertain
+  bare["fronts"] = Json::array();
+  Json points = Json::array();
+  for (Json point : results["points"]) {
+    if (point["status"] != "ran") continue;
+    point["statistical"] = point["reference_error"] = nullptr;
+    points.push_back(point);
+  }
+  for (Json& order : bare["orders"]) order["used"] = order["left_out"] = Json::array();
+  bare["points"] = points;
+  check(costFigures(bare));
+}
+
+TEST(Captions, OfAGreyBandThatLiesBelowTheAxisSayNothing) {
+  CostRow row;
+  row.kind = "collision";
+  row.status = "ran";
+  row.error = 0.1;
+  row.reference = 1e-9;
+  const CostAxis axis{[](const CostRow&) { return std::optional(1.0); }, "x"};
+  EXPECT_FALSE(errorPanel({row}, "psi_f", axis).shadedTo);
+  row.reference = 0.09;
+  EXPECT_EQ(errorPanel({row}, "psi_f", axis).shadedTo, 0.09);
+}
+
+/// Averages over a single packing say nothing: they are neither on a front nor drawn.
+TEST(CostRows, AveragesWithoutAStatisticalErrorCountNowhere) {
+  CostRow row;
+  row.kind = "averages";
+  row.status = "ran";
+  row.error = 0.1;
+  EXPECT_FALSE(row.counted());
+  row.statistical = 0.01;
+  EXPECT_EQ(row.counted(), 0.1);
+  row.kind = "collision";
+  row.statistical.reset();
+  EXPECT_EQ(row.counted(), 0.1);
+}
+
+/// A variant whose energy is known part by part, and one of rigid disks.
+Json energies() {
+  return Json::parse(R"({
+    "kind": "collide", "case": {"name": "c"}, "engines": [{"name": "e", "mirrors": ""}],
+    "variants": [
+     {"variant": "hertz", "curves": [{"engine": "e", "dt": 1e-5, "points":
+        {"psi_i": [0, 2], "energy_before": [1, 2], "energy_after": [0.5, 1],
+         "lost_normal_damping": [0.4, 0.5], "lost_tangential": [0.1, 0.5]}}],
+      "oracle": {"psi_i": [0, 2], "psi_f": [0, 1], "energy_before": [1, 2],
+         "energy_after": [0.5, 1], "lost_normal_damping": [0.4, 0.5],
+         "lost_tangential": [0.1, 0.5], "lost_tangential_damping": [0.05, 0.1],
+         "lost_stiffening": [0.02, -0.1], "lost_sliding": [0.02, 0.4],
+         "lost_stored": [0.01, 0.1]}},
+     {"variant": "rigid", "curves": [], "oracle": {"psi_i": [0, 2], "psi_f": [0, 1],
+         "energy_before": [1, 2], "energy_after": [0.5, 1]}}]})");
+}
+
+TEST(EnergyFigure, PartsAddUpToAllThatWasLost) {
+  const auto figures = collideFigures(energies());
+  const auto figure = std::ranges::find(figures, "collision_1_energy", &Figure::name);
+  ASSERT_NE(figure, figures.end());
+  const Panel& panel = figure->panels[0];
+  std::vector<double> all(2), parts(2), ofEngine(2), engineAll(2);
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points) {
+      const auto k = static_cast<std::size_t>(point.x / 2.0);
+      const bool total = curve.style.colour == "#222222";
+      if (curve.draw == Draw::lines)
+        (total ? all : parts)[k] += point.y;
+      else
+        (total ? engineAll : ofEngine)[k] += point.y;
+    }
+  for (const std::size_t k : {0u, 1u}) {
+    EXPECT_NEAR(all[k], 0.5, 1e-12);
+    // The oracle's own tangential part is drawn by its parts alone.
+    EXPECT_NEAR(parts[k], all[k], 1e-12);
+    EXPECT_NEAR(ofEngine[k], engineAll[k], 1e-12);
+  }
+  for (const char* named : {"stiffness, which follows the overlap", "all that was lost"})
+    EXPECT_TRUE(has(figure->caption, named)) << named;
+}
+
+TEST(EnergyFigure, NamesThePartsThatAreThere) {
+  Json results = energies();
+  results["variants"].erase(0);  // rigid disks: what was lost, and no parts
+  const auto figures = collideFigures(results);
+  const auto figure = std::ranges::find(figures, "collision_1_energy", &Figure::name);
+  ASSERT_NE(figure, figures.end());
+  EXPECT_TRUE(has(figure->caption, "all that was lost"));
+  for (const char* absent : {"sliding", "dashpot", "stiffness"})
+    EXPECT_FALSE(has(figure->caption.substr(0, figure->caption.find(" Lines:")), absent)) << absent;
+}
+
+TEST(CollideFigure, MarksPointsWithoutALimitAndNamesOnlyWhatItDraws) {
+  Json results = sample::collideResults();
+  const auto captionOf = [](const Json& of) { return collideFigures(of).front().caption; };
+  EXPECT_FALSE(has(captionOf(results), "Red squares"));
+  EXPECT_TRUE(has(captionOf(results), "Dashed grey"));
+  results["variants"][0]["no_limit"] = {{{"psi_i", 0.5}, {"psi_f", -0.2}, {"reason", "it jumps"}}};
+  EXPECT_TRUE(has(captionOf(results), "Red squares"));
+  for (Json& variant : results["variants"]) {
+    variant["sliding_constant"] = variant["sticking"]["e_t0"] = nullptr;
+    variant.erase("oracle");
+  }
+  EXPECT_FALSE(has(captionOf(results), "Dashed grey"));
+  EXPECT_FALSE(has(captionOf(results), "Grey: the oracle"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports
