@@ -136,7 +136,7 @@ bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
     // The rates are those at Ψ_j itself: near δ = 0 those of a law that stiffens are differences
     // of large numbers.
     State exact = s;
-    exact.spinI += (1.0 - limit / std::abs(tested)) * touch.tangentialVelocity / touch.leverI;
+    exact.spinI += (1.0 - limit / std::abs(tested)) * touch.tangentialVelocity / touch.armI;
     const Kinematics k = kinematics(exact);
     const double stretching =
         -tangentialStiffness(k.overlap).value * k.tangentialVelocity * phase_.side;

@@ -11,7 +11,7 @@ namespace crossgrain {
 /// Averages the snapshots of an HDF5 file (README.md has its layout) with the rings and methods of
 /// a Couette case. Nothing is run: of the case only the cell, the averaging and the law's constants
 /// count.
-/// @return results.json, kind "compare", of one engine and one packing
+/// @return results.json, kind "average", of one engine and one packing
 /// @throws BadInput naming the file and what does not fit
 nlohmann::json averageSnapshots(const Case& setup, const std::filesystem::path& file,
                                 const std::string& commandLine);
