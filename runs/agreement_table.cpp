@@ -117,8 +117,7 @@ json ensembleDistribution(const std::vector<const json*>& runs, json like) {
 /// In the field's unit; of a relative one none where the reference has nothing.
 json marginOf(const TestedRing& ring, const Margin& margin) {
   if (!margin.relative) return margin.value;
-  const double size = std::abs(ring.reference);
-  return size > 0.0 ? json(margin.value * size) : json(nullptr);
+  return ring.reference > 0.0 ? json(margin.value * ring.reference) : json(nullptr);
 }
 
 /// What was found, in the field's unit: a ratio as the difference that it makes to the reference.
