@@ -104,15 +104,30 @@ ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
   return law;
 }
 
+namespace {
+
+/// All that is not listed at once, so that nobody has to ask again and again.
+void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::string>& mayDiffer) {
+  std::vector<std::string> reasons, names;
+  for (const Mismatch& mismatch : all) {
+    if (std::ranges::find(mayDiffer, mismatch.name) != mayDiffer.end()) continue;
+    reasons.push_back(mismatch.reason);
+    names.push_back('"' + mismatch.name + '"');
+  }
+  if (!names.empty())
+    throw UnsupportedScene(
+        fmt::format("{}; list {} under [run] may_differ to run it all the same",
+                    fmt::join(reasons, "; "), fmt::join(names, ", ")));
+}
+
+}  // namespace
+
 Adapted adaptScene(const Capabilities& can, const Scene& scene,
                    const std::vector<std::string>& mayDiffer) {
   Adapted adapted{scene, {}};
-  for (const Mismatch& mismatch : mismatches(can, scene)) {
-    if (std::ranges::find(mayDiffer, mismatch.name) == mayDiffer.end())
-      throw UnsupportedScene(
-          fmt::format("{}; list \"{}\" under [run] may_differ to run it all the "
-                      "same",
-                      mismatch.reason, mismatch.name));
+  const std::vector<Mismatch> all = mismatches(can, scene);
+  refuseUnlisted(all, mayDiffer);
+  for (const Mismatch& mismatch : all) {
     adapted.deviations.push_back({mismatch.name, 0.0, "", mismatch.reason});
     if (mismatch.effectMissing)
       for (const Effect effect : allEffects)

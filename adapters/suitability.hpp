@@ -37,8 +37,7 @@ struct Adapted {
   std::vector<Deviation> deviations;
 };
 
-/// @throws UnsupportedScene naming the first mismatch that is not in mayDiffer, and where to list
-/// it
+/// @throws UnsupportedScene naming every mismatch that is not in mayDiffer, and where to list them
 Adapted adaptScene(const Capabilities& can, const Scene& scene,
                    const std::vector<std::string>& mayDiffer);
 

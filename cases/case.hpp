@@ -17,6 +17,9 @@
 
 namespace crossgrain {
 
+/// The most disks that a case may have, wall disks too: checked before room for them is taken.
+inline constexpr int mostDisks = 1'000'000;
+
 /// The Couette shear cell (Lätzel 2003, chapter 3). All wall disks' centres lie on R_i and R_o.
 struct Cell {
   double innerRadius = 0.0;  ///< R_i, the wheel, centre at the origin [m]
@@ -52,7 +55,8 @@ struct Preparation {
 struct Margin {
   double value = 0.0;  ///< in the field's unit, or a fraction of the reference's mean
   bool relative = false;
-  std::string why;  ///< not optional in a case file
+  std::string why;    ///< not optional in a case file
+  std::string scale;  ///< of which the case file says a share (scales.hpp); empty: `value` is said
 };
 
 struct Averaging {
@@ -117,6 +121,7 @@ struct Case {
   std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
+  std::vector<std::string> warnings;        ///< what loads, but is hardly meant; one line each
 };
 
 }  // namespace crossgrain

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cases/files.hpp"
+#include "cases/input_file.hpp"
 
 namespace crossgrain {
 namespace {
@@ -117,6 +118,9 @@ void Hdf5File::save() {
 
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   auto lock = lockLibrary();
+  // A named pipe would be waited for without end.
+  if (const std::string why = whyNoFile(file); !why.empty())
+    fail(file, fmt::format("{}: cannot be read as an HDF5 file{}", why, nearestFile(file, ".h5")));
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) fail(file, "cannot be read as an HDF5 file");
   return {id, file, Place::disk, std::move(lock)};
@@ -174,14 +178,21 @@ bool Hdf5File::holds(const std::string& path) const {
   }
 }
 
-std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const {
+std::optional<std::size_t> Hdf5File::length(const std::string& path) const {
   if (!holds(path)) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
   const Handle space(H5Dget_space(set));
-  constexpr hssize_t most = 1'000'000'000;  // a damaged file may claim any size
+  constexpr hssize_t most = 100'000'000;  // a damaged file may claim any size
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 0 || count > most) fail(name_, path + " is damaged");
-  std::vector<double> values(static_cast<std::size_t>(count));
+  return static_cast<std::size_t>(count);
+}
+
+std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const {
+  const auto count = length(path);
+  if (!count) return std::nullopt;
+  const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  std::vector<double> values(*count);
   if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(name_, path + " cannot be read");
   return values;

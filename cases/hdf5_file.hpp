@@ -42,6 +42,8 @@ class Hdf5File {
 
   bool holds(const std::string& path) const;
 
+  /// How many numbers an array has; absent if the file has none of that name.
+  std::optional<std::size_t> length(const std::string& path) const;
   /// The whole array, row by row; absent if the file has none of that name.
   std::optional<std::vector<double>> read(const std::string& path) const;
   std::optional<double> readAttribute(const std::string& name) const;

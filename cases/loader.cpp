@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_print.hpp"
 #include "cases/loader_sections.hpp"
+#include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
 
@@ -90,10 +93,33 @@ void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
     cell.fail("outer_radius", fmt::format("a disk of radius {} m does not fit between the walls, "
                                           "{:.4g} m apart",
                                           p.largeRadius, gap));
+  const double walls =
+      2.0 * std::numbers::pi * (c.cell.innerRadius + c.cell.outerRadius) / c.cell.wallSpacing;
+  if (walls > mostDisks)
+    cell.fail("wall_spacing",
+              fmt::format("makes {:.3g} wall disks: a case may have at most {}", walls, mostDisks));
   checkHoles(cell, c);
   if (volumeFraction(c) >= 1.0)
-    particles.fail("small", fmt::format("the disks have {:.4g} times the area of the cell",
-                                        volumeFraction(c)));
+    particles.fail(
+        particles.has("small")             ? "small"
+        : particles.has("volume_fraction") ? "volume_fraction"
+                                           : "large",
+        fmt::format("the disks have {:.4g} times the area of the cell", volumeFraction(c)));
+}
+
+/// Runs that no machine ends are mistyped numbers.
+void checkLength(const Reader& cell, const Case& c) {
+  constexpr double mostSteps = 1e12;
+  const double rotations =
+      c.preparation.rotations + c.averaging.settleRotations + c.averaging.rotations;
+  const double time =
+      c.preparation.shrinkTime + rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
+  const double steps = time / timeStep(c);
+  if (!(steps <= mostSteps))
+    cell.fail("omega",
+              fmt::format("preparation, settling and averaging would take {:.3g} steps: at "
+                          "most {:g}",
+                          steps, mostSteps));
 }
 
 void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
@@ -104,14 +130,15 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader averaging = root.section("averaging");
   Reader cost = root.section("cost");
   readCell(cell, c.cell);
-  readParticles(particles, c.particles);
+  readParticles(particles, c.cell, c.particles);
   if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
   readPreparation(preparation, c.preparation);
-  readAveraging(averaging, c.averaging);
+  readAveraging(averaging, c, c.averaging);
   requireStep(run, c);
   readCost(cost, c.cost);
   checkDamping(law, c);
   checkFit(cell, particles, c);
+  if (c.run.dt || !c.particles.file) checkLength(cell, c);
 }
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
@@ -142,6 +169,13 @@ void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   checkDamping(law, c);
 }
 
+/// Paths in a document that is kept or printed must not hang on where it came from.
+void makeAbsolute(toml::table& root, const Case& c) {
+  if (!c.particles.file) return;
+  toml::node* const node = root.at_path("particles.file").node();
+  *node->as_string() = std::filesystem::absolute(*c.particles.file).string();
+}
+
 Case readCase(const std::filesystem::path& file, CaseDocument& document) {
   Case c;
   c.file = file;
@@ -170,8 +204,30 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
   readKind(root, law, run, c);
 
   document.root["case"].as_table()->insert("name", c.name);
+  makeAbsolute(document.root, c);
   c.resolvedToml = printDocument(document.root);
   return c;
+}
+
+/// A step in seconds fits the contacts of the file that says it: where a later layer changes law or
+/// disks, it may not. @param said  the file with [run] dt
+void warnOfStep(Case& c, const std::filesystem::path& said) {
+  const auto here = pairContactTime(c);
+  if (!here) return;
+  try {
+    CaseDocument document = readBaseDocument(said);
+    const Case there = readCase(said, document);
+    const auto time = pairContactTime(there);
+    constexpr double same = 0.01;
+    if (!time || there.run.dt != c.run.dt || std::abs(*here / *time - 1.0) < same) return;
+    c.warnings.push_back(
+        fmt::format("run.dt = {:g} s is that of {}, where a contact lasts {:.3g} s, {:.3g} steps; "
+                    "here it lasts "
+                    "{:.3g} s, {:.3g} steps: give dt anew, or steps_per_contact",
+                    *c.run.dt, said.string(), *time, *time / *c.run.dt, *here, *here / *c.run.dt));
+  } catch (const BadInput&) {
+    return;  // not a case by itself: it had no contacts to fit
+  }
 }
 
 }  // namespace
@@ -179,9 +235,20 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
 std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides, const std::string& fragment) {
   std::vector<Case> cases;
-  for (CaseDocument& document : readCaseDocuments(file, overrides, fragment))
-    cases.push_back(readCase(file, document));
+  for (CaseDocument& document : readCaseDocuments(file, overrides, fragment)) {
+    const toml::node* const step = document.root.at_path("run.dt").node();
+    const auto said = step ? fileOf(step->source()) : std::nullopt;
+    Case& c = cases.emplace_back(readCase(file, document));
+    if (said && c.run.dt) warnOfStep(c, *said);
+  }
   return cases;
+}
+
+std::string resolvedFile(const std::vector<Case>& cases) {
+  if (cases.size() == 1 && cases.front().variant.empty()) return cases.front().resolvedToml;
+  std::string text = fmt::format("[case]\nname = \"{}\"\n", cases.front().name);
+  for (const Case& c : cases) text += '\n' + printVariant(toml::parse(c.resolvedToml), c.variant);
+  return text;
 }
 
 }  // namespace crossgrain

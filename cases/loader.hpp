@@ -22,4 +22,8 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides = {},
                            const std::string& fragment = {});
 
+/// What loadCase() gave, all layers merged, as one case file that loads to the same again, wherever
+/// it lies: one case as it is, several as variants of each of which everything is said.
+std::string resolvedFile(const std::vector<Case>& cases);
+
 }  // namespace crossgrain

@@ -10,8 +10,6 @@
 namespace crossgrain {
 namespace {
 
-constexpr double manyDisks = 1'000'000;
-
 /// [x, y] where the key is there.
 void readVector(Reader& in, std::string_view key, Vec2& target, const char* unit) {
   std::vector<double> values;
@@ -39,13 +37,17 @@ Vec2 readSpacing(Reader& in, const Vec2& otherwise) {
 std::vector<Vec2> readGrid(Reader in) {
   int columns = 1, rows = 1;
   bool triangular = false;
-  in.require("columns", columns, between(1, manyDisks));
-  in.require("rows", rows, between(1, manyDisks));
+  in.require("columns", columns, between(1, mostDisks));
+  in.require("rows", rows, between(1, mostDisks));
   in.read("triangular", triangular);
   const double lines = triangular ? std::sqrt(0.75) : 1.0;
   Vec2 spacing = readSpacing(in, {1.0, 1.0});
   if (spacing.x() == spacing.y()) spacing.y() *= lines;
   in.finish();
+  const double places = static_cast<double>(columns) * rows;
+  if (places > mostDisks)
+    in.fail("columns", fmt::format("times {} rows are {:.3g} disks: a case may have at most {}",
+                                   rows, places, mostDisks));
   return gridPlaces(columns, rows, spacing, triangular);
 }
 
@@ -185,13 +187,25 @@ void readDuration(Reader& in, Assembly& assembly) {
 }  // namespace
 
 void readAssembly(Reader& in, Assembly& assembly) {
-  for (Reader& disks : in.sections("disks")) assembly.disks.push_back(readDisks(std::move(disks)));
-  for (Reader& walls : in.sections("walls")) assembly.walls.push_back(readWalls(std::move(walls)));
+  std::size_t disksSoFar = 0;
+  const auto count = [&](const char* key, std::size_t more) {
+    disksSoFar += more;
+    if (disksSoFar > static_cast<std::size_t>(mostDisks))
+      in.fail(key, fmt::format("these are more than the {} disks that a case may have", mostDisks));
+  };
+  for (Reader& disks : in.sections("disks")) {
+    assembly.disks.push_back(readDisks(std::move(disks)));
+    count("disks", assembly.disks.back().places.size());
+  }
+  for (Reader& walls : in.sections("walls")) {
+    assembly.walls.push_back(readWalls(std::move(walls)));
+    count("walls", assembly.walls.back().position.size());
+  }
   readVector(in, "gravity", assembly.gravity, "m/s^2");
   in.read("inertia_factor", assembly.inertiaFactor, aboveZeroTo(1.0));
   in.read("rotation", assembly.rotation);
   in.read("max_overlap", assembly.maxOverlap, between(0.0, 2.0));
-  in.read("seed", assembly.seed, atLeast(0));
+  in.read("seed", assembly.seed, between(0, mostSeed));
   in.read("mirror", assembly.mirror);
   double degrees = 0.0;
   in.read("rotate", degrees, Range{.unit = "degrees"});
@@ -211,18 +225,16 @@ void readAssembly(Reader& in, Assembly& assembly) {
 void readStability(Reader& in, Stability& stability) {
   std::vector<std::string> names;
   for (const StabilityMeasure& measure : stabilityMeasures()) names.emplace_back(measure.name);
-  in.require("tests", stability.tests);
+  in.requireText("tests", stability.tests, "must say in a sentence what it tests");
   in.require("measure", stability.measure, names);
   in.require("limit", stability.limit, atLeast(0.0));
   in.require("degraded", stability.degraded, atLeast(0.0));
-  in.require("why", stability.why);
+  in.requireText("why", stability.why, "must give the reason");
   in.read("samples", stability.samples, between(1, 100'000));
   in.read("settle", stability.settle, Range{.low = 0.0, .high = 1.0, .highOpen = true});
   in.read("quick", stability.quick);
   in.read("long", stability.longRun);
   in.finish();
-  if (stability.tests.empty()) in.fail("tests", "must say in a sentence what it tests");
-  if (stability.why.empty()) in.fail("why", "must give the reason");
   if (stability.degraded < stability.limit)
     in.fail("degraded", fmt::format("must be >= limit = {}", stability.limit));
 }

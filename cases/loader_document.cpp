@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "cases/bad_input.hpp"
+#include "cases/input_file.hpp"
 
 namespace crossgrain {
 namespace {
@@ -19,10 +20,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view overridePrefix = "--set ";
+constexpr const char* caseExtension = ".toml";
+constexpr std::size_t longestName = 80;
 
-/// Two ways to say one thing: the later layer's choice replaces the earlier layer's other choice.
-constexpr std::array<std::array<std::string_view, 2>, 2> rivals = {
-    {{"dt", "steps_per_contact"}, {"relative", "absolute"}}};
+constexpr std::string_view fragmentName = "fragment";
+/// Before the names of files outside the case's own folder; no file's name begins like that.
+constexpr std::string_view foreignMark = "\x1f";
+
+/// Ways to say one thing, of one key or of some: what a later layer says in one way replaces what
+/// an earlier layer said in another.
+using Way = std::vector<std::string_view>;
+const std::vector<std::vector<Way>> rivals = {
+    {{"dt"}, {"steps_per_contact"}},
+    {{"relative"}, {"absolute"}, {"share", "of"}},
+    {{"small", "large"}, {"volume_fraction", "large_number_share", "large_mass_share"}},
+    {{"large_number_share"}, {"large_mass_share"}},
+    {{"small_mass", "large_mass"}, {"density"}},
+};
 
 toml::table parse(std::string_view text, const std::string& source) {
   try {
@@ -32,19 +46,30 @@ toml::table parse(std::string_view text, const std::string& source) {
   }
 }
 
-toml::table parseFile(const fs::path& file) {
-  if (!isFile(file)) throw BadInput(file.string() + ": no such file");
+/// @param foreign  outside the case's own folder: nothing of it is quoted
+toml::table parseFile(const fs::path& file, bool foreign) {
+  if (const std::string why = whyNoFile(file); !why.empty())
+    throw BadInput(fmt::format("{}: {}{}", file.string(), why, nearestFile(file, caseExtension)));
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw BadInput(file.string() + ": cannot be read");
-  return parse(text, file.string());
+  if (!foreign) return parse(text, file.string());
+  try {
+    return toml::parse(text, std::string(foreignMark) + file.string());
+  } catch (const toml::parse_error& error) {
+    throw BadInput(location(error.source()) + "this is not TOML: no case can extend it");
+  }
 }
 
 void dropRivals(toml::table& base, const toml::table& changes) {
-  for (const auto& [one, other] : rivals) {
-    if (changes.contains(one)) base.erase(other);
-    if (changes.contains(other)) base.erase(one);
-  }
+  const auto said = [&](std::string_view key) { return changes.contains(key); };
+  for (const std::vector<Way>& ways : rivals)
+    for (const Way& way : ways) {
+      if (std::ranges::none_of(way, said)) continue;
+      for (const Way& other : ways)
+        if (&other != &way)
+          for (const std::string_view key : other) base.erase(key);
+    }
 }
 
 /// Moves, because a copied node of toml++ forgets where it came from.
@@ -67,17 +92,28 @@ std::optional<fs::path> takeBase(toml::table& document, const fs::path& file) {
   const toml::node* const node = document.at_path("case.extends").node();
   if (!node) return std::nullopt;
   const auto name = node->value_exact<std::string>();
-  if (!name)
+  if (!name || name->empty())
     throw BadInput(location(node->source()) + "case.extends: must be the path of a case file");
   const fs::path base = (file.parent_path() / *name).lexically_normal();
-  if (!isFile(base))
-    throw BadInput(fmt::format("{}case.extends = \"{}\": no such file (looked for {})",
-                               location(node->source()), *name, base.string()));
+  if (const std::string why = whyNoFile(base); !why.empty()) {
+    const std::string where = location(node->source());
+    if (isForeign(node->source())) throw BadInput(where + "case.extends: " + why);
+    throw BadInput(fmt::format("{}case.extends = \"{}\": {} (looked for {}){}", where, *name, why,
+                               base.string(), nearestFile(base, caseExtension)));
+  }
   document["case"].as_table()->erase("extends");
   return base;
 }
 
-/// @param chain  files on the way here, to find a cycle
+/// Whether a file lies in a folder, or below it, links followed.
+bool liesIn(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path inner = fs::weakly_canonical(file, error);
+  const fs::path outer = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  return std::ranges::mismatch(outer, inner).in1 == outer.end();
+}
+
+/// @param chain  files on the way here, the case's own first, to find a cycle
 toml::table readWithBases(const fs::path& file, std::vector<fs::path> chain = {}) {
   const bool cycle =
       std::ranges::any_of(chain, [&](const fs::path& seen) { return fs::equivalent(seen, file); });
@@ -88,7 +124,8 @@ toml::table readWithBases(const fs::path& file, std::vector<fs::path> chain = {}
     throw BadInput(fmt::format("{}: case.extends goes round in a circle: {}",
                                chain.front().string(), fmt::join(names, " -> ")));
   }
-  toml::table document = parseFile(file);
+  const bool foreign = chain.size() > 1 && !liesIn(file, chain.front().parent_path());
+  toml::table document = parseFile(file, foreign);
   const auto base = takeBase(document, file);
   if (!base) return document;
   toml::table merged = readWithBases(*base, std::move(chain));
@@ -109,8 +146,10 @@ toml::table parseOverride(const std::string& text) {
   } catch (const toml::parse_error&) {
     const std::string value = text.substr(equals + 1);
     const bool word = value.find_first_of("\"'[]{}\\") == std::string::npos;
-    if (!word) return parse(text, source);
-    return parse(text.substr(0, equals) + "=\"" + value + '"', source);
+    const bool digits = value.find_first_not_of("0123456789_+-") == std::string::npos;
+    if (!word ||
+        digits)  // a whole number that is no TOML has too many digits return parse(text, source);
+      return parse(text.substr(0, equals) + "=\"" + value + '"', source);
   }
 }
 
@@ -134,8 +173,9 @@ std::string takeVariantName(toml::table& variant, std::set<std::string>& taken) 
   const std::string where = location(node->source()) + "variants.name: ";
   const auto name = node->value_exact<std::string>();
   if (!name) throw BadInput(where + "must be a string");
-  if (!usableName(*name)) throw BadInput(fmt::format("{}\"{}\" {}", where, *name, usableNameRule));
-  if (!taken.insert(*name).second) throw BadInput(where + '"' + *name + "\" is there twice");
+  const std::string quoted = isForeign(node->source()) ? "" : fmt::format("\"{}\" ", *name);
+  if (!usableName(*name)) throw BadInput(where + quoted + usableNameRule);
+  if (!taken.insert(*name).second) throw BadInput(where + quoted + "is there twice");
   variant.erase("name");
   return *name;
 }
@@ -151,22 +191,39 @@ bool usableName(std::string_view name) {
     return std::isalnum(c) ||
            std::string_view("._-+").find(static_cast<char>(c)) != std::string_view::npos;
   };
-  return !name.empty() && name.front() != '.' && std::ranges::all_of(name, allowed);
-}
-
-bool isFile(const fs::path& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored);
+  return !name.empty() && name.size() <= longestName && name.front() != '.' &&
+         std::ranges::all_of(name, allowed);
 }
 
 bool isOverride(const toml::source_region& source) {
   return source.path && source.path->starts_with(overridePrefix);
 }
 
+bool isForeign(const toml::source_region& source) {
+  return source.path && source.path->starts_with(foreignMark);
+}
+
+std::optional<fs::path> fileOf(const toml::source_region& source) {
+  if (!source.path || isOverride(source) || *source.path == fragmentName) return std::nullopt;
+  return source.path->substr(isForeign(source) ? foreignMark.size() : 0);
+}
+
+fs::path folderOf(const toml::source_region& source) {
+  const auto file = fileOf(source);
+  return file ? file->parent_path() : fs::path();
+}
+
 std::string location(const toml::source_region& source) {
-  const std::string name = source.path ? *source.path : std::string();
+  const auto file = fileOf(source);
+  const std::string name = file ? file->string() : source.path ? *source.path : std::string();
   if (isOverride(source) || !source.begin) return name + ": ";
   return fmt::format("{}:{}:{}: ", name, source.begin.line, source.begin.column);
+}
+
+CaseDocument readBaseDocument(const fs::path& file) {
+  CaseDocument document{{}, readWithBases(file)};
+  takeVariants(document.root);
+  return document;
 }
 
 std::vector<CaseDocument> readCaseDocuments(const fs::path& file,
@@ -186,7 +243,7 @@ std::vector<CaseDocument> readCaseDocuments(const fs::path& file,
       merge(document.root, std::move(variant));
     }
     applyOverrides(document.root, overrides);
-    merge(document.root, parse(fragment, "fragment"));
+    merge(document.root, parse(fragment, std::string(fragmentName)));
     documents.push_back(std::move(document));
   }
   return documents;

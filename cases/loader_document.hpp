@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,16 +26,26 @@ std::vector<CaseDocument> readCaseDocuments(const std::filesystem::path& file,
                                             const std::string& fragment = {});
 
 /// Names of cases and variants become parts of file names and cells of CSV files: letters, digits
-/// and . _ - +, not starting with a dot.
+/// and . _ - +, at most 80 of them, not starting with a dot.
 bool usableName(std::string_view name);
 inline constexpr const char* usableNameRule =
-    "must be of letters, digits and . _ - +, and not start with a dot";
+    "must be of letters, digits and . _ - +, at most 80, and not start with a dot";
 
-/// Whether there is a regular file of that name; any trouble in finding out means no.
-bool isFile(const std::filesystem::path& file);
+/// A file as it is before variants and overrides, with all it extends. @throws BadInput
+CaseDocument readBaseDocument(const std::filesystem::path& file);
 
 /// Whether a node came from the command line.
 bool isOverride(const toml::source_region& source);
+
+/// Whether a node came from a file that the case extends and that lies outside the case's own
+/// folder. Messages say where something is wrong with it, and quote nothing of it.
+bool isForeign(const toml::source_region& source);
+
+/// The file that a node came from; absent where it came from the command line or a fragment.
+std::optional<std::filesystem::path> fileOf(const toml::source_region& source);
+
+/// What paths are relative to: the folder of that file, else the working directory.
+std::filesystem::path folderOf(const toml::source_region& source);
 
 /// "file:line:column: ", "file: " or "--set key=value: ".
 std::string location(const toml::source_region& source);

@@ -65,4 +65,11 @@ std::string printDocument(const toml::table& root) {
   return out;
 }
 
+std::string printVariant(const toml::table& root, const std::string& name) {
+  std::string out =
+      fmt::format("[[variants]]\nname = {}\n", formatted(toml::value<std::string>(name)));
+  printTable(out, root, "variants");
+  return out;
+}
+
 }  // namespace crossgrain

@@ -12,4 +12,7 @@ std::string printValue(const toml::node& node);
 /// A document as TOML: every table under its full name, its own values first.
 std::string printDocument(const toml::table& root);
 
+/// A document as one of [[variants]]: everything in it is what that variant changes.
+std::string printVariant(const toml::table& root, const std::string& name);
+
 }  // namespace crossgrain

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "cases/input_file.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_print.hpp"
 #include "cases/nearest.hpp"
@@ -43,13 +44,17 @@ struct Value {
   [[noreturn]] void fail(std::string_view what) const {
     const std::string where = location(node.source());
     if (node.is_table()) throw BadInput(fmt::format("{}[{}]: {}", where, path, what));
-    if (node.is_array()) throw BadInput(fmt::format("{}{}: {}", where, path, what));
+    // What a file outside the case's own folder holds is nobody's business but its owner's.
+    const bool quoted = !node.is_array() && !isForeign(node.source());
+    if (!quoted) throw BadInput(fmt::format("{}{}: {}", where, path, what));
     throw BadInput(fmt::format("{}{} = {}: {}", where, path, printValue(node), what));
   }
   [[noreturn]] void failType(std::string_view wanted) const {
     fail(fmt::format("must be {}, is {}", wanted, typeName(node)));
   }
   void check(const Range& range, double value) const {
+    if (std::isnan(value)) fail("is not a number");
+    if (std::isinf(value) && !range.mayBeInfinite) fail("is infinite: must be " + range.text());
     if (!range.contains(value)) fail("must be " + range.text());
   }
 };
@@ -64,7 +69,7 @@ void convert(const Value& value, double& target, const Range& range) {
   if (!value.node.is_number()) value.failType("a number");
   const double found = *value.node.value<double>();
   value.check(range, found);
-  target = found;
+  target = found + 0.0;  // −0 is 0
 }
 
 template <typename Integer>
@@ -86,7 +91,8 @@ void convert(const Value& value, std::string& target) {
 void convert(const Value& value, std::string& target, std::span<const std::string> choices) {
   convert(value, target);
   if (std::ranges::find(choices, target) == choices.end())
-    value.fail("unknown name" + suggestion(target, choices));
+    value.fail("unknown name" +
+               (isForeign(value.node.source()) ? "" : suggestion(target, choices)));
 }
 
 template <typename Element, typename Constraint>
@@ -212,15 +218,21 @@ void Reader::read(std::string_view key, std::vector<std::string>& target,
     if (!seen.insert(name).second) fail(key, fmt::format("\"{}\" is there twice", name));
 }
 
-std::optional<std::filesystem::path> Reader::readFile(std::string_view key) {
+void Reader::requireText(std::string_view key, std::string& target, std::string_view otherwise) {
+  require(key, target);
+  if (has(key) && target.find_first_not_of(" \t\r\n") == std::string::npos) fail(key, otherwise);
+}
+
+std::optional<std::filesystem::path> Reader::readFile(std::string_view key,
+                                                      const std::string& extension) {
   const toml::node* const node = take(key);
   if (!node) return std::nullopt;
-  std::filesystem::path file;
-  if (!isOverride(node->source())) file = std::filesystem::path(*node->source().path).parent_path();
   std::string name;
   read(key, name);
-  file = (file / name).lexically_normal();
-  if (!isFile(file)) fail(key, fmt::format("no such file (looked for {})", file.string()));
+  const std::filesystem::path file = (folderOf(node->source()) / name).lexically_normal();
+  if (const std::string why = whyNoFile(file); !why.empty())
+    fail(key,
+         fmt::format("{} (looked for {}){}", why, file.string(), nearestFile(file, extension)));
   return file;
 }
 
@@ -253,8 +265,10 @@ void Reader::finish() const {
   if (table_)
     for (const auto& [key, node] : *table_)
       if (std::ranges::find(known_, key.str()) == known_.end())
-        throw BadInput(fmt::format("{}unknown key {}{}", location(key.source()), pathOf(key.str()),
-                                   suggestion(key.str(), known_)));
+        throw BadInput(isForeign(key.source())
+                           ? location(key.source()) + "a key that no case has"
+                           : fmt::format("{}unknown key {}{}", location(key.source()),
+                                         pathOf(key.str()), suggestion(key.str(), known_)));
   if (!missing_.empty()) failMissing(missing_.front());
 }
 

@@ -29,6 +29,9 @@ struct Range {
   std::string text() const;  ///< "> 0 m", ">= 1", "in (0, 1)"
 };
 
+/// Largest seed: the random numbers' generator takes 32 bits and would drop the others unsaid.
+inline constexpr std::uint64_t mostSeed = 0xffffffff;
+
 Range positive(std::string unit = {});
 Range above(double low, std::string unit = {});
 Range atLeast(double low, std::string unit = {});
@@ -68,9 +71,12 @@ class Reader {
     read(key, std::forward<Arguments>(arguments)...);
   }
 
+  /// A sentence: not empty, and not of blanks alone. @param otherwise  what to say then
+  void requireText(std::string_view key, std::string& target, std::string_view otherwise);
+
   /// The path of a file that exists; relative to the file that says it, or the working directory
-  /// where `--set` does.
-  std::optional<std::filesystem::path> readFile(std::string_view key);
+  /// where `--set` does. @param extension  of files to suggest in place of one that does not
+  std::optional<std::filesystem::path> readFile(std::string_view key, const std::string& extension);
   bool isTable(std::string_view key) const;
   /// The table under a key; an empty reader where it is absent.
   Reader section(std::string_view key);

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
-#include "averaging/fields.hpp"
 #include "averaging/weights.hpp"
-#include "cases/collision_quantities.hpp"
-#include "cases/loader_document.hpp"
 
 namespace crossgrain {
 namespace {
 
-constexpr double manyDisks = 10'000'000;
+constexpr int mostSnapshots = 10'000'000;  // averaged in one run
+constexpr int mostCollisions = 100'000;    // two disks each, all in one scene
 
 /// Everything an engine may do otherwise than the scene says.
 std::vector<std::string> deviationNames() {
@@ -25,44 +24,6 @@ std::vector<std::string> deviationNames() {
   for (const LawOption& option : lawOptions()) names.emplace_back(option.name);
   names.emplace_back("rounding");
   return names;
-}
-
-std::vector<std::string> fieldNames() {
-  std::vector<std::string> names;
-  for (const FieldSpec& field : fieldTable()) names.emplace_back(field.name);
-  return names;
-}
-
-std::vector<std::string> quantityNames() {
-  std::vector<std::string> names;
-  for (const CollisionQuantity& quantity : collisionQuantities()) names.emplace_back(quantity.name);
-  return names;
-}
-
-Margin readMargin(Reader in, const std::string& path) {
-  Margin margin;
-  margin.relative = in.has("relative");
-  in.read("relative", margin.value, positive());
-  in.read("absolute", margin.value, positive());
-  in.require("why", margin.why);
-  in.finish();
-  if (in.has("relative") && in.has("absolute"))
-    in.fail("absolute", fmt::format("{} is relative or absolute, not both", path));
-  if (!in.has("relative") && !in.has("absolute"))
-    in.failMissing("relative", "or absolute: a margin has one of them");
-  if (margin.why.empty()) in.fail("why", "must give the reason");
-  return margin;
-}
-
-/// Margins of the fields listed; any other field is an unknown key.
-std::map<std::string, Margin> readMargins(Reader in, const std::vector<std::string>& fields) {
-  std::map<std::string, Margin> margins;
-  for (const std::string& field : fields) {
-    Reader margin = in.section(field);
-    if (in.has(field)) margins[field] = readMargin(std::move(margin), field);
-  }
-  in.finish();
-  return margins;
 }
 
 /// A number, a list, or { from, to, count } for equal steps.
@@ -154,38 +115,20 @@ void readCell(Reader& in, Cell& cell) {
     in.fail("wall_spacing", fmt::format("must be <= inner_radius = {} m", cell.innerRadius));
 }
 
-void readParticles(Reader& in, Particles& particles) {
-  in.read("inertia_factor", particles.inertiaFactor, aboveZeroTo(1.0));
-  in.read("rotation", particles.rotation);
-  in.read("max_overlap", particles.maxOverlap, between(0.0, 1.0));
-  in.read("small", particles.small, between(0, manyDisks));
-  in.read("large", particles.large, between(0, manyDisks));
-  in.require("small_radius", particles.smallRadius, positive("m"));
-  in.require("large_radius", particles.largeRadius, positive("m"));
-  in.require("small_mass", particles.smallMass, positive("kg"));
-  in.require("large_mass", particles.largeMass, positive("kg"));
-  particles.file = in.readFile("file");
-  in.finish();
-  if (particles.largeRadius < particles.smallRadius)
-    in.fail("large_radius", fmt::format("must be >= small_radius = {} m", particles.smallRadius));
-  if (particles.file)
-    particles.small = particles.large = 0;  // how many there are is for the file to say
-  else if (particles.small + particles.large == 0)
-    in.has("small") ? in.fail("small", "no small and no large disks: a cell without disks")
-                    : in.failMissing("small", "or large, or file: a cell without disks");
-}
-
 void readPreparation(Reader& in, Preparation& preparation) {
   in.read("packings", preparation.packings, between(1, 10'000));
-  in.read("seed", preparation.seed, atLeast(0));
+  in.read("seed", preparation.seed, between(0, mostSeed));
   in.read("dilation", preparation.dilation, above(1.0));
   in.read("velocity", preparation.velocity, atLeast(0.0, "m/s"));
   in.read("shrink_time", preparation.shrinkTime, positive("s"));
   in.read("rotations", preparation.rotations, atLeast(0.0));
   in.finish();
+  if (preparation.seed + static_cast<std::uint64_t>(preparation.packings) - 1 > mostSeed)
+    in.fail("seed",
+            fmt::format("packing k takes seed + k, and the last one may be at most {}", mostSeed));
 }
 
-void readAveraging(Reader& in, Averaging& averaging) {
+void readAveraging(Reader& in, const Case& setup, Averaging& averaging) {
   static const std::vector<std::string> methods(weightNames.begin(), weightNames.end());
   in.read("rings", averaging.rings, between(1, 10'000));
   in.read("method", averaging.methods, methods);
@@ -194,9 +137,12 @@ void readAveraging(Reader& in, Averaging& averaging) {
   in.read("rotations", averaging.rotations, positive());
   in.read("snapshots_per_rotation", averaging.snapshotsPerRotation, between(1, 1'000'000));
   in.read("confidence", averaging.confidence, inside(0.0, 1.0));
-  averaging.margins = readMargins(in.section("margins"), fieldNames());
+  averaging.margins = readFieldMargins(in.section("margins"), setup);
   in.finish();
   if (averaging.methods.empty()) in.fail("method", "must not be empty");
+  if (averaging.snapshotsPerRotation * averaging.rotations > mostSnapshots)
+    in.fail("rotations", fmt::format("with {} snapshots_per_rotation: more than {} snapshots",
+                                     averaging.snapshotsPerRotation, mostSnapshots));
 }
 
 void readRun(Reader& in, RunOptions& run) {
@@ -238,7 +184,14 @@ void readCollision(Reader& in, Collision& collision) {
   if (collision.startPhase < 0.0)
     in.fail("start_phase", "must be >= 0, else the disks overlap at the start");
   if (!(collision.startPhase < 1.0)) in.fail("start_phase", "must be < 1");
-  collision.margins = readMargins(in.section("margins"), quantityNames());
+  const auto starts = static_cast<double>(collision.psi.size()) *
+                      static_cast<double>(std::max<std::size_t>(1, collision.vn.size())) *
+                      static_cast<double>(collision.counterSpin.size());
+  if (starts > mostCollisions)
+    in.fail(in.has("psi") ? "psi" : "angle",
+            fmt::format("with all vn and counter_spin {:.0f} collisions: at most {}", starts,
+                        mostCollisions));
+  collision.margins = readCollisionMargins(in.section("margins"));
   in.finish();
 }
 

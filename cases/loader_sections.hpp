@@ -18,9 +18,14 @@ void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Rang
 void readLaw(Reader& in, ContactLaw& law);
 void readBottom(Reader& in, BottomPlate& bottom);
 void readCell(Reader& in, Cell& cell);
-void readParticles(Reader& in, Particles& particles);
+/// @param cell  read already: its area and height make numbers and masses
+void readParticles(Reader& in, const Cell& cell, Particles& particles);
 void readPreparation(Reader& in, Preparation& preparation);
-void readAveraging(Reader& in, Averaging& averaging);
+/// @param setup  whose cell, particles and law have been read: margins may be shares of its scales
+void readAveraging(Reader& in, const Case& setup, Averaging& averaging);
+/// [averaging.margins] and [collision.margins].
+std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup);
+std::map<std::string, Margin> readCollisionMargins(Reader in);
 void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);

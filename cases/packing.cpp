@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "adapters/law_options.hpp"
 #include "cases/bad_input.hpp"
@@ -92,8 +93,17 @@ Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
   const auto bad = [&](const std::string& what) {
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
-  if (!std::filesystem::exists(file)) throw bad("there is no such packing file");
   const Hdf5File in = Hdf5File::open(file);
+  const auto most = static_cast<std::size_t>(mostDisks);
+  for (const auto& [name, columns] : {std::pair{"radius", 1u},
+                                      {"position", 2u},
+                                      {"velocity", 2u},
+                                      {"spin", 1u},
+                                      {"mass", 1u},
+                                      {"inertia", 1u}})
+    if (const auto count = in.length(name); count && *count > columns * most)
+      throw bad(fmt::format("{} has {} values: a case may have at most {} disks", name, *count,
+                            mostDisks));
   const auto radius = in.read("radius");
   const auto position = in.read("position");
   if (!radius || !position)

@@ -1,12 +1,41 @@
 #include "cases/volume_fraction.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace crossgrain {
 
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+/// Areas are in units of π.
+double cellArea(const Cell& cell) {
+  return square(cell.outerRadius) - square(cell.innerRadius);
+}
+
+}  // namespace
+
 double volumeFraction(const Case& c) {
-  const auto square = [](double x) { return x * x; };
-  const double disks = c.particles.small * square(c.particles.smallRadius) +
-                       c.particles.large * square(c.particles.largeRadius);
-  return disks / (square(c.cell.outerRadius) - square(c.cell.innerRadius));
+  const Particles& p = c.particles;
+  return (p.small * square(p.smallRadius) + p.large * square(p.largeRadius)) / cellArea(c.cell);
+}
+
+double diskNumber(const Cell& cell, const Particles& particles, double fraction,
+                  double largeShare) {
+  const double each = (1.0 - largeShare) * square(particles.smallRadius) +
+                      largeShare * square(particles.largeRadius);
+  return fraction * cellArea(cell) / each;
+}
+
+void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeShare) {
+  const double all = diskNumber(cell, particles, fraction, largeShare);
+  particles.large = static_cast<int>(std::lround(largeShare * all));
+  const double left = fraction * cellArea(cell) - particles.large * square(particles.largeRadius);
+  const double small = left / square(particles.smallRadius);
+  particles.small = largeShare == 1.0 ? 0 : static_cast<int>(std::lround(std::max(0.0, small)));
 }
 
 }  // namespace crossgrain

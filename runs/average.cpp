@@ -8,6 +8,7 @@
 #include "runs/interrupt.hpp"
 #include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
+#include "runs/snapshot_fit.hpp"
 #include "runs/state_table.hpp"
 
 namespace crossgrain {
@@ -17,6 +18,7 @@ using nlohmann::json;
 json averageSnapshots(const Case& setup, const std::filesystem::path& file,
                       const std::string& commandLine) {
   const SnapshotReader reader(file, setup);
+  requireFit(reader, setup);
   const Scene& scene = reader.scene();
   CouetteAverages averages(setup, scene);
   for (std::size_t k = 0; k < reader.count(); ++k) {

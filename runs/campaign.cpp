@@ -9,6 +9,7 @@
 #include "cases/couette.hpp"
 #include "cases/files.hpp"
 #include "cases/preparation.hpp"
+#include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/interrupt.hpp"
@@ -21,9 +22,18 @@ using nlohmann::json;
 
 namespace {
 
+void requireStable(const Case& setup, double dt, std::optional<double> lightest = {}) {
+  const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
+  if (const std::string why = whyUnstableStep(setup, dt, key, lightest); !why.empty())
+    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+}
+
 double stepOf(const Case& setup) {
-  if (setup.run.dt || !setup.particles.file) return timeStep(setup);
-  throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+  if (!setup.run.dt && setup.particles.file)
+    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+  const double dt = timeStep(setup);
+  requireStable(setup, dt);
+  return dt;
 }
 
 }  // namespace
@@ -97,6 +107,8 @@ void Campaign::preparePackings() {
   runTasks(tasks, command_.jobs);
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
+  if (setup_.particles.file)  // whose disks may be lighter than the case says
+    requireStable(setup_, dt_, std::ranges::min(packings_.front().disks.mass) / 2.0);
   store_.begin();
 }
 

@@ -1,8 +1,13 @@
 #include "runs/compare.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "runs/agreement_table.hpp"
 #include "runs/campaign.hpp"
 #include "runs/contact_notes.hpp"
+#include "runs/nothing_judged.hpp"
 #include "runs/state_table.hpp"
 #include "runs/velocity_notes.hpp"
 
@@ -55,6 +60,14 @@ json compareEngines(const Case& setup, const RunCommand& command, RunStore& stor
   results["steadiness"] = steadinessOf(results["runs"], names, setup.averaging.confidence);
   results["ensemble"] = ensembleOf(results["runs"], names);
   results["agreement"] = agreementOf(setup, results["runs"], pairs);
+  const auto named = std::ranges::count_if(campaign.engines(), [&](const EngineEntry& entry) {
+    return entry.mirrors.empty() || isNamed(command.engines, entry);
+  });
+  if (const auto nothing =
+          nothingJudged(setup, results["agreement"], static_cast<std::size_t>(named))) {
+    results["nothing_judged"] = {{"reason", nothing->reason}, {"by_request", nothing->byRequest}};
+    results["notes"].push_back(fmt::format("Nothing was judged: {}.", nothing->reason));
+  }
   for (json& note : velocityNotes(results)) results["notes"].push_back(std::move(note));
   for (json& note : contactNotes(results)) results["notes"].push_back(std::move(note));
   return results;

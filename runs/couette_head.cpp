@@ -52,6 +52,7 @@ json couetteHead(const std::string& kind, const Case& setup, const std::string& 
       {"snapshots", std::lround(averaging.snapshotsPerRotation * averaging.rotations)},
       {"confidence", averaging.confidence}};
   for (const Effect effect : effectsOf(setup)) results["effects"].push_back(toString(effect));
+  for (const std::string& warning : setup.warnings) results["notes"].push_back(warning);
   const Rings rings = ringsOf(setup);
   for (int ring = 0; ring < rings.count(); ++ring) {
     results["rings"]["r"].push_back(rings.centre(ring));

@@ -12,6 +12,7 @@
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/bad_input.hpp"
 #include "cases/nearest.hpp"
+#include "cases/stable_step.hpp"
 #include "runs/engine_step.hpp"
 #include "runs/mirror_scene.hpp"
 
@@ -148,11 +149,23 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   }
 }
 
+/// An engine's own time step, if it runs soft laws with it.
+void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                  const Settings& settings) {
+  const auto step = settings.find("dt");
+  if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
+  const auto normal = can.lawOptions.find("normal");
+  if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
+  const std::string why = whyUnstableStep(setup, std::get<double>(step->second),
+                                          fmt::format("[engines.{}] dt", entry.name));
+  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+}
+
 }  // namespace
 
 void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
-  settingsFor(setup, entry.name, can);
+  checkOwnStep(can, entry, setup, settingsFor(setup, entry.name, can));
   namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
 }
 

@@ -15,6 +15,7 @@
 #include "runs/progress.hpp"
 #include "runs/records.hpp"
 #include "runs/snapshot_file.hpp"
+#include "runs/snapshot_fit.hpp"
 
 namespace crossgrain {
 
@@ -150,6 +151,7 @@ json meetings(const Curves& curves) {
 json revStudy(const Case& setup, const std::filesystem::path& file, const std::string& commandLine,
               bool quiet) {
   const SnapshotReader reader(file, setup);
+  requireFit(reader, setup);
   Progress progress(quiet);
   const std::vector<double> all = widths();
   progress.begin("averaging", std::vector<double>(all.size(), 1.0));

@@ -50,6 +50,9 @@ class SnapshotReader {
   /// As the file says, else the file's name.
   const std::string& engine() const { return engine_; }
   std::size_t count() const { return count_; }
+  const std::filesystem::path& file() const { return name_; }
+  /// Whether a snapshot holds how the wheel and the ring move.
+  bool tellsMotion(std::size_t k) const;
 
   /// @throws BadInput naming the dataset that is missing or does not fit
   Snapshot read(std::size_t k) const;

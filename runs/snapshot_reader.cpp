@@ -37,13 +37,14 @@ void SnapshotReader::fail(const std::string& what) const {
 std::vector<double> SnapshotReader::numbers(const std::string& path, std::size_t length) const {
   std::optional<std::vector<double>> values;
   try {
+    const auto held = file_.length(path);  // before room for it is taken
+    if (held && *held != length)
+      fail(fmt::format("{} holds {} numbers, wanted are {}", path, *held, length));
     values = file_.read(path);
   } catch (const std::runtime_error& error) {
     throw BadInput(error.what());
   }
   if (!values) fail(fmt::format("there is no {} in it", path));
-  if (values->size() != length)
-    fail(fmt::format("{} holds {} numbers, wanted are {}", path, values->size(), length));
   if (!std::ranges::all_of(*values, [](double x) { return std::isfinite(x); }))
     fail(fmt::format("{} holds a number that is not finite", path));
   return *values;
@@ -57,9 +58,11 @@ std::vector<Vec2> SnapshotReader::vectors(const std::string& path, std::size_t l
 }
 
 void SnapshotReader::readScene(const Case& setup) {
-  const auto radii = file_.read("/disks/radius");
-  if (!radii) fail("there is no /disks/radius in it");
-  const std::size_t disks = radii->size();
+  const auto count = file_.length("/disks/radius");
+  if (!count) fail("there is no /disks/radius in it");
+  if (*count > static_cast<std::size_t>(mostDisks))
+    fail(fmt::format("it holds {} disks: a case may have at most {}", *count, mostDisks));
+  const std::size_t disks = *count;
   scene_.name = setup.name;
   scene_.law = setup.law;
   scene_.bottom = setup.bottom;
@@ -140,6 +143,10 @@ std::vector<BodySnapshot> SnapshotReader::readBodies(const std::string& path) co
     for (std::size_t b = 0; b < count; ++b) bodies[b].torque = torque[b];
   }
   return bodies;
+}
+
+bool SnapshotReader::tellsMotion(std::size_t k) const {
+  return file_.holds(snapshotGroup(k) + "/bodies/centre");
 }
 
 Snapshot SnapshotReader::read(std::size_t k) const {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cases/nearest.hpp"
+#include "cases/stable_step.hpp"
 
 namespace crossgrain {
 namespace {
@@ -82,6 +83,48 @@ TEST(Nearest, IsNoneIfAllAreFar) {
   EXPECT_EQ(nearest("smal_radius", names), "small_radius");
   EXPECT_EQ(nearest("xyzzy", names), std::nullopt);
   EXPECT_EQ(suggestion("xyzzy", names), " (there are: small_radius, large_radius, mu)");
+}
+
+/// Two small disks of the thesis: 2/ω = 2 √(m₁₂/k_n).
+Case thesisCell() {
+  Case c;
+  c.law = thesisLaw();
+  c.particles.small = 10;
+  c.particles.smallRadius = 0.0037;
+  c.particles.smallMass = smallMass;
+  c.cell = {.innerRadius = 0.1, .outerRadius = 0.2, .height = 0.006, .omega = 1.0};
+  return c;
+}
+
+TEST(StepLimit, OfALinearLawIsTwoOverOmega) {
+  const Case c = thesisCell();
+  const double limit = 2.0 * std::sqrt(smallMass / 2.0 / 352.1);
+  EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, limit);
+  EXPECT_EQ(whyUnstableStep(c, 0.999 * limit, "run.dt"), "");
+  EXPECT_EQ(whyUnstableStep(c, 1.0, "run.dt"),
+            "run.dt = 1 s is beyond 2/ω = 0.00125 s of the stiffest, lightest contact (k = 352.1 "
+            "N/m, m₁₂ = 0.0001375 kg): no soft law is stable there");
+  EXPECT_DOUBLE_EQ(pairStepLimit(c, smallMass / 8.0)->dt, limit / 2.0);  // lighter disks in a file
+}
+
+TEST(StepLimit, OfHertzFollowsTheDeepestImpactAtTheRimsSpeed) {
+  Case c = thesisCell();
+  c.law.normal = NormalLaw::hertz;
+  c.law.kn = 1e6;
+  // δ_max^(5/2) = m₁₂ v²/(0.8 k √R₁₂), dF/dδ = 1.5 k √(R₁₂ δ)
+  const double mass = smallMass / 2.0, radius = 0.0037 / 2.0, speed = 0.1;
+  const double deepest = std::pow(mass * speed * speed / (0.8 * 1e6 * std::sqrt(radius)), 0.4);
+  EXPECT_NEAR(pairStepLimit(c)->stiffness, 1.5e6 * std::sqrt(radius * deepest), 1e-6);
+}
+
+TEST(StepLimit, OfRigidDisksAndOfCollisionsIsNone) {
+  Case c = thesisCell();
+  c.law.normal = NormalLaw::rigid;
+  EXPECT_FALSE(pairStepLimit(c));
+  EXPECT_EQ(whyUnstableStep(c, 1.0, "run.dt"), "");
+  c.law = thesisLaw();
+  c.kind = CaseKind::collision;
+  EXPECT_FALSE(pairStepLimit(c));
 }
 
 }  // namespace

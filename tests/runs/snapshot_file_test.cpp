@@ -22,7 +22,9 @@ class SnapshotFiles : public testing::Test {
               ("crossgrain-" +
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::create_directories(folder_);
-    setup_ = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml", {}).front();
+    setup_ = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
+                      {"particles.small=2", "particles.large=0"})
+                 .front();
   }
   void TearDown() override { fs::remove_all(folder_); }
 

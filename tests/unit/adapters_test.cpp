@@ -46,7 +46,7 @@ TEST(Effects, AreDerivedFromTheScene) {
                                        Effect::gravity, Effect::movingWalls}));
 }
 
-TEST(Suitability, ARefusalNamesTheFirstThingAndHowToAllowIt) {
+TEST(Suitability, ARefusalNamesAllThingsAndHowToAllowThem) {
   Capabilities can;
   for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
   can.effects[Effect::friction] = Support::never;
@@ -55,9 +55,17 @@ TEST(Suitability, ARefusalNamesTheFirstThingAndHowToAllowIt) {
     adaptScene(can, oneDisk(), {});
     FAIL() << "no refusal";
   } catch (const UnsupportedScene& refusal) {
-    EXPECT_STREQ(
-        refusal.what(),
-        "has no friction; list \"friction\" under [run] may_differ to run it all the same");
+    EXPECT_STREQ(refusal.what(),
+                 "has no friction; has tension = cut, not allow; list \"friction\", \"tension\" under "
+                 "[run] may_differ to run it all the same");
+  }
+  try {
+    adaptScene(can, oneDisk(), {"friction"});
+    FAIL() << "no refusal";
+  } catch (const UnsupportedScene& refusal) {
+    EXPECT_STREQ(refusal.what(),
+                 "has tension = cut, not allow; list \"tension\" under [run] may_differ to run it "
+                 "all the same");
   }
   const Adapted adapted = adaptScene(can, oneDisk(), {"friction", "tension"});
   EXPECT_EQ(adapted.deviations.size(), 2u);

@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "averaging/fields.hpp"
+#include "cases/collision_quantities.hpp"
+#include "cases/loader_sections.hpp"
+#include "cases/scales.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// Something that a margin can be for.
+struct Judged {
+  std::string name;
+  std::string_view unit;
+};
+
+/// A share of one of the case's own scales, in the unit of the field.
+void readShare(Reader& in, const Judged& field, const Case& setup, Margin& margin) {
+  double share = 0.0;
+  in.read("share", share, positive());
+  std::vector<std::string> names;
+  for (const Scale& scale : scales()) names.emplace_back(scale.name);
+  in.read("of", margin.scale, names);
+  if (in.has("share") != in.has("of"))
+    in.failMissing(in.has("of") ? "share" : "of", "a margin of a share says of what");
+  if (!in.has("of")) return;
+  const Scale& scale = *std::ranges::find(scales(), margin.scale, &Scale::name);
+  if (scale.unit != field.unit)
+    in.fail("of", fmt::format("is in {}, and {} in {}", scale.unit, field.name, field.unit));
+  const double whole = scale.of(setup);
+  if (!(whole > 0.0)) in.fail("of", "is zero in this case");
+  margin.value = shareOf(scale, share, setup);
+  margin.why = fmt::format("{:g} of {} ({} = {:.4g} {}): ", share, scale.name, scale.meaning, whole,
+                           scale.unit);
+}
+
+Margin readMargin(Reader in, const Judged& field, const Case* setup) {
+  Margin margin;
+  margin.relative = in.has("relative");
+  in.read("relative", margin.value, positive());
+  in.read("absolute", margin.value, positive());
+  if (setup) readShare(in, field, *setup, margin);
+  std::string why;
+  in.requireText("why", why, "must give the reason");
+  in.finish();
+  const char* given = nullptr;
+  for (const char* const way : {"relative", "absolute", "share"}) {
+    if (!in.has(way)) continue;
+    if (given) in.fail(way, fmt::format("{} is {} or {}, not both", field.name, given, way));
+    given = way;
+  }
+  if (!given)
+    in.failMissing("relative", setup ? "or absolute, or share and of: a margin has one of them"
+                                     : "or absolute: a margin has one of them");
+  margin.why += why;
+  return margin;
+}
+
+/// Margins of what is listed; anything else is an unknown key.
+std::map<std::string, Margin> readAll(Reader in, const std::vector<Judged>& list,
+                                      const Case* setup) {
+  std::map<std::string, Margin> margins;
+  for (const Judged& field : list) {
+    Reader margin = in.section(field.name);
+    if (in.has(field.name)) margins[field.name] = readMargin(std::move(margin), field, setup);
+  }
+  in.finish();
+  return margins;
+}
+
+}  // namespace
+
+std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup) {
+  std::vector<Judged> fields;
+  for (const FieldSpec& field : fieldTable())
+    fields.push_back({std::string(field.name), field.unit});
+  return readAll(std::move(in), fields, &setup);
+}
+
+std::map<std::string, Margin> readCollisionMargins(Reader in) {
+  std::vector<Judged> quantities;
+  for (const CollisionQuantity& quantity : collisionQuantities())
+    quantities.push_back({std::string(quantity.name), ""});
+  return readAll(std::move(in), quantities, nullptr);
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,105 @@
+// Estimates of `check` against the trial runs that they were made from (thesis-facts, section 6).
+#include "cases/cell_estimates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "adapters/start_check.hpp"
+#include "cases/cautions.hpp"
+#include "cases/couette.hpp"
+#include "cases/loader.hpp"
+#include "cases/volume_fraction.hpp"
+
+namespace crossgrain {
+namespace {
+
+Case cellOf(const char* name, int small, int large) {
+  Case c = loadCase(std::filesystem::path(CROSSGRAIN_CASES) / "couette" / name).front();
+  c.particles.small = small;
+  c.particles.large = large;
+  return c;
+}
+
+TEST(CellEstimates, TellAGasFromAFlow) {
+  struct Row {
+    const char* file;
+    int small, large;
+    double pressure;  ///< of trial runs at Ω = 1 /s, 0: a gas [N/m²]
+  };
+  for (const Row& row : {Row{"nu-0.804.toml", 2511, 410, 100.0},
+                         {"nu-0.804.toml", 2476, 406, 0.0},
+                         {"nu-0.804-spacing-7mm.toml", 2511, 410, 0.0},
+                         {"nu-0.804.toml", 2462, 404, 0.0},
+                         {"nu-0.804.toml", 2511, 410, 250.0}}) {
+    const Case c = cellOf(row.file, row.small, row.large);
+    const auto pressure = expectedPressure(c, bulkVolumeFraction(c, volumeFraction(c)));
+    ASSERT_EQ(pressure.has_value(), row.pressure > 0.0) << row.small;
+    if (!pressure) continue;
+    EXPECT_GT(*pressure, row.pressure / 4.0) << row.small;
+    EXPECT_LT(*pressure, row.pressure * 4.0) << row.small;
+  }
+}
+
+TEST(CellEstimates, TellTheSmallCellsStates) {
+  struct Row {
+    int small, large;
+    double pressure;
+  };
+  Case c = cellOf("nu-0.804.toml", 0, 0);
+  c.cell.innerRadius = 0.03;
+  c.cell.outerRadius = 0.075;
+  for (const Row& row : {Row{193, 32, 0.0},
+                         {198, 32, 0.0},
+                         {202, 33, 0.0},
+                         {206, 34, 70.0},
+                         {211, 34, 350.0},
+                         {215, 35, 530.0}}) {
+    c.particles.small = row.small;
+    c.particles.large = row.large;
+    const auto pressure = expectedPressure(c, bulkVolumeFraction(c, volumeFraction(c)));
+    ASSERT_EQ(pressure.has_value(), row.pressure > 0.0) << row.small;
+    if (!pressure) continue;
+    EXPECT_GT(*pressure, row.pressure / 4.0) << row.small;
+    EXPECT_LT(*pressure, row.pressure * 4.0) << row.small;
+  }
+}
+
+TEST(CellEstimates, AMadeUpPackingFillsTheCellAndIsAStart) {
+  const Case c = cellOf("nu-0.804.toml", 2511, 410);
+  const Packing packing = madeUpPacking(c);
+  ASSERT_EQ(packing.disks.size(), 2921u);
+  double area = 0.0;
+  for (const double a : packing.disks.radius) area += a * a;
+  EXPECT_GT(area / (0.2524 * 0.2524 - 0.1032 * 0.1032), 0.7);
+  EXPECT_NO_THROW(checkStart(couetteScene(c, packing, 1e-5), c.particles, "made up", &c.cell));
+}
+
+TEST(Cautions, OfGasSqueezedDisksFewStepsAndNothingToJudge) {
+  const auto said = [](const Case& c, const char* what) {
+    const double fraction = volumeFraction(c);
+    for (const std::string& line : cautions(c, fraction))
+      if (line.find(what) != std::string::npos) return true;
+    return false;
+  };
+  Case c = cellOf("nu-0.804.toml", 2511, 410);
+  for (const char* const what : {"dilute", "over-dense", "steps in the shortest", "margins"})
+    EXPECT_FALSE(said(c, what)) << what;
+  EXPECT_TRUE(said(cellOf("nu-0.804.toml", 2462, 404), "dilute"));
+  EXPECT_TRUE(said(cellOf("nu-0.804.toml", 2588, 422), "over-dense"));
+  c.run.dt = 2e-4;
+  EXPECT_TRUE(said(c, "steps in the shortest contact"));
+  c.run.dt = 6e-4;
+  EXPECT_TRUE(said(c, "six contacts"));
+  c.run.dt = 1.0;
+  EXPECT_TRUE(said(c, "beyond 2/ω"));
+  c.preparation.packings = 2;
+  EXPECT_TRUE(said(c, "2 packings: compare judges nothing with fewer than 4"));
+  c.averaging.margins.clear();
+  EXPECT_TRUE(said(c, "no [averaging.margins]"));
+  c.engines["box2d-impulse"]["dt"] = 0.05;
+  EXPECT_TRUE(said(c, "[engines.box2d-impulse] dt = 0.05 s: the wheel's rim moves 0.7 d"));
+}
+
+}  // namespace
+}  // namespace crossgrain
