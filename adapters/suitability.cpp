@@ -115,9 +115,8 @@ void refuseUnlisted(const std::vector<Mismatch>& all, const std::vector<std::str
     names.push_back('"' + mismatch.name + '"');
   }
   if (!names.empty())
-    throw UnsupportedScene(
-        fmt::format("{}; list {} under [run] may_differ to run it all the same",
-                    fmt::join(reasons, "; "), fmt::join(names, ", ")));
+    throw UnsupportedScene(fmt::format("{}; list {} under [run] may_differ to run it all the same",
+                                       fmt::join(reasons, "; "), fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -16,8 +16,9 @@ namespace crossgrain {
 double bulkVolumeFraction(const Case& setup, double volumeFraction);
 
 /// Where trial runs of two cells and two wall spacings (thesis-facts, section 6) turned from a gas
-/// into a flow, and were squeezed: in terms of bulkVolumeFraction().
-inline constexpr double dilutedBelow = 0.828, squeezedAbove = 0.838;
+/// into a flow (0.828); and what none of them flowed at (0.85: ν̄ = 0.82 in the thesis' cell, which
+/// it calls blocked from 0.81). In terms of bulkVolumeFraction().
+inline constexpr double dilutedBelow = 0.828, squeezedAbove = 0.85;
 
 /// Mean pressure of disks pressed together, p = (k_n tr F/2πh)·(ν/ν_c − 1) with tr F = 4ν (Lätzel
 /// 2003, section 7.3, mean field) [N/m²]; absent below dilutedBelow and for laws without k_n.

@@ -4,7 +4,7 @@ import csv
 import subprocess
 import unittest
 
-from harness import BAD_INPUT, COUETTE, HELD, FELL_SHORT, SystemTest, settings
+from harness import BAD_INPUT, CASES, COUETTE, HELD, FELL_SHORT, SystemTest, settings
 
 # By Debian's own Python, which has the package, whichever one runs the tests.
 H5PY = """
@@ -79,6 +79,28 @@ class Average(SystemTest):
         # The report alone can be made again.
         done = self.run_program("report", str(out))
         self.assert_status(done, HELD)
+
+    def test_snapshots_of_another_cell(self):
+        done = self.compare(*settings(averaging__rotations=0.02, run__keep_snapshots=2))
+        self.assert_status(done, HELD)
+        snapshots = self.out / "snapshots" / "grain-p0.h5"
+        big = CASES / "couette/nu-0.804.toml"
+        for command in ("average", "rev"):
+            with self.subTest(command):
+                out = self.folder / "other"
+                done = self.run_program(command, snapshots, big, "--out", out)
+                self.assert_one_error(
+                    done, BAD_INPUT, "grain-p0.h5 does not fit", "nu-0.804.toml", "disks, not 2921",
+                    "the wheel's radius 0.03 m, not 0.1032 m",
+                )  # fmt: skip
+                self.assertFalse(out.exists())
+        for change, told in (
+            ({"cell__omega": 2}, "a wheel that turns at 1 rad/s, not 2 rad/s"),
+            ({"particles__small": 200}, "disks, not "),
+        ):
+            with self.subTest(told):
+                done = self.average(*settings(**change), snapshots=snapshots, out=self.folder / "x")
+                self.assert_one_error(done, BAD_INPUT, told)
 
     def test_bad_files(self):
         for what in ("missing.h5", "text.h5"):

@@ -142,6 +142,43 @@ class Check(SystemTest):
         self.assertRegex(done.stdout, r"(?m)^ *grain +can run it")
         self.assertRegex(done.stdout, r"(?m)^ *box2d-impulse +cannot: .*may_differ")
 
+    def test_prints_what_to_expect(self):
+        done = self.check(COUETTE)
+        self.assertRegex(done.stdout, r"volume fraction 0\.7\d+, .*39 on the wheel, 98 on the ring")
+        self.assertRegex(done.stdout, r"54\.4 steps in the shortest contact; .*2/ω = 0\.00125 s")
+        self.assertRegex(done.stdout, r"expected: \d+ to \d+ contacts")
+        self.assertRegex(done.stdout, r"margin: azimuthal_velocity 0\.0015 m/s, a share of rim_speed")
+        self.assertEqual(3, len(re.findall(r"µs a step, dt .* a packing, \d+ MB", done.stdout)))
+        self.assertRegex(done.stdout, r"predicted for compare: .* steps were timed on")
+        self.assertNotIn("predicted", self.check(COUETTE, "--no-timing").stdout)
+
+    def test_json(self):
+        done = self.check(COUETTE, "--json", "--no-timing")
+        (checked,) = json.loads(done.stdout)
+        self.assertEqual((246, 39, 98), (
+            checked["disks"], checked["cell"]["wheel_disks"], checked["cell"]["ring_disks"]
+        ))  # fmt: skip
+        self.assertNotIn("prediction", checked)
+
+    def test_resolved_loads_to_itself(self):
+        first = self.check(COUETTE, "--resolved", "--set=cell.omega=0.5")
+        self.assert_status(first, HELD)
+        again = self.check(self.write("again.toml", first.stdout), "--resolved")
+        self.assertEqual(first.stdout, again.stdout)
+        self.assertIn("omega = 0.5", again.stdout)
+
+    def test_cautions(self):
+        thin = self.check(COUETTE, "--no-timing", "--set=particles.small=100", engines="grain")
+        self.assertRegex(thin.stdout, r"caution: dilute: .*expect a gas")
+        thick = self.check(COUETTE, "--no-timing", "--set=particles.small=230", engines="grain")
+        self.assertRegex(thick.stdout, r"caution: over-dense: ")
+        few = self.check(
+            COUETTE, "--no-timing", "--set=preparation.packings=2", "--set=run.dt=2e-4",
+            engines="grain",
+        )  # fmt: skip
+        self.assertRegex(few.stdout, r"caution: only 10\.9 steps in the shortest contact")
+        self.assertRegex(few.stdout, r"caution: 2 packings: compare judges nothing")
+
     def test_runs_nothing(self):
         self.assert_status(self.check(COUETTE), HELD)
         self.assertEqual([], list(self.folder.iterdir()))

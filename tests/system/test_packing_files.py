@@ -4,7 +4,7 @@ import math
 import os
 import unittest
 
-from harness import BAD_INPUT, HELD, SystemTest, settings
+from harness import BAD_INPUT, COUETTE, HELD, SystemTest, settings
 from packing_file import write_packing
 
 SMALL = 0.0037  # m, cases/couette/quick.toml; the cell reaches from 0.03 to 0.075 m
@@ -214,6 +214,21 @@ class PackingCache(SystemTest):
         done = self.compare_with_cache()
         self.assert_status(done, HELD)  # costs time, not the run
         self.assertRegex(done.stderr, r"prepared, not kept for next time: .*file")
+
+    def test_check_reads_it(self):
+        self.file.write_bytes(os.urandom(4096))
+        case = self.write(
+            "own.toml", f'[case]\nextends = "{COUETTE}"\n[particles]\nfile = "mine.h5"\n'
+        )
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_one_line(done, BAD_INPUT, "mine.h5", "cannot be read as an HDF5 file")
+        write_packing(self.file, radius=[SMALL] * 2, position=[(0.05, 0.0), (0.05, 0.0)])
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_one_line(done, BAD_INPUT, "mine.h5", "the same centre")
+        write_packing(self.file, radius=[SMALL] * 12, position=ring_of_disks(12))
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_status(done, HELD)
+        self.assertIn("own: 12 disks", done.stdout)
 
 
 if __name__ == "__main__":

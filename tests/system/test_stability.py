@@ -49,6 +49,15 @@ class Stability(SystemTest):
         self.assertGreater(int(row["step"]), 0)
         self.assertIn("worst_1", (self.out / "report.html").read_text(encoding="utf-8"))
 
+    def test_where_all_is_refused_nothing_was_judged(self):
+        # The impulse solver has no checkpoints, so no restart of it can be held against anything.
+        done = self.run_program(
+            "stability", HARD / "restart.toml", "--engines", "box2d-impulse", "--out", self.out
+        )
+        self.assertEqual({"refused"}, {row["verdict"] for row in self.table()})
+        self.assert_status(done, FELL_SHORT)
+        self.assertRegex(done.stdout, r"(?m)^nothing was judged: .*refused.*checkpoints")
+
     def test_a_case_that_is_no_hard_one_is_bad_input(self):
         done = self.run_program(
             "stability", CASES / "couette/quick.toml", "--engines", "grain", "--out",
