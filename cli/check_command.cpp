@@ -1,86 +1,159 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "cases/assembly_scene.hpp"
-#include "cases/bad_input.hpp"
-#include "cases/collision_scene.hpp"
-#include "cases/couette.hpp"
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cases/effect_switch.hpp"
 #include "cases/loader.hpp"
-#include "cases/preparation.hpp"
-#include "cases/time_step.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/check_lines.hpp"
-#include "runs/collision_sweep.hpp"
-#include "runs/couette_run.hpp"
+#include "cli/scratch_folder.hpp"
+#include "runs/case_check.hpp"
 #include "runs/engine_access.hpp"
-#include "runs/scratch_folder.hpp"
 
 namespace crossgrain {
 
-namespace fs = std::filesystem;
+using nlohmann::json;
 
 namespace {
 
-/// The scene of a case as far as `check` needs it: all disks are there, but not yet where a packing
-/// will have them.
-Scene unplacedScene(const Case& setup) {
-  if (setup.kind == CaseKind::collision)
-    return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
-  if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
-  Packing unplaced;
-  unplaced.disks = spreadDisks(setup);
-  return couetteScene(setup, unplaced, timeStep(setup));
+struct CheckOptions {
+  bool resolved = false, untimed = false;
+};
+
+/// "0.4 s", "12 min", "3.1 h"
+std::string lasting(double seconds) {
+  if (seconds < 100.0) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 6000.0) return fmt::format("{:.3g} min", seconds / 60.0);
+  return fmt::format("{:.3g} h", seconds / 3600.0);
 }
 
-void printSuitability(const EngineEntry& entry, const Case& setup, const Scene& scene,
-                      const fs::path& scratch) {
-  const auto engine = startEngine(entry, scratch, setup.run.timeout);
-  const std::vector<std::string> lines = checkLines(*engine, entry, setup, scene);
-  fmt::print("  {:<16} {}\n", entry.name, lines.front());
-  for (std::size_t k = 1; k < lines.size(); ++k) fmt::print("    {}\n", lines[k]);
+void printCell(const json& checked) {
+  const json& cell = checked["cell"];
+  fmt::print(
+      "  volume fraction {:.4f}, about {:.3f} between the walls' layers; wall disks: {} on the "
+      "wheel, {} on the ring\n",
+      cell["volume_fraction"].get<double>(), cell["bulk_volume_fraction"].get<double>(),
+      cell["wheel_disks"].get<std::size_t>(), cell["ring_disks"].get<std::size_t>());
+  fmt::print("  per packing: {:.0f} steps of the case's dt, {:g} rotations; packings: {}\n",
+             cell["steps"].get<double>(), cell["rotations"].get<double>(),
+             cell["packings"].get<int>());
+  fmt::print("  expected: {:.0f} to {:.0f} contacts", cell["expected_contacts"][0].get<double>(),
+             cell["expected_contacts"][1].get<double>());
+  if (cell["expected_pressure"].is_number())
+    fmt::print(", pressure {:.1g} N/m², inertial number {:.1g} at the wheel (to a factor of three)",
+               cell["expected_pressure"].get<double>(),
+               cell["expected_inertial_number"].get<double>());
+  fmt::print("\n");
+  for (const json& margin : checked["margins"])
+    fmt::print("  margin: {} {:g} {}{}\n", margin["field"].get<std::string>(),
+               margin["value"].get<double>(),
+               margin["relative"] == true ? "of the reference" : margin["unit"].get<std::string>(),
+               margin["of"] == "" ? "" : ", a share of " + margin["of"].get<std::string>());
 }
 
-int checkCase(const CommandLine& line) {
-  const ScratchFolder scratch;
-  bool allCan = true;
-  for (const Case& setup : loadCase(line.inputs.front(), line.overrides)) {
-    checkEngineSections(setup);
-    const Scene scene = unplacedScene(setup);
-    fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n",
-               setup.variant.empty() ? setup.name : setup.variant, scene.disks.size(),
-               scene.wallDiskCount(), scene.dt);
-    fmt::print("  {}\n", effectsInWords(effectsOf(scene)));
-    if (setup.kind == CaseKind::couette) {
-      const double end =
-          (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
-      fmt::print("  per packing: {:.0f} steps of the case's dt\n", end / scene.dt);
-    }
-    for (const EngineEntry& entry : selectEngines(line.run.engines)) {
-      try {
-        printSuitability(entry, setup, scene, scratch.path);
-      } catch (const UnsupportedScene& refusal) {
-        allCan = false;
-        fmt::print("  {:<16} cannot: {}\n", entry.name, refusal.what());
-      }
-    }
-    for (const EngineEntry& entry : engineRegistry())
-      if (entry.missing && !entry.missing().empty() && !isNamed(line.run.engines, entry))
-        fmt::print("  {:<16} not available: {}\n", entry.name, entry.missing());
+/// "friction, rotation", "none"
+std::string listed(const json& names) {
+  const auto list = names.get<std::vector<std::string>>();
+  return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", "));
+}
+
+void printEngine(const json& row) {
+  const std::string name = row["name"];
+  if (row["can"] == false) {
+    fmt::print("  {:<16} cannot: {}\n", name, row["reason"].get<std::string>());
+    return;
   }
+  fmt::print("  {:<16} can run it{}\n", name,
+             row.contains("dt_s") ? fmt::format(", dt {:.3g} s", row["dt_s"].get<double>()) : "");
+  for (const json& note : row["deviations"])
+    fmt::print("    differs: {}\n", note.get<std::string>());
+  if (!row["not_simulated"].empty())
+    fmt::print("    does not simulate: {}\n", listed(row["not_simulated"]));
+  if (!row.contains("run_s")) return;
+  fmt::print("    {:.3g} µs a step: {} a packing", 1e6 * row["step_s"].get<double>(),
+             lasting(row["run_s"].get<double>()));
+  if (row["memory_bytes"].is_number())
+    fmt::print(", {:.0f} MB", row["memory_bytes"].get<double>() / 1e6);
+  fmt::print("\n");
+}
+
+void printChecked(const json& checked) {
+  const std::string variant = checked["variant"];
+  fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n",
+             variant.empty() ? checked["name"].get<std::string>() : variant,
+             checked["disks"].get<std::size_t>(), checked["wall_disks"].get<std::size_t>(),
+             checked["dt_s"].get<double>());
+  fmt::print("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
+             listed(checked["left_out"]));
+  if (checked["steps_per_contact"].is_number())
+    fmt::print("  {:.3g} steps in the shortest contact; dt may be at most 2/ω = {:.3g} s\n",
+               checked["steps_per_contact"].get<double>(), checked["step_limit_s"].get<double>());
+  if (checked.contains("cell")) printCell(checked);
+  for (const json& caution : checked["cautions"])
+    fmt::print("  caution: {}\n", caution.get<std::string>());
+  for (const json& row : checked["engines"]) printEngine(row);
+  if (!checked.contains("prediction")) return;
+  const json& prediction = checked["prediction"];
+  fmt::print(
+      "  predicted for compare: {}, one after the other, {} of it preparing; steps were timed on "
+      "{}\n",
+      lasting(prediction["total_s"].get<double>()),
+      lasting(prediction["preparing_s"].get<double>()), prediction["timed_on"].get<std::string>());
+}
+
+/// Engines that were not asked for and could not be.
+void printMissing(const std::vector<std::string>& named) {
+  for (const EngineEntry& entry : engineRegistry())
+    if (entry.missing && !entry.missing().empty() && !isNamed(named, entry))
+      fmt::print("  {:<16} not available: {}\n", entry.name, entry.missing());
+}
+
+int checkCase(const CommandLine& line, const CheckOptions& options) {
+  const std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
+  if (options.resolved) {
+    fmt::print("{}", resolvedFile(cases));
+    return exitHeld;
+  }
+  const ScratchFolder scratch;
+  json all = json::array();
+  for (const Case& setup : cases) {
+    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path));
+    if (line.json) continue;
+    printChecked(all.back());
+    printMissing(line.run.engines);
+  }
+  if (line.json) fmt::print("{}\n", all.dump(2));
+  bool allCan = true, failed = false;
+  for (const json& checked : all)
+    for (const json& row : checked["engines"]) {
+      failed |= row.value("failed", false);
+      allCan &= row["can"] == true || row["mirrors"] != "";
+    }
+  if (failed) return exitEngineFailed;
   return allCan ? exitHeld : exitFellShort;
 }
 
 Action declare(CLI::App& app, CommandLine& line) {
+  const auto options = std::make_shared<CheckOptions>();
   addCase(app, line);
   addEngines(app, line, "all");
   addOverrides(app, line);
-  return [&line] { return checkCase(line); };
+  addFlag(app, "--json", line.json, "all of it as JSON");
+  addFlag(app, "--resolved", options->resolved,
+          "print the case with all layers merged, as a case file, and nothing else");
+  addFlag(app, "--no-timing", options->untimed, "time no steps and predict no times");
+  return [&line, options] { return checkCase(line, *options); };
 }
 
 }  // namespace
 
 extern const Command checkCommand = {
-    "check", "who can run a case, and where engines differ from it",
-    "crossgrain check cases/couette/quick.toml --engines all", declare};
+    "check", "who can run a case, what to expect of it, what it will take",
+    "crossgrain check cases/couette/quick.toml --engines all\n"
+    "  crossgrain check cases/couette/quick.toml --set cell.omega=0.1 --resolved",
+    declare};
 
 }  // namespace crossgrain

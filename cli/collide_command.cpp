@@ -50,9 +50,8 @@ int collideCases(const std::vector<Case>& variants, const std::optional<fs::path
     fmt::print("{} curves held, {} fell short, {} not judged\nreport: {}\n", count.held,
                count.fellShort, count.notJudged, (out / "report.html").string());
   if (count.failed > 0) return exitEngineFailed;
-  if (count.judged() == 0)
-    fmt::print(stderr, "crossgrain: nothing was judged: {}\n", reports::nothingJudged(results));
-  return count.judged() == 0 || count.fellShort > 0 ? exitFellShort : exitHeld;
+  if (count.judged() == 0) return nothingWasJudged(line, reports::nothingJudged(results));
+  return count.fellShort > 0 ? exitFellShort : exitHeld;
 }
 
 int collide(const CommandLine& line) {

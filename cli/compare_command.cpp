@@ -26,6 +26,7 @@ json peerRows(const json& results) {
 
 int compare(const CommandLine& line, bool strict) {
   const Case setup = onlyCase(line, "compare");
+  printWarnings(setup);
   RunStore store(line.run, "compare", soleCase(setup));
   if (line.run.dryRun) return told(comparePlan(setup, line.run, store));
   const json results = compareEngines(setup, line.run, store);
@@ -49,9 +50,13 @@ int compare(const CommandLine& line, bool strict) {
                (line.run.out / "report.html").string());
   }
   printFailures(results["runs"]);
+  int judged = exitHeld;
+  if (const json nothing = results.value("nothing_judged", json()); nothing.is_object())
+    judged = nothingWasJudged(line, nothing["reason"], nothing["by_request"] == true || line.quick,
+                              strict);
   if (failed > 0) return exitEngineFailed;
   if (disagree > 0 || (strict && undecided > 0)) return exitFellShort;
-  return exitHeld;
+  return judged;
 }
 
 Action declare(CLI::App& app, CommandLine& line) {
@@ -59,7 +64,8 @@ Action declare(CLI::App& app, CommandLine& line) {
   addCase(app, line);
   addRun(app, line);
   addPackings(app, line);
-  addFlag(app, "--strict", *strict, "undecided verdicts count as falling short");
+  addFlag(app, "--strict", *strict,
+          "undecided verdicts count as falling short, and so does nothing judged");
   return [&line, strict] { return resumably(line.run, [&] { return compare(line, *strict); }); };
 }
 

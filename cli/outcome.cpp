@@ -37,4 +37,18 @@ int told(const std::string& plan) {
   return exitHeld;
 }
 
+int nothingWasJudged(const CommandLine& line, const std::string& reason, bool byRequest,
+                     bool strict) {
+  const std::string text = "nothing was judged: " + reason;
+  if (line.json)
+    fmt::print(stderr, "crossgrain: {}\n", text);
+  else
+    fmt::print("{}\n", text);
+  return byRequest && !strict ? exitHeld : exitFellShort;
+}
+
+void printWarnings(const Case& setup) {
+  for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
+}
+
 }  // namespace crossgrain

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cases/case.hpp"
 #include "cli/command.hpp"
 #include "runs/run_store.hpp"
 
@@ -19,5 +20,14 @@ int averaged(const CommandLine& line, RunStore& store, const nlohmann::json& res
 
 /// Prints what --dry-run tells. @returns an ExitStatus
 int told(const std::string& plan);
+
+/// The line "nothing was judged: …", on standard output, or on standard error where that holds a
+/// path alone. Nothing judged is no success. @param byRequest  it was clear from what was asked for
+/// @returns an ExitStatus: 1, or 0 if `byRequest` and not `strict`
+int nothingWasJudged(const CommandLine& line, const std::string& reason, bool byRequest = false,
+                     bool strict = false);
+
+/// What loads but is hardly meant, one line each on standard error.
+void printWarnings(const Case& setup);
 
 }  // namespace crossgrain

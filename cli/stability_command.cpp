@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "cases/case_files.hpp"
 #include "cli/one_case.hpp"
@@ -33,6 +35,17 @@ void printVerdict(const json& row) {
              figure.empty() || reason.empty() ? "" : "; ", reason);
 }
 
+/// One line for each engine and reason: nobody reads forty of them.
+void printRefusals(const json& rows) {
+  std::map<std::pair<std::string, std::string>, int> count;
+  for (const json& row : rows)
+    if (row["verdict"] == "refused")
+      ++count[{row["engine"].get<std::string>(), row["reason"].get<std::string>()}];
+  for (const auto& [what, runs] : count)
+    fmt::print("refused   {:<16} {} run{}: {}\n", what.first, runs, runs == 1 ? "" : "s",
+               what.second);
+}
+
 int stability(const CommandLine& line, SuitePart part) {
   std::vector<fs::path> inputs = line.inputs;
   if (inputs.empty()) inputs.push_back(shippedCases("cases/hard"));
@@ -54,10 +67,14 @@ int stability(const CommandLine& line, SuitePart part) {
   } else {
     for (const json& row : results["runs"])
       if (row["verdict"] != "stable" && row["verdict"] != "refused") printVerdict(row);
+    printRefusals(results["runs"]);
     fmt::print("{} stable, {} degraded, {} unstable, {} refused\nreport: {}\n", count("stable"),
                count("degraded"), unstable, count("refused"),
                (line.run.out / "report.html").string());
   }
+  if (count("refused") == static_cast<std::ptrdiff_t>(results["runs"].size()))
+    return nothingWasJudged(line, fmt::format("all runs were refused, the first because it {}",
+                                              results["runs"][0]["reason"].get<std::string>()));
   return unstable > 0 ? exitFellShort : exitHeld;
 }
 

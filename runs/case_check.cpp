@@ -17,6 +17,7 @@
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "runs/brief_timing.hpp"
+#include "runs/case_suitability.hpp"
 #include "runs/collision_sweep.hpp"
 #include "runs/couette_run.hpp"
 #include "runs/engine_access.hpp"
@@ -78,17 +79,17 @@ int packingsOf(const Case& setup) {
 
 json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene, bool timed,
                  const std::filesystem::path& scratch) {
-  json row = {{"name", entry.name},
-              {"mirrors", entry.mirrors},
-              {"can", true},
-              {"reason", ""},
-              {"deviations", json::array()}};
+  json row = {
+      {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
+      {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
   try {
     const auto engine = startEngine(entry, scratch, setup.run.timeout);
     const Capabilities can = engine->capabilities();
-    for (const Deviation& deviation : sceneFor(can, entry, setup, scene).deviations)
-      row["deviations"].push_back(deviation.note);
     checkSuitable(can, entry, setup, scene);
+    const Suitability found = suitabilityOf(*engine, entry, setup, scene);
+    row["deviations"] = found.deviations;
+    row["not_simulated"] = found.notSimulated;
+    if (found.dt) row["dt_s"] = *found.dt;
     if (!timed) return row;
     const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
     row["dt_s"] = timing.dt;
