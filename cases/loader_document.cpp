@@ -147,9 +147,9 @@ toml::table parseOverride(const std::string& text) {
     const std::string value = text.substr(equals + 1);
     const bool word = value.find_first_of("\"'[]{}\\") == std::string::npos;
     const bool digits = value.find_first_not_of("0123456789_+-") == std::string::npos;
-    if (!word ||
-        digits)  // a whole number that is no TOML has too many digits return parse(text, source);
-      return parse(text.substr(0, equals) + "=\"" + value + '"', source);
+    // A whole number that is no TOML has too many digits.
+    if (!word || digits) return parse(text, source);
+    return parse(text.substr(0, equals) + "=\"" + value + '"', source);
   }
 }
 
