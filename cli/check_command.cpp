@@ -9,9 +9,9 @@
 #include "cases/loader.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "cli/scratch_folder.hpp"
 #include "runs/case_check.hpp"
 #include "runs/engine_access.hpp"
+#include "runs/scratch_folder.hpp"
 
 namespace crossgrain {
 
