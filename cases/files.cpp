@@ -7,14 +7,24 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 namespace crossgrain {
 
+namespace {
+
+bool meansNoRoom(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EFBIG;
+}
+
+}  // namespace
+
 OutputError::OutputError(const std::filesystem::path& path, int error)
     : OutputError(path, systemReason(error)) {
-  noRoom = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  noRoom = meansNoRoom(error);
 }
+
+OutputError::OutputError(const std::system_error& error)
+    : std::runtime_error(error.what()), noRoom(meansNoRoom(error.code().value())) {}
 
 OutputError::OutputError(const std::filesystem::path& path, const std::string& why)
     : std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), why)) {}

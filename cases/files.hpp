@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace crossgrain {
 
@@ -13,6 +14,7 @@ struct OutputError : std::runtime_error {
   /// @param error errno; 0 where nobody set it
   OutputError(const std::filesystem::path& path, int error);
   OutputError(const std::filesystem::path& path, const std::string& why);
+  explicit OutputError(const std::system_error& error);
 
   /// The same, with more said after it.
   OutputError with(const std::string& more) const;

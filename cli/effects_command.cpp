@@ -40,9 +40,9 @@ void printLeg(const json& leg) {
 
 int effects(const CommandLine& line) {
   const Case setup = onlyCase(line, "effects");
-  RunStore store(line.run, "effects", soleCase(setup));
   TimingPlan plan;
   if (line.quick) plan.seconds = 0.02;
+  RunStore store(line.run, "effects", soleCase(setup));
   if (line.run.dryRun) return told(effectsPlan(setup, line.run, store, plan));
   const json results = measureEffects(setup, line.run, store, plan);
   writeReport(results, line.run.out);

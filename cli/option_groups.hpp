@@ -55,8 +55,7 @@ void addResults(CLI::App& app, CommandLine& line);
 /// Of all commands that average a file of snapshots: the file, the case, results.
 void addSnapshots(CLI::App& app, CommandLine& line);
 
-/// Of all commands that run engines: --engines, results, --jobs, --quiet,
-/// --dry-run, --resume.
+/// Of all commands that run engines: --engines, results, --jobs, --quiet, --dry-run, --resume.
 void addRun(CLI::App& app, CommandLine& line);
 
 void addQuiet(CLI::App& app, CommandLine& line);

@@ -12,7 +12,7 @@ const std::vector<Named>& exitStatuses() {
       {"0", "held; what is undecided is counted in the output"},
       {"1", "engines disagree, or something fell short or is unstable"},
       {"2", "bad input: nothing was judged"},
-      {"3", "an engine failed (outranks 1)"},
+      {"3", "an engine failed, or the disk is full (outranks 1)"},
       {"130", "interrupted"}};
   return all;
 }

@@ -12,13 +12,18 @@ int resumably(const RunCommand& command, const std::function<int()>& work) {
       fmt::format("the same command{} goes on from there", command.fresh ? " without --fresh" : "");
   const Interrupted stopped(
       fmt::format("interrupted; what is finished is kept in {}: {}", command.out.string(), same));
+  const auto explained = [&](const OutputError& error) {
+    if (!error.noRoom) return error;
+    return error.with(fmt::format("; what is finished is kept: make room, and {}", same));
+  };
   try {
     return work();
   } catch (const Interrupted&) {
     throw stopped;
   } catch (const OutputError& error) {
-    if (!error.noRoom) throw;
-    throw error.with(fmt::format("; what is finished is kept: make room, and {}", same));
+    throw explained(error);
+  } catch (const std::system_error& error) {
+    throw explained(OutputError(error));
   } catch (const std::exception&) {
     // Ctrl-C goes to all programs of a terminal: what fails after it failed of it.
     if (interrupted()) throw stopped;

@@ -37,8 +37,9 @@ json parsed(const std::optional<std::string>& text) {
 bool holdsStrangers(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const fs::path name = entry.path().filename();
-    if (name != marker && name != FolderLock::name) return !fs::exists(folder / marker, none);
+    // Marker, lock, and either while it is being written.
+    const bool ours = entry.path().filename().string().starts_with(marker);
+    if (!ours) return !fs::exists(folder / marker, none);
   }
   return false;
 }

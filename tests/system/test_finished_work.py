@@ -38,7 +38,7 @@ class FolderTest(SystemTest):
             "stability": (PILE,),
             "collide": (COLLISION, *FEW),
         }
-        self.change = {"stability": "stability.limit=0.5", "collide": "law.kn=400.0"}
+        self.change = {"stability": "stability.limit=0.04", "collide": "law.kn=400.0"}
 
     def command(self, name, *arguments, out=None, engines="grain", **options):
         return self.run_program(
@@ -139,7 +139,7 @@ class AnotherCase(FolderTest):
         done = self.run_program(
             "compare", case, "--engines=grain", "--out", self.out, "--quick", "--quiet", *SHORT
         )
-        self.assert_one_line(done, BAD_INPUT, "case.name: 'quick' → 'mine'")
+        self.assert_one_line(done, BAD_INPUT, "case.name: \"quick\" → \"mine\"")
         self.assertEqual(before, self.everything())
 
     def test_fresh_sets_aside(self):
