@@ -13,7 +13,7 @@ TEST_F(KeysOfCases, AreThoseOfTheMergedDocumentByTheirFullName) {
                          "[engines.box2d-impulse]\ndt = 5e-4\n");
   write("top.toml", "[case]\nextends = \"base.toml\"\n[law]\nmu = 0.5\n");
   const CaseKeys keys = caseKeys(loadCase("top.toml").front().resolvedToml);
-  EXPECT_EQ(keys.at("case.name"), "'top'");
+  EXPECT_EQ(keys.at("case.name"), "\"top\"");
   EXPECT_EQ(keys.at("law.mu"), "0.5");
   EXPECT_EQ(keys.at("law.kn"), "352.1");
   EXPECT_EQ(keys.at("averaging.margins.spin.absolute"), "0.3");

@@ -161,7 +161,7 @@ TEST_F(LoaderErrors, TheCellMustHoldItsDisks) {
       // 150 sin(π/59) − 2.5 = 5.48 mm, and 7.48 mm with the ring at 1.25 R_o.
       {line(14, "wall_spacing = 0.008"),
        "case.toml:14:16: cell.wall_spacing = 0.008: a disk of radius 0.0037 m slips through holes "
-       "of 0.007478 m between the 59 disks of the ring before it shrinks from "
+       "of 0.007479 m between the 59 disks of the ring before it shrinks from "
        "preparation.dilation = 1.25 R_o"},
       {line(14, "wall_spacing = 0.04"),
        "case.toml:14:16: cell.wall_spacing = 0.04: must be <= inner_radius = 0.03 m"},

@@ -54,11 +54,11 @@ TEST(AgreementTable, PairsPackingsByTheirIndex) {
   for (const int packing : {0, 1, 2, 3})
     runs.push_back(runOf("b", packing, "f", 10.0 * packing + 1.0));
   const json table =
-      agreementOf(withMargin("f", {1.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
+      agreementOf(withMargin("f", {1.5, false, "because", ""}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "agree");
   EXPECT_NEAR(ringOf(table)["difference"].get<double>(), 1.0, 1e-12);
   const json strict =
-      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
+      agreementOf(withMargin("f", {0.5, false, "because", ""}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(strict[0]["verdict"], "disagree");
 }
 
@@ -70,8 +70,8 @@ TEST(AgreementTable, RelativeMarginsAreTestedOnRatios) {
     runs.push_back(runOf("a", packing, "stress_rr", pressure));
     runs.push_back(runOf("b", packing, "stress_rr", pressure * (1.1 + 0.001 * packing)));
   }
-  const json table =
-      agreementOf(withMargin("stress_rr", {0.25, true, "because"}), runs, {{"a", "b", "peer", ""}});
+  const json table = agreementOf(withMargin("stress_rr", {0.25, true, "because", ""}), runs,
+                                 {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "agree");
   EXPECT_EQ(ringOf(table)["scale"], "logarithmic");
   // In the field's unit: 10 % of the mean 375, and the margin 25 % of it.
@@ -90,7 +90,7 @@ TEST(AgreementTable, TheSignOfAFieldDoesNotMatterToItsRatios) {
       runs.push_back(runOf("a", packing, "stress_rp", stress));
       runs.push_back(runOf("b", packing, "stress_rp", stress * (1.1 + 0.001 * packing)));
     }
-    const json table = agreementOf(withMargin("stress_rp", {0.25, true, "because"}), runs,
+    const json table = agreementOf(withMargin("stress_rp", {0.25, true, "because", ""}), runs,
                                    {{"a", "b", "peer", ""}});
     EXPECT_EQ(table[0]["verdict"], "agree");
     turned[sign < 0.0] = ringOf(table);
@@ -110,7 +110,7 @@ TEST(AgreementTable, RelativeMarginsOfASignChangingFieldAreLinear) {
     runs.push_back(runOf("b", packing, "spin", packing - 0.9));
   }
   const json table =
-      agreementOf(withMargin("spin", {0.25, true, "because"}), runs, {{"a", "b", "peer", ""}});
+      agreementOf(withMargin("spin", {0.25, true, "because", ""}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(ringOf(table)["scale"], "linear");
 }
 
@@ -123,7 +123,7 @@ TEST(AgreementTable, SaysWhatItDetectsAndWhetherLongerRunsWouldHelp) {
     for (auto run = runs.end() - 2; run != runs.end(); ++run)
       (*run)["profiles"][0]["stderr"] = {0.7};
   }
-  Case setup = withMargin("f", {1.0, false, "because"});
+  Case setup = withMargin("f", {1.0, false, "because", ""});
   setup.averaging.rotations = 3.0;
   const json table = agreementOf(setup, runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "undecided");
@@ -144,7 +144,7 @@ TEST(AgreementTable, ThreePackingsDecideNothing) {
     runs.push_back(runOf("b", packing, "f", 9.0 + packing));
   }
   const json table =
-      agreementOf(withMargin("f", {0.5, false, "because"}), runs, {{"a", "b", "peer", ""}});
+      agreementOf(withMargin("f", {0.5, false, "because", ""}), runs, {{"a", "b", "peer", ""}});
   EXPECT_EQ(table[0]["verdict"], "undecided");
 }
 

@@ -55,13 +55,13 @@ TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
   const auto verdict = [&](const Outcomes& outcomes) {
     return scoreSweep(setup, starts, outcomes, oracle)["verdict"].get<std::string>();
   };
-  setup.collision.margins["psi_f"] = {0.11, false, "in its own unit"};
+  setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
   EXPECT_EQ(verdict(found), "held");
-  setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest"};
+  setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
   EXPECT_EQ(verdict(found), "fell short");
   setup.collision.margins["max_overlap"].value = 0.3;
   EXPECT_EQ(verdict(found), "held");
-  setup.collision.margins["duration"] = {0.1, true, "nobody knows it"};
+  setup.collision.margins["duration"] = {0.1, true, "nobody knows it", ""};
   EXPECT_EQ(verdict(found), "held");
   Outcomes one = found;
   one[1].reset();

@@ -16,7 +16,7 @@ TEST(CollisionSweep, ScoresTheWholeCurveInUnitsOfItsRange) {
   Case setup = test::smallPairCase();
   setup.collision.psi = {0.0, 1.0, 2.0, 3.0, 4.0};
   setup.collision.vn = {0.01};
-  setup.collision.margins["psi_f"] = {0.01, false, "because"};
+  setup.collision.margins["psi_f"] = {0.01, false, "because", ""};
   const auto starts = collisionStarts(setup);
   const auto oracle = oracleCurve(setup, starts);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
@@ -40,7 +40,7 @@ TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
   const double jump = setup.law.mu * setup.law.gn / setup.law.gt;
   setup.collision.psi = {0.2, jump, 3.0};
   setup.collision.vn = {0.01};
-  setup.collision.margins["psi_f"] = {0.01, false, "because"};
+  setup.collision.margins["psi_f"] = {0.01, false, "because", ""};
   const auto starts = collisionStarts(setup);
   const auto oracle = oracleCurve(setup, starts);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
@@ -67,7 +67,7 @@ TEST(CollisionSweep, OfOneStartWithoutALimitNothingIsJudged) {
   Case setup = test::smallPairCase();
   setup.collision.psi = {setup.law.mu * setup.law.gn / setup.law.gt};
   setup.collision.vn = {0.01};
-  setup.collision.margins["psi_f"] = {0.01, false, "because"};
+  setup.collision.margins["psi_f"] = {0.01, false, "because", ""};
   const auto starts = collisionStarts(setup);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();

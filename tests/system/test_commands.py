@@ -148,7 +148,7 @@ class Check(SystemTest):
         self.assertRegex(done.stdout, r"54\.4 steps in the shortest contact; .*2/ω = 0\.00125 s")
         self.assertRegex(done.stdout, r"expected: \d+ to \d+ contacts")
         self.assertRegex(done.stdout, r"margin: azimuthal_velocity 0\.0015 m/s, a share of rim_speed")
-        self.assertEqual(3, len(re.findall(r"µs a step, dt .* a packing, \d+ MB", done.stdout)))
+        self.assertEqual(3, len(re.findall(r"µs a step: .* a packing, \d+ MB", done.stdout)))
         self.assertRegex(done.stdout, r"predicted for compare: .* steps were timed on")
         self.assertNotIn("predicted", self.check(COUETTE, "--no-timing").stdout)
 

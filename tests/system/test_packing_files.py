@@ -138,6 +138,21 @@ class PackingFiles(SystemTest):
                 self.assert_status(done, HELD)
         self.assertGreater(refused, 0)
 
+    def test_check_reads_it(self):
+        self.file.write_bytes(os.urandom(4096))
+        case = self.write(
+            "own.toml", f'[case]\nextends = "{COUETTE}"\n[particles]\nfile = "mine.h5"\n'
+        )
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_one_line(done, BAD_INPUT, "mine.h5", "cannot be read as an HDF5 file")
+        write_packing(self.file, radius=[SMALL] * 2, position=[(0.05, 0.0), (0.05, 0.0)])
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_one_line(done, BAD_INPUT, "mine.h5", "the same centre")
+        write_packing(self.file, radius=[SMALL] * 12, position=ring_of_disks(12))
+        done = self.run_program("check", case, "--engines", "grain")
+        self.assert_status(done, HELD)
+        self.assertIn("own: 12 disks", done.stdout)
+
 
 class PackingCache(SystemTest):
     """Packings that crossgrain prepares itself."""
@@ -214,21 +229,6 @@ class PackingCache(SystemTest):
         done = self.compare_with_cache()
         self.assert_status(done, HELD)  # costs time, not the run
         self.assertRegex(done.stderr, r"prepared, not kept for next time: .*file")
-
-    def test_check_reads_it(self):
-        self.file.write_bytes(os.urandom(4096))
-        case = self.write(
-            "own.toml", f'[case]\nextends = "{COUETTE}"\n[particles]\nfile = "mine.h5"\n'
-        )
-        done = self.run_program("check", case, "--engines", "grain")
-        self.assert_one_line(done, BAD_INPUT, "mine.h5", "cannot be read as an HDF5 file")
-        write_packing(self.file, radius=[SMALL] * 2, position=[(0.05, 0.0), (0.05, 0.0)])
-        done = self.run_program("check", case, "--engines", "grain")
-        self.assert_one_line(done, BAD_INPUT, "mine.h5", "the same centre")
-        write_packing(self.file, radius=[SMALL] * 12, position=ring_of_disks(12))
-        done = self.run_program("check", case, "--engines", "grain")
-        self.assert_status(done, HELD)
-        self.assertIn("own: 12 disks", done.stdout)
 
 
 if __name__ == "__main__":
