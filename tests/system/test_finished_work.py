@@ -205,7 +205,7 @@ class AnotherCommand(FolderTest):
             )
         done = self.run_program("rev", snapshots, COUETTE, "--out", out, "--quiet")
         self.assert_one_line(done, BAD_INPUT, "'crossgrain average', not of 'rev'")
-        self.assertEqual("compare", self.results(out)["kind"])
+        self.assertEqual("average", self.results(out)["kind"])
 
 
 class OneAtATime(FolderTest):
