@@ -57,7 +57,8 @@ std::optional<WallBalance> outerWallBalance(const Rings& rings, const Scene& sce
       const Vec2 x = p < disks ? snapshot.position.at(p) : snapshot.wallPosition.at(p - disks);
       if (x.norm() + a < low) continue;
       // −f⊗l is the same on both sides: f and l change their signs together.
-      const Vec2 branch = a * n;
+      // Both branches end in the middle of the overlap: where the force acts, the balance holds.
+      const Vec2 branch = (a - 0.5 * contacts.overlap[c]) * n;
       for (const Piece& piece : beyond(low, x, first ? Vec2(-branch) : branch))
         for (const auto& [place, weight] : gauss) {
           const double s = piece.from + place * (piece.to - piece.from);

@@ -129,7 +129,10 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   bool allCan = true, failed = false;
   for (const json& checked : all)
     for (const json& row : checked["engines"]) {
-      failed |= row.value("failed", false);
+      if (row.value("failed", false)) {
+        failed = true;
+        fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
+      }
       allCan &= row["can"] == true || row["mirrors"] != "";
     }
   if (failed) return exitEngineFailed;

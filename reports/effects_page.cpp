@@ -144,6 +144,13 @@ Json studies(const Json& results, const Engines& engines, const Illustrations& s
          {"profiles", figureViews(shown, prefix + "profile_")}});
     all.back()["hasSentences"] = !all.back()["sentences"].empty();
     all.back()["hasProfiles"] = !all.back()["profiles"].empty();
+    // With too few packings no run is drawn grey.
+    all.back()["hasFaint"] =
+        std::ranges::any_of(legsOf(results, engines[k].name), [](const EffectLeg& leg) {
+          return leg.ran() && std::ranges::any_of(leg.changes, [](const FieldChange& change) {
+                   return change.detected == std::optional(false);
+                 });
+        });
   }
   return all;
 }

@@ -59,9 +59,8 @@ nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
             static_cast<std::streamsize>(bytes_.size()));
   out.close();
   if (!out)
-    throw std::runtime_error(fmt::format(
-        "cannot write {}: {}", file.string(),
-        errno ? std::generic_category().message(errno) : "the system does not say why"));
+    throw std::system_error(errno ? errno : EIO, std::generic_category(),
+                            fmt::format("cannot write {}", file.string()));
   return list_;
 }
 

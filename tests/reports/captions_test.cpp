@@ -46,7 +46,7 @@ TEST(Axes, HoldThePanelsLine) {
   // A limit of 0.01 beside values that never came near it, and one far below them.
   EXPECT_EQ(yRangeOf(panelWith({1e-6, 3e-6}, 0.01, true)), "1e-06:0.01");
   EXPECT_EQ(yRangeOf(panelWith({5.0, 2e4}, 0.01, true)), "0.01:100000");
-  EXPECT_EQ(yRangeOf(panelWith({2.0, 3.0}, 2.5, true)), fmt::format("{}:{}", 2.0 / 1.3, 3.9));
+  EXPECT_EQ(yRangeOf(panelWith({2.0, 3.0}, 2.5, true)), fmt::format("{}:{}", 2.0 / 1.3, 3.0 * 1.3));
   // Eight decades of data at most, whatever noise lies below, but the line in any case.
   EXPECT_EQ(yRangeOf(panelWith({1e-30, 1.0}, 0.1, true)), "1e-08:1");
   EXPECT_EQ(yRangeOf(panelWith({1e-30, 1.0}, 1e-12, true)), "1e-12:1");

@@ -107,9 +107,10 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
                            ": has schema \"crossgrain-results-9\", this crossgrain reads "
                            "\"crossgrain-results-1\"");
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
-  EXPECT_EQ(message(), file +
-                           ": has kind \"dance\", a report is made of one of \"compare\", "
-                           "\"collide\", \"effects\", \"cost\", \"rev\", \"stability\"");
+  EXPECT_EQ(message(),
+            file +
+                ": has kind \"dance\", a report is made of one of \"compare\", "
+                "\"collide\", \"effects\", \"cost\", \"average\", \"rev\", \"stability\"");
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
             std::string::npos);
 }
 
-Json sweeps(const Json& curves) {
+/// Of an array: braces around one curve would be that curve itself.
+Json sweeps(const Json::array_t& curves) {
   return {{"variants", {{{"case", "pair"}, {"variant", "cut"}, {"curves", curves}}}}};
 }
 

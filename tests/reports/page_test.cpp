@@ -240,8 +240,9 @@ TEST(CollidePage, EveryScoreIsThere) {
 json averaged() {
   json results = sample::compareResults(1, 100);
   results["kind"] = "average";
-  results["engines"] = {results["engines"][0]};
-  results["runs"] = {results["runs"][0]};
+  results["command"] = "crossgrain average cases/a.toml snapshots.csv";
+  results["engines"] = json::array({results["engines"][0]});
+  results["runs"] = json::array({results["runs"][0]});
   for (const char* none : {"realised", "stats", "picture"}) results["runs"][0].erase(none);
   for (const char* none : {"agreement", "ensemble", "packings"}) results.erase(none);
   results["averaging"] = {{"method", "slicing"}, {"snapshots", 12}, {"confidence", 0.95}};

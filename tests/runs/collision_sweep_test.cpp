@@ -81,6 +81,7 @@ void expectClosedAccount(const json& table, double within) {
   constexpr const char* parts[] = {"lost_normal_damping", "lost_tangential_damping",
                                    "lost_stiffening", "lost_sliding", "lost_stored"};
   for (std::size_t k = 0; k < table["energy_before"].size(); ++k) {
+    if (table["energy_before"][k].is_null()) continue;  // no oracle there
     const double before = table["energy_before"][k],
                  lost = before - table["energy_after"][k].get<double>();
     double sum = 0.0;
@@ -100,6 +101,7 @@ TEST(CollisionSweep, PartsOfTheEnergyAddUpToWhatWasLostForEveryLaw) {
   setup.collision.vn = {0.01};
   const auto starts = collisionStarts(setup);
   bool stiffened = false;
+  int laws = 0;
   for (const NormalLaw normal : {NormalLaw::linear, NormalLaw::hertz, NormalLaw::polynomial})
     for (const TangentialLaw tangential :
          {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous,
@@ -116,12 +118,17 @@ TEST(CollisionSweep, PartsOfTheEnergyAddUpToWhatWasLostForEveryLaw) {
           setup.law.gn = setup.law.gt = 1e-5;
         }
         if (normal == NormalLaw::polynomial) setup.law.kn = 8.456e6;
-        const json table = columnsOf(starts, outcomesOf(oracleCurve(setup, starts)));
+        const OracleCurve oracle = oracleCurve(setup, starts);
+        if (!oracle.reason.empty()) continue;
+        ++laws;
+        const json table = columnsOf(starts, outcomesOf(oracle));
+        ASSERT_TRUE(table.contains("energy_before")) << table.dump();
         // Nine digits of each part.
         expectClosedAccount(table, 1e-8);
         for (const auto& part : table.value("lost_stiffening", json::array()))
           stiffened = stiffened || std::abs(part.get<double>()) > 1e-3 * 1e-12;
       }
+  EXPECT_EQ(laws, 20);     // of 30: for the others oracleCurve() says why there is no oracle
   EXPECT_TRUE(stiffened);  // else the part that was missing is not tested
 }
 

@@ -16,7 +16,7 @@ json profile(const std::string& field, const json& mean, double error) {
           {"field", field},
           {"unit", "m/s"},
           {"mean", mean},
-          {"stderr", json::array({error, error})}};
+          {"stderr", json(std::vector<double>(mean.size(), error))}};
 }
 
 json runOf(const std::string& without, int packing, const json& profiles) {
