@@ -85,7 +85,7 @@ Json curve(const char* status, const Json& psi) {
 TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
   const Json beyond = {
       {"max", 0.5}, {"unit_is", "range"}, {"limit", 0.1}, {"held", false}, {"why", "the scheme"}};
-  const std::string xml = collideJunit(sweeps({curve("finished", beyond)}));
+  const std::string xml = collideJunit(sweeps(Json::array({curve("finished", beyond)})));
   EXPECT_NE(xml.find("<testcase classname=\"pair cut\" name=\"grain, dt 2e-05 s: psi_f\" "
                      "time=\"0.250\"><failure message=\"largest error 0.5 of the range against a "
                      "limit of 0.1 (the scheme)\"/></testcase>"),
@@ -98,22 +98,23 @@ TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
   const Json held = {{"max", 0.05}, {"unit_is", "range"}, {"limit", 0.1}, {"held", true}};
   // Of two sweeps only the first shows the quantity.
   const std::string missing =
-      collideJunit(sweeps({curve("finished", held), curve("finished", nullptr)}));
+      collideJunit(sweeps(Json::array({curve("finished", held), curve("finished", nullptr)})));
   EXPECT_NE(missing.find("<skipped message=\"not measured"), std::string::npos) << missing;
-  const std::string none = collideJunit(sweeps({curve("finished", nullptr)}));
+  const std::string none = collideJunit(sweeps(Json::array({curve("finished", nullptr)})));
   EXPECT_NE(none.find("<skipped message=\"not judged"), std::string::npos) << none;
-  const std::string apart = collideJunit(sweeps({curve("incomplete", held)}));
+  const std::string apart = collideJunit(sweeps(Json::array({curve("incomplete", held)})));
   EXPECT_NE(apart.find("all pairs part\" time=\"0.000\"><failure message=\"because\"/>"),
             std::string::npos)
       << apart;
 }
 
 TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(collideJunit(sweeps({curve("failed", nullptr)})).find("<error message=\"because\"/>"),
+  EXPECT_NE(collideJunit(sweeps(Json::array({curve("failed", nullptr)})))
+                .find("<error message=\"because\"/>"),
             std::string::npos);
-  EXPECT_NE(
-      collideJunit(sweeps({curve("refused", nullptr)})).find("<skipped message=\"because\"/>"),
-      std::string::npos);
+  EXPECT_NE(collideJunit(sweeps(Json::array({curve("refused", nullptr)})))
+                .find("<skipped message=\"because\"/>"),
+            std::string::npos);
 }
 
 TEST(Junit, OfEverythingThatTheReportsShow) {
