@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "adapters/data_folder.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain {
 namespace {

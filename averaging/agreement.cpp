@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -265,4 +265,4 @@ FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// The packing is a random effect: one number per packing, and what they say together.
 struct EnsembleMean {
@@ -85,4 +85,4 @@ struct FieldVerdict {
 /// Agree iff every compared ring agrees, disagree if any ring disagrees, else undecided.
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -66,4 +66,4 @@ double quadrantArea(double X, double Y) {
   return area + top * (to - from) + underCircle(to) - underCircle(from);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Area common to a disk of radius a at distance r from the origin and the disk of radius R about
 /// the origin [m²]. Exact closed form, in half-angles of the triangle (r, a, R) so that it keeps
@@ -14,4 +14,4 @@ double straightCutArea(double r, double a, double R);
 /// Area of the unit disk about the origin in the quadrant x ≤ X, y ≤ Y [-].
 double quadrantArea(double X, double Y);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 void BlockSeries::add(std::span<const double> sample) {
   for (std::size_t k = 0; k < width_; ++k) partial_[k] += sample[k];
@@ -30,4 +30,4 @@ std::vector<double> BlockSeries::means() const {
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

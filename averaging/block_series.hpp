@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// A long time series of many numbers at a time in bounded memory: sums over blocks of equal
 /// length. When all blocks are full, pairs are merged and blocks get twice as long.
@@ -46,4 +46,4 @@ class BlockSeries {
   std::vector<double> sums_;  ///< block by block
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -4,7 +4,7 @@
 
 #include "adapters/snapshot.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// What is a contact: a pair of disks (or disk and wall) that transmits a force, f_n ≠ 0 or
 /// f_t ≠ 0, at the instant shown, or as a mean over the interval shown. So C counts what carries
@@ -20,4 +20,4 @@ inline bool transmits(const Contacts& pairs, std::size_t k) {
   return pairs.normalForce[k] != 0.0 || pairs.tangentialForce[k] != 0.0;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -6,7 +6,7 @@
 
 #include "adapters/vec2.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// The part of something that one bin gets.
 struct Share {
@@ -54,4 +54,4 @@ class Coordinates {
   virtual std::optional<Slope> slope(std::size_t slot) const = 0;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -10,7 +10,7 @@
 
 #include "averaging/contact_rule.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -210,4 +210,4 @@ Distribution DistributionAccumulator::distribution(const Collected& collected) c
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -8,7 +8,7 @@
 #include "adapters/snapshot.hpp"
 #include "averaging/rings.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Equal bins of one axis. A value below or beyond them is counted as such, not dropped.
 struct Bins {
@@ -108,4 +108,4 @@ class DistributionAccumulator {
   std::size_t joint_, coordination_, normal_, tangential_;  ///< places in all_; rings come first
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// An error as it was measured, and what it is uncertain by. All three in the same unit.
 struct MeasuredError {
@@ -41,4 +41,4 @@ inline bool kindScatters(std::string_view errorKind) {
   return errorKind == "averages";
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -9,7 +9,7 @@
 
 #include "averaging/field_formulas.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 SpringConstants springConstants(const ContactLaw& law) {
   SpringConstants springs;
@@ -176,4 +176,4 @@ bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringCon
   throw std::invalid_argument("averaging: not a need");
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

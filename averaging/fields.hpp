@@ -12,7 +12,7 @@
 #include "averaging/linear.hpp"
 #include "averaging/moments.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// What a field needs beside positions and velocities.
 enum class Needs {
@@ -84,4 +84,4 @@ std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin);
 /// Whether the snapshot and the scene hold what the field needs.
 bool available(const FieldSpec& field, const Snapshot& snapshot, const SpringConstants& springs);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -14,7 +14,7 @@
 #include "averaging/agreement.hpp"
 #include "averaging/least_squares.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -345,4 +345,4 @@ EnsembleFit ensembleFit(std::span<const Fit> perPacking) {
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -7,7 +7,7 @@
 
 #include "averaging/profiles.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// One ring of a profile as a fit sees it, in the fit's own units.
 struct FitPoint {
@@ -76,4 +76,4 @@ struct EnsembleFit {
 
 EnsembleFit ensembleFit(std::span<const Fit> perPacking);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

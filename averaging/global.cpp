@@ -9,7 +9,7 @@
 
 #include "averaging/contact_rule.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -141,4 +141,4 @@ std::optional<double> drivingTorque(const Scene& scene, const Snapshot& snapshot
   return -*state.torque;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

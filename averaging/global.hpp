@@ -6,7 +6,7 @@
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Numbers of a whole scene at one instant. What the snapshot has no data for is absent.
 struct GlobalNumbers {
@@ -45,4 +45,4 @@ std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapsho
 std::optional<double> drivingTorque(const Scene& scene, const Snapshot& snapshot,
                                     std::string_view body);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

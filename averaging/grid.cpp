@@ -7,7 +7,7 @@
 
 #include "averaging/areas.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 Grid::Grid(const Vec2& low, const Vec2& high, int nx, int ny, double height)
     : low_(low), nx_(nx), ny_(ny), height_(height) {
@@ -50,4 +50,4 @@ void Grid::discShares(const Vec2& x, double a, Edges, Shares& shares) const {
   shares.front().fraction = std::max(rest, 0.0);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -2,7 +2,7 @@
 
 #include "averaging/coordinates.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// A Cartesian grid of nx × ny equal cells; directions are x and y everywhere. One cell over
 /// everything gives whole-cell averages. Slot 0 is the overflow, cell (i, j) is slot 1 + i + nx j.
@@ -31,4 +31,4 @@ class Grid : public Coordinates {
   double height_;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

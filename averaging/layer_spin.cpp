@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::vector<FitPoint> LayerSpin::points(double scale) const {
   return points;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -7,7 +7,7 @@
 #include "averaging/fits.hpp"
 #include "averaging/rings.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Mean spin ⟨Σ V ω⟩/⟨Σ V⟩ in rings three to a disk diameter, which is what it takes to see
 /// the oscillation from layer to layer (fitSpinOscillation). Disks count where their centres are:
@@ -29,4 +29,4 @@ class LayerSpin {
   std::vector<double> area_, spin_;  ///< Σ a² and Σ a² ω per slot
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -11,7 +11,7 @@
 
 #include "averaging/fits.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -146,4 +146,4 @@ NonlinearSolution solveNonlinear(
   return solution;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

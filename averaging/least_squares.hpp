@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 struct FitPoint;
 
@@ -44,4 +44,4 @@ NonlinearSolution solveNonlinear(
     const std::function<double(const std::vector<double>& parameters, double x)>& value,
     const std::vector<double>& start);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

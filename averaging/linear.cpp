@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -72,4 +72,4 @@ LinearTensor operator*(const LinearTensor& s, const LinearTensor& t) {
           s.pr * t.rp + s.pp * t.pp};
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// A number made from moments that knows how it answers to small changes of them (forward-mode
 /// differentiation): a formula written with it is its own linearised error.
@@ -64,4 +64,4 @@ Linear axis(const LinearTensor& t);
 LinearTensor inverse(const LinearTensor& t);
 LinearTensor operator*(const LinearTensor& s, const LinearTensor& t);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -8,7 +8,7 @@
 
 #include "averaging/contact_rule.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -251,4 +251,4 @@ Moments MomentSums::momentsOf(const Snapshot& snapshot, std::size_t p, const Vec
   return moments;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

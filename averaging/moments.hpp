@@ -9,7 +9,7 @@
 #include "averaging/coordinates.hpp"
 #include "averaging/weights.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// The sums over disks that every field is made of. Each is Σ_p w_p Q_p over the moving disks, with
 /// w the disk's fraction in the bin, V = π a² h its volume, m its mass and J its moment of inertia.
@@ -121,4 +121,4 @@ class MomentSums {
   std::vector<ContactSums> contactSums_;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -8,7 +8,7 @@
 
 #include "averaging/statistics.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -109,4 +109,4 @@ Profile ProfileAccumulator::profile(std::size_t weight, const FieldSpec& field,
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -12,7 +12,7 @@
 #include "averaging/rings.hpp"
 #include "averaging/weights.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// One field against the radius, under one method: time means over a run, one entry per ring (or
 /// bin, in the order of slots, overflow left out).
@@ -75,4 +75,4 @@ class ProfileAccumulator {
   std::vector<const FieldSpec*> fields_;  ///< those that the snapshots have data for
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

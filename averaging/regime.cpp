@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::optional<double> blockedShare(std::span<const double> shear, std::size_t wi
   return static_cast<double>(blocked) / static_cast<double>(windows);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -12,7 +12,7 @@
 
 /// What kind of state a sheared cell is in. Means over runs in different regimes are means of
 /// different things, so this is asked first.
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Where the wheel's rotation is taken up, as shares of Ω: 1 = slip + shear + what is left between
 /// the outermost layer and the ring. The layers at the walls are the disks whose centres are within
@@ -80,4 +80,4 @@ RegimeVerdict regimeOf(const RegimeFigures& figures);
 /// @param shear  WheelMotion::shear at equidistant times
 std::optional<double> blockedShare(std::span<const double> shear, std::size_t window);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -10,7 +10,7 @@
 
 #include "averaging/areas.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::optional<Slope> Rings::slope(std::size_t slot) const {
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

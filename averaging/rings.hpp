@@ -4,7 +4,7 @@
 
 #include "averaging/coordinates.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// Concentric rings about the origin: the coordinate of every profile.
 ///
@@ -69,4 +69,4 @@ class Rings : public Coordinates {
   double diameter_;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

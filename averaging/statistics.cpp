@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::optional<double> halfWidth(const MeanEstimate& estimate, double confidence)
   return studentQuantile(confidence, estimate.dof) * *estimate.standardError;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

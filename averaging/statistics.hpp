@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// The mean of a correlated time series and how well it is known.
 struct MeanEstimate {
@@ -36,4 +36,4 @@ double studentQuantile(double confidence, double dof);
 /// Half width of the confidence interval of a mean; absent where its error is.
 std::optional<double> halfWidth(const MeanEstimate& estimate, double confidence);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

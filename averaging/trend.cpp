@@ -8,7 +8,7 @@
 
 #include "averaging/statistics.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -127,4 +127,4 @@ RelativeDrift relativeDrift(std::span<const double> series, double confidence, d
   return result;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// The straight line through a correlated time series, and how well its rise is known.
 struct Trend {
@@ -53,4 +53,4 @@ struct RelativeDrift {
 /// @param confidence  of the interval
 RelativeDrift relativeDrift(std::span<const double> series, double confidence, double limit);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::optional<WallBalance> outerWallBalance(const Rings& rings, const Scene& sce
                      moment / (2.0 * std::numbers::pi * rings.height() * mean * width)};
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

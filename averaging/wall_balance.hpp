@@ -6,7 +6,7 @@
 #include "adapters/snapshot.hpp"
 #include "averaging/rings.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// What the pressure of the outer wall calls for in the outermost ring, r₁ ≤ r ≤ R_o, of width Δr
 /// and mean radius r_m, from forces that act along their branches (the lines from centres to
@@ -39,4 +39,4 @@ struct WallBalance {
 std::optional<WallBalance> outerWallBalance(const Rings& rings, const Scene& scene,
                                             const Snapshot& snapshot);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<BranchPoint> branchPoints(double length, double width) {
   return points;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

@@ -8,7 +8,7 @@
 
 #include "averaging/coordinates.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline averaging {
 
 /// How a disk, and the force along a branch, is shared out among the bins.
 enum class WeightMethod {
@@ -85,4 +85,4 @@ struct BranchPoint {
 /// Three-point Gauss–Legendre rules in pieces no longer than the kernel's width.
 std::vector<BranchPoint> branchPoints(double length, double width);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline averaging

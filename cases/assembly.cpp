@@ -2,19 +2,7 @@
 
 #include <cmath>
 
-namespace crossgrain {
-
-Vec2 Assembly::turned(const Vec2& direction) const {
-  const double x = mirror ? -direction.x() : direction.x();
-  const double c = std::cos(turn), s = std::sin(turn);
-  return {c * x - s * direction.y(), s * x + c * direction.y()};
-}
-
-Vec2 Assembly::turnedBack(const Vec2& direction) const {
-  const double c = std::cos(turn), s = std::sin(turn);
-  const double x = c * direction.x() + s * direction.y();
-  return {mirror ? -x : x, c * direction.y() - s * direction.x()};
-}
+namespace crossgrain::inline cases {
 
 std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular) {
   std::vector<Vec2> places;
@@ -34,4 +22,4 @@ std::vector<Vec2> heapPlaces(int base, double spacing) {
   return places;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

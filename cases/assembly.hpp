@@ -6,8 +6,9 @@
 
 #include "adapters/motion.hpp"
 #include "adapters/scene.hpp"
+#include "stability/placement.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Disks of one kind, each at `position` plus one of `places`.
 struct DiskGroup {
@@ -31,8 +32,8 @@ struct WallGroup {
   Motion motion;
 };
 
-/// Disks and walls put together as a case file says, and then moved as a whole: mirrored at the
-/// y axis, turned about the origin, shifted, and set moving. Gravity and walls go along.
+/// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls
+/// go along.
 struct Assembly {
   std::vector<DiskGroup> disks;
   std::vector<WallGroup> walls;
@@ -42,19 +43,12 @@ struct Assembly {
   double maxOverlap = 0.2;      ///< largest overlap of a start, in units of the smallest radius
   std::uint64_t seed = 1;       ///< of jitter, radii and velocities
 
-  bool mirror = false;         ///< x → −x
-  double turn = 0.0;           ///< counter-clockwise [rad]
-  Vec2 offset = Vec2::Zero();  ///< [m]
-  Vec2 boost = Vec2::Zero();   ///< added to every velocity, walls' too (Galileo) [m/s]
+  Placement placement;
 
   /// How long it is watched: one of the three. Contact times are those of the lightest pair.
   std::optional<double> duration;      ///< [s]
   std::optional<double> contactTimes;  ///< [-]
   std::optional<double> steps;         ///< of the case's time step
-
-  /// A direction of the case file as the scene has it, and back.
-  Vec2 turned(const Vec2& direction) const;
-  Vec2 turnedBack(const Vec2& direction) const;
 };
 
 /// Places on a lattice, in diameters: row by row, from the origin to the right and upward.
@@ -65,4 +59,4 @@ std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool tr
 /// A triangle of rows of base, base − 1, … 1 disks, each in the gaps of the one below.
 std::vector<Vec2> heapPlaces(int base, double spacing);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -6,10 +6,11 @@
 #include <algorithm>
 
 #include "cases/couette.hpp"
-#include "cases/random.hpp"
 #include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
+#include "support/random.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -34,33 +35,35 @@ void addDisks(Disks& disks, const DiskGroup& group, const Assembly& assembly, gs
     disks.radius.push_back(radius);
     disks.mass.push_back(mass);
     disks.inertia.push_back(assembly.inertiaFactor * mass * radius * radius);
-    disks.position.push_back(assembly.offset + assembly.turned(position));
-    disks.velocity.push_back(assembly.boost +
-                             assembly.turned(group.velocity + Vec2(extraX, extraY)));
-    disks.spin.push_back(!assembly.rotation ? 0.0 : assembly.mirror ? -group.spin : group.spin);
+    disks.position.push_back(assembly.placement.offset + assembly.placement.turned(position));
+    disks.velocity.push_back(assembly.placement.boost +
+                             assembly.placement.turned(group.velocity + Vec2(extraX, extraY)));
+    disks.spin.push_back(!assembly.rotation          ? 0.0
+                         : assembly.placement.mirror ? -group.spin
+                                                     : group.spin);
   }
 }
 
 /// Walls that move in any other way cannot be boosted: the loader says so.
 Motion movedAlong(Motion motion, const Assembly& assembly) {
-  motion.velocity = assembly.turned(motion.velocity);
-  motion.amplitude = assembly.turned(motion.amplitude);
-  if (assembly.mirror) motion.angularVelocity = -motion.angularVelocity;
-  if (assembly.boost.isZero(0.0)) return motion;
+  motion.velocity = assembly.placement.turned(motion.velocity);
+  motion.amplitude = assembly.placement.turned(motion.amplitude);
+  if (assembly.placement.mirror) motion.angularVelocity = -motion.angularVelocity;
+  if (assembly.placement.boost.isZero(0.0)) return motion;
   motion.kind = Motion::Kind::translating;
-  motion.velocity += assembly.boost;
+  motion.velocity += assembly.placement.boost;
   return motion;
 }
 
 WallBody bodyOf(const WallGroup& group, const Assembly& assembly, std::size_t index) {
   const auto place = [&](const Vec2& point) -> Vec2 {
-    return assembly.offset + assembly.turned(point);
+    return assembly.placement.offset + assembly.placement.turned(point);
   };
   WallBody body;
   body.name = fmt::format("wall-{}", index);
   body.centre = place(group.centre);
   for (const Plane& plane : group.planes)
-    body.planes.push_back({place(plane.point), assembly.turned(plane.normal)});
+    body.planes.push_back({place(plane.point), assembly.placement.turned(plane.normal)});
   for (const Vec2& position : group.position) body.diskPosition.push_back(place(position));
   body.diskRadius.assign(group.position.size(), group.radius);
   body.motion = movedAlong(group.motion, assembly);
@@ -75,7 +78,7 @@ Scene assemblyScene(const Case& setup) {
   scene.name = setup.variant.empty() ? setup.name : setup.name + " " + setup.variant;
   scene.law = setup.law;
   scene.bottom = setup.bottom;
-  scene.gravity = assembly.turned(assembly.gravity);
+  scene.gravity = assembly.placement.turned(assembly.gravity);
   scene.rotation = assembly.rotation;
   scene.precision = setup.run.precision;
   scene.dt = timeStep(setup);
@@ -101,8 +104,4 @@ double assemblyDuration(const Case& setup) {
   return *assembly.contactTimes * contactTime(setup.law, lightestReducedMass(setup));
 }
 
-Vec2 undoneAt(const Assembly& assembly, const Vec2& position, double t) {
-  return assembly.turnedBack(position - assembly.offset - t * assembly.boost);
-}
-
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -11,11 +11,11 @@
 #include "adapters/engine.hpp"
 #include "adapters/vec2.hpp"
 #include "cases/assembly.hpp"
-#include "cases/collision_end.hpp"
 #include "cases/cost.hpp"
-#include "cases/stability.hpp"
+#include "oracle/collision_end.hpp"
+#include "stability/limits.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// The most disks that a case may have, wall disks too: checked before room for them is taken.
 inline constexpr int mostDisks = 1'000'000;
@@ -124,4 +124,4 @@ struct Case {
   std::vector<std::string> warnings;        ///< what loads, but is hardly meant; one line each
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "cases/bad_input.hpp"
 #include "cases/loader_document.hpp"
-#include "cases/nearest.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace fs = std::filesystem;
 
@@ -103,4 +103,4 @@ void requireOwnNames(const std::vector<Case>& cases) {
                                  setup.name, at->second.string()));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -6,7 +6,7 @@
 
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// The case files (*.toml) of a folder, sorted. @throws BadInput if there is none
 std::vector<std::filesystem::path> caseFilesIn(const std::filesystem::path& folder);
@@ -30,4 +30,4 @@ std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::strin
 /// Reports tell cases by their names. @throws BadInput for a name that two files have
 void requireOwnNames(const std::vector<Case>& cases);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -7,7 +7,7 @@
 
 #include "cases/loader_print.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::string changesInWords(const std::vector<std::string>& changes) {
                                 : fmt::format("{}; and {} more", text, changes.size() - most);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Every key of a case's merged document, "law.mu", with its value as TOML prints it: what two
 /// cases are told apart by. A key that is left to its default is missing.
@@ -22,4 +22,4 @@ std::vector<std::string> changes(const CaseKeys& before, const CaseKeys& now);
 /// "law.mu: 0.44 → 0.5; law.kn: … and 3 more": the first few changes, long values shortened.
 std::string changesInWords(const std::vector<std::string>& changes);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -9,7 +9,7 @@
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -99,4 +99,4 @@ Lines cautions(const Case& setup, double volumeFraction) {
   return lines;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -7,7 +7,7 @@
 #include "cases/couette.hpp"
 #include "cases/scales.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -86,4 +86,4 @@ Packing madeUpPacking(const Case& setup) {
   return packing;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -5,7 +5,7 @@
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// What a Couette case can be expected to do, from its own numbers alone: right to a factor of two
 /// or three, to tell a gas from a flow and a flow from squeezed disks before anything runs.
@@ -32,4 +32,4 @@ std::optional<double> expectedInertialNumber(const Case& setup, double bulk);
 /// all of one size, at rest. To time a step with; nothing else may be learnt from it.
 Packing madeUpPacking(const Case& setup);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 CollidingPair collidingPair(const Case& setup) {
   const Collision& c = setup.collision;
@@ -91,68 +91,4 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
   return scene;
 }
 
-namespace {
-
-CollidingPair pairOf(const Disks& disks, std::size_t i, std::size_t j) {
-  return {{disks.radius[i], disks.radius[j]},
-          {disks.mass[i], disks.mass[j]},
-          {disks.inertia[i], disks.inertia[j]}};
-}
-
-/// When a free flight from `apart` reached `reach` for the last time, ≤ 0 [s]. An engine that lets
-/// disks part a hair outside contact never had them at `reach`: then the closest approach of the
-/// flight line is the best instant there is.
-double timeOfParting(const Vec2& apart, const Vec2& velocity, double reach) {
-  const double a = velocity.squaredNorm();
-  const double b = apart.dot(velocity);
-  const double c = apart.squaredNorm() - reach * reach;
-  return (std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a;
-}
-
-const std::vector<double>& spinsOf(const Disks& disks, const Snapshot& after) {
-  return after.spin ? *after.spin : disks.spin;
-}
-
-/// The plane moves as prescribed, so only the disk's flight is looked at; the normal stays.
-std::optional<CollisionEnd> wallCollisionEnd(const Scene& scene, const Snapshot& after,
-                                             std::size_t disk, const CollisionStart& start) {
-  const Disks& disks = scene.disks;
-  const Vec2 wall = scene.bodies.front().motion.velocity;
-  const double reach = disks.radius[disk];
-  const double height = after.position[disk].x() - wall.x() * after.positionTime;
-  const Vec2 velocity = after.velocity[disk] - wall;
-  if (velocity.x() <= 0.0 || height < reach) return std::nullopt;
-  CollisionEnd end = endOf(diskOnWall(disks.radius[disk], disks.mass[disk], disks.inertia[disk]),
-                           start, {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
-  const double parting = (reach - height) / velocity.x();
-  const double touch = (disks.position[disk].x() - reach) / (wall.x() - disks.velocity[disk].x());
-  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
-  return end;
-}
-
-}  // namespace
-
-std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
-                                         std::size_t pair, const CollisionStart& start) {
-  if (!scene.bodies.empty()) return wallCollisionEnd(scene, after, pair, start);
-  const std::size_t i = 2 * pair;
-  const std::size_t j = i + 1;
-  const Disks& disks = scene.disks;
-  const double reach = disks.radius[i] + disks.radius[j];
-  const Vec2 apart = after.position[i] - after.position[j];
-  const Vec2 velocity = after.velocity[i] - after.velocity[j];
-  if (apart.dot(velocity) <= 0.0 || apart.norm() < reach) return std::nullopt;
-  const double parting = timeOfParting(apart, velocity, reach);
-  const Vec2 normal = (apart + parting * velocity).normalized();
-  const std::vector<double>& spin = spinsOf(disks, after);
-  CollisionEnd end =
-      endOf(pairOf(disks, i, j), start,
-            {velocity.dot(normal), velocity.dot(perpendicular(normal)), {spin[i], spin[j]}});
-  // The flight that brought them together, run backwards, parted them when they met.
-  const double touch = -timeOfParting(disks.position[i] - disks.position[j],
-                                      disks.velocity[j] - disks.velocity[i], reach);
-  if (scene.law.soft()) end.duration = after.positionTime + parting - touch;
-  return end;
-}
-
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -3,11 +3,10 @@
 #include <vector>
 
 #include "adapters/scene.hpp"
-#include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
-#include "cases/collision_end.hpp"
+#include "oracle/collision_end.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// The two bodies of a collision case.
 CollidingPair collidingPair(const Case& setup);
@@ -22,11 +21,4 @@ std::vector<CollisionStart> collisionStarts(const Case& setup);
 /// that all meet; the plane moves, and the disks move as said with respect to it.
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
 
-/// Traces the free flight after the collision back to the instant when the disks parted. An end
-/// without maxOverlap and lost, which the flight does not tell.
-/// @param scene  of collisionScene() @param start  of that pair
-/// @returns none if they never met or still touch
-std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
-                                         std::size_t pair, const CollisionStart& start);
-
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

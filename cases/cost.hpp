@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// What `crossgrain cost` varies and measures in a Couette case, [cost] of a case file. Steps are
 /// numbers of steps in the contact time t_c of two small disks.
@@ -43,4 +43,4 @@ struct Cost {
   std::map<std::string, std::map<std::string, std::vector<double>>> settings;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

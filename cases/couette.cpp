@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "adapters/start_check.hpp"
-#include "cases/bad_input.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 int wallDiskCount(const Cell& cell, double radius) {
   return static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / cell.wallSpacing));
@@ -117,4 +117,4 @@ void checkStart(const Scene& scene, const Particles& particles, const std::strin
       particles.maxOverlap, limit));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -3,7 +3,7 @@
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Names of the cell's two bodies.
 inline constexpr const char* wheelName = "wheel";
@@ -41,4 +41,4 @@ Disks spreadDisks(const Case& setup);
 void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
                 const Cell* cell = nullptr);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -2,7 +2,7 @@
 
 #include "cases/couette.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 /// What was done, and as TOML.
@@ -108,4 +108,4 @@ std::vector<EffectSwitch> effectSwitches(const Case& setup) {
   return switches;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

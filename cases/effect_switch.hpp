@@ -7,7 +7,7 @@
 #include "adapters/effects.hpp"
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// The effects that a Couette case calls for.
 Effects effectsOf(const Case& setup);
@@ -35,4 +35,4 @@ std::optional<EffectSwitch> without(const Case& setup, Effect effect);
 /// double precision (single instead).
 std::vector<EffectSwitch> effectSwitches(const Case& setup);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

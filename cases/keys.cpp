@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 extern const char* const caseDocument;  // cases/README.md, see key_document.cpp.in
 
@@ -92,4 +92,4 @@ const std::vector<CaseKey>& caseKeys() {
   return keys;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

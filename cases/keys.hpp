@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// A key of case files, as the tables of cases/README.md have it. Names in capitals stand for
 /// names: FIELD, SETTING.
@@ -19,4 +19,4 @@ struct CaseKey {
 /// what the loader asks for.
 const std::vector<CaseKey>& caseKeys();
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -14,8 +14,9 @@
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
+#include "oracle/impact.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 // In the order of CaseKind.
@@ -251,4 +252,4 @@ std::string resolvedFile(const std::vector<Case>& cases) {
   return text;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "cases/bad_input.hpp"
 #include "cases/case.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Reads a case file (TOML, SI units; cases/README.md has every key): resolves what it extends,
 /// expands its variants, applies the command line's changes, and checks everything, so that nothing
@@ -26,4 +26,4 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
 /// it lies: one case as it is, several as variants of each of which everything is said.
 std::string resolvedFile(const std::vector<Case>& cases);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "cases/loader_sections.hpp"
-#include "cases/stability_measures.hpp"
+#include "stability/measures.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 /// [x, y] where the key is there.
@@ -206,19 +206,19 @@ void readAssembly(Reader& in, Assembly& assembly) {
   in.read("rotation", assembly.rotation);
   in.read("max_overlap", assembly.maxOverlap, between(0.0, 2.0));
   in.read("seed", assembly.seed, between(0, mostSeed));
-  in.read("mirror", assembly.mirror);
+  in.read("mirror", assembly.placement.mirror);
   double degrees = 0.0;
   in.read("rotate", degrees, Range{.unit = "degrees"});
-  assembly.turn = degrees * std::numbers::pi / 180.0;
-  readVector(in, "offset", assembly.offset, "m");
-  readVector(in, "boost", assembly.boost, "m/s");
+  assembly.placement.turn = degrees * std::numbers::pi / 180.0;
+  readVector(in, "offset", assembly.placement.offset, "m");
+  readVector(in, "boost", assembly.placement.boost, "m/s");
   readDuration(in, assembly);
   in.finish();
   if (assembly.disks.empty()) in.failMissing("disks", "an assembly has [[assembly.disks]]");
   const bool moved = std::ranges::any_of(assembly.walls, [](const WallGroup& wall) {
     return wall.motion.kind != Motion::Kind::fixed && wall.motion.kind != Motion::Kind::translating;
   });
-  if (moved && !assembly.boost.isZero(0.0))
+  if (moved && !assembly.placement.boost.isZero(0.0))
     in.fail("boost", "not where a wall rotates or oscillates");
 }
 
@@ -239,4 +239,4 @@ void readStability(Reader& in, Stability& stability) {
     in.fail("degraded", fmt::format("must be >= limit = {}", stability.limit));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

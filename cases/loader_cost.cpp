@@ -1,7 +1,7 @@
 #include "averaging/weights.hpp"
 #include "cases/loader_sections.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 void readSettings(Reader in, Cost& cost) {
@@ -47,4 +47,4 @@ void readCost(Reader& in, Cost& cost) {
   in.finish();
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

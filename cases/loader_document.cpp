@@ -11,10 +11,10 @@
 #include <set>
 #include <string_view>
 
-#include "cases/bad_input.hpp"
-#include "cases/input_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/input_file.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -249,4 +249,4 @@ std::vector<CaseDocument> readCaseDocuments(const fs::path& file,
   return documents;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// A case file with all it extends, one variant and the command line's changes merged into it.
 /// Every node still knows the file, line and column (or the `--set`) that it came from.
@@ -50,4 +50,4 @@ std::filesystem::path folderOf(const toml::source_region& source);
 /// "file:line:column: ", "file: " or "--set key=value: ".
 std::string location(const toml::source_region& source);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

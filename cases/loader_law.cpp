@@ -7,7 +7,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/loader_sections.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 void readOptions(Reader& in, ContactLaw& law) {
@@ -192,4 +192,4 @@ void readLaw(Reader& in, ContactLaw& law) {
   }
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

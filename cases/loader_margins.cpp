@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "averaging/fields.hpp"
-#include "cases/collision_quantities.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/scales.hpp"
+#include "oracle/collision_quantities.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 /// Something that a margin can be for.
@@ -86,4 +86,4 @@ std::map<std::string, Margin> readCollisionMargins(Reader in) {
   return readAll(std::move(in), quantities, nullptr);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

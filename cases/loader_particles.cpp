@@ -6,7 +6,7 @@
 #include "cases/loader_sections.hpp"
 #include "cases/volume_fraction.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 /// small_mass and large_mass, or a density of which disks of the cell's height are made.
@@ -98,4 +98,4 @@ void readParticles(Reader& in, const Cell& cell, Particles& particles) {
             fmt::format("with large = {} that is more than {} disks", particles.large, mostDisks));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 template <typename Node>
@@ -72,4 +72,4 @@ std::string printVariant(const toml::table& root, const std::string& name) {
   return out;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// One value as TOML on one line, numbers with the fewest digits that read back the same.
 std::string printValue(const toml::node& node);
@@ -15,4 +15,4 @@ std::string printDocument(const toml::table& root);
 /// A document as one of [[variants]]: everything in it is what that variant changes.
 std::string printVariant(const toml::table& root, const std::string& name);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <set>
 
-#include "cases/input_file.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_print.hpp"
-#include "cases/nearest.hpp"
+#include "support/input_file.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 constexpr std::size_t longestList = 10'000;
@@ -282,4 +282,4 @@ void Reader::fail(std::string_view key, std::string_view what) const {
   Value{*table_->get(key), pathOf(key)}.fail(what);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "cases/bad_input.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// What a number may be, with its unit for the message.
 struct Range {
@@ -99,4 +99,4 @@ class Reader {
   std::vector<std::string> known_, missing_;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

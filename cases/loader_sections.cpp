@@ -11,7 +11,7 @@
 #include "adapters/law_options.hpp"
 #include "averaging/weights.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 constexpr int mostSnapshots = 10'000'000;  // averaged in one run
@@ -211,4 +211,4 @@ void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
   }
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

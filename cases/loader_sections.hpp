@@ -7,7 +7,7 @@
 #include "cases/case.hpp"
 #include "cases/loader_reader.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 // One function per section of a case file: reads every key, then checks what the section can tell
 // alone. All throw BadInput.
@@ -33,4 +33,4 @@ void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

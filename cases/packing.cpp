@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "adapters/law_options.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
-#include "cases/files.hpp"
-#include "cases/hdf5_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/hdf5_file.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 std::uint64_t fnv1a(const std::string& text) {
@@ -161,4 +161,4 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup) {
   }
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

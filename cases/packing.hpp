@@ -7,7 +7,7 @@
 #include "adapters/scene.hpp"
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Disks in the cell, ready to be handed to an engine at t = 0.
 struct Packing {
@@ -35,4 +35,4 @@ void writePacking(const Packing& packing, const std::filesystem::path& file);
 /// @throws BadInput naming the file and what it lacks
 Packing readPacking(const std::filesystem::path& file, const Case& setup);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

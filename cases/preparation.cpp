@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
-#include "cases/files.hpp"
-#include "cases/random.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/random.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 namespace {
 
 /// Sites of a triangular lattice of the given constant with `inner` <= r <= `outer`.
@@ -156,4 +156,4 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
   return packing;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

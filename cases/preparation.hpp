@@ -6,7 +6,7 @@
 #include "adapters/engine.hpp"
 #include "cases/packing.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Prepares packing `index` of a case as Lätzel (2003, section 3.3) does: disks on a dilute
 /// triangular lattice with random velocities, wheel turning, ring shrinking from R_prepare to R_o,
@@ -25,4 +25,4 @@ std::filesystem::path packingCacheFile(const std::string& hash);
 Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
                   const std::function<void(double)>& progress);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

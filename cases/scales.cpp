@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numbers>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -47,4 +47,4 @@ double shareOf(const Scale& scale, double share, const Case& setup) {
   return std::strtod(fmt::format("{:.1e}", share * scale.of(setup)).c_str(), nullptr);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

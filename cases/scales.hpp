@@ -5,7 +5,7 @@
 
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// A quantity of a Couette case itself. What a case file gives as a share of one still fits where
 /// the case is extended to another wheel, rate or disk.
@@ -22,4 +22,4 @@ std::span<const Scale> scales();
 /// know better.
 double shareOf(const Scale& scale, double share, const Case& setup);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -7,8 +7,9 @@
 #include <stdexcept>
 
 #include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -60,4 +61,4 @@ std::string whyUnstableStep(const Case& setup, double dt, const std::string& key
       key, dt, limit->dt, limit->stiffness, limit->reducedMass);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -5,7 +5,7 @@
 
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// t_c of the lightest pair that a case's own numbers allow [s]; absent for a law that has none,
 /// and where the disks are a packing file's.
@@ -30,4 +30,4 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup, std::optional<doub
 std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
                             std::optional<double> lightest = {});
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 namespace {
 
@@ -38,4 +38,4 @@ void setNumbers(const Cell& cell, Particles& particles, double fraction, double 
   particles.small = largeShare == 1.0 ? 0 : static_cast<int>(std::lround(std::max(0.0, small)));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -2,7 +2,7 @@
 
 #include "cases/case.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cases {
 
 /// Global volume fraction ν̄ = Σ π a² / (π (R_o² − R_i²)): the whole area of the disks, without the
 /// wall disks, over the ring between the circles on which the wall disks' centres lie. So the
@@ -16,4 +16,4 @@ double diskNumber(const Cell& cell, const Particles& particles, double fraction,
 /// share, then small ones for what is left. @param largeShare  by number, 0 … 1
 void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeShare);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cases

@@ -1,9 +1,9 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "runs/average.hpp"
+#include "runs/couette/average.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 int average(const CommandLine& line) {
@@ -24,4 +24,4 @@ extern const Command averageCommand = {
     "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

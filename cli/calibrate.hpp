@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cases/calibration.hpp"
+#include "oracle/calibration.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// What `crossgrain calibrate` was asked: wanted values, or constants, or a case file (which is in
 /// CommandLine::inputs), and the pair that they are for. SI units.
@@ -35,4 +35,4 @@ struct NamedPair {
 void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
                 std::optional<double> vn);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

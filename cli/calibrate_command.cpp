@@ -8,12 +8,12 @@
 #include <memory>
 
 #include "adapters/law_options.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
-#include "cases/nearest.hpp"
 #include "cli/option_groups.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 /// An option of one number, and what it may be.
@@ -299,4 +299,4 @@ extern const Command calibrateCommand = {
     "crossgrain calibrate cases/couette/quick.toml",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

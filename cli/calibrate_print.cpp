@@ -6,7 +6,7 @@
 #include "adapters/law_options.hpp"
 #include "cli/calibrate.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 constexpr double stepsPerContact = 50.0;
@@ -127,4 +127,4 @@ void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
   warnIfSoft(largest);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

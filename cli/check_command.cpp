@@ -9,11 +9,11 @@
 #include "cases/loader.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/case_check.hpp"
-#include "runs/engine_access.hpp"
-#include "runs/scratch_folder.hpp"
+#include "runs/check/case_check.hpp"
+#include "runs/common/engine_access.hpp"
+#include "support/scratch_folder.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -159,4 +159,4 @@ extern const Command checkCommand = {
     "  crossgrain check cases/couette/quick.toml --set cell.omega=0.1 --resolved",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -3,18 +3,18 @@
 #include <map>
 #include <optional>
 
-#include "cases/bad_input.hpp"
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "reports/collide_table.hpp"
+#include "reports/collide/table.hpp"
 #include "reports/report.hpp"
-#include "runs/collide.hpp"
-#include "runs/collision_folder.hpp"
-#include "runs/resumable.hpp"
+#include "runs/collide/collide.hpp"
+#include "runs/collide/folder.hpp"
+#include "runs/common/resumable.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -80,4 +80,4 @@ extern const Command collideCommand = {
     "crossgrain collide cases/collision -k glass --engines grain --out out",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

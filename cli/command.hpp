@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "runs/options.hpp"
+#include "runs/common/options.hpp"
 
 namespace CLI {
 class App;
 }
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// Exit statuses, as design and README promise them.
 enum ExitStatus {
@@ -57,4 +57,4 @@ bool isInternal(const Command& command);
 /// The names of all others.
 std::vector<std::string> publicCommands();
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -2,7 +2,7 @@
 
 #include "cli/command.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 // Each in a file of its name.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, compareCommand,
@@ -29,4 +29,4 @@ std::vector<std::string> publicCommands() {
   return names;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -7,10 +7,10 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
-#include "runs/compare.hpp"
-#include "runs/resumable.hpp"
+#include "runs/common/resumable.hpp"
+#include "runs/couette/compare.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -75,4 +75,4 @@ extern const Command compareCommand = {
     "compare", "run, average, cross-check",
     "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -8,7 +8,7 @@
 #include "adapters/registry.hpp"
 #include "cli/option_groups.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 /// What a value of an option can be, by the name of its type; none: anything, or a file.
@@ -93,4 +93,4 @@ Action declare(CLI::App& app, CommandLine&) {
 extern const Command completionCommand = {"__completion", "write the completion for bash", "",
                                           declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

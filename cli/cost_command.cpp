@@ -3,19 +3,19 @@
 #include <memory>
 #include <optional>
 
-#include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
 #include "reports/report.hpp"
-#include "runs/cost.hpp"
-#include "runs/cost_advice.hpp"
-#include "runs/cost_analysis.hpp"
-#include "runs/resumable.hpp"
+#include "runs/common/resumable.hpp"
+#include "runs/cost/advice.hpp"
+#include "runs/cost/analysis.hpp"
+#include "runs/cost/cost.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -118,4 +118,4 @@ extern const Command costCommand = {
     "crossgrain cost cases/cost/quick.toml --engines all --out out --want 1%",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -7,10 +7,10 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
-#include "runs/effects.hpp"
-#include "runs/resumable.hpp"
+#include "runs/common/resumable.hpp"
+#include "runs/effects/effects.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -70,4 +70,4 @@ extern const Command effectsCommand = {
     "effects", "what each effect of a case costs and changes",
     "crossgrain effects cases/couette/quick.toml --engines grain --out out", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

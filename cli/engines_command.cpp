@@ -4,10 +4,10 @@
 #include "adapters/worker/json.hpp"
 #include "cases/preparation.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/engine_access.hpp"
-#include "runs/scratch_folder.hpp"
+#include "runs/common/engine_access.hpp"
+#include "support/scratch_folder.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -76,4 +76,4 @@ Action declare(CLI::App& app, CommandLine& line) {
 extern const Command enginesCommand = {"engines", "engines found, what they can do, their settings",
                                        "crossgrain engines", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

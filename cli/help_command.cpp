@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "cases/bad_input.hpp"
-#include "cases/nearest.hpp"
 #include "cli/option_groups.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 int help(const CLI::App& program, const std::optional<std::string>& name) {
@@ -38,4 +38,4 @@ Action declare(CLI::App& app, CommandLine&) {
 extern const Command helpCommand = {"help", "the help of a command, as with --help",
                                     "crossgrain help compare", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

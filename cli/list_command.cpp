@@ -5,15 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "averaging/fields.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/case_files.hpp"
 #include "cases/keys.hpp"
-#include "cases/nearest.hpp"
-#include "cases/stability_measures.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
+#include "stability/measures.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -129,4 +129,4 @@ extern const Command listCommand = {
     "crossgrain list keys --json",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

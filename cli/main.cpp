@@ -7,13 +7,13 @@
 #include <system_error>
 
 #include "adapters/engine.hpp"
-#include "cases/bad_input.hpp"
-#include "cases/files.hpp"
 #include "cli/command.hpp"
 #include "cli/program.hpp"
-#include "runs/interrupt.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/interrupt.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 /// Where standard input, output or error is closed, the next file to be opened would take its
@@ -58,7 +58,7 @@ int runAndExplain(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli
 
 int main(int argc, char** argv) {
   gsl_set_error_handler_off();  // GSL's own would abort; its status codes are looked at

@@ -5,12 +5,12 @@
 #include <fstream>
 #include <memory>
 
-#include "cases/bad_input.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/reference.hpp"
-#include "runs/version.hpp"
+#include "runs/common/version.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 
@@ -110,4 +110,4 @@ Action declare(CLI::App& app, CommandLine&) {
 
 extern const Command manualCommand = {"__manual", "write manual pages", "", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

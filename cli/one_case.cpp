@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "adapters/data_folder.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/loader.hpp"
+#include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 
@@ -39,4 +39,4 @@ std::string effectsInWords(const Effects& called) {
                      out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -6,7 +6,7 @@
 #include "cases/case.hpp"
 #include "cli/command.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// The one Couette case that a command was given, without variants; shortened by --quick.
 /// @throws BadInput
@@ -18,4 +18,4 @@ std::filesystem::path shippedCases(const std::string& folder);
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

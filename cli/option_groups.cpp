@@ -7,9 +7,9 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "cases/bad_input.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 std::string isNumber(const std::string& text) {
@@ -157,4 +157,4 @@ void addPackings(CLI::App& app, CommandLine& line) {
   app.add_flag("--quick", line.quick, "a short version, to see that everything works");
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -6,7 +6,7 @@
 
 #include "cli/command.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// What commands take. CLI11 itself is slow to compile, so that only option_groups.cpp and
 /// program.cpp include it.
@@ -64,4 +64,4 @@ void addQuiet(CLI::App& app, CommandLine& line);
 void addPackings(CLI::App& app, CommandLine& line);
 /// @}
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

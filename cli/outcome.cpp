@@ -6,7 +6,7 @@
 
 #include "reports/report.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 using nlohmann::json;
 
@@ -51,4 +51,4 @@ void printWarnings(const Case& setup) {
   for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -5,9 +5,9 @@
 
 #include "cases/case.hpp"
 #include "cli/command.hpp"
-#include "runs/run_store.hpp"
+#include "runs/common/run_store.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// Rows of a list whose `key` has this value.
 int countOf(const nlohmann::json& list, const char* key, const std::string& value);
@@ -30,4 +30,4 @@ int nothingWasJudged(const CommandLine& line, const std::string& reason, bool by
 /// What loads but is hardly meant, one line each on standard error.
 void printWarnings(const Case& setup);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

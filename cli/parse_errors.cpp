@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cases/nearest.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 bool isOption(const std::string& argument) {
@@ -95,4 +95,4 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
                      ofCommand ? asked.get_name() : "", ofCommand ? " " : "");
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -7,10 +7,10 @@ class App;
 class ParseError;
 }  // namespace CLI
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// What a command line was refused for, in the words of this program, with the help that says what
 /// would be right.
 std::string explain(const CLI::ParseError& error, const CLI::App& app);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -9,14 +9,14 @@
 #include <thread>
 #include <vector>
 
-#include "cases/bad_input.hpp"
-#include "cases/nearest.hpp"
 #include "cli/command.hpp"
 #include "cli/parse_errors.hpp"
 #include "cli/reference.hpp"
-#include "runs/version.hpp"
+#include "runs/common/version.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 /// CLI11 would only say that some subcommand is required.
@@ -69,4 +69,4 @@ int runProgram(int argc, char** argv) {
   return actions[static_cast<std::size_t>(asked - commands().begin())]();
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 const std::vector<Named>& exitStatuses() {
   static const std::vector<Named> all = {
@@ -71,4 +71,4 @@ std::string synopsis(const CLI::App& command) {
   return text + "[OPTIONS]";
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

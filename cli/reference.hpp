@@ -5,7 +5,7 @@
 
 #include "cli/command.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 /// What --help and the manual pages say of all commands.
 struct Named {
@@ -26,4 +26,4 @@ std::string footer(const Command* command);
 /// "case --engines NAMES --out FOLDER [options]"
 std::string synopsis(const CLI::App& command);
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -2,9 +2,9 @@
 
 #include "cli/option_groups.hpp"
 #include "reports/report.hpp"
-#include "runs/folder_lock.hpp"
+#include "support/folder_lock.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 
@@ -30,4 +30,4 @@ Action declare(CLI::App& app, CommandLine& line) {
 extern const Command reportCommand = {"report", "rebuild reports from results.json",
                                       "crossgrain report out", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

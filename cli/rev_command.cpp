@@ -1,9 +1,9 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "runs/rev.hpp"
+#include "runs/couette/rev.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 int rev(const CommandLine& line) {
@@ -25,4 +25,4 @@ extern const Command revCommand = {
     "rev", "every field against ring width, under every weight",
     "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -4,10 +4,10 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
-#include "cases/bad_input.hpp"
 #include "cli/option_groups.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 int serveEngine(const std::string& name) {
@@ -27,4 +27,4 @@ Action declare(CLI::App& app, CommandLine&) {
 extern const Command serveCommand = {"__serve", "speak the worker protocol on descriptors 3 and 4",
                                      "", declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -10,11 +10,11 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
-#include "runs/engine_access.hpp"
-#include "runs/resumable.hpp"
-#include "runs/stability.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/resumable.hpp"
+#include "runs/stability/stability.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -103,4 +103,4 @@ extern const Command stabilityCommand = {
     "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out",
     declare};
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "cases/bad_input.hpp"
+#include "support/bad_input.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline cli {
 namespace {
 
 /// A positive number and one of some units. @throws BadInput
@@ -37,4 +37,4 @@ double shareOf(const std::string& want) {
   return numberWithUnit("--want", want, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline cli

@@ -22,11 +22,12 @@ install(DIRECTORY engines/yade DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/e
         FILES_MATCHING PATTERN "*.py")
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(crossgrain_libraries crossgrain_options grain box2d_granular crossgrain_adapters crossgrain_worker
-    crossgrain_engines crossgrain_averaging crossgrain_cases crossgrain_reports crossgrain_runs)
+set(crossgrain_libraries crossgrain_options crossgrain_support grain box2d_granular crossgrain_adapters
+    crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
+    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_runs)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
-foreach(folder adapters averaging cases engines/grain engines/box2d reports runs)
+foreach(folder support adapters oracle stability averaging cases engines/grain engines/box2d results reports runs)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crossgrain/${folder}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "curated" EXCLUDE PATTERN "templates" EXCLUDE)
 endforeach()

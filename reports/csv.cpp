@@ -1,4 +1,4 @@
-#include "reports/csv.hpp"
+#include "reports/common/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "reports/collide_table.hpp"
-#include "reports/csv_row.hpp"
+#include "reports/collide/table.hpp"
+#include "reports/common/csv_row.hpp"
 
 namespace crossgrain::reports {
 

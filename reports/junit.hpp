@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/json_view.hpp"
+#include "reports/common/json_view.hpp"
 
 /// Verdicts as JUnit's XML, which build servers read.
 namespace crossgrain::reports {

@@ -3,15 +3,15 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cases/files.hpp"
-#include "reports/csv.hpp"
-#include "reports/figures.hpp"
-#include "reports/gnuplot.hpp"
-#include "reports/json_view.hpp"
+#include "reports/common/csv.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/common/gnuplot.hpp"
+#include "reports/common/json_view.hpp"
+#include "reports/common/pages.hpp"
+#include "reports/common/pictures.hpp"
 #include "reports/junit.hpp"
-#include "reports/pages.hpp"
-#include "reports/pictures.hpp"
-#include "reports/schema.hpp"
+#include "results/schema.hpp"
+#include "support/files.hpp"
 
 namespace crossgrain {
 
@@ -34,11 +34,17 @@ std::vector<Picture> noPictures(const Json&) {
 Kind kindOf(const Json& results) {
   const std::string kind = text(results, "kind");
   if (kind == kindCollide)
-    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}}, collideFigures, noPictures, collidePage};
+    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
+            collideFigures,
+            noPictures,
+            collidePage};
   if (kind == kindEffects)
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
   if (kind == kindStability)
-    return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}}, stabilityFigures, stabilityPictures, stabilityPage};
+    return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
+            stabilityFigures,
+            stabilityPictures,
+            stabilityPage};
   if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
   if (kind == kindAverage)
     return {{{"profiles.csv", profilesCsv},

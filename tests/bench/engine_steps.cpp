@@ -16,7 +16,7 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/engine_access.hpp"
+#include "runs/common/engine_access.hpp"
 
 using namespace crossgrain;
 using nlohmann::json;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "cases/assembly_scene.hpp"
-#include "cases/bad_input.hpp"
+#include "support/bad_input.hpp"
 
 namespace {
 
@@ -53,10 +53,10 @@ TEST(AssemblyScene, IsWhatTheCaseSays) {
 
 TEST(AssemblyScene, MirrorThenTurnThenShiftThenBoost) {
   Case setup = twoDisks();
-  setup.assembly.mirror = true;
-  setup.assembly.turn = std::numbers::pi / 2.0;
-  setup.assembly.offset = {10.0, 0.0};
-  setup.assembly.boost = {0.0, 7.0};
+  setup.assembly.placement.mirror = true;
+  setup.assembly.placement.turn = std::numbers::pi / 2.0;
+  setup.assembly.placement.offset = {10.0, 0.0};
+  setup.assembly.placement.boost = {0.0, 7.0};
   const Scene scene = assemblyScene(setup);
   // (1, 0) → (−1, 0) → (0, −1) → (10, −1); velocity (1, 2) → (−1, 2) → (−2, −1) → (−2, 6).
   EXPECT_NEAR((scene.disks.position[1] - Vec2(10.0, -1.0)).norm(), 0.0, 1e-14);
@@ -67,8 +67,8 @@ TEST(AssemblyScene, MirrorThenTurnThenShiftThenBoost) {
   EXPECT_NEAR((wall.planes[0].normal - Vec2(-1.0, 0.0)).norm(), 0.0, 1e-14);
   EXPECT_EQ(wall.motion.kind, Motion::Kind::translating);
   EXPECT_EQ(wall.motion.velocity, Vec2(0.0, 7.0));
-  const Vec2 later = scene.disks.position[1] + 2.0 * setup.assembly.boost;
-  EXPECT_NEAR((undoneAt(setup.assembly, later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0, 1e-14);
+  const Vec2 later = scene.disks.position[1] + 2.0 * setup.assembly.placement.boost;
+  EXPECT_NEAR((setup.assembly.placement.undoneAt(later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0, 1e-14);
 }
 
 TEST(AssemblyScene, RandomnessIsTheSeeds) {

@@ -1,10 +1,11 @@
 #include "cases/collision_scene.hpp"
+#include "oracle/collision_flight.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/cases/thesis_pair.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "adapters/grain.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/preparation.hpp"
-#include "tests/cases/thesis_pair.hpp"
+#include "support/bad_input.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "cases/bad_input.hpp"
-#include "cases/hdf5_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/hdf5_file.hpp"
 
 namespace {
 

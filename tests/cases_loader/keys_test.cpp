@@ -9,8 +9,8 @@
 #include <set>
 
 #include "averaging/fields.hpp"
-#include "cases/collision_quantities.hpp"
 #include "files.hpp"
+#include "oracle/collision_quantities.hpp"
 
 namespace crossgrain {
 namespace {

@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "adapters/law_options.hpp"
-#include "cases/collision_oracle.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
+#include "oracle/collision_oracle.hpp"
+#include "oracle/impact.hpp"
 
 namespace crossgrain {
 namespace {

@@ -1,12 +1,13 @@
 #include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "cases/nearest.hpp"
 #include "cases/stable_step.hpp"
+#include "support/nearest.hpp"
 
 namespace crossgrain {
 namespace {

@@ -3,8 +3,9 @@
 #include <stdexcept>
 
 #include "adapters/law_options.hpp"
-#include "cases/collision_oracle.hpp"
 #include "cases/collision_scene.hpp"
+#include "oracle/collision_flight.hpp"
+#include "oracle/collision_oracle.hpp"
 #include "tests/conformance/conformance.hpp"
 
 namespace crossgrain::conformance {

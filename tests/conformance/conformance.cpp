@@ -10,8 +10,8 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
-#include "cases/collision_oracle.hpp"
-#include "runs/engine_access.hpp"
+#include "oracle/collision_oracle.hpp"
+#include "runs/common/engine_access.hpp"
 
 namespace crossgrain::conformance {
 namespace {

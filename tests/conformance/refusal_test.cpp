@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "adapters/law_options.hpp"
-#include "cases/bad_input.hpp"
-#include "runs/engine_access.hpp"
+#include "runs/common/engine_access.hpp"
+#include "support/bad_input.hpp"
 #include "tests/conformance/conformance.hpp"
 
 namespace crossgrain::conformance {

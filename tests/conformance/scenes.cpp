@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
 
 namespace crossgrain::conformance {
 

@@ -9,9 +9,9 @@
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette_run.hpp"
-#include "runs/engine_access.hpp"
-#include "runs/records.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/records.hpp"
+#include "runs/couette/run.hpp"
 
 namespace crossgrain::coverage {
 

@@ -12,11 +12,11 @@
 #include "averaging/global.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/regime.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
+#include "support/bad_input.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
-#include "runs/paired_rings.hpp"
-#include "runs/records.hpp"
+#include "runs/common/records.hpp"
+#include "runs/couette/paired_rings.hpp"
 
 namespace crossgrain::coverage {
 

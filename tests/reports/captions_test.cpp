@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <regex>
 
-#include "cases/files.hpp"
-#include "reports/cost_panels.hpp"
-#include "reports/figures.hpp"
-#include "reports/gnuplot.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/common/gnuplot.hpp"
+#include "reports/cost/panels.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "cases/files.hpp"
-#include "reports/cost_tables.hpp"
-#include "reports/csv.hpp"
-#include "reports/figures.hpp"
+#include "reports/common/csv.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/cost/tables.hpp"
 #include "reports/report.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -2,12 +2,12 @@
 
 #include <cstdlib>
 
-#include "cases/files.hpp"
-#include "reports/engines.hpp"
-#include "reports/figures.hpp"
-#include "reports/gnuplot.hpp"
-#include "reports/pictures.hpp"
-#include "reports/strokes.hpp"
+#include "reports/common/engines.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/common/gnuplot.hpp"
+#include "reports/common/pictures.hpp"
+#include "reports/common/strokes.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "cases/files.hpp"
-#include "reports/csv.hpp"
-#include "reports/effect_legs.hpp"
-#include "reports/figures.hpp"
+#include "reports/common/csv.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/effects/legs.hpp"
 #include "reports/report.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "cases/files.hpp"
+#include "support/files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "cases/bad_input.hpp"
 #include "reports/report.hpp"
-#include "reports/schema.hpp"
+#include "results/schema.hpp"
+#include "support/bad_input.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -1,9 +1,9 @@
-#include "reports/numbers.hpp"
+#include "reports/common/numbers.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/base64.hpp"
-#include "reports/labels.hpp"
+#include "reports/common/base64.hpp"
+#include "reports/common/labels.hpp"
 
 namespace crossgrain::reports {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <set>
 
-#include "cases/files.hpp"
-#include "reports/collide_table.hpp"
+#include "reports/collide/table.hpp"
+#include "reports/common/svg.hpp"
 #include "reports/report.hpp"
-#include "reports/svg.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

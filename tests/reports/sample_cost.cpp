@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "runs/cost_analysis.hpp"
+#include "runs/cost/analysis.hpp"
 #include "tests/reports/sample_common.hpp"
 #include "tests/reports/sample_results.hpp"
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "cases/files.hpp"
-#include "reports/csv.hpp"
-#include "reports/figures.hpp"
-#include "reports/pictures.hpp"
+#include "reports/common/csv.hpp"
+#include "reports/common/figures.hpp"
+#include "reports/common/pictures.hpp"
 #include "reports/report.hpp"
-#include "reports/stability_table.hpp"
+#include "reports/stability/table.hpp"
+#include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

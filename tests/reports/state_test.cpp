@@ -1,8 +1,8 @@
-#include "reports/state_view.hpp"
+#include "reports/couette/state_view.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/csv.hpp"
+#include "reports/common/csv.hpp"
 
 namespace crossgrain::reports {
 namespace {

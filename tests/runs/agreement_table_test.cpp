@@ -1,4 +1,4 @@
-#include "runs/agreement_table.hpp"
+#include "runs/couette/agreement_table.hpp"
 
 #include <gtest/gtest.h>
 

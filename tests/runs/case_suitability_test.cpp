@@ -1,4 +1,4 @@
-#include "runs/case_suitability.hpp"
+#include "runs/common/case_suitability.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "runs/collision_look.hpp"
+#include "runs/collide/look.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 #include "adapters/box2d.hpp"
 #include "adapters/grain.hpp"
-#include "runs/collision_sweep.hpp"
-#include "tests/cases/thesis_pair.hpp"
+#include "runs/collide/sweep.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "runs/collision_score.hpp"
+#include "runs/collide/score.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tests/cases/thesis_pair.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "runs/collision_sweep.hpp"
+#include "runs/collide/sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "adapters/grain.hpp"
-#include "tests/cases/thesis_pair.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "runs/contact_notes.hpp"
+#include "runs/couette/contact_notes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "runs/cost_analysis.hpp"
+#include "runs/cost/analysis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "runs/cost_averages.hpp"
+#include "runs/cost/averages.hpp"
 
 #include <gtest/gtest.h>
 

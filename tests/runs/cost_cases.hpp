@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cases/loader.hpp"
-#include "runs/cost_settings.hpp"
+#include "runs/cost/settings.hpp"
 
 /// The small cell as `crossgrain cost` takes it.
 namespace test {

@@ -1,12 +1,12 @@
-#include "runs/cost_collision.hpp"
+#include "runs/cost/collision.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "adapters/grain.hpp"
-#include "runs/cost_limits.hpp"
-#include "runs/cost_order.hpp"
+#include "runs/cost/limits.hpp"
+#include "runs/cost/order.hpp"
 #include "tests/runs/cost_cases.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "runs/cost_plan.hpp"
+#include "runs/cost/plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "runs/cost_settings.hpp"
+#include "runs/cost/settings.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,10 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
-#include "cases/bad_input.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
+#include "support/bad_input.hpp"
 #include "tests/runs/cost_cases.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "runs/cost_trajectory.hpp"
+#include "runs/cost/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "adapters/grain.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
-#include "runs/cost_limits.hpp"
+#include "runs/cost/limits.hpp"
 #include "tests/runs/cost_cases.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette_run.hpp"
+#include "runs/couette/run.hpp"
 
 namespace {
 

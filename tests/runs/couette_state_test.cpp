@@ -1,4 +1,4 @@
-#include "runs/couette_state.hpp"
+#include "runs/couette/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette_averages.hpp"
-#include "runs/couette_run.hpp"
-#include "runs/state_table.hpp"
+#include "runs/couette/averages.hpp"
+#include "runs/couette/run.hpp"
+#include "runs/couette/state_table.hpp"
 
 namespace {
 

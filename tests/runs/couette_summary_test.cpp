@@ -1,4 +1,4 @@
-#include "runs/couette_summary.hpp"
+#include "runs/couette/summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "averaging/rings.hpp"
-#include "runs/couette_run.hpp"
-#include "runs/velocity_notes.hpp"
+#include "runs/couette/run.hpp"
+#include "runs/couette/velocity_notes.hpp"
 
 namespace {
 

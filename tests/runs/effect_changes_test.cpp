@@ -1,4 +1,4 @@
-#include "runs/effect_changes.hpp"
+#include "runs/effects/changes.hpp"
 
 #include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>

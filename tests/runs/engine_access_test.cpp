@@ -1,15 +1,15 @@
-#include "runs/engine_access.hpp"
+#include "runs/common/engine_access.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "cases/bad_input.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "runs/engine_step.hpp"
+#include "runs/common/engine_step.hpp"
+#include "support/bad_input.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "runs/mirror_scene.hpp"
+#include "runs/common/mirror_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include "adapters/law_options.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
-#include "runs/engine_access.hpp"
+#include "runs/common/engine_access.hpp"
 
 namespace {
 

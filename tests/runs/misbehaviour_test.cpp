@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/bad_input.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
-#include "runs/campaign.hpp"
-#include "runs/collision_sweep.hpp"
-#include "tests/cases/thesis_pair.hpp"
+#include "runs/collide/sweep.hpp"
+#include "runs/couette/campaign.hpp"
+#include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
+#include "tests/oracle/thesis_pair.hpp"
 
 // Engines that misbehave on purpose: each is one clear line that names engine, case, time and the
 // last good state, and the others go on.

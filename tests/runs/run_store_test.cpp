@@ -1,4 +1,4 @@
-#include "runs/run_store.hpp"
+#include "runs/common/run_store.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 
 #include <fstream>
 
-#include "cases/bad_input.hpp"
-#include "cases/files.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette_averages.hpp"
-#include "runs/couette_run.hpp"
+#include "runs/couette/averages.hpp"
+#include "runs/couette/run.hpp"
 
 namespace {
 

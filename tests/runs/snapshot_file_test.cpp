@@ -1,14 +1,14 @@
-#include "runs/snapshot_file.hpp"
+#include "runs/couette/snapshot_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "cases/bad_input.hpp"
-#include "cases/files.hpp"
 #include "cases/loader.hpp"
-#include "runs/average.hpp"
+#include "runs/couette/average.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Snapshots of another cell are refused, with all that does not fit.
-#include "runs/snapshot_fit.hpp"
+#include "runs/couette/snapshot_fit.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "cases/bad_input.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
+#include "support/bad_input.hpp"
 
 namespace crossgrain {
 namespace {

@@ -1,14 +1,14 @@
 // The suite's verdicts: by the limits, and on engines that misbehave on purpose.
-#include "runs/stability.hpp"
+#include "runs/stability/stability.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "cases/bad_input.hpp"
-#include "runs/engine_access.hpp"
-#include "runs/stability_verdict.hpp"
+#include "runs/common/engine_access.hpp"
+#include "stability/verdict.hpp"
+#include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
 #include "tests/reports/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "runs/step_times.hpp"
+#include "runs/effects/step_times.hpp"
 
 #include <gtest/gtest.h>
 

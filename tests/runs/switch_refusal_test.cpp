@@ -4,7 +4,7 @@
 
 #include "adapters/grain.hpp"
 #include "cases/loader.hpp"
-#include "runs/effects.hpp"
+#include "runs/effects/effects.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "runs/task_pool.hpp"
+#include "support/task_pool.hpp"
 
 #include <gtest/gtest.h>
 

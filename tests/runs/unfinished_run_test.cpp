@@ -1,4 +1,4 @@
-#include "runs/unfinished_run.hpp"
+#include "runs/couette/unfinished_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -55,9 +55,10 @@ TEST(Suitability, ARefusalNamesAllThingsAndHowToAllowThem) {
     adaptScene(can, oneDisk(), {});
     FAIL() << "no refusal";
   } catch (const UnsupportedScene& refusal) {
-    EXPECT_STREQ(refusal.what(),
-                 "has no friction; has tension = cut, not allow; list \"friction\", \"tension\" under "
-                 "[run] may_differ to run it all the same");
+    EXPECT_STREQ(
+        refusal.what(),
+        "has no friction; has tension = cut, not allow; list \"friction\", \"tension\" under "
+        "[run] may_differ to run it all the same");
   }
   try {
     adaptScene(can, oneDisk(), {"friction"});

@@ -1,0 +1,81 @@
+#include "oracle/collision_end.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace crossgrain::inline oracle {
+
+double CollidingPair::reducedMass() const {
+  return 1.0 / (1.0 / mass[0] + 1.0 / mass[1]);
+}
+
+double CollidingPair::reducedRadius() const {
+  return plane ? radius[0] : radius[0] * radius[1] / (radius[0] + radius[1]);
+}
+
+double CollidingPair::tangentialCompliance() const {
+  return 1.0 / mass[0] + 1.0 / mass[1] + radius[0] * radius[0] / inertia[0] +
+         radius[1] * radius[1] / inertia[1];
+}
+
+CollidingPair diskOnWall(double radius, double mass, double inertia) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {{radius, 0.0}, {mass, inf}, {inertia, inf}, true};
+}
+
+double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side) {
+  if (arm == LeverArm::radius) return 0.0;
+  if (pair.plane) {
+    if (side == 1 || plane == PlaneArm::radius) return 0.0;
+    return plane == PlaneArm::middle ? 0.5 : 1.0;
+  }
+  if (arm == LeverArm::contactPoint)
+    return pair.radius[1 - side] / (pair.radius[0] + pair.radius[1]);
+  return 0.5;
+}
+
+PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start) {
+  const double slip = start.psi * start.vn;
+  PairMotion motion{-start.vn, 0.0, {0.0, 0.0}};
+  const bool both = start.approach == Approach::spin && !pair.plane;
+  if (start.approach == Approach::oblique) {
+    motion.tangential = slip;
+  } else {
+    motion.spin[0] = -slip / (both ? pair.radius[0] + pair.radius[1] : pair.radius[0]);
+    if (both) motion.spin[1] = motion.spin[0];
+  }
+  if (start.counterSpin != 0.0) {
+    motion.spin[0] += start.counterSpin;
+    motion.spin[1] -= start.counterSpin * pair.radius[0] / pair.radius[1];
+  }
+  return motion;
+}
+
+double energyOf(const CollidingPair& pair, const PairMotion& motion) {
+  double twice =
+      pair.reducedMass() * (motion.normal * motion.normal + motion.tangential * motion.tangential);
+  for (const int side : {0, 1})
+    if (motion.spin[side] != 0.0)  // a wall has none, and an infinite moment of inertia
+      twice += pair.inertia[side] * motion.spin[side] * motion.spin[side];
+  return 0.5 * twice;
+}
+
+CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start,
+                   const PairMotion& after) {
+  const PairMotion before = motionBefore(pair, start);
+  const double slip =
+      after.tangential - pair.radius[0] * after.spin[0] - pair.radius[1] * after.spin[1];
+  CollisionEnd end;
+  end.en = after.normal / start.vn;
+  end.psi = slip / start.vn;
+  if (start.psi != 0.0) end.beta = -end.psi / start.psi;
+  end.centrePsi = after.tangential / start.vn;
+  if (before.tangential != 0.0) end.et = after.tangential / before.tangential;
+  end.reboundAngle = std::atan2(after.tangential, after.normal);
+  for (const int side : {0, 1}) end.spin[side] = after.spin[side];
+  end.energyBefore = energyOf(pair, before);
+  end.energyAfter = energyOf(pair, after);
+  return end;
+}
+
+}  // namespace crossgrain::inline oracle

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+
+#include "adapters/contact_law.hpp"
+
+namespace crossgrain::inline oracle {
+
+/// Two disks, free but for each other, or a disk and a plane wall that moves at a constant
+/// velocity.
+struct CollidingPair {
+  double radius[2];    ///< [m]; 0 of a wall
+  double mass[2];      ///< [kg]; inf of a wall
+  double inertia[2];   ///< [kg m²]; inf of a wall
+  bool plane = false;  ///< the second is a plane: the normal does not turn
+
+  double reducedMass() const;    ///< m₁₂ [kg]
+  double reducedRadius() const;  ///< R₁₂ = a_i a_j/(a_i + a_j), a_i on a plane [m]
+  /// dv_t/dt of the contact point per tangential force, 1/m₁₂ + Σ a²/J = K/m₁₂ [1/kg]
+  double tangentialCompliance() const;
+};
+
+/// A disk and a plane wall.
+CollidingPair diskOnWall(double radius, double mass, double inertia);
+
+/// The part of the overlap that an arm of body `side` (0 or 1) is short of its radius. A plane does
+/// not turn; `plane` says where the contact point lies on it.
+double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
+
+/// What gives the contact point its tangential velocity before a collision.
+enum class Approach {
+  spin,       ///< both disks turn alike, their centres meet head on
+  firstSpin,  ///< only the first disk turns; the same on a wall
+  oblique     ///< the centres' own motion; the disks do not turn
+};
+
+/// Ψ_i = v_t/v_n of the contact point before, with v_n the speed of approach.
+struct CollisionStart {
+  double psi = 0.0;
+  double vn = 0.0;  ///< > 0 [m/s]
+  Approach approach = Approach::spin;
+  /// Spin added to the first disk and taken from the second, times a_j/a_i there: it leaves v_t as
+  /// it is [rad/s]
+  double counterSpin = 0.0;
+};
+
+/// Motion of i against j, in the frame of the normal n (from j to i) and s = z × n.
+struct PairMotion {
+  double normal = 0.0;      ///< of the centres along n, < 0 on approach [m/s]
+  double tangential = 0.0;  ///< of the centres along s [m/s]
+  double spin[2] = {};      ///< ω_i, ω_j [rad/s]
+};
+
+/// Where the energy went that a collision took, a closed account:
+/// before = after + normalDamping + tangentialDamping + stiffening + sliding + stored.
+struct EnergySplit {
+  /// ∫ (f_el − f_n) v_n dt: the dashpot's, and what the spring does not give back where tension is
+  /// cut [J]
+  double normalDamping = 0.0;
+  double tangentialDamping = 0.0;  ///< ∫ γ_t v_t² dt while the contact does not slip [J]
+  /// What a loaded tangential spring loses (+) or gains (−) because its stiffness follows the
+  /// overlap, while the contact does not slip: no force does this work, a history-dependent law
+  /// just forgets it (Elata and Berryman 1996) [J]
+  double stiffening = 0.0;
+  /// −∫ f_t v_t dt while it slips, together with what the tangential spring gains (−) or loses (+)
+  /// from the first instant of a slip to the last: the law resets it [J]
+  double sliding = 0.0;
+  double stored = 0.0;  ///< k_t ξ²/2 in the tangential spring when the disks part, lost then [J]
+};
+
+/// What is left after a collision, at the instant of separation and with that instant's normal.
+/// About the contact point: psi, beta. About the centres' relative motion: en, centrePsi, et,
+/// reboundAngle. The two kinds are different numbers: friction moves the contact point K = 1 + 1/q
+/// times as much as the centres. Absent: not known.
+struct CollisionEnd {
+  double en = 0.0;   ///< −v_n after / v_n before
+  double psi = 0.0;  ///< Ψ_f = v_t after / speed of approach; sign against Ψ_i: reversed
+  std::optional<double> beta;  ///< −Ψ_f/Ψ_i; absent for Ψ_i = 0
+  double centrePsi = 0.0;      ///< centres' v_t after / speed of approach
+  /// Centres' v_t after / before; absent where they had none: Approach::spin, Ψ_i = 0.
+  std::optional<double> et;
+  double reboundAngle = 0.0;         ///< of the centres' velocity from n towards s [rad]
+  double spin[2] = {};               ///< ω_i, ω_j [rad/s]
+  double energyBefore = 0.0;         ///< of the relative motion and both spins [J]
+  double energyAfter = 0.0;          ///< [J]
+  std::optional<double> duration;    ///< from the first touch to separation [s]; none if rigid
+  std::optional<double> maxOverlap;  ///< [m]; none if rigid
+  std::optional<EnergySplit> lost;
+  /// The law has no limit of small time steps here: it jumps (jumpsAtTouch()), or a slip ended at
+  /// v_t = 0 while the bound fell faster than the dashpot relaxes. Reset to the bound, the spring
+  /// is caught by it again after a time ∝ v_t, so v_t grows from its rounding by a factor per
+  /// reset: where that leads is a function of log dt. The outcome is one of a narrow family.
+  bool limitless = false;
+};
+
+/// The motion when the disks touch first.
+PairMotion motionBefore(const CollidingPair& pair, const CollisionStart& start);
+
+/// m₁₂ v²/2 + Σ J ω²/2: kinetic energy in the frame of the pair's centre of mass [J].
+double energyOf(const CollidingPair& pair, const PairMotion& motion);
+
+/// All that follows from the motion when they part.
+CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start, const PairMotion& after);
+
+}  // namespace crossgrain::inline oracle

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+#include "oracle/collision_end.hpp"
+
+namespace crossgrain::inline oracle {
+
+/// Collisions side by side in one scene: disks 2k and 2k + 1 are pair k; where there is a wall, disk k
+/// and its one plane.
+CollidingPair pairOf(const Scene& scene, std::size_t pair);
+
+/// Traces the free flight after the collision back to the instant when the disks parted. An end
+/// without maxOverlap and lost, which the flight does not tell.
+/// @param scene  as in pairOf() @param start  of that pair
+/// @returns none if they never met or still touch
+std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
+                                         std::size_t pair, const CollisionStart& start);
+
+}  // namespace crossgrain::inline oracle

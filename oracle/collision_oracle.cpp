@@ -1,0 +1,188 @@
+#include "oracle/collision_oracle.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "oracle/impact.hpp"
+#include "oracle/two_body_problem.hpp"
+
+namespace crossgrain::inline oracle {
+
+int TwoBodyProblem::rightHandSide(double, const double y[], double dydt[], void* self) {
+  State s;
+  std::memcpy(&s, y, sizeof s);
+  const State rate = static_cast<const TwoBodyProblem*>(self)->derivative(s);
+  std::memcpy(dydt, &rate, sizeof rate);
+  return GSL_SUCCESS;
+}
+
+double TwoBodyProblem::contactTime(double speed) const {
+  return impactTime(law_, {pair_.reducedMass(), pair_.reducedRadius(), speed});
+}
+
+/// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later,
+/// or where positions can tell an overlap. The forces of that time are below rounding, or below
+/// 1e-7 of the whole for overlaps of 1e-8 of the reach.
+State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
+  const PairMotion touch = motionBefore(pair_, start);
+  State state{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0, 0.0,
+              0.0,    0.0, 0.0};
+  if (!law_.stiffens()) return state;
+  const double visible = 64.0 * std::numeric_limits<double>::epsilon() * reach_;
+  const double later = std::max(1e-12 * contactTime(start.vn), visible / start.vn);
+  state.x += later * state.vx;
+  state.y += later * state.vy;
+  if (!remembersForce()) state.spring = later * kinematics(state).tangentialVelocity;
+  return state;
+}
+
+/// What a force changes by where the distance is rounded [N].
+double TwoBodyProblem::roundingOfForce(const State& s) const {
+  const Kinematics k = kinematics(s);
+  const Slope kt = tangentialStiffness(k.overlap);
+  const double stretch = remembersForce() ? 0.0 : std::abs(s.spring);
+  return std::numeric_limits<double>::epsilon() * reach_ *
+         (stiffness(k.overlap).value + normalDamping(k.overlap).rate * std::abs(k.normalVelocity) +
+          kt.rate * stretch + tangentialDamping(k.overlap).rate * std::abs(k.tangentialVelocity));
+}
+
+CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
+  const double contactTime = this->contactTime(start.vn);
+  gsl_odeiv2_system system{&rightHandSide, nullptr, dimension, this};
+  const std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> stepper(
+      gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, dimension), &gsl_odeiv2_step_free);
+
+  State now = firstTouch(start);
+  stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
+  limitless_ = jumpsAtTouch(start);
+  enterPhase(now);
+
+  std::array<double, dimension> error{};
+  const auto stepFrom = [&](const State& from, double h) {
+    State to = from;
+    gsl_odeiv2_step_reset(stepper.get());
+    gsl_odeiv2_step_apply(stepper.get(), 0.0, h, reinterpret_cast<double*>(&to), error.data(),
+                          nullptr, nullptr, &system);
+    return to;
+  };
+  /// The last step's error of the relative velocity and of the energies lost, in units of what was
+  /// there.
+  const double energy = energyOf(pair_, motionBefore(pair_, start));
+  const auto errorOfStep = [&] {
+    double sum = std::hypot(error[2], error[3]) / start.vn;
+    for (std::size_t k = dimension - 4; k < dimension; ++k) sum += std::abs(error[k]) / energy;
+    return sum;
+  };
+  /// When within h a guard that is > 0 at first no longer is.
+  const auto timeOf = [&](const auto& guard, const State& from, double h) {
+    double before = 0.0, after = h;
+    while (after - before > 1e-16 * contactTime && after - before > 1e-15 * after) {
+      const double middle = 0.5 * (before + after);
+      (guard(stepFrom(from, middle)) > 0.0 ? before : after) = middle;
+    }
+    return after;
+  };
+  const auto phaseLasts = [this](const State& s) { return firstGuard(s); };
+  const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
+
+  // Steps of t_c/400 leave rk8pd's own error far below rounding where the law is smooth; where it
+  // is not, at the ends of a contact that stiffens, they shrink until it is again, to a thousandth
+  // of the time in which the overlap comes or goes at most, which is fine enough for any power of
+  // it. Events cut steps short.
+  const double fullStep = contactTime / 400.0;
+  const auto shortest = [&](const State& from) {
+    const Kinematics k = kinematics(from);
+    return std::min(fullStep, 1e-3 * k.overlap / std::abs(k.normalVelocity));
+  };
+  /// Errors below this are those of rounded positions, which a force sees.
+  const auto allowed = [&](const State& from, double h) {
+    return 1e-14 + 4.0 * h * roundingOfForce(from) * inverseMass_ / start.vn;
+  };
+  double wanted = law_.stiffens() ? 1e-12 * contactTime : fullStep;
+  constexpr int mostSteps = 100000;
+  double duration = 0.0, maxOverlap = 0.0;
+  for (int step = 0; step < mostSteps; ++step) {
+    double h = wanted;
+    State next = stepFrom(now, h);
+    if (law_.stiffens()) {
+      if (errorOfStep() > allowed(now, h) && h > shortest(now)) {
+        wanted = 0.5 * h;
+        continue;
+      }
+      const double grown = errorOfStep() < 0.01 * allowed(now, h) ? 2.0 * h : h;
+      wanted = std::min(fullStep, std::max(grown, shortest(next)));
+    }
+    const bool event = !(phaseLasts(next) > 0.0);
+    if (event) {
+      h = timeOf(phaseLasts, now, h);
+      next = stepFrom(now, h);
+    }
+    if (approach(now) > 0.0 && !(approach(next) > 0.0))
+      maxOverlap = kinematics(stepFrom(now, timeOf(approach, now, h))).overlap;
+    duration += h;
+    now = next;
+    if (!event) continue;
+    const Kinematics k = kinematics(now);
+    if (k.overlap <= 1e-14 * reach_ && k.normalVelocity > 0.0) {
+      CollisionEnd end = endAt(now, start);
+      end.duration = duration;
+      end.maxOverlap = maxOverlap;
+      return end;
+    }
+    enterPhase(now);
+  }
+  throw std::invalid_argument("the pair does not part within many contact times: too much damping");
+}
+
+namespace {
+
+/// Some conventions make the force jump back and forth between the steps of any engine: sticking
+/// with the dashpot on top of a spring at its bound, slipping without it. What they converge to
+/// depends on the engine, so there is nothing to hold it against.
+void requireContinuousLimit(const ContactLaw& law) {
+  const LawConventions& how = law.conventions;
+  const bool tension = law.gn > 0.0 && how.tension == Tension::allow;
+  const bool dashpot = law.tangential == TangentialLaw::springDashpot && law.gt > 0.0;
+  const char* jumps = nullptr;
+  if (tension && law.tangential != TangentialLaw::none) {
+    if (how.coulombBound == CoulombBound::signedForce) jumps = "coulomb_bound = \"signed\"";
+    if (how.coulombBound == CoulombBound::magnitude && law.springs() &&
+        how.springUpdate == SpringUpdate::after)
+      jumps = "coulomb_bound = \"magnitude\" with spring_update = \"after\"";
+  }
+  if (dashpot && how.dashpot == Dashpot::outside) jumps = "dashpot = \"outside\"";
+  if (dashpot && how.springReset == SpringReset::springOnly &&
+      how.springUpdate == SpringUpdate::after)
+    jumps = "spring_reset = \"spring_only\" with spring_update = \"after\"";
+  if (dashpot && law.normal == NormalLaw::hertz && how.history == History::displacement &&
+      how.springReset == SpringReset::springOnly)
+    throw std::invalid_argument(
+        "spring_reset = \"spring_only\" with history = \"displacement\": as k_t goes to 0 the "
+        "spring "
+        "that balances the dashpot is stretched without bound; there is no oracle for it");
+  if (jumps)
+    throw std::invalid_argument(std::string(jumps) +
+                                " has no limit of small time steps to score against");
+}
+
+}  // namespace
+
+CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
+                           const CollisionStart& start) {
+  if (!law.soft()) return rigidOutcome(law, pair, start);
+  requireContinuousLimit(law);
+  return TwoBodyProblem(law, pair).solve(start);
+}
+
+bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {
+  return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(start);
+}
+
+}  // namespace crossgrain::inline oracle

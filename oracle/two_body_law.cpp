@@ -1,0 +1,174 @@
+#include "oracle/two_body_problem.hpp"
+
+/// The law between two events, and the motion that it makes.
+namespace crossgrain::inline oracle {
+
+TwoBodyProblem::TwoBodyProblem(const ContactLaw& law, const CollidingPair& pair)
+    : law_(law),
+      pair_(pair),
+      reach_(pair.radius[0] + pair.radius[1]),
+      inverseMass_(1.0 / pair.mass[0] + 1.0 / pair.mass[1]) {
+  if (law.tangential == TangentialLaw::spring) law_.gt = 0.0;
+  if (law.mu == 0.0) law_.tangential = TangentialLaw::none;
+}
+
+double TwoBodyProblem::elasticForce(double overlap) const {
+  switch (law_.normal) {
+    case NormalLaw::hertz:
+      return law_.kn * std::sqrt(pair_.reducedRadius() * std::max(overlap, 0.0)) * overlap;
+    case NormalLaw::polynomial:
+      return (law_.kn + law_.kn3 * overlap) * overlap * overlap;
+    default:
+      return law_.kn * overlap;
+  }
+}
+
+/// f_el′ and f_el″.
+Slope TwoBodyProblem::stiffness(double overlap) const {
+  const double depth = std::max(overlap, 0.0);
+  switch (law_.normal) {
+    case NormalLaw::hertz: {
+      const double root = std::sqrt(pair_.reducedRadius() * depth);
+      return {1.5 * law_.kn * root, depth > 0.0 ? 0.75 * law_.kn * root / depth : 0.0};
+    }
+    case NormalLaw::polynomial:
+      return {(2.0 * law_.kn + 3.0 * law_.kn3 * depth) * depth,
+              2.0 * law_.kn + 6.0 * law_.kn3 * depth};
+    default:
+      return {law_.kn, 0.0};
+  }
+}
+
+Slope TwoBodyProblem::tangentialStiffness(double overlap) const {
+  if (law_.normal != NormalLaw::hertz) return {law_.kt, 0.0};
+  const double depth = std::max(overlap, 0.0);
+  const double root = std::sqrt(pair_.reducedRadius() * depth);
+  return {law_.kt * root, depth > 0.0 ? 0.5 * law_.kt * root / depth : 0.0};
+}
+
+/// γ that multiplies the velocity [kg/s].
+Slope TwoBodyProblem::damping(double constant, const Slope& stiffness) const {
+  switch (law_.damper) {
+    case Damper::viscoelastic:
+      return {constant * stiffness.value, constant * stiffness.rate};
+    case Damper::critical: {
+      const double value = constant * std::sqrt(std::max(stiffness.value, 0.0) / inverseMass_);
+      return {value, stiffness.value > 0.0 ? 0.5 * value * stiffness.rate / stiffness.value : 0.0};
+    }
+    default:
+      return {constant, 0.0};
+  }
+}
+
+Kinematics TwoBodyProblem::kinematics(const State& s) const {
+  Kinematics k{};
+  k.distance = pair_.plane ? s.x : std::hypot(s.x, s.y);
+  k.nx = pair_.plane ? 1.0 : s.x / k.distance;
+  k.ny = pair_.plane ? 0.0 : s.y / k.distance;
+  k.overlap = reach_ - k.distance;
+  k.leverI = pair_.radius[0] - k.overlap * leverShare(0);
+  k.leverJ = pair_.radius[1] - k.overlap * leverShare(1);
+  k.armI = pair_.radius[0] - k.overlap * armShare(0);
+  k.armJ = pair_.radius[1] - k.overlap * armShare(1);
+  k.normalVelocity = s.vx * k.nx + s.vy * k.ny;
+  k.sideways = -s.vx * k.ny + s.vy * k.nx;
+  k.turning = pair_.plane ? 0.0 : k.sideways / k.distance;
+  k.tangentialVelocity = k.sideways - k.armI * s.spinI - k.armJ * s.spinJ;
+  return k;
+}
+
+double TwoBodyProblem::normalForce(const Kinematics& k) const {
+  const bool cut = law_.conventions.tension == Tension::cut;
+  return cut && !phase_.compressive ? 0.0 : trialNormal(k);
+}
+
+/// Linear in f_n within a phase, so it also maps df_n/dt to the bound's rate.
+double TwoBodyProblem::bound(double normal) const {
+  if (phase_.compressive) return law_.mu * normal;
+  switch (law_.conventions.coulombBound) {
+    case CoulombBound::compression:
+      return 0.0;
+    case CoulombBound::magnitude:
+      return -law_.mu * normal;
+    case CoulombBound::signedForce:
+      break;
+  }
+  return law_.mu * normal;
+}
+
+/// What is held against the bound.
+double TwoBodyProblem::testedForce(const Kinematics& k, double spring) const {
+  const bool outside = law_.conventions.dashpot == Dashpot::outside;
+  const double dashpot = outside ? 0.0 : tangentialDamping(k.overlap).value * k.tangentialVelocity;
+  return -springUnit(k.overlap) * spring - dashpot;
+}
+
+double TwoBodyProblem::tangentialForce(const State& s, const Kinematics& k) const {
+  switch (phase_.tangential) {
+    case Phase::Tangential::none:
+      return 0.0;
+    case Phase::Tangential::damped:
+      return -tangentialDamping(k.overlap).value * k.tangentialVelocity;
+    case Phase::Tangential::stick:
+      return -springUnit(k.overlap) * s.spring -
+             tangentialDamping(k.overlap).value * k.tangentialVelocity;
+    case Phase::Tangential::slip:
+      return bound(normalForce(k)) * phase_.side;
+    case Phase::Tangential::hold:
+      break;
+  }
+  return holdingForce(s, k);
+}
+
+/// In the tangential spring while it sticks [J].
+double TwoBodyProblem::storedEnergy(const State& s) const {
+  if (phase_.tangential != Phase::Tangential::stick) return 0.0;
+  const double overlap = kinematics(s).overlap;
+  const double stiffness = tangentialStiffness(overlap).value;
+  if (!(stiffness > 0.0)) return 0.0;
+  const double force = springUnit(overlap) * s.spring;
+  return 0.5 * force * force / stiffness;
+}
+
+/// What the stored energy loses per time because the stiffness changes, dδ/dt = −v_n: of a spring
+/// that keeps ξ, −½ ξ² dk_t/dt; of one that keeps its force f, +½ (f/k_t)² dk_t/dt [W].
+double TwoBodyProblem::stiffeningLoss(const State& s, const Kinematics& k) const {
+  const Slope stiffness = tangentialStiffness(k.overlap);
+  if (stiffness.rate == 0.0) return 0.0;
+  const double stretch = remembersForce() ? s.spring / stiffness.value : s.spring;
+  const double rising = -0.5 * stiffness.rate * k.normalVelocity * stretch * stretch;
+  return remembersForce() ? rising : -rising;
+}
+
+State TwoBodyProblem::derivative(const State& s) const {
+  const Kinematics k = kinematics(s);
+  const double normal = normalForce(k);
+  const double tangential = tangentialForce(s, k);
+  const double slip = k.tangentialVelocity;
+  const double worked = workedVelocity(s, k);
+  const bool sticks = phase_.tangential == Phase::Tangential::stick;
+  const bool damps = sticks || phase_.tangential == Phase::Tangential::damped;
+  const double growth = remembersForce() ? tangentialStiffness(k.overlap).value * slip : slip;
+  return {
+      s.vx,
+      s.vy,
+      (normal * k.nx - tangential * k.ny) * inverseMass_,
+      (normal * k.ny + tangential * k.nx) * inverseMass_,
+      -k.leverI * tangential / pair_.inertia[0],
+      -k.leverJ * tangential / pair_.inertia[1],
+      sticks ? growth : 0.0,
+      (elasticForce(k.overlap) - normal) * k.normalVelocity,
+      damps ? tangentialDamping(k.overlap).value * slip * slip + tangential * (slip - worked) : 0.0,
+      sticks ? stiffeningLoss(s, k) : 0.0,
+      damps ? 0.0 : -tangential * worked};
+}
+
+CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) const {
+  const Kinematics k = kinematics(s);
+  CollisionEnd end = endOf(pair_, start, {k.normalVelocity, k.sideways, {s.spinI, s.spinJ}});
+  end.limitless = limitless_;
+  end.lost = {s.lostNormal, s.lostTangential, s.lostStiffening, s.lostSliding, storedEnergy(s)};
+  return end;
+}
+
+}  // namespace crossgrain::inline oracle

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "reports/collide/table.hpp"
+#include "reports/common/figure.hpp"
+
+/// What the plots of collisions share.
+namespace crossgrain::reports {
+
+using Styles = std::map<std::string, LineStyle>;  ///< by engine
+
+inline const LineStyle oracleStyle{"#999999", 0, false};
+
+/// An axis over Ψ_i for a variant, with its name above.
+Panel panelOver(const Json& variant, const char* yLabel);
+
+/// Every `stride`-th row's share in the plot: a curve of marks has at most about 14.
+std::size_t markStride(const Json& table);
+
+/// Where the energy of a case's collisions went: the oracle's account and every engine's at the
+/// largest of its time steps. @param name  of the figure's files
+Figure energyFigure(const CaseGroup& group, const Styles& styles, const std::string& name);
+
+/// A grid of small panels; one variant's have more room.
+void arrange(Figure& figure, int panelsInLine, std::size_t variants);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,95 @@
+#include "reports/common/engines.hpp"
+
+#include <array>
+
+namespace crossgrain::reports {
+
+namespace {
+
+const Json nothing;
+
+/// The open mark that goes with a filled one.
+int openMark(int pointType) {
+  return pointType - 1;
+}
+
+}  // namespace
+
+const Json& EngineResults::averages() const {
+  if (ensemble) return *ensemble;
+  return finished.empty() ? nothing : *finished.front();
+}
+
+const Json& EngineResults::realised() const {
+  for (const Json* run : runs)
+    if (member(*run, "realised").is_object()) return member(*run, "realised");
+  return nothing;
+}
+
+void EngineResults::takeRuns(const Json& results, const std::string& of,
+                             const std::string& without) {
+  const auto belongs = [&](const Json& row) {
+    return text(row, "engine") == of && text(row, "without") == without;
+  };
+  for (const Json& run : list(results, "runs")) {
+    if (!belongs(run)) continue;
+    runs.push_back(&run);
+    if (text(run, "status") == "finished") finished.push_back(&run);
+  }
+  for (const Json& mean : list(results, "ensemble"))
+    if (belongs(mean) && finished.size() > 1) {
+      ensemble = &mean;
+      break;
+    }
+}
+
+LineStyle engineStyle(std::size_t index) {
+  static const std::array<std::string, 7> colours = {"#000000", "#d55e00", "#0072b2", "#009e73",
+                                                     "#cc79a7", "#e69f00", "#56b4e9"};
+  static const std::array marks = {7, 5, 9, 13, 11};  // filled: disk, square, triangles, diamond
+  return {colours[index % colours.size()], marks[index % marks.size()], false};
+}
+
+std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
+  std::vector<LineStyle> styles(engines.size());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < engines.size(); ++k)
+    if (engines[k].mirrors.empty()) styles[k] = engineStyle(next++);
+  for (std::size_t k = 0; k < engines.size(); ++k) {
+    const std::string& peer = engines[k].mirrors;
+    if (peer.empty()) continue;
+    std::size_t p = 0;
+    while (p < engines.size() && engines[p].name != peer) ++p;
+    styles[k] = p < engines.size() ? styles[p] : engineStyle(next++);
+    styles[k].pointType = openMark(styles[k].pointType);
+    styles[k].dashed = true;
+  }
+  return styles;
+}
+
+std::vector<LineStyle> engineStyles(const Json& results) {
+  std::vector<EngineRow> rows;
+  for (const Json& entry : list(results, "engines"))
+    rows.push_back({text(entry, "name"), "", "", text(entry, "mirrors"), {}, ""});
+  return engineStyles(rows);
+}
+
+std::vector<EngineResults> engineResults(const Json& results) {
+  const std::vector<LineStyle> styles = engineStyles(results);
+  std::vector<EngineResults> engines;
+  for (const Json& entry : list(results, "engines")) {
+    EngineResults engine{text(entry, "name"),
+                         text(entry, "mirrors"),
+                         text(entry, "status"),
+                         styles[engines.size()],
+                         &entry,
+                         {},
+                         {},
+                         nullptr};
+    engine.takeRuns(results, engine.name, "");
+    engines.push_back(std::move(engine));
+  }
+  return engines;
+}
+
+}  // namespace crossgrain::reports

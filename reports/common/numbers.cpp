@@ -1,0 +1,104 @@
+#include "reports/common/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// The decimal exponent after rounding to that many digits: 9.996 has 1 with three of them.
+int exponentOf(double value, int digits) {
+  if (value == 0.0) return 0;
+  const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
+  return std::stoi(rounded.substr(rounded.find('e') + 1));
+}
+
+bool plain(int exponent) {
+  return exponent >= -3 && exponent <= 5;
+}
+
+std::string superscript(int value) {
+  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string result;
+  for (const char c : std::to_string(value)) result += c == '-' ? "⁻" : digits[c - '0'];
+  return result;
+}
+
+std::string timesPowerOfTen(int exponent) {
+  return "×10" + superscript(exponent);
+}
+
+/// A true minus sign, and narrow spaces between thousands.
+std::string typeset(std::string number) {
+  const bool negative = number.starts_with('-');
+  if (negative) number.erase(0, 1);
+  const auto whole = static_cast<int>(std::min(number.find('.'), number.size()));
+  for (int at = whole - 3; at > 0 && whole > 4; at -= 3)
+    number.insert(static_cast<std::size_t>(at), "\u202f");
+  return (negative ? "−" : "") + number;
+}
+
+std::string fixed(double value, int decimals) {
+  std::string result = fmt::format("{:.{}f}", value, std::max(decimals, 0));
+  if (result.find_first_not_of("-0.") == std::string::npos && result.starts_with('-'))
+    result.erase(0, 1);
+  return typeset(result);
+}
+
+}  // namespace
+
+std::string readable(std::optional<double> value) {
+  if (!value) return absentText;
+  if (*value == 0.0) return "0";
+  const int exponent = exponentOf(*value, 3);
+  if (plain(exponent)) return fixed(*value, 2 - exponent);
+  return fixed(*value / std::pow(10.0, exponent), 2) + timesPowerOfTen(exponent);
+}
+
+std::string readableSetting(std::optional<double> value) {
+  if (!value) return absentText;
+  const std::string digits = fmt::format("{:.4g}", *value);
+  const auto power = digits.find('e');
+  if (power == std::string::npos) return typeset(digits);
+  return typeset(digits.substr(0, power)) + timesPowerOfTen(std::stoi(digits.substr(power + 1)));
+}
+
+std::string readableCount(std::optional<double> value) {
+  return value ? fixed(*value, 0) : absentText;
+}
+
+std::string morePackings(double count) {
+  constexpr double beyondBudget = 100.0;
+  if (count > beyondBudget) return fmt::format("more than {:.0f} more packings", beyondBudget);
+  return fmt::format("about {:.0f} more packing{}", count, count == 1.0 ? "" : "s");
+}
+
+std::string readable(std::optional<double> value, std::optional<double> error) {
+  if (!value || !error || *error == 0.0) return readable(value);
+  const int magnitude = exponentOf(std::max(std::abs(*value), std::abs(*error)), 3);
+  const int shift = plain(magnitude) ? 0 : magnitude;
+  const double scale = std::pow(10.0, shift);
+  const int decimals = std::min(1 - exponentOf(*error, 2) + shift, 6);
+  const std::string both =
+      fixed(*value / scale, decimals) + "\u00a0±\u00a0" + fixed(*error / scale, decimals);
+  return shift == 0 ? both : "(" + both + ")" + timesPowerOfTen(shift);
+}
+
+std::string readableDifference(std::optional<double> value, std::optional<double> error) {
+  const std::string both = readable(value, error);
+  if (!value || *value <= 0.0) return both;
+  return both.starts_with('(') ? "(+" + both.substr(1) : "+" + both;
+}
+
+std::string readableDuration(std::optional<double> seconds) {
+  if (!seconds) return absentText;
+  if (*seconds < 59.95) return readable(seconds) + " s";
+  const auto whole = std::llround(*seconds);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,204 @@
+#include "reports/effects/views.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/page.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// Two figures, three and more as they are: never a power of ten.
+std::string roughly(double percent) {
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
+
+std::string signedRoughly(double percent) {
+  const std::string digits = roughly(std::abs(percent));
+  if (digits == "0") return digits;
+  return (percent < 0.0 ? "−" : "+") + digits;
+}
+
+std::optional<double> percent(std::optional<double> share) {
+  return share ? std::optional(100.0 * *share) : std::nullopt;
+}
+
+/// "−20 % (−25 to −15 %)": with the interval that the verdict rests on; else with one standard
+/// error, which is called so.
+std::string changePercent(const FieldChange& change) {
+  const auto value = percent(change.change);
+  if (change.low && change.high)
+    return fmt::format("{} % ({} to {} %)", signedRoughly(*value),
+                       signedRoughly(100.0 * *change.low), signedRoughly(100.0 * *change.high));
+  if (!change.error) return readableDifference(value, {}) + " %";
+  return readableDifference(value, percent(change.error)) + " % (one standard error)";
+}
+
+bool measured(const EffectLeg& leg) {
+  return !leg.savedError || std::abs(*leg.saved) > 2.0 * *leg.savedError;
+}
+
+std::string ringName(const FieldChange& change) {
+  return fmt::format("ring {}", change.ring + 1);
+}
+
+std::string changeInWords(const FieldChange& change) {
+  return fmt::format("{} in {}, {}", spaced(change.field), ringName(change), changePercent(change));
+}
+
+std::vector<const FieldChange*> detectedOf(const EffectLeg& leg) {
+  std::vector<const FieldChange*> found;
+  for (const FieldChange& change : leg.changes)
+    if (change.detected.value_or(false)) found.push_back(&change);
+  std::ranges::stable_sort(found, std::ranges::greater(),
+                           [](const FieldChange* change) { return std::abs(change->change); });
+  return found;
+}
+
+/// "0.8 % (volume fraction) to 45 % (spin)"
+std::string detectableInWords(const EffectLeg& leg) {
+  const FieldChange *least = nullptr, *most = nullptr;
+  for (const FieldChange& change : leg.changes) {
+    if (!change.detectable) continue;
+    if (!least || *change.detectable < *least->detectable) least = &change;
+    if (!most || *change.detectable > *most->detectable) most = &change;
+  }
+  if (!least) return {};
+  const auto one = [](const FieldChange& change) {
+    return fmt::format("{} % ({})", roughly(100.0 * *change.detectable), spaced(change.field));
+  };
+  return least == most ? one(*least) : one(*least) + " to " + one(*most);
+}
+
+}  // namespace
+
+namespace {
+
+/// ", with 45 contacts instead of 424": where that is part of what a step takes.
+std::string contactsInWords(const EffectLeg& leg) {
+  constexpr double notable = 0.2;
+  if (!leg.contacts || !leg.wholeContacts) return {};
+  if (std::abs(*leg.contacts - *leg.wholeContacts) < notable * *leg.wholeContacts) return {};
+  return fmt::format(" (without it there are {} contacts instead of {})",
+                     readableCount(leg.contacts), readableCount(leg.wholeContacts));
+}
+
+}  // namespace
+
+bool costsTime(const EffectLeg& leg) {
+  return leg.saved && *leg.saved > 0.0 && measured(leg);
+}
+
+std::string costInWords(const EffectLeg& leg) {
+  if (!leg.saved) return "was not timed";
+  const std::string share = readable(percent(std::abs(*leg.saved)), percent(leg.savedError));
+  if (!measured(leg))
+    return fmt::format("costs nothing measurable ({} % of a step)",
+                       readableDifference(percent(leg.saved), percent(leg.savedError)));
+  return (*leg.saved > 0.0
+              ? fmt::format("takes {} % of a step", share)
+              : fmt::format("saves time: a step without it takes {} % longer", share)) +
+         contactsInWords(leg);
+}
+
+std::string changesInWords(const EffectLeg& leg) {
+  const auto found = detectedOf(leg);
+  if (found.empty())
+    return leg.decidable() ? "no change told apart from none; the smallest that this run could "
+                             "have, field by field: " +
+                                 detectableInWords(leg)
+                           : std::string();
+  constexpr std::size_t told = 3;
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < std::min(found.size(), told); ++k)
+    words.push_back(changeInWords(*found[k]));
+  const std::size_t more = found.size() - words.size();
+  return fmt::format("told apart from no change without it: {}{}", fmt::join(words, "; "),
+                     more == 0 ? "" : fmt::format("; and {}", counted(more, "further field")));
+}
+
+namespace {
+
+/// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
+std::string againstMargin(const FieldChange& change) {
+  if (change.verdict.empty()) return {};
+  if (change.verdict == "agree") return "shown within the margin";
+  if (change.verdictHere == "disagree") return "shown beyond the margin";
+  return change.verdict == "disagree" ? "shown beyond the margin in another ring"
+                                      : "margin: undecided";
+}
+
+const char* symbolOf(const FieldChange& change) {
+  if (!change.detected) return "";
+  if (!*change.detected) return "○";
+  return change.change > 0.0 ? "▲" : "▼";
+}
+
+Json fieldCell(const FieldChange* change) {
+  if (!change) return {{"symbol", ""}, {"text", absentText}, {"detail", ""}, {"class", ""}};
+  const bool found = change->detected.value_or(false);
+  std::string detail = ringName(*change);
+  if (!change->detected) detail += "; too few packings to tell";
+  if (!found && change->detectableHere)
+    detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
+  if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
+  return {{"symbol", symbolOf(*change)},
+          {"text", changePercent(*change)},
+          {"detail", detail},
+          {"class", found ? "disagree" : "undecided"}};
+}
+
+Json tableRow(const EffectLeg& leg, const std::vector<std::string>& fields) {
+  Json row = {{"label", effectLabel(leg.effect)},
+              {"refused", ""},
+              {"saved", readable(percent(leg.saved), percent(leg.savedError))},
+              {"step", readable(leg.step ? std::optional(*leg.step * 1e6) : std::nullopt)},
+              {"contacts", readableCount(leg.contacts)},
+              {"cells", Json::array()}};
+  if (!leg.ran()) row["refused"] = leg.status + ": " + leg.reason;
+  for (const std::string& field : fields) row["cells"].push_back(fieldCell(leg.of(field)));
+  return row;
+}
+
+/// The largest value of each field with everything on: what shares are of.
+Json scales(const Json& results, const std::string& engine,
+            const std::vector<std::string>& fields) {
+  const auto all = legResults(results, engine);
+  Json cells = Json::array();
+  for (const std::string& field : fields) {
+    const Json& profile = findByText(all.front().averages(), "profiles", "field", field);
+    double scale = 0.0;
+    for (const Json& mean : list(profile, "mean"))
+      scale = std::max(scale, std::abs(number(mean).value_or(0.0)));
+    const std::string unit = text(profile, "unit");
+    cells.push_back(readable(scale) + (unit == "-" || unit == "1" ? "" : " " + unit));
+  }
+  return cells;
+}
+
+}  // namespace
+
+Json effectTable(const Json& results, const std::string& engine) {
+  std::vector<EffectLeg> legs = effectLegs(results);
+  std::erase_if(legs, [&](const EffectLeg& leg) { return leg.engine != engine; });
+  const std::vector<std::string> fields = judgedFields(legs);
+  const Json& whole = wholeLeg(results, engine);
+  const auto step = number(whole, "step_s");
+  Json table = {{"fields", Json::array()},
+                {"span", std::to_string(fields.size() + 3)},
+                {"wholeStep", readable(step ? std::optional(*step * 1e6) : std::nullopt)},
+                {"wholeContacts", readableCount(number(whole, "contacts_per_step"))},
+                {"scales", scales(results, engine, fields)},
+                {"rows", Json::array()}};
+  for (const std::string& field : fields) table["fields"].push_back(fieldLabel(field));
+  for (const EffectLeg& leg : legs) table["rows"].push_back(tableRow(leg, fields));
+  return table;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,224 @@
+#include "runs/check/case_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "averaging/fields.hpp"
+#include "cases/assembly_scene.hpp"
+#include "cases/cautions.hpp"
+#include "cases/cell_estimates.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/preparation.hpp"
+#include "cases/stable_step.hpp"
+#include "cases/time_step.hpp"
+#include "runs/collide/sweep.hpp"
+#include "runs/common/brief_timing.hpp"
+#include "runs/common/case_suitability.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/couette/run.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+using nlohmann::json;
+
+namespace {
+
+/// The scene that engines are asked about, and where its disks come from.
+struct Asked {
+  Scene scene;
+  std::string packing;  ///< in words, of a Couette case
+};
+
+/// A Couette cell with the disks of its file, of its first packing if that is at hand, or made up.
+Asked couetteAsked(const Case& setup) {
+  const double dt = timeStep(setup);
+  if (setup.particles.file) {
+    const auto none = engineRegistry().front().make();  // a file needs no preparing
+    const Packing packing = packingOf(setup, 0, dt, *none, [](double) {});
+    return {couetteScene(setup, packing, dt), "the packing of the file"};
+  }
+  const std::filesystem::path kept = packingCacheFile(packingHash(setup, 0, dt));
+  if (std::filesystem::exists(kept)) try {
+      return {couetteScene(setup, readPacking(kept, setup), dt), "packing 0, from the cache"};
+    } catch (const BadInput&) {
+      // A damaged file in the cache is prepared anew, by those who need it.
+    }
+  return {couetteScene(setup, madeUpPacking(setup), dt),
+          "a made-up square lattice, four contacts a disk"};
+}
+
+Asked askedOf(const Case& setup) {
+  if (setup.kind == CaseKind::collision)
+    return {collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front()), ""};
+  if (setup.kind == CaseKind::assembly) return {assemblyScene(setup), ""};
+  return couetteAsked(setup);
+}
+
+/// Beyond 2/ω, as the commands refuse it; hard cases may go there.
+void requireStableStep(const Case& setup, const Disks& disks) {
+  if (setup.kind != CaseKind::couette) return;
+  const std::string why =
+      whyUnstableStep(setup, timeStep(setup), setup.run.dt ? "run.dt" : "run.steps_per_contact",
+                      std::ranges::min(disks.mass) / 2.0);
+  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+}
+
+double stepsOf(const Case& setup, double dt) {
+  return (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup) / dt;
+}
+
+int packingsOf(const Case& setup) {
+  return setup.particles.file ? 1 : setup.preparation.packings;
+}
+
+json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene, bool timed,
+                 const std::filesystem::path& scratch) {
+  json row = {
+      {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
+      {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
+  try {
+    const auto engine = startEngine(entry, scratch, setup.run.timeout);
+    const Capabilities can = engine->capabilities();
+    checkSuitable(can, entry, setup, scene);
+    const Suitability found = suitabilityOf(*engine, entry, setup, scene);
+    row["deviations"] = found.deviations;
+    row["not_simulated"] = found.notSimulated;
+    if (found.dt) row["dt_s"] = *found.dt;
+    if (!timed) return row;
+    const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
+    row["dt_s"] = timing.dt;
+    row["step_s"] = timing.secondsPerStep;
+    row["timed_steps"] = timing.steps;
+    row["memory_bytes"] = timing.memory ? json(*timing.memory) : json(nullptr);
+    row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.dt);
+  } catch (const UnsupportedScene& refusal) {
+    row["can"] = false;
+    row["reason"] = refusal.what();
+  } catch (const EngineFailure& failure) {
+    row["can"] = false;
+    row["failed"] = true;
+    row["reason"] = failure.what();
+  }
+  return row;
+}
+
+json cellFigures(const Case& setup, const Scene& scene, double fraction) {
+  const double bulk = bulkVolumeFraction(setup, fraction);
+  const auto number = [](const std::optional<double>& x) { return x ? json(*x) : json(nullptr); };
+  const auto disks = static_cast<double>(scene.disks.size());
+  return {{"volume_fraction", fraction},
+          {"bulk_volume_fraction", bulk},
+          {"expected_pressure", number(expectedPressure(setup, bulk))},
+          {"expected_inertial_number", number(expectedInertialNumber(setup, bulk))},
+          // Rough disks in a flow have three to four contacts; a gas has fewer than one.
+          {"expected_contacts",
+           bulk < dilutedBelow ? json{0.0, disks} : json{1.5 * disks, 2.0 * disks}},
+          {"wheel_disks", scene.bodies.front().diskRadius.size()},
+          {"ring_disks", scene.bodies.back().diskRadius.size()},
+          {"packings", packingsOf(setup)},
+          {"rotations", setup.averaging.settleRotations + setup.averaging.rotations},
+          {"steps", stepsOf(setup, scene.dt)}};
+}
+
+json marginsOf(const Case& setup) {
+  json rows = json::array();
+  for (const FieldSpec& field : fieldTable()) {
+    const auto found = setup.averaging.margins.find(std::string(field.name));
+    if (found == setup.averaging.margins.end()) continue;
+    const Margin& margin = found->second;
+    rows.push_back({{"field", field.name},
+                    {"value", margin.value},
+                    {"relative", margin.relative},
+                    {"unit", margin.relative ? "" : std::string(field.unit)},
+                    {"of", margin.scale},
+                    {"why", margin.why}});
+  }
+  return rows;
+}
+
+/// Preparing and running, engines one after the other [s].
+json predictionOf(const Case& setup, const Asked& asked, const json& engines,
+                  const std::filesystem::path& scratch) {
+  const double packings = packingsOf(setup);
+  double runs = 0.0;
+  for (const json& row : engines) runs += packings * row.value("run_s", 0.0);
+  double preparing = 0.0;
+  if (!setup.particles.file && asked.packing.find("cache") == std::string::npos) {
+    const EngineEntry& inHouse = engineRegistry().front();
+    const auto known = std::ranges::find_if(engines, [&](const json& row) {
+      return row["name"] == inHouse.name && row["can"] == true;
+    });
+    const double step = known != engines.end()
+                            ? (*known)["step_s"].get<double>()
+                            : briefTiming(*startEngine(inHouse, scratch, setup.run.timeout),
+                                          inHouse, setup, asked.scene)
+                                  .secondsPerStep;
+    const double time =
+        setup.preparation.shrinkTime + setup.preparation.rotations * rotationTime(setup);
+    preparing = packings * step * time / timeStep(setup);
+  }
+  return {{"timed_on", asked.packing},
+          {"preparing_s", preparing},
+          {"runs_s", runs},
+          {"total_s", preparing + runs}};
+}
+
+double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
+  double area = 0.0;
+  const Disks kinds = madeUp ? diskKinds(setup.particles) : scene.disks;
+  for (const double a : kinds.radius) area += a * a;
+  const Cell& cell = setup.cell;
+  return area / (cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius);
+}
+
+}  // namespace
+
+json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
+                 const std::filesystem::path& scratch) {
+  checkEngineSections(setup);
+  if (setup.particles.file && !setup.run.dt)
+    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+  const Asked asked = askedOf(setup);
+  const Scene& scene = asked.scene;
+  requireStableStep(setup, scene.disks);
+  const bool couette = setup.kind == CaseKind::couette;
+  const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
+
+  json result = {{"name", setup.name},
+                 {"variant", setup.variant},
+                 {"kind", couette                             ? "couette"
+                          : setup.kind == CaseKind::collision ? "collision"
+                                                              : "assembly"},
+                 {"disks", scene.disks.size()},
+                 {"wall_disks", scene.wallDiskCount()},
+                 {"dt_s", scene.dt},
+                 {"steps_per_contact", nullptr},
+                 {"effects", json::array()},
+                 {"left_out", json::array()},
+                 {"cautions", cautions(setup, fraction)}};
+  if (const auto limit = pairStepLimit(setup)) {
+    result["step_limit_s"] = limit->dt;
+    if (const auto time = pairContactTime(setup)) result["steps_per_contact"] = *time / scene.dt;
+  }
+  const Effects called = effectsOf(scene);
+  for (const Effect effect : allEffects)
+    result[called.contains(effect) ? "effects" : "left_out"].push_back(toString(effect));
+  result["engines"] = json::array();
+  for (const EngineEntry& entry : couette ? enginesFor(setup, names) : selectEngines(names)) {
+    throwIfInterrupted();
+    result["engines"].push_back(suitability(entry, setup, scene, timed && couette, scratch));
+  }
+  if (!couette) return result;
+  result["cell"] = cellFigures(setup, scene, fraction);
+  result["margins"] = marginsOf(setup);
+  if (timed) result["prediction"] = predictionOf(setup, asked, result["engines"], scratch);
+  return result;
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+
+namespace crossgrain::inline runs {
+
+/// What `check` tells of one case, and of each engine on it. A packing file is read and checked. Of
+/// a Couette case some steps are timed on every engine, on its first packing where that is in the
+/// cache, else on a made-up one (cell_estimates.hpp): nothing of it is kept.
+/// @param names  of engines, "all" allowed; mirrors that would run along are asked too
+/// @param timed  whether to time steps
+/// @returns name, variant, kind, disks, wall_disks, dt_s, effects, cautions, engines; of a Couette
+///          case also cell figures and predictions (runs/README.md)
+/// @throws BadInput, also for a time step beyond the limit of a case that compare would refuse
+nlohmann::json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
+                           const std::filesystem::path& scratch);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,211 @@
+#include "runs/common/engine_access.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "adapters/law_options.hpp"
+#include "adapters/start_check.hpp"
+#include "adapters/suitability.hpp"
+#include "adapters/worker/worker_engine.hpp"
+#include "cases/stable_step.hpp"
+#include "runs/common/engine_step.hpp"
+#include "runs/common/mirror_scene.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
+
+namespace crossgrain::inline runs {
+namespace {
+
+std::string typeName(const SettingValue& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, bool>) return "true or false";
+        if constexpr (std::is_same_v<T, double>) return "a number";
+        return "a string";
+      },
+      value);
+}
+
+std::vector<std::string> knownEngines() {
+  std::vector<std::string> names;
+  for (const EngineEntry& entry : engineRegistry()) names.push_back(entry.name);
+  return names;
+}
+
+std::filesystem::path ownProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+}  // namespace
+
+std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
+  std::vector<EngineEntry> engines;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const EngineEntry& entry : engineRegistry())
+        if (entry.mirrors.empty() && (!entry.missing || entry.missing().empty()) &&
+            std::ranges::find(engines, entry.name, &EngineEntry::name) == engines.end())
+          engines.push_back(entry);
+      continue;
+    }
+    const EngineEntry* entry = findEngine(name);
+    if (!entry)
+      throw BadInput(fmt::format("--engines: there is no engine '{}'{}", name,
+                                 suggestion(name, knownEngines())));
+    if (std::ranges::find(engines, name, &EngineEntry::name) != engines.end())
+      throw BadInput(fmt::format("--engines: '{}' is named twice", name));
+    engines.push_back(*entry);
+  }
+  return engines;
+}
+
+bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry) {
+  return std::ranges::find(names, entry.name) != names.end();
+}
+
+void checkEngineSections(const Case& setup) {
+  for (const auto& [name, settings] : setup.engines)
+    if (!findEngine(name))
+      throw BadInput(fmt::format("{}: [engines.{}]: there is no such engine{}", setup.file.string(),
+                                 name, suggestion(name, knownEngines())));
+}
+
+std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
+  std::vector<EngineEntry> mirrors;
+  for (const EngineEntry& entry : engineRegistry()) {
+    const bool peerRuns =
+        std::ranges::find(engines, entry.mirrors, &EngineEntry::name) != engines.end();
+    const bool runsAlready =
+        std::ranges::find(engines, entry.name, &EngineEntry::name) != engines.end();
+    if (peerRuns && !runsAlready) mirrors.push_back(entry);
+  }
+  return mirrors;
+}
+
+bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law) {
+  return std::ranges::find(mirror.mirrorsNormal, lawOptionValue(law, "normal")) !=
+         mirror.mirrorsNormal.end();
+}
+
+std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names) {
+  checkEngineSections(setup);
+  std::vector<EngineEntry> engines = selectEngines(names);
+  if (setup.run.mirrors)
+    for (const EngineEntry& mirror : mirrorsOf(engines))
+      if (standsForItsPeer(mirror, setup.law)) engines.push_back(mirror);
+  return engines;
+}
+
+std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                    double timeout) {
+  if (entry.missing)
+    if (const std::string why = entry.missing(); !why.empty())
+      throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+  const std::vector<std::string> argv =
+      entry.command ? entry.command()
+                    : std::vector<std::string>{ownProgram().string(), "__serve", entry.name};
+  return std::make_unique<WorkerEngine>(entry.name, argv, scratch, timeout);
+}
+
+Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
+  const auto section = setup.engines.find(engine);
+  if (section == setup.engines.end()) return withStep({}, setup, can);
+  const std::string where = fmt::format("{}: [engines.{}]", setup.file.string(), engine);
+  for (const auto& [name, value] : section->second) {
+    const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
+    if (spec == can.settings.end()) {
+      std::vector<std::string> known;
+      for (const SettingSpec& each : can.settings) known.push_back(each.name);
+      throw BadInput(
+          fmt::format("{} there is no setting '{}'{}", where, name, suggestion(name, known)));
+    }
+    if (value.index() != spec->defaultValue.index())
+      throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
+                                 typeName(spec->defaultValue), typeName(value)));
+    if (const auto* number = std::get_if<double>(&value); number && !(*number >= 0.0))
+      throw BadInput(fmt::format("{} {} = {:g} must be >= 0", where, name, *number));
+    if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
+      if (std::ranges::find(spec->choices, *text) == spec->choices.end())
+        throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
+                                   fmt::join(spec->choices, ", ")));
+  }
+  return withStep(section->second, setup, can);
+}
+
+namespace {
+
+/// Does `work`, and says engine and case where it is refused.
+template <typename Work>
+auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
+  try {
+    return work();
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
+  }
+}
+
+/// An engine's own time step, if it runs soft laws with it.
+void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                  const Settings& settings) {
+  const auto step = settings.find("dt");
+  if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
+  const auto normal = can.lawOptions.find("normal");
+  if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
+  const std::string why = whyUnstableStep(setup, std::get<double>(step->second),
+                                          fmt::format("[engines.{}] dt", entry.name));
+  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+}
+
+}  // namespace
+
+void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  checkOwnStep(can, entry, setup, settingsFor(setup, entry.name, can));
+  namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+}
+
+Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                 const Scene& scene) {
+  if (entry.mirrors.empty()) return adaptScene(can, scene, setup.run.mayDiffer);
+  Adapted theirs = sceneOfPeer(entry, setup, scene);
+  Adapted own = adaptScene(can, theirs.scene, setup.run.mayDiffer);
+  std::ranges::move(own.deviations, std::back_inserter(theirs.deviations));
+  return {std::move(own.scene), std::move(theirs.deviations)};
+}
+
+Realised loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
+                     const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  Realised realised = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
+  realised.engine = entry.name;
+  realised.version = can.version;
+  realised.deviations.insert(realised.deviations.begin(), adapted.deviations.begin(),
+                             adapted.deviations.end());
+  if (auto step = stepDeviation(realised.dt, scene.dt))
+    realised.deviations.push_back(std::move(*step));
+  return realised;
+}
+
+Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  if (const std::string why = whyNoStart(scene); !why.empty())
+    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
+}
+
+LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
+                        const std::filesystem::path& scratch) {
+  LoadedEngine loaded;
+  loaded.engine = startEngine(entry, scratch, setup.run.timeout);
+  loaded.can = loaded.engine->capabilities();
+  loaded.realised = loadScene(*loaded.engine, entry, setup, scene);
+  return loaded;
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,137 @@
+#include "runs/cost/collision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/time_step.hpp"
+#include "runs/common/records.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+using nlohmann::json;
+
+Case collisionOf(const Case& setup) {
+  Case pair = setup;
+  pair.kind = CaseKind::collision;
+  pair.bottom.reset();
+  Collision& collision = pair.collision;
+  const Cost& cost = setup.cost;
+  for (int k = 0; k < cost.psiCount; ++k)
+    collision.psi.push_back(cost.psiMax * k / (cost.psiCount - 1));
+  collision.vn = {cost.speed};
+  for (const int side : {0, 1}) {
+    collision.radius[side] = setup.particles.smallRadius;
+    collision.mass[side] = setup.particles.smallMass;
+  }
+  collision.inertiaFactor = setup.particles.inertiaFactor;
+  return pair;
+}
+
+CollisionReference collisionReference(const Case& setup) {
+  const Case pair = collisionOf(setup);
+  const auto starts = collisionStarts(pair);
+  return {starts, oracleCurve(pair, starts)};
+}
+
+double stabilityLimit(const Case& setup) {
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / setup.law.kn);
+}
+
+namespace {
+
+struct SweepTime {
+  double wall, cpu;
+};
+
+/// Of one sweep among `copies` that run side by side.
+SweepTime timeSweeps(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
+                     const std::vector<CollisionStart>& starts, int copies) {
+  std::vector<CollisionStart> many;
+  for (int k = 0; k < copies; ++k) many.insert(many.end(), starts.begin(), starts.end());
+  const Realised realised = loadScene(engine, entry, pair, collisionScene(pair, many, dt));
+  engine.advance(sweepEnd(pair, dt, realised.dt));
+  const Stats stats = engine.stats();
+  return {stats.wallSeconds / copies, stats.cpuSeconds / copies};
+}
+
+/// The shortest of some repeats, each long enough to be measured.
+SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
+                        const std::vector<CollisionStart>& starts, double single) {
+  constexpr int mostCopies = 50;
+  const int copies =
+      std::clamp(static_cast<int>(std::ceil(pair.cost.timed / single)), 1, mostCopies);
+  SweepTime best{INFINITY, INFINITY};
+  for (int repeat = 0; repeat < pair.cost.repeats; ++repeat) {
+    throwIfInterrupted();
+    const SweepTime time = timeSweeps(engine, entry, pair, dt, starts, copies);
+    best.wall = std::min(best.wall, time.wall);
+    best.cpu = std::min(best.cpu, time.cpu);
+  }
+  return best;
+}
+
+/// Why a sweep says nothing about the case, empty if it does.
+std::string failureOf(const json& sweep, const Case& pair, double dt) {
+  const double share = dt / stabilityLimit(pair);
+  const std::string limit =
+      share > 1.0 ? fmt::format("beyond its stability limit (dt = {:.3g} · 2/ω): ", share) : "";
+  if (sweep["status"] != "finished") return limit + sweep["reason"].get<std::string>();
+  double largest = 0.0;
+  if (const auto found = sweep["points"].find("e_n"); found != sweep["points"].end())
+    for (const json& en : *found)
+      if (en.is_number()) largest = std::max(largest, std::abs(en.get<double>()));
+  if (largest > 1.0)
+    return fmt::format("{}pairs part {:.3g} times as fast as they met",
+                       limit.empty() ? "beyond its stability limit: " : limit, largest);
+  return {};
+}
+
+/// √(mean of squares) of a score over sweeps; absent where one has none.
+std::optional<double> rmsOf(const std::vector<json>& sweeps, const char* measure) {
+  double squares = 0.0;
+  for (const json& sweep : sweeps) {
+    if (!sweep["score"].contains(measure)) return std::nullopt;
+    const double rms = sweep["score"][measure]["rms"];
+    squares += rms * rms;
+  }
+  return std::sqrt(squares / static_cast<double>(sweeps.size()));
+}
+
+}  // namespace
+
+std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry,
+                                        const CostSetting& setting,
+                                        const CollisionReference& reference) {
+  Case pair = collisionOf(setting.setup);
+  const double dt = timeStep(setting.setup);
+  std::vector<json> sweeps;
+  for (int k = 0; k < collisionPhases; ++k) {
+    pair.collision.startPhase = (k + 0.5) / collisionPhases;
+    sweeps.push_back(
+        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*look=*/false));
+  }
+  const json& sweep = sweeps.front();
+  CostPoint point = pointOf(entry.name, setting, CostKind::collision, sweep["dt"]);
+  point.steps = sweep["stats"]["steps"];
+  point.contactEvaluations = sweep["stats"]["contact_evaluations"];
+  for (const json& each : sweeps)
+    if (point.reason.empty()) point.reason = failureOf(each, pair, point.dt);
+  if (!point.reason.empty()) point.status = "failed";
+  const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
+                                       std::max(sweep["stats"]["wall_s"].get<double>(), 1e-6));
+  point.wallSeconds = time.wall;
+  point.cpuSeconds = time.cpu;
+
+  std::vector<CostPoint> points;
+  for (const char* const measure : {"psi_f", "e_n"}) {
+    point.measure = measure;
+    point.error = point.status == "ran" ? rmsOf(sweeps, measure) : std::nullopt;
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace crossgrain::inline runs

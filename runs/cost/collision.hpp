@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "runs/collide/sweep.hpp"
+#include "runs/cost/point.hpp"
+#include "runs/cost/settings.hpp"
+
+namespace crossgrain::inline runs {
+
+/// The collision that stands for a Couette case: two of its small disks and its law, head on with
+/// spins, Ψ_i = 0 … psi_max at one speed. Its step is the case's.
+Case collisionOf(const Case& setup);
+
+/// What all collisions of one case are held against: the case's own law, whatever a setting makes
+/// of it, so that an error says how far off the case a setting is.
+struct CollisionReference {
+  std::vector<CollisionStart> starts;
+  OracleCurve oracle;
+};
+CollisionReference collisionReference(const Case& setup);
+
+/// The largest stable step of a contact, 2/ω with ω² = k_n/m₁₂ [s]: what a symplectic integrator
+/// bears of an undamped oscillator.
+double stabilityLimit(const Case& setup);
+
+/// Sweeps whose pairs touch at different fractions of a step: the dashpot's jump at touch errs by
+/// how far it is from a step, so that one phase alone says little of a setting.
+inline constexpr int collisionPhases = 8;
+
+/// One setting on one engine: points for Ψ_f (rms over the curve, and over where in a step the
+/// pairs touch, in units of the curve's range) and e_n (rms in units of its magnitude). Timed over
+/// so many copies of the sweep that the time is at least `cost.timed`, the shortest of
+/// `cost.repeats`. Collisions that do not part, or part faster than they met, are failed.
+/// @throws EngineFailure, UnsupportedScene, BadInput
+std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry,
+                                        const CostSetting& setting,
+                                        const CollisionReference& reference);
+
+}  // namespace crossgrain::inline runs

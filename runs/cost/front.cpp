@@ -1,0 +1,86 @@
+#include "runs/cost/front.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace crossgrain::inline runs {
+
+std::optional<MeasuredError> measuredError(const CostPoint& point) {
+  if (!point.error) return std::nullopt;
+  return MeasuredError{*point.error, point.statistical, point.referenceError,
+                       kindScatters(point.errorKind)};
+}
+
+std::optional<double> countedError(const CostPoint& point) {
+  const auto error = measuredError(point);
+  return point.status == "ran" && error ? error->counted() : std::nullopt;
+}
+
+std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
+  struct Candidate {
+    double time, error;
+    std::size_t point;
+    auto operator<=>(const Candidate&) const = default;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (const auto error = countedError(points[k]); error && points[k].wallSeconds)
+      candidates.push_back({*points[k].wallSeconds, *error, k});
+  std::ranges::sort(candidates);
+  std::vector<std::size_t> front;
+  Candidate best{0.0, std::numeric_limits<double>::infinity(), 0};
+  for (const Candidate& one : candidates) {
+    const bool equal = one.error == best.error && one.time == best.time;
+    if (one.error >= best.error && !equal) continue;
+    best = one;
+    front.push_back(one.point);
+  }
+  return front;
+}
+
+namespace {
+
+/// @param engine  empty: all
+Front frontOf(const std::vector<CostPoint>& points, const std::string& kind,
+              const std::string& measure, const std::string& engine) {
+  std::vector<CostPoint> own;
+  std::vector<std::size_t> members;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k].errorKind != kind || points[k].measure != measure) continue;
+    if (!engine.empty() && points[k].engine != engine) continue;
+    own.push_back(points[k]);
+    members.push_back(k);
+  }
+  Front front{kind, measure, engine, {}, {}};
+  for (const std::size_t k : paretoFront(own)) {
+    front.points.push_back(members[k]);
+    front.errors.push_back(*countedError(own[k]));
+  }
+  return front;
+}
+
+/// In the order of the points, each once.
+template <class Key>
+auto distinct(const std::vector<CostPoint>& points, Key key) {
+  std::vector<decltype(key(points.front()))> keys;
+  for (const CostPoint& point : points)
+    if (std::ranges::find(keys, key(point)) == keys.end()) keys.push_back(key(point));
+  return keys;
+}
+
+}  // namespace
+
+std::vector<Front> paretoFronts(const std::vector<CostPoint>& points) {
+  const auto engines = distinct(points, [](const CostPoint& p) { return p.engine; });
+  std::vector<Front> fronts;
+  for (const auto& [kind, measure] :
+       distinct(points, [](const CostPoint& p) { return std::pair(p.errorKind, p.measure); })) {
+    fronts.push_back(frontOf(points, kind, measure, ""));
+    for (const std::string& engine : engines)
+      if (Front own = frontOf(points, kind, measure, engine); !own.points.empty())
+        fronts.push_back(std::move(own));
+  }
+  return fronts;
+}
+
+}  // namespace crossgrain::inline runs

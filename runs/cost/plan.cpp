@@ -1,0 +1,96 @@
+#include "runs/cost/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace crossgrain::inline runs {
+
+std::vector<double> fairShares(const std::vector<double>& wanted, double budget) {
+  std::vector<std::size_t> order(wanted.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t k) { return wanted[k]; });
+  std::vector<double> shares(wanted.size());
+  double left = std::max(budget, 0.0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double equal = left / static_cast<double>(order.size() - k);
+    shares[order[k]] = std::min(wanted[order[k]], equal);
+    left -= shares[order[k]];
+  }
+  return shares;
+}
+
+bool comesBefore(const PlannedPoint& one, const PlannedPoint& other) {
+  const auto rank = [](const PlannedPoint& point) {
+    return std::tuple(point.kind, point.setting > 0, point.seconds, point.setting);
+  };
+  return rank(one) < rank(other);
+}
+
+std::string undecidedReason(double seconds, double left, double budget) {
+  return fmt::format(
+      "would take about {:.3g} s, {:.3g} s are left of the engine's share of {:.3g} s", seconds,
+      std::max(left, 0.0), budget);
+}
+
+std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
+                                  const std::vector<double>& overhead, double budget) {
+  std::vector<double> wanted = overhead;
+  for (const PlannedPoint& point : points) wanted[point.engine] += point.seconds;
+  const std::vector<double> shares = fairShares(wanted, budget);
+  std::vector<double> spent = overhead;
+  std::ranges::stable_sort(points, comesBefore);
+  for (PlannedPoint& point : points) {
+    const double share = shares[point.engine];
+    // Sums of the same numbers in another order differ in their last digits.
+    if (spent[point.engine] + point.seconds > share * (1.0 + 1e-9) && point.seconds > 0.0)
+      point.undecided = undecidedReason(point.seconds, share - spent[point.engine], share);
+    else
+      spent[point.engine] += point.seconds;
+  }
+  return shares;
+}
+
+double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
+                       const std::vector<double>& overhead) {
+  std::vector<double> references(overhead.size(), 0.0);
+  double seconds = 0.0;
+  for (const PlannedPoint& point : points) {
+    if (point.undecided.empty()) continue;
+    seconds += point.seconds;
+    if (point.kind == CostKind::trajectory) references[point.engine] = overhead[point.engine];
+  }
+  return std::accumulate(references.begin(), references.end(), seconds);
+}
+
+std::string planInWords(const std::vector<PlannedPoint>& points,
+                        const std::vector<std::string>& engines,
+                        const std::vector<double>& overhead, double common, double budget) {
+  std::string text = fmt::format("plan for a budget of {:.3g} s:\n", budget);
+  double total = common;
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    total += overhead[e];
+    for (const CostKind kind : {CostKind::collision, CostKind::trajectory, CostKind::averages}) {
+      int count = 0, left = 0;
+      double seconds = kind == CostKind::trajectory ? overhead[e] : 0.0;
+      for (const PlannedPoint& point : points) {
+        if (point.engine != e || point.kind != kind) continue;
+        ++count;
+        if (!point.undecided.empty())
+          ++left;
+        else
+          seconds += point.seconds, total += point.seconds;
+      }
+      if (count > 0)
+        text += fmt::format("  {:<16} {:<11} {:3} settings, about {:6.1f} s{}\n", engines[e],
+                            toString(kind), count, seconds,
+                            left > 0 ? fmt::format("; {} do not fit", left) : "");
+    }
+  }
+  return text + fmt::format("  {:<28} {:22} {:6.1f} s\n  {:<28} {:22} {:6.1f} s\n",
+                            "references of the in-house engine", "", common, "in all", "", total);
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "runs/cost/settings.hpp"
+
+namespace crossgrain::inline runs {
+
+/// One point (or all measures of one) that is to be measured.
+struct PlannedPoint {
+  std::size_t engine = 0;
+  CostKind kind = CostKind::collision;
+  std::size_t setting = 0;  ///< of that engine and kind
+  double seconds = 0.0;     ///< predicted; 0: an earlier run has it, or it costs nothing more
+  std::string undecided;    ///< why it is not measured; empty if it is
+};
+
+/// A budget shared fairly: nobody gets more than wanted, and what some leave goes to the others in
+/// equal parts.
+std::vector<double> fairShares(const std::vector<double>& wanted, double budget);
+
+/// Marks as undecided what does not fit. Engines share the budget fairly; each takes collisions
+/// before trajectories before averages, and of each kind the case as it is first, then the cheapest
+/// (within a kind all points tell about as much).
+/// @param overhead  what each engine's references take besides its points [s]
+/// @returns each engine's share [s]
+std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
+                                  const std::vector<double>& overhead, double budget);
+
+/// The budget that a later run needs for what this one leaves out, when all else is kept [s].
+double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
+                       const std::vector<double>& overhead);
+
+/// The order in which an engine's points are measured.
+bool comesBefore(const PlannedPoint& one, const PlannedPoint& other);
+
+/// "would take about 90 s; grain's share …"
+std::string undecidedReason(double seconds, double left, double budget);
+
+/// The plan as lines: per engine and kind how many points, how many seconds, how many undecided.
+std::string planInWords(const std::vector<PlannedPoint>& points,
+                        const std::vector<std::string>& engines,
+                        const std::vector<double>& overhead, double common, double budget);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "adapters/registry.hpp"
+#include "cases/case.hpp"
+#include "runs/cost/point.hpp"
+
+namespace crossgrain::inline runs {
+
+/// A setting that `crossgrain cost` measures on one engine: the case with a fragment merged in.
+struct CostSetting {
+  std::string knob, setting;  ///< as in CostPoint
+  std::string fragment;       ///< TOML; empty: the case as it is
+  Case setup;                 ///< what the loader makes of case and fragment
+  std::string refusal;        ///< why the engine has no such setting; empty if it has
+};
+
+/// The case with a fragment merged into it, as the loader reads it. @throws BadInput
+using CaseWith = std::function<Case(const std::string& fragment)>;
+
+/// What the time step of an engine is set by: an engine with a step of its own does not follow the
+/// case's. @param steps  per contact time t_c
+std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
+                         double steps);
+
+/// t_c of two small disks, which steps are counted in [s]. @throws BadInput for a law without one
+double costContactTime(const Case& setup);
+
+/// Which error a setting is measured for.
+enum class CostKind { collision, trajectory, averages };
+std::string toString(CostKind kind);
+
+/// Snapshots per rotation where only every so many-th is taken: a whole number, at least one.
+int snapshotsPerRotation(const Case& setup, double every);
+
+/// The step that an engine will take [s].
+double engineStep(const Case& setup, const std::string& engine, const Capabilities& can);
+
+/// Of the knob "integrator" which; empty of others: the one the engine has by itself.
+std::string integratorOf(const CostSetting& setting);
+
+/// A point of that setting without any numbers but dt and the steps in t_c of the setting's case.
+CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt);
+
+/// Every setting of [cost] that matters to that kind of error, the case as it is first. Settings
+/// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that
+/// does not exist
+std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
+                                      const Capabilities& can, const CaseWith& caseWith);
+
+}  // namespace crossgrain::inline runs

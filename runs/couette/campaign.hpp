@@ -1,0 +1,100 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/packing.hpp"
+#include "runs/common/dry_run.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/kept_task.hpp"
+#include "runs/common/options.hpp"
+#include "runs/common/progress.hpp"
+#include "runs/common/run_store.hpp"
+
+namespace crossgrain::inline runs {
+
+/// One engine on every packing, with the case as it is or with something switched off.
+struct Leg {
+  std::size_t engine;   ///< index into Campaign::engines()
+  std::string without;  ///< what is switched off, empty: nothing; "without" of its runs
+  const Case* setup;
+};
+
+/// Engines on the packings of one Couette case, side by side where `jobs` allows. Every finished
+/// run is kept in out/runs at once and taken up by the next campaign there; a failed one ends by
+/// itself and is reported.
+///
+///   askEngines ── preparePackings ── timeEngines ── run ── results
+class Campaign {
+ public:
+  /// @param store  of the case, opened with soleCase()
+  /// @throws BadInput for a packing file without a time step
+  Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
+           RunStore& store);
+
+  /// Asks every engine, before anything is computed, whether it can run the case.
+  /// @throws UnsupportedScene of an engine named that cannot
+  void askEngines();
+  /// With them, the campaign begins: its folder is its own. @throws BadInput
+  void preparePackings();
+  /// Times some steps of every engine on the first packing, so that the longest runs start first.
+  void timeEngines();
+  /// Every engine with the case as it is.
+  std::vector<Leg> wholeCase() const;
+  void run(const std::vector<Leg>& legs);
+
+  /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
+  void lookForPackings();
+  /// What `run` would do, engine by engine, those that refuse too.
+  std::vector<PlannedWork> plan(const std::vector<Leg>& legs) const;
+  /// "compare of quick: 4 packings, 3 of them prepared already"
+  std::string planHead() const;
+
+  /// results.json as far as it does not depend on what the runs are for: head, cell, averaging,
+  /// effects, engines, rings, packings, runs, notes, elapsed_s.
+  nlohmann::json results(const std::string& kind) const;
+
+  const std::vector<EngineEntry>& engines() const { return engines_; }
+  /// Why an engine does not take part, empty if it does.
+  const std::string& refusal(std::size_t engine) const { return refusals_[engine]; }
+  /// What timeEngines() found; absent where the engine failed.
+  const std::optional<Capabilities>& capabilities(std::size_t engine) const { return can_[engine]; }
+  const std::optional<Realised>& realised(std::size_t engine) const { return realised_[engine]; }
+  const std::vector<Packing>& packings() const { return packings_; }
+  double dt() const { return dt_; }  ///< the case's [s]
+  RunStore& store() const { return store_; }
+  Progress& progress() { return progress_; }
+
+  /// What a result of this engine on this packing depends on besides the case.
+  /// @param part  what is switched off, or which part of the campaign the result is
+  CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
+
+ private:
+  /// A file is one packing, however many a case would prepare.
+  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
+  std::vector<KeptTask> tasksOf(const std::vector<Leg>& legs) const;
+  KeptTask::Outcome runOne(const Leg& leg, int packing,
+                           const std::function<void(double)>& progress) const;
+  nlohmann::json enginesJson() const;
+
+  const Case& setup_;
+  const RunCommand& command_;
+  std::vector<EngineEntry> engines_;
+  double dt_;
+  RunStore& store_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  std::vector<double> predicted_;  ///< seconds of one run, per engine
+  std::vector<std::string> versions_, refusals_;
+  std::vector<std::optional<Capabilities>> can_;
+  std::vector<std::optional<Realised>> realised_;
+  std::vector<Packing> packings_;
+  std::vector<nlohmann::json> runs_;  ///< leg by leg, packing by packing
+};
+
+}  // namespace crossgrain::inline runs

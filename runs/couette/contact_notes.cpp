@@ -1,0 +1,55 @@
+#include "runs/couette/contact_notes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crossgrain::inline runs {
+
+using nlohmann::json;
+
+namespace {
+
+/// Over all snapshots of all finished runs of an engine.
+std::optional<double> meanOf(const json& results, const std::string& engine, const char* series) {
+  std::vector<double> values;
+  for (const json& run : results["runs"]) {
+    if (run["engine"] != engine || run["status"] != "finished") continue;
+    if (!run["series"].contains(series)) continue;
+    for (const json& value : run["series"][series])
+      if (value.is_number()) values.push_back(value);
+  }
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+json contactNotes(const json& results) {
+  std::vector<std::string> differ, same;
+  for (const json& engine : results["engines"]) {
+    const std::string name = engine["name"];
+    const auto counted = meanOf(results, name, "coordination");
+    const auto listed = meanOf(results, name, "pairs_listed");
+    if (!counted || !listed) continue;
+    if (*listed == *counted)
+      same.push_back(name);
+    else
+      differ.push_back(fmt::format("{} {:.3g} instead of {:.3g}", name, *listed, *counted));
+  }
+  if (differ.empty() && same.empty()) return json::array();
+  std::string outcome;
+  if (!differ.empty()) outcome = fmt::format("{}", fmt::join(differ, ", "));
+  if (!same.empty())
+    outcome += fmt::format("{}no other for {}", differ.empty() ? "" : "; ", fmt::join(same, ", "));
+  return {fmt::format(
+      "Contacts are pairs that transmit a force. With every pair that an engine lists, the "
+      "coordination C (and with it the trace of the fabric, νC) would be: {}.",
+      outcome)};
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,185 @@
+#include "runs/couette/rev.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "averaging/profiles.hpp"
+#include "runs/common/progress.hpp"
+#include "runs/common/records.hpp"
+#include "runs/couette/head.hpp"
+#include "runs/couette/run.hpp"
+#include "runs/couette/snapshot_file.hpp"
+#include "runs/couette/snapshot_fit.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+using nlohmann::json;
+
+namespace {
+
+/// Where the rings lie, as parts of the way from R_i to R_o: r = 0.12, 0.13, 0.14 and 0.20 m in the
+/// thesis' cell (Lätzel 2003, Fig. 5.6).
+constexpr double places[] = {0.0168 / 0.1492, 0.0268 / 0.1492, 0.0368 / 0.1492, 0.0968 / 0.1492};
+
+/// Ring widths in units of d, closest where methods are expected to meet.
+std::vector<double> widths() {
+  std::vector<double> result = {0.1,  0.12, 0.15, 0.18, 0.22, 0.26,
+                                0.31, 0.37, 0.45, 0.54, 0.65, 0.75};
+  for (int k = 16; k <= 50; ++k) result.push_back(k / 20.0);
+  for (int k = 14; k <= 20; ++k) result.push_back(k / 5.0);
+  return result;
+}
+
+/// The ring about r of that width with its two neighbours, and what is left of the cell; absent
+/// where it does not fit. The rest is there for the walls' stress to be where it belongs.
+std::optional<Rings> ringsAbout(const Case& setup, double r, double width) {
+  const double inner = setup.cell.innerRadius, outer = setup.cell.outerRadius;
+  if (r - 0.5 * width < inner || r + 0.5 * width > outer) return std::nullopt;
+  std::vector<double> edges = {inner};
+  for (const double edge : {-1.5, -0.5, 0.5, 1.5})
+    if (const double at = r + edge * width; at > edges.back() && at < outer) edges.push_back(at);
+  edges.push_back(outer);
+  return Rings(std::move(edges), setup.cell.height, 2.0 * setup.particles.smallRadius);
+}
+
+/// One field under one weight about one radius, against ring width.
+struct Curve {
+  std::string method, field, unit;
+  double r;
+  std::vector<double> width;  ///< [d]
+  std::vector<std::optional<double>> mean, error;
+};
+
+using Curves = std::map<std::tuple<std::string, std::string, double>, Curve>;
+
+void addWidth(const Case& setup, const SnapshotReader& reader, double width, Curves& curves) {
+  const double diameter = 2.0 * setup.particles.smallRadius;
+  const std::vector<std::string> names(weightNames.begin(), weightNames.end());
+  const std::vector<Weight> weights = weightsOf(setup, names);
+  for (const double place : places) {
+    const double r =
+        setup.cell.innerRadius + place * (setup.cell.outerRadius - setup.cell.innerRadius);
+    const auto rings = ringsAbout(setup, r, width * diameter);
+    if (!rings) continue;
+    ProfileAccumulator accumulator(*rings, weights, reader.scene());
+    for (std::size_t k = 0; k < reader.count(); ++k) {
+      throwIfInterrupted();
+      try {
+        accumulator.add(reader.read(k));
+      } catch (const std::invalid_argument& misfit) {
+        throw BadInput(fmt::format("snapshot {}: {}", k, misfit.what()));
+      }
+    }
+    const auto ring = static_cast<std::size_t>(rings->binOf(r));
+    for (const Profile& profile : accumulator.profiles()) {
+      Curve& curve = curves[{profile.method, profile.field, r}];
+      curve.method = profile.method;
+      curve.field = profile.field;
+      curve.unit = profile.unit;
+      curve.r = r;
+      curve.width.push_back(width);
+      curve.mean.push_back(profile.mean[ring]);
+      curve.error.push_back(profile.standardError[ring]);
+    }
+  }
+}
+
+std::optional<double> valueAt(const Curves& curves, const std::string& method,
+                              const std::string& field, double r, double width) {
+  const auto found = curves.find({method, field, r});
+  if (found == curves.end()) return std::nullopt;
+  const auto& [_, curve] = *found;
+  const auto at = std::ranges::find(curve.width, width);
+  return at == curve.width.end() ? std::nullopt
+                                 : curve.mean[static_cast<std::size_t>(at - curve.width.begin())];
+}
+
+/// √⟨(m − slicing)²⟩/√⟨slicing²⟩ over the radii at one width; absent without a radius.
+std::optional<double> apart(const Curves& curves, const std::string& method,
+                            const std::string& field, const std::vector<double>& radii,
+                            double width) {
+  double difference = 0.0, scale = 0.0;
+  for (const double r : radii) {
+    const auto slicing = valueAt(curves, "slicing", field, r, width);
+    const auto other = valueAt(curves, method, field, r, width);
+    if (!slicing || !other) continue;
+    difference += (*other - *slicing) * (*other - *slicing);
+    scale += *slicing * *slicing;
+  }
+  if (scale == 0.0) return std::nullopt;
+  return std::sqrt(difference / scale);
+}
+
+json meetings(const Curves& curves) {
+  std::vector<double> radii;
+  for (const auto& [_, curve] : curves)
+    if (std::ranges::find(radii, curve.r) == radii.end()) radii.push_back(curve.r);
+  json rows = json::array();
+  for (const std::string_view method : weightNames) {
+    if (method == "slicing") continue;
+    for (const FieldSpec& spec : fieldTable())
+      for (const double near : {1.0, 2.0}) {
+        std::optional<double> best, where;
+        for (const double width : widths()) {
+          if (std::abs(width - near) > 0.26) continue;
+          const auto found =
+              apart(curves, std::string(method), std::string(spec.name), radii, width);
+          if (found && (!best || *found < *best)) {
+            best = found;
+            where = width;
+          }
+        }
+        if (best)
+          rows.push_back({{"method", method},
+                          {"field", spec.name},
+                          {"near", near},
+                          {"width", *where},
+                          {"difference", *best}});
+      }
+  }
+  return rows;
+}
+
+}  // namespace
+
+json revStudy(const Case& setup, const std::filesystem::path& file, const std::string& commandLine,
+              bool quiet) {
+  const SnapshotReader reader(file, setup);
+  requireFit(reader, setup);
+  Progress progress(quiet);
+  const std::vector<double> all = widths();
+  progress.begin("averaging", std::vector<double>(all.size(), 1.0));
+  Curves curves;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    addWidth(setup, reader, all[k], curves);
+    progress.update(k, "ring widths", 1.0);
+  }
+  json results = couetteHead("rev", setup, commandLine, reader.scene().disks);
+  results["averaging"]["snapshots"] = reader.count();
+  results["averaging"]["line_width"] = setup.averaging.lineWidth;
+  results["engine"] = reader.engine();
+  results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
+                                  reader.count(), file.string())};
+  results["curves"] = json::array();
+  for (const std::string_view method : weightNames)
+    for (const FieldSpec& field : fieldTable())
+      for (const auto& [_, curve] : curves)
+        if (curve.method == method && curve.field == field.name)
+          results["curves"].push_back({{"method", curve.method},
+                                       {"field", curve.field},
+                                       {"unit", curve.unit},
+                                       {"r", curve.r},
+                                       {"width", curve.width},
+                                       {"mean", toJson(curve.mean)},
+                                       {"stderr", toJson(curve.error)}});
+  results["meetings"] = meetings(curves);
+  return results;
+}
+
+}  // namespace crossgrain::inline runs

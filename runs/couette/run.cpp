@@ -1,0 +1,117 @@
+#include "runs/couette/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "adapters/worker/json.hpp"
+#include "cases/couette.hpp"
+#include "runs/common/picture.hpp"
+#include "runs/common/records.hpp"
+#include "runs/couette/averages.hpp"
+#include "runs/couette/snapshot_file.hpp"
+#include "runs/couette/unfinished_run.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+using nlohmann::json;
+
+Rings ringsOf(const Case& setup) {
+  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, setup.averaging.rings,
+               setup.cell.height, 2.0 * setup.particles.smallRadius);
+}
+
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
+  const double width = 2.0 * setup.particles.smallRadius * setup.averaging.lineWidth;
+  std::vector<Weight> weights;
+  for (const std::string& name : names) weights.emplace_back(weightMethod(name), width);
+  return weights;
+}
+
+double rotationTime(const Case& setup) {
+  return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
+}
+
+json runCouette(const CouetteRun& run, const std::function<void(double)>& progress) {
+  const Case& setup = *run.setup;
+  const Scene scene = couetteScene(setup, *run.packing, run.dt);
+  LoadedEngine loaded = loadEngine(run.entry, setup, scene, run.scratch);
+  Engine& engine = *loaded.engine;
+  // Forces of one instant belong to the positions beside them; those summed over an interval do not
+  // where the wheel's disks moved on meanwhile.
+  const ContactReport report =
+      loaded.can.instantContacts ? ContactReport::instant : ContactReport::accumulated;
+
+  const double rotation = rotationTime(setup);
+  const double settled = setup.averaging.settleRotations * rotation;
+  const int samples =
+      std::max(1, static_cast<int>(std::lround(setup.averaging.snapshotsPerRotation *
+                                               setup.averaging.rotations)));
+  const double interval = setup.averaging.rotations * rotation / samples;
+  const double end = settled + samples * interval;
+  // In pieces: an engine answers within its time-out however far apart snapshots are.
+  const double piece = 2000.0 * loaded.realised.dt;
+  UnfinishedRun unfinished(run.unfinished, run.key, scene,
+                           loaded.can.checkpoints && report == ContactReport::instant);
+  const auto before = unfinished.resume(engine);
+  double now = before ? before->time : 0.0;
+  const auto advanceTo = [&](double t) {
+    while (now < t) {
+      if (interrupted()) unfinished.keep(engine, now);
+      throwIfInterrupted();
+      const double next = std::min(t, now + piece);
+      const double reached = engine.advance(next);
+      if (std::abs(reached - next) > loaded.realised.dt)
+        throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
+                                        run.entry.name, setup.name, next, reached));
+      now = next;
+      unfinished.keepIfDue(engine, now);
+    }
+    progress(t / end);
+  };
+
+  const int settleSlices = static_cast<int>(std::ceil(settled / interval));
+  for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
+  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
+
+  CouetteAverages averages(setup, scene);
+  SnapshotFile kept(run.snapshots, run.entry.name, scene, samples, setup.run.keepSnapshots);
+  json picture;
+  const double pictureTime = std::min(0.5 * rotation, end);
+  int taken = 0;
+  const auto take = [&](const Snapshot& snapshot) {
+    averages.add(snapshot);
+    kept.offer(snapshot, ++taken);
+    if (run.packingIndex == 0 && picture.is_null() &&
+        snapshot.positionTime >= pictureTime - interval)
+      picture = pictureOf(scene, snapshot, snapshot.positionTime / rotation);
+  };
+  for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
+  while (taken < samples) {
+    advanceTo(settled + (taken + 1) * interval);
+    const Snapshot snapshot = engine.snapshot(report);
+    take(snapshot);
+    unfinished.took(snapshot);
+  }
+  kept.close();
+
+  Stats stats = engine.stats();
+  if (before) {
+    stats.wallSeconds += before->wallSeconds;
+    stats.cpuSeconds += before->cpuSeconds;
+  }
+  json result = {{"engine", run.entry.name},
+                 {"packing", run.packingIndex},
+                 {"status", "finished"},
+                 {"reason", ""},
+                 {"realised", toJson(loaded.realised)},
+                 {"stats", statsJson(stats)},
+                 {"picture", picture}};
+  averages.describe(loaded.realised, result);
+  return result;
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "averaging/rings.hpp"
+#include "averaging/weights.hpp"
+#include "cases/case.hpp"
+#include "cases/packing.hpp"
+#include "runs/common/engine_access.hpp"
+
+namespace crossgrain::inline runs {
+
+/// The rings that a Couette case averages over.
+Rings ringsOf(const Case& setup);
+
+/// Weights of these names, with the case's kernel width.
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
+
+/// Seconds of one rotation of the wheel.
+double rotationTime(const Case& setup);
+
+/// What one engine on one packing is to do, and where its files go.
+struct CouetteRun {
+  const Case* setup;
+  EngineEntry entry;
+  int packingIndex;
+  const Packing* packing;
+  double dt;                         ///< the case's time step [s]
+  std::filesystem::path scratch;     ///< the worker's
+  std::filesystem::path snapshots;   ///< HDF5 file of kept snapshots
+  std::filesystem::path unfinished;  ///< folder of what is kept while it runs
+  std::string key;                   ///< everything that the run depends on
+};
+
+/// Lets the packing settle, averages over the case's rotations and returns a finished entry of
+/// results.json's "runs".
+/// @param progress  told the fraction done, 0 … 1
+/// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
+nlohmann::json runCouette(const CouetteRun& run, const std::function<void(double)>& progress);
+
+}  // namespace crossgrain::inline runs

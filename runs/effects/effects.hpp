@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cases/case.hpp"
+#include "cases/effect_switch.hpp"
+#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
+#include "runs/effects/step_times.hpp"
+
+namespace crossgrain::inline runs {
+
+/// Why an engine that runs the whole case has nothing to show for that switch: it lacks what would
+/// be switched off, cannot do without it, or lacks what takes its place. Empty: it can.
+std::string switchRefusal(const Capabilities& can, const Case& setup, const EffectSwitch& off);
+
+/// Runs a Couette case as it is and with each of its effects switched off, on every engine that can
+/// do without it and on the case's packings; and times a step of each, one at a time. Everything
+/// finished is kept in the store at once. @returns results.json of kind "effects"
+/// @throws BadInput, UnsupportedScene (an engine named cannot run the case itself), OutputError,
+/// Interrupted
+nlohmann::json measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
+                              const TimingPlan& plan);
+
+/// What that would run, for people. Engines are asked what they can do; nothing is computed.
+/// @throws BadInput, UnsupportedScene, Interrupted
+std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
+                        const TimingPlan& plan);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "cases/packing.hpp"
+#include "runs/common/engine_access.hpp"
+#include "stability/recording.hpp"
+
+namespace crossgrain::inline runs {
+
+/// A hard case as engines get it, whatever its kind.
+struct HardScene {
+  const Case* setup = nullptr;
+  Scene scene;
+  double duration = 0.0;  ///< how long it is watched [s]
+};
+
+/// @param packing  of a Couette case
+/// @throws BadInput
+HardScene hardScene(const Case& setup, const Packing& packing);
+
+/// Has an engine load the scene and looks at it `samples` times while it runs. An engine that fails
+/// on the way ends the recording there, with the reason and what was seen before.
+/// @param progress  told the fraction done, 0 … 1
+/// @throws UnsupportedScene, BadInput, Interrupted
+Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+                 const std::function<void(double)>& progress);
+
+}  // namespace crossgrain::inline runs

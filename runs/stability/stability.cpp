@@ -1,0 +1,238 @@
+#include "runs/stability/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "cases/case_files.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "runs/common/dry_run.hpp"
+#include "runs/common/kept_task.hpp"
+#include "runs/common/progress.hpp"
+#include "runs/common/records.hpp"
+#include "runs/common/run_store.hpp"
+#include "runs/stability/recorder.hpp"
+#include "runs/stability/run.hpp"
+#include "stability/measures.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+std::vector<fs::path> filesOf(const fs::path& input) {
+  return fs::is_directory(input) ? caseFilesIn(input) : std::vector{input};
+}
+
+bool belongsTo(SuitePart part, const Stability& hard) {
+  if (part == SuitePart::quick) return hard.quick;
+  return part == SuitePart::withLong || !hard.longRun;
+}
+
+}  // namespace
+
+std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
+                            const std::vector<std::string>& overrides, SuitePart part) {
+  std::vector<Case> cases;
+  for (const fs::path& input : inputs)
+    for (const fs::path& file : filesOf(input))
+      for (Case& setup : loadCase(file, overrides)) {
+        if (!setup.stability)
+          throw BadInput(fmt::format("{}: has no [stability]: it is no hard case", file.string()));
+        cases.push_back(std::move(setup));
+      }
+  requireOwnNames(cases);
+  if (std::ranges::none_of(cases, [&](const Case& c) { return belongsTo(part, *c.stability); }))
+    throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
+                                            : "all of these cases are long: --long runs them");
+  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
+  return cases;
+}
+
+namespace {
+
+class Suite {
+ public:
+  Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command,
+        RunStore& store)
+      : cases_(cases),
+        command_(command),
+        engines_(std::move(engines)),
+        store_(store),
+        progress_(command.quiet),
+        packings_(cases.size()),
+        versions_(engines_.size()) {
+    for (const Case& setup : cases) checkEngineSections(setup);
+    for (const EngineEntry& entry : engines_)
+      if (entry.missing && !entry.missing().empty())
+        startEngine(entry, {}, 1.0);  // throws, saying why
+  }
+
+  void askVersions() {
+    for (std::size_t e = 0; e < engines_.size(); ++e) {
+      throwIfInterrupted();
+      try {
+        versions_[e] = startEngine(engines_[e], store_.scratch("ask-" + engines_[e].name), 60.0)
+                           ->capabilities()
+                           .version;
+      } catch (const EngineFailure& failure) {
+        progress_.say(failure.what());  // its runs will tell, one by one
+      }
+    }
+    store_.begin();
+  }
+
+  void preparePackings() {
+    for (std::size_t c = 0; c < cases_.size(); ++c) {
+      if (cases_[c].kind != CaseKind::couette) continue;
+      const auto engine = engineRegistry().front().make();
+      progress_.begin("preparing packings", {1.0});
+      packings_[c] = packingOf(cases_[c], 0, timeStep(cases_[c]), *engine, [&](double fraction) {
+        throwIfInterrupted();
+        progress_.update(0, cases_[c].name, fraction);
+      });
+      progress_.finish(0, cases_[c].name + ": packing ready");
+    }
+  }
+
+  /// What run() would do.
+  std::string plan() {
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      if (cases_[c].kind == CaseKind::couette)
+        packings_[c].hash = packingHash(cases_[c], 0, timeStep(cases_[c]));
+    std::vector<PlannedWork> works;
+    for (std::size_t e = 0; e < engines_.size(); ++e) {
+      PlannedWork work{engines_[e].name, "hard cases"};
+      for (std::size_t c = 0; c < cases_.size(); ++c) {
+        const KeptTask task = taskOf(c, e);
+        count(work, store_.find(task.name, task.key));
+      }
+      works.push_back(work);
+    }
+    std::string head;
+    for (const Case& setup : cases_)
+      head += fmt::format("{}{}{}", head.empty() ? "" : ", ", setup.name,
+                          setup.variant.empty() ? "" : " " + setup.variant);
+    return dryRunInWords(head + "\n", works, store_, command_);
+  }
+
+  void run() {
+    std::vector<KeptTask> tasks;
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf(c, e));
+    rows_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
+  }
+
+  json results() const {
+    json results = resultsHead("stability", cases_.front(), command_.commandLine);
+    const bool one =
+        std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
+    results["case"] = {{"name", one ? cases_.front().name : "hard cases"},
+                       {"variant", ""},
+                       {"file", cases_.front().file.parent_path().string()},
+                       {"toml", ""}};
+    results["cases"] = json::array();
+    for (const Case& setup : cases_) results["cases"].push_back(caseJson(setup));
+    results["runs"] = rows_;
+    results["engines"] = json::array();
+    for (std::size_t e = 0; e < engines_.size(); ++e)
+      results["engines"].push_back({{"name", engines_[e].name},
+                                    {"summary", engines_[e].summary},
+                                    {"version", versions_[e]},
+                                    {"mirrors", engines_[e].mirrors},
+                                    {"status", "ran"},
+                                    {"reason", ""}});
+    return results;
+  }
+
+ private:
+  /// Roughly, in seconds: the longest start first.
+  double predicted(const Case& setup, const EngineEntry& entry) const {
+    const double perStep = entry.command ? 3e-5 : 2e-6;
+    double steps = 1e4;
+    if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
+    if (setup.kind == CaseKind::assembly && setup.assembly.duration)
+      steps = *setup.assembly.duration / timeStep(setup);
+    std::size_t disks = 1;
+    for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
+    return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
+  }
+
+  const Case& originalOf(const Case& setup) const {
+    return *std::ranges::find(cases_, setup.name, &Case::name);
+  }
+
+  KeptTask taskOf(std::size_t c, std::size_t e) const {
+    const Case& setup = cases_[c];
+    const EngineEntry& entry = engines_[e];
+    KeptTask task;
+    task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
+                             setup.variant);
+    task.name = task.label;
+    std::ranges::replace(task.name, ' ', '-');
+    task.key = runKey(setup, entry.name, versions_[e]);
+    if (!packings_[c].hash.empty()) task.key["packing"] = packings_[c].hash;
+    const Case& original = originalOf(setup);
+    if (!stabilityMeasure(setup.stability->measure).curve)
+      task.key["held against"] = original.variant;
+    task.weight = predicted(setup, entry);
+    task.work = [this, &setup, &original, &entry, c,
+                 name = task.name](const std::function<void(double)>& progress) {
+      json row =
+          runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)}, progress);
+      const std::string verdict = row["verdict"];
+      const bool finished = row["status"] != "failed";
+      return KeptTask::Outcome{std::move(row), finished, verdict};
+    };
+    return task;
+  }
+
+  static json caseJson(const Case& setup) {
+    const Stability& hard = *setup.stability;
+    const StabilityMeasure& measure = stabilityMeasure(hard.measure);
+    return {{"case", setup.name},   {"variant", setup.variant},  {"file", setup.file.string()},
+            {"tests", hard.tests},  {"measure", hard.measure},   {"what", measure.what},
+            {"unit", measure.unit}, {"limit", hard.limit},       {"degraded_limit", hard.degraded},
+            {"why", hard.why},      {"toml", setup.resolvedToml}};
+  }
+
+  const std::vector<Case>& cases_;
+  const RunCommand& command_;
+  std::vector<EngineEntry> engines_;
+  RunStore& store_;
+  Progress progress_;
+  std::vector<Packing> packings_;  ///< of Couette cases
+  std::vector<std::string> versions_;
+  std::vector<json> rows_;  ///< case by case, engine by engine
+};
+
+}  // namespace
+
+json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                   const RunCommand& command, RunStore& store) {
+  const auto started = std::chrono::steady_clock::now();
+  Suite suite(cases, std::move(engines), command, store);
+  suite.askVersions();
+  suite.preparePackings();
+  suite.run();
+  json results = suite.results();
+  results["elapsed_s"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return results;
+}
+
+std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                          const RunCommand& command, RunStore& store) {
+  Suite suite(cases, std::move(engines), command, store);
+  suite.askVersions();
+  return suite.plan();
+}
+
+}  // namespace crossgrain::inline runs

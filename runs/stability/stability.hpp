@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "adapters/registry.hpp"
+#include "cases/case.hpp"
+#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
+
+namespace crossgrain::inline runs {
+
+/// Which part of a suite of hard cases is run.
+enum class SuitePart { quick, usual, withLong };
+
+/// Hard cases by file and by folder (every *.toml in it, by name), all variants of each.
+/// @throws BadInput for a case without [stability], two cases of one name, a folder without cases,
+///         and a part that holds none
+std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
+                            const std::vector<std::string>& overrides, SuitePart part);
+
+/// Runs every hard case on every engine, each in a worker of its own, and returns results.json of
+/// kind "stability". Finished runs are kept in the store at once.
+/// @throws BadInput, OutputError, Interrupted
+nlohmann::json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                             const RunCommand& command, RunStore& store);
+
+/// What that would run, for people. Engines are asked for their version; nothing is computed.
+/// @throws BadInput, Interrupted
+std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                          const RunCommand& command, RunStore& store);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/impact.hpp"
+#include "stability/recording.hpp"
+
+namespace crossgrain::inline stability {
+
+namespace {
+
+/// Euler's velocity of a step is the one that leads to its position, half a step before.
+double timeOfVelocities(const Recording& run, const Snapshot& snapshot) {
+  const bool euler = run.realised.integrator.starts_with("semi_implicit_euler");
+  const double lag = euler && snapshot.positionTime > 0.0 ? 0.5 * run.realised.dt : 0.0;
+  return snapshot.velocityTime - lag;
+}
+
+double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
+  const std::vector<double>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
+  double energy = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i)
+    energy += 0.5 * disks.mass[i] * snapshot.velocity[i].squaredNorm() +
+              0.5 * disks.inertia[i] * spin[i] * spin[i];
+  return energy;
+}
+
+/// Whether the engine has impulses where the scene has springs.
+bool hasNoSprings(const Recording& run) {
+  return !run.scene.law.soft() ||
+         std::ranges::find(run.realised.deviations, "normal", &Deviation::name) !=
+             run.realised.deviations.end();
+}
+
+double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
+  const ContactLaw& law = run.scene.law;
+  const bool constant = law.springs() && law.normal == NormalLaw::linear;
+  if (!constant || !snapshot.contacts || run.realised.pairs.empty()) return 0.0;
+  const double kt = run.realised.pairs.front().kt;
+  if (!(kt > 0.0)) return 0.0;
+  double energy = 0.0;
+  for (const double force : snapshot.contacts->tangentialForce) energy += 0.5 * force * force / kt;
+  return energy;
+}
+
+}  // namespace
+
+EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
+  // Not the ledger's tangential springs: where they slip, a convention may put into them what no
+  // force ever gives back.
+  if (const auto& ledger = snapshot.ledger)
+    return {ledger->kinetic,
+            ledger->elasticNormal + ledger->plateSprings + tangentialEnergy(run, snapshot),
+            ledger->potential};
+  const Scene& scene = run.scene;
+  const double t = timeOfVelocities(run, snapshot);
+  std::vector<Vec2> position = snapshot.position;
+  for (std::size_t i = 0; i < position.size(); ++i)
+    position[i] -= (snapshot.positionTime - t) * snapshot.velocity[i];
+
+  EnergyState energy;
+  energy.kinetic = kineticEnergy(scene.disks, snapshot);
+  for (std::size_t i = 0; i < position.size(); ++i)
+    energy.potential -= scene.disks.mass[i] * scene.gravity.dot(position[i]);
+  if (hasNoSprings(run) && snapshot.positionTime > 0.0) return energy;
+  ContactLaw law = scene.law;
+  if (law.normal == NormalLaw::linear && !run.realised.pairs.empty())
+    law.kn = run.realised.pairs.front().kn;
+  for (const Overlap& overlap : overlapsOf(scene, position, t))
+    energy.elastic += elasticEnergy(law, overlap.reducedRadius, overlap.depth);
+  energy.elastic += tangentialEnergy(run, snapshot);
+  return energy;
+}
+
+double energyScale(const Recording& run) {
+  const Disks& disks = run.scene.disks;
+  const EnergyState start = energyOf(run, run.snapshots.front());
+  double scale = start.kinetic + start.elastic;
+  for (std::size_t i = 0; i < disks.size(); ++i)
+    scale += disks.mass[i] * run.scene.gravity.norm() * disks.radius[i];
+  if (scale > 0.0) return scale;
+  for (const Snapshot& snapshot : run.snapshots) {
+    const EnergyState now = energyOf(run, snapshot);
+    scale = std::max(scale, now.kinetic + now.elastic);
+  }
+  return scale;
+}
+
+}  // namespace crossgrain::inline stability

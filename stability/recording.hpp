@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "oracle/collision_end.hpp"
+#include "stability/placement.hpp"
+
+namespace crossgrain::inline stability {
+
+/// What one engine did with a hard case, seen at some instants.
+struct Recording {
+  Scene scene;  ///< as it was asked for
+  Realised realised;
+  std::vector<Snapshot> snapshots;  ///< in the order of time, the first at t = 0
+  std::string failure;              ///< why the engine did not get to the end; empty if it did
+  double settle = 0.0;              ///< share of the run before it should be at rest, [0, 1)
+  Placement placement;              ///< of the scene, against the original it is a copy of
+  /// Where the scene is nothing but collisions side by side, what they start from, in its order.
+  std::vector<CollisionStart> collisions = {};
+};
+
+/// The length that displacements are told in: a diameter of the smallest disk [m].
+double smallestDiameter(const Scene& scene);
+
+/// Two bodies that overlap: a disk, and by Scene's ids another disk, a wall disk or a plane.
+struct Overlap {
+  std::size_t i = 0, j = 0;
+  double depth = 0.0;          ///< [m]
+  double smallerRadius = 0.0;  ///< of the two; the disk's on a plane [m]
+  double reducedRadius = 0.0;  ///< a_i a_j/(a_i + a_j), a_i on a plane [m]
+  Vec2 normal = Vec2::Zero();  ///< from j to i
+};
+
+/// All of them at one instant, walls where their motion takes them.
+std::vector<Overlap> overlapsOf(const Scene& scene, const std::vector<Vec2>& position, double t);
+
+/// Planes of all bodies at time t, in Scene's order.
+std::vector<Plane> planesAt(const Scene& scene, double t);
+
+/// Positions of all wall disks at time t, in Scene's order [m].
+std::vector<Vec2> wallDisksAt(const Scene& scene, double t);
+
+/// Energies of a scene at the time of a snapshot's velocities [J].
+struct EnergyState {
+  double kinetic = 0.0;    ///< translation and rotation of the disks
+  double elastic = 0.0;    ///< in the contacts, as far as it is known
+  double potential = 0.0;  ///< of the disks in the plane's gravity, −Σ m g·x
+
+  double total() const { return kinetic + elastic + potential; }
+};
+
+/// From the engine's own ledger where it keeps one. Else from what it shows:
+/// positions, and with them the energies of springs and gravity, are taken back to the time that
+/// the velocities belong to; so the sum of a leapfrog engine is as good as its scheme, second
+/// order. Normal springs hold what the scene's law says of the overlaps, tangential ones f_t²/2k_t
+/// of the forces shown; engines that put impulses in place of the law's springs hold
+/// nothing, but at t = 0 what the law would: that much motion a start with overlaps may become.
+EnergyState energyOf(const Recording& run, const Snapshot& snapshot);
+
+/// What all energies of a run are measured by: kinetic and elastic energy at the start and the work
+/// of lifting every disk by its radius; where all of that is nothing, the run's largest kinetic and
+/// elastic energy [J].
+double energyScale(const Recording& run);
+
+}  // namespace crossgrain::inline stability

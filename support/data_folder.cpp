@@ -1,0 +1,19 @@
+#include "support/data_folder.hpp"
+
+#include <cstdlib>
+#include <system_error>
+
+namespace crossgrain::inline support {
+
+namespace fs = std::filesystem;
+
+fs::path dataFolder() {
+  if (const char* wanted = std::getenv("CROSSGRAIN_DATA"); wanted && *wanted) return wanted;
+  std::error_code unknown;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+  fs::path installed = program.parent_path().parent_path() / "share/crossgrain";
+  if (!unknown && fs::is_directory(installed, unknown)) return installed;
+  return CROSSGRAIN_SOURCE_DIR;
+}
+
+}  // namespace crossgrain::inline support

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+namespace crossgrain::inline support {
+
+/// The folder with what the program reads at run time: cases/ and engines/ (scripts that a peer
+/// executes). In this order: $CROSSGRAIN_DATA; share/crossgrain beside the folder that the program
+/// is in, as `cmake --install` lays it out, wherever that was moved to; the sources it was built
+/// of.
+std::filesystem::path dataFolder();
+
+}  // namespace crossgrain::inline support

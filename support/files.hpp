@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace crossgrain::inline support {
+
+/// A folder or file cannot be written; what() names it and says why.
+struct OutputError : std::runtime_error {
+  /// @param error errno; 0 where nobody set it
+  OutputError(const std::filesystem::path& path, int error);
+  OutputError(const std::filesystem::path& path, const std::string& why);
+  explicit OutputError(const std::system_error& error);
+
+  /// The same, with more said after it.
+  OutputError with(const std::string& more) const;
+
+  /// The disk is full, or a quota or limit reached: room has to be made, the input is not at fault.
+  bool noRoom = false;
+
+ private:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the system says to errno; never "Success", which is what it says to 0.
+std::string systemReason(int error);
+
+/// Creates the folder and those above it. @throws OutputError
+void makeDirectory(const std::filesystem::path& dir);
+
+/// Writes a file beside its final name and renames it, so that a reader sees the old file or the
+/// whole new one. @throws OutputError; the old file, if any, is then as it was
+void writeFile(const std::filesystem::path& file, std::string_view content);
+
+/// The whole file; absent if it cannot be read.
+std::optional<std::string> readFile(const std::filesystem::path& file);
+
+}  // namespace crossgrain::inline support

@@ -1,0 +1,70 @@
+#include "support/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <ctime>
+
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+
+namespace crossgrain::inline support {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the open file is still the one of that name: a holder removes it when it is done.
+bool isStill(int descriptor, const fs::path& file) {
+  struct stat open {
+  }, named{};
+  return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 &&
+         open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+}
+
+/// File systems without locks; then there is none to be had.
+bool cannotLock(int error) {
+  return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP;
+}
+
+std::string describe(const std::string& holder) {
+  return fmt::format("crossgrain {}, process {}, since {:%Y-%m-%d %H:%M:%S}", holder, ::getpid(),
+                     fmt::localtime(std::time(nullptr)));
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder, const std::string& holder) : file_(folder / name) {
+  for (;;) {
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw OutputError(file_, errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && !cannotLock(errno)) {
+      const int error = errno;
+      ::close(descriptor_);
+      if (error == EINTR) continue;
+      if (error != EWOULDBLOCK) throw OutputError(file_, error);
+      const std::string who = readFile(file_).value_or("");
+      throw BadInput(
+          fmt::format("{}: in use by {}; wait until it has ended, or take another folder",
+                      folder.string(), who.empty() ? "another crossgrain" : who));
+    }
+    if (isStill(descriptor_, file_)) break;
+    ::close(descriptor_);  // its holder removed it between our two calls
+  }
+  // What it says is for people; on a full disk the lock holds without it.
+  const std::string who = describe(holder);
+  if (::ftruncate(descriptor_, 0) == 0) [[maybe_unused]]
+    const ssize_t written = ::write(descriptor_, who.data(), who.size());
+}
+
+FolderLock::~FolderLock() {
+  ::unlink(file_.c_str());
+  ::close(descriptor_);
+}
+
+}  // namespace crossgrain::inline support

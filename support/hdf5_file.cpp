@@ -1,0 +1,219 @@
+#include "support/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <stdexcept>
+#include <utility>
+
+#include "support/files.hpp"
+#include "support/input_file.hpp"
+
+namespace crossgrain::inline support {
+namespace {
+
+std::mutex libraryMutex;
+
+/// Closes an HDF5 handle of any kind at the end of the scope.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: reads as the handle it is
+
+ private:
+  hid_t id_;
+};
+
+/// Throws after clearing HDF5's own record of the error, of which it keeps one per thread: left
+/// there, it upsets the library's clean-up when the program ends.
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  H5Eclear2(H5E_DEFAULT);
+  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
+}
+
+/// The innermost of the errors that HDF5 has recorded, in its own words; empty without one.
+std::string libraryReason() {
+  std::string reason;
+  const auto first = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
+    auto& kept = *static_cast<std::string*>(text);
+    if (kept.empty() && error->desc) kept = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &reason);
+  H5Eclear2(H5E_DEFAULT);
+  return reason;
+}
+
+/// errno would be of any call since; what HDF5's drivers were told is in its record: "… errno = 28,
+/// …".
+OutputError notWritten(const std::filesystem::path& file) {
+  const std::string reason = libraryReason();
+  static const std::regex told("errno = ([0-9]+)");
+  if (std::smatch found; std::regex_search(reason, found, told))
+    return OutputError(file, std::stoi(found[1]));
+  return OutputError(file, reason.empty() ? "HDF5 does not say why" : "HDF5: " + reason);
+}
+
+std::unique_lock<std::mutex> lockLibrary() {
+  std::unique_lock lock(libraryMutex);
+  // At the end of the program the library would try once more to write what a full disk did not
+  // take, and crash. Files are closed one by one; there is nothing left for it to do.
+  [[maybe_unused]] static const herr_t quiet = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions here, not print-outs
+  return lock;
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(hid_t file, std::filesystem::path name, Place place,
+                   std::unique_lock<std::mutex> lock)
+    : lock_(std::move(lock)), file_(file), name_(std::move(name)), place_(place) {}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : lock_(std::move(other.lock_)),
+      file_(std::exchange(other.file_, -1)),
+      name_(std::move(other.name_)),
+      place_(other.place_) {}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  constexpr std::size_t growth = 1 << 20;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_fapl_core(access, growth, /*backing_store=*/false);
+  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (id < 0) fail(file, "cannot be made in memory");
+  return {id, file, Place::memory, std::move(lock)};
+}
+
+Hdf5File Hdf5File::append(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  const bool there = std::filesystem::exists(file);
+  // A lock would live on in worker processes that are started while the file is open.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(access, /*use=*/false, /*ignore when disabled=*/true);
+  const hid_t id = there ? H5Fopen(file.c_str(), H5F_ACC_RDWR, access)
+                         : H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access);
+  if (id < 0) throw notWritten(file);
+  return {id, file, Place::disk, std::move(lock)};
+}
+
+void Hdf5File::save() {
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "its end");
+  if (place_ == Place::disk) return;
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (size <= 0 || H5Fget_file_image(file_, image.data(), image.size()) != size)
+    fail(name_, "cannot be put together in memory");
+  writeFile(name_, image);
+}
+
+Hdf5File Hdf5File::open(const std::filesystem::path& file) {
+  auto lock = lockLibrary();
+  // A named pipe would be waited for without end.
+  if (const std::string why = whyNoFile(file); !why.empty())
+    fail(file, fmt::format("{}: cannot be read as an HDF5 file{}", why, nearestFile(file, ".h5")));
+  const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) fail(file, "cannot be read as an HDF5 file");
+  return {id, file, Place::disk, std::move(lock)};
+}
+
+void Hdf5File::check(herr_t status, const std::string& what) const {
+  if (status >= 0) return;
+  if (place_ == Place::memory) fail(name_, fmt::format("{} cannot be put into it", what));
+  throw notWritten(name_);
+}
+
+void Hdf5File::writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,
+                          std::size_t columns) {
+  const hsize_t size[2] = {rows, columns};
+  const Handle space(H5Screate_simple(columns > 1 ? 2 : 1, size, nullptr));
+  const Handle links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links, 1);
+  const Handle set(H5Dcreate2(file_, path.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT));
+  check(set < 0 ? -1 : H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+}
+
+void Hdf5File::write(const std::string& path, const double* values, std::size_t rows,
+                     std::size_t columns) {
+  writeArray(path, values, H5T_NATIVE_DOUBLE, rows, columns);
+}
+
+void Hdf5File::write(const std::string& path, const std::vector<double>& values) {
+  writeArray(path, values.data(), H5T_NATIVE_DOUBLE, values.size(), 1);
+}
+
+void Hdf5File::write(const std::string& path, const std::vector<std::int32_t>& values) {
+  writeArray(path, values.data(), H5T_NATIVE_INT32, values.size(), 1);
+}
+
+void Hdf5File::writeAttribute(const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle attribute(
+      H5Acreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT));
+  check(attribute < 0 ? -1 : H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), name);
+}
+
+void Hdf5File::writeAttribute(const std::string& name, const std::string& value) {
+  const Handle space(H5Screate(H5S_SCALAR));
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, value.size() + 1);
+  const Handle attribute(H5Acreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+  check(attribute < 0 ? -1 : H5Awrite(attribute, type, value.c_str()), name);
+}
+
+bool Hdf5File::holds(const std::string& path) const {
+  // HDF5 asks for every group on the way by itself.
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file_, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::optional<std::size_t> Hdf5File::length(const std::string& path) const {
+  if (!holds(path)) return std::nullopt;
+  const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  const Handle space(H5Dget_space(set));
+  constexpr hssize_t most = 100'000'000;  // a damaged file may claim any size
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  if (count < 0 || count > most) fail(name_, path + " is damaged");
+  return static_cast<std::size_t>(count);
+}
+
+std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const {
+  const auto count = length(path);
+  if (!count) return std::nullopt;
+  const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  std::vector<double> values(*count);
+  if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail(name_, path + " cannot be read");
+  return values;
+}
+
+std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
+  if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
+  double value = 0.0;
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
+  return value;
+}
+
+std::optional<std::string> Hdf5File::readTextAttribute(const std::string& name) const {
+  if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
+  const Handle type(H5Aget_type(attribute));
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, value.data()) < 0) return std::nullopt;
+  value.resize(std::char_traits<char>::length(value.c_str()));
+  return value;
+}
+
+}  // namespace crossgrain::inline support

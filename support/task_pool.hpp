@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace crossgrain::inline support {
+
+/// A piece of work that may run beside others.
+struct Task {
+  double weight = 1.0;         ///< how long it is likely to take; the longest start first
+  std::function<void()> work;  ///< what it throws ends the whole pool once running tasks are done
+};
+
+/// Runs all tasks on `jobs` threads, longest first. Workers started by a task die with its thread,
+/// so a task must not leave any behind.
+/// @throws Interrupted once all threads have ended, if the user interrupted; else the first thing
+///         that a task threw
+void runTasks(const std::vector<Task>& tasks, int jobs);
+
+}  // namespace crossgrain::inline support
