@@ -123,9 +123,6 @@ void readPreparation(Reader& in, Preparation& preparation) {
   in.read("shrink_time", preparation.shrinkTime, positive("s"));
   in.read("rotations", preparation.rotations, atLeast(0.0));
   in.finish();
-  if (preparation.seed + static_cast<std::uint64_t>(preparation.packings) - 1 > mostSeed)
-    in.fail("seed",
-            fmt::format("packing k takes seed + k, and the last one may be at most {}", mostSeed));
 }
 
 void readAveraging(Reader& in, const Case& setup, Averaging& averaging) {

@@ -42,10 +42,6 @@ std::string contentHash(const Packing& packing) {
   return fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
 }
 
-std::uint64_t packingSeed(const Case& setup, int index) {
-  return setup.preparation.seed + static_cast<std::uint64_t>(index);
-}
-
 std::string packingHash(const Case& setup, int index, double dt) {
   // The leading tag changes whenever the preparation itself does.
   std::string text = fmt::format("preparation 2; dt {};", dt);
@@ -67,8 +63,9 @@ std::string packingHash(const Case& setup, int index, double dt) {
                       disks.largeRadius, disks.smallMass, disks.largeMass, disks.inertiaFactor);
   if (!disks.rotation) text += "no rotation;";
   const Preparation& how = setup.preparation;
-  text += fmt::format("prepare {} {} {} {} {}", packingSeed(setup, index), how.dilation,
-                      how.velocity, how.shrinkTime, how.rotations);
+  text += fmt::format("prepare {} {} {} {} {}", how.seed, how.dilation, how.velocity,
+                      how.shrinkTime, how.rotations);
+  if (index > 0) text += fmt::format("; stream {}", index);
   return fmt::format("{:016x}", fnv1a(text));
 }
 

@@ -18,9 +18,6 @@ struct Packing {
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
 
-/// The seed of one packing of a case; packings of one case differ in nothing else.
-std::uint64_t packingSeed(const Case& setup, int index);
-
 /// Fingerprint of everything that a prepared packing depends on.
 std::string packingHash(const Case& setup, int index, double dt);
 

@@ -83,7 +83,7 @@ Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
   Packing packing;
   packing.disks = diskKinds(setup.particles);
   packing.hash = packingHash(setup, index, dt);
-  const Random random = seededRandom(packingSeed(setup, index));
+  const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
   placeAtRandom(packing.disks, setup, random.get());
 
   const Scene scene = diluteScene(setup, packing.disks, dt);

@@ -16,4 +16,9 @@ inline Random seededRandom(std::uint64_t seed) {
   return random;
 }
 
+/// Stream `index` of a seed: all streams of all seeds are independent of each other, and the same
+/// on every machine. Stream 0 is seededRandom(seed); the others are 64-bit Mersenne twisters whose
+/// whole state comes from both numbers by std::seed_seq (C++ standard, [rand.util.seedseq]).
+Random randomStream(std::uint64_t seed, std::uint64_t index);
+
 }  // namespace crossgrain::inline support

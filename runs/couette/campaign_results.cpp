@@ -33,7 +33,7 @@ json Campaign::results(const std::string& kind) const {
   results["engines"] = enginesJson();
   for (std::size_t k = 0; k < packings_.size(); ++k)
     results["packings"].push_back({{"index", k},
-                                   {"seed", packingSeed(setup_, static_cast<int>(k))},
+                                   {"seed", setup_.preparation.seed},
                                    {"hash", packings_[k].hash},
                                    {"from_cache", packings_[k].fromCache}});
   results["runs"] = runs_;

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <random>
 
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/random.hpp"
 
 namespace {
 
@@ -45,6 +48,46 @@ TEST(Packing, ComesBackFromItsFileBitForBit) {
   EXPECT_EQ(back.disks.spin, packing.disks.spin);
   EXPECT_EQ(back.wheelAngle, 0.7);
   EXPECT_EQ(back.hash, "abc");
+}
+
+std::vector<double> drawn(std::uint64_t seed, std::uint64_t index) {
+  const Random random = randomStream(seed, index);
+  std::vector<double> numbers;
+  for (int k = 0; k < 1000; ++k) numbers.push_back(gsl_rng_uniform(random.get()));
+  return numbers;
+}
+
+/// Seed + index would give (1, 1) and (2, 0) the same packing.
+TEST(RandomStreams, OfAllSeedsAndIndicesAreIndependent) {
+  std::vector<std::vector<double>> streams;
+  for (const std::uint64_t seed : {0u, 1u, 2u, 3u})
+    for (const std::uint64_t index : {0u, 1u, 2u, 3u}) streams.push_back(drawn(seed, index));
+  for (std::size_t a = 0; a < streams.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      double correlation = 0.0;  // of 1000 pairs: 0 ± 1/√1000
+      for (std::size_t k = 0; k < streams[a].size(); ++k)
+        correlation += 12.0 * (streams[a][k] - 0.5) * (streams[b][k] - 0.5) / 1000.0;
+      EXPECT_LT(std::abs(correlation), 5.0 / std::sqrt(1000.0)) << a << ' ' << b;
+    }
+}
+
+TEST(RandomStreams, AreTheSameOnEveryMachine) {
+  EXPECT_EQ(drawn(1, 1), drawn(1, 1));
+  // The standard's own twister, seeded by its own seed_seq.
+  std::seed_seq words{7u, 0u, 3u, 0u};
+  std::mt19937_64 twister(words);
+  EXPECT_EQ(drawn(7, 3).front(), static_cast<double>(twister() >> 11) / 0x1p53);
+  const Random plain = seededRandom(7);  // stream 0: packings kept from before stay what they are
+  EXPECT_EQ(drawn(7, 0).front(), gsl_rng_uniform(plain.get()));
+}
+
+TEST(Packing, HashesOfSeedsAndIndicesDiffer) {
+  Case one = kinds(), two = kinds();
+  one.cell = two.cell = {0.1, 0.2, 0.001, 0.003, 0.006, 1.0};
+  one.preparation.seed = 1;
+  two.preparation.seed = 2;
+  EXPECT_NE(packingHash(one, 1, 1e-5), packingHash(two, 0, 1e-5));
+  EXPECT_NE(packingHash(one, 1, 1e-5), packingHash(two, 1, 1e-5));
 }
 
 TEST(Packing, AUsersFileNeedsRadiiAndPositionsOnly) {

@@ -50,10 +50,7 @@ TEST_F(LoaderErrors, SeedsThatTheGeneratorWouldCutOff) {
   expectMessages({
       {plus("[preparation]\nseed = 4294967296\n"),
        "case.toml:25:8: preparation.seed = 4294967296: must be in [0, 4294967295]"},
-      {plus("[preparation]\nseed = 4294967295\npackings = 2\n"),
-       "case.toml:25:8: preparation.seed = 4294967295: packing k takes seed + k, and the last one "
-       "may be at most 4294967295"},
-      {plus("[preparation]\nseed = 4294967294\npackings = 2\n"), ""},
+      {plus("[preparation]\nseed = 4294967295\npackings = 2\n"), ""},
   });
   write("case.toml", soundCase);
   const std::string endless = "preparation.seed=99999999999999999999999";
