@@ -139,6 +139,7 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   realised.dt = dt;
   realised.precision = "float";
   realised.integrator = "semi_implicit_euler with sequential impulses";
+  realised.velocityLag = 0.5 * realised.dt;
   realised.effects = simulatedEffects(capabilities(), scene);
   realised.pairs = pairTable(scene, [&](double reducedMass) {
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);

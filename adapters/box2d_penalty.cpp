@@ -51,6 +51,7 @@ Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
   realised.dt = model.dt;
   realised.precision = "double";
   realised.integrator = "semi_implicit_euler";
+  realised.velocityLag = 0.5 * realised.dt;
   realised.effects = effectsOf(scene);
   realised.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
   return realised;

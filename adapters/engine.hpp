@@ -63,9 +63,13 @@ struct PairCoefficients {
 struct Realised {
   std::string engine;
   std::string version;
-  double dt = 0.0;        ///< [s]
-  std::string precision;  ///< "double" | "float"
-  std::string integrator;
+  double dt = 0.0;         ///< [s]
+  std::string precision;   ///< "double" | "float"
+  std::string integrator;  ///< its name, to be shown
+  /// How long before velocityTime the motion had the velocity that a snapshot of a time > 0 shows
+  /// there [s]: dt/2 of semi-implicit Euler, whose velocity of a step is the one that leads to its
+  /// position; 0 where velocityTime says it all.
+  double velocityLag = 0.0;
   Effects effects;
   std::vector<PairCoefficients> pairs;
   std::vector<Deviation> deviations;

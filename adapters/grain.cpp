@@ -192,6 +192,8 @@ class GrainEngine : public Engine {
     realised.dt = simulation_->dt();
     realised.precision = toString(scene.precision);
     realised.integrator = lawOptionValue(law, "integrator");
+    if (law.conventions.integrator == Integrator::semiImplicitEuler)
+      realised.velocityLag = 0.5 * realised.dt;
     realised.effects = effectsOf(own);
     const LawConventions& how = law.conventions;
     if (how.integrator == Integrator::semiImplicitEuler &&

@@ -8,13 +8,6 @@ namespace crossgrain::inline stability {
 
 namespace {
 
-/// Euler's velocity of a step is the one that leads to its position, half a step before.
-double timeOfVelocities(const Recording& run, const Snapshot& snapshot) {
-  const bool euler = run.realised.integrator.starts_with("semi_implicit_euler");
-  const double lag = euler && snapshot.positionTime > 0.0 ? 0.5 * run.realised.dt : 0.0;
-  return snapshot.velocityTime - lag;
-}
-
 double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
   const std::vector<double>& spin = snapshot.spin ? *snapshot.spin : disks.spin;
   double energy = 0.0;
@@ -52,7 +45,7 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
             ledger->elasticNormal + ledger->plateSprings + tangentialEnergy(run, snapshot),
             ledger->potential};
   const Scene& scene = run.scene;
-  const double t = timeOfVelocities(run, snapshot);
+  const double t = timeOfVelocities(snapshot, run.realised.velocityLag);
   std::vector<Vec2> position = snapshot.position;
   for (std::size_t i = 0; i < position.size(); ++i)
     position[i] -= (snapshot.positionTime - t) * snapshot.velocity[i];

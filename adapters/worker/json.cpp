@@ -129,6 +129,7 @@ json toJson(const Realised& realised) {
           {"dt", realised.dt},
           {"precision", realised.precision},
           {"integrator", realised.integrator},
+          {"velocity_lag", realised.velocityLag},
           {"effects", effects},
           {"pairs", pairs},
           {"deviations", deviations}};
@@ -141,6 +142,7 @@ Realised realisedFromJson(const json& in) {
   realised.dt = in.at("dt");
   realised.precision = in.at("precision");
   realised.integrator = in.at("integrator");
+  realised.velocityLag = orNone(in, "velocity_lag");
   for (const json& effect : in.at("effects")) realised.effects.insert(effectFromName(effect));
   for (const json& pair : in.at("pairs"))
     realised.pairs.push_back({pair.at("pair"), orNone(pair, "kn"), orNone(pair, "gn"),

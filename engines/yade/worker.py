@@ -147,6 +147,7 @@ class Yade:
             "dt": self.dt,
             "precision": "double",
             "integrator": "position_verlet",
+            "velocity_lag": 0.0,
             "effects": self.law.effects(scene),
             "pairs": pairs,
             "deviations": [],

@@ -101,15 +101,12 @@ class Accountant {
   explicit Accountant(const WatchedRun& run)
       : run_(run), accounts(run.scene.disks.size() / (run.pair.plane ? 1 : 2)) {
     if (!run.realised.pairs.empty()) pair_ = run.realised.pairs.front();
-    // Euler's velocity of a step is the one that leads to its position, half a step before.
-    if (run.realised.integrator == "semi_implicit_euler") velocityLag_ = 0.5 * run.realised.dt;
   }
 
   /// Contacts are summed when the velocities of their time are known.
   /// @returns how many pairs touch
   std::size_t add(const Snapshot& now) {
-    const double velocityTime = now.velocityTime - (now.positionTime > 0.0 ? velocityLag_ : 0.0);
-    motions_.add(velocityTime, now, run_.scene.disks.spin);
+    motions_.add(timeOfVelocities(now, run_.realised.velocityLag), now, run_.scene.disks.spin);
     if (pending_ && motions_.latest() >= pendingTime_) sumPending();
     pending_ = now.contacts;
     pendingTime_ = now.contactTime;
@@ -155,7 +152,6 @@ class Accountant {
 
   const WatchedRun& run_;
   PairCoefficients pair_;
-  double velocityLag_ = 0.0;  ///< [s]
   Motions motions_;
   std::optional<Contacts> pending_;
   double pendingTime_ = 0.0;
