@@ -7,10 +7,10 @@
 #include "averaging/fields.hpp"
 #include "cases/case_files.hpp"
 #include "cases/keys.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "stability/measures.hpp"
 #include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cli {
@@ -117,7 +117,8 @@ Action declare(CLI::App& app, CommandLine& line) {
             0, 1);
   addFlag(app, "--json", line.json, "as JSON");
   return [&line, subject] {
-    return list(line, *subject, line.inputs.empty() ? shippedCases("cases") : line.inputs.front());
+    return list(line, *subject,
+                line.inputs.empty() ? hereOrInstalled("cases") : line.inputs.front());
   };
 }
 

@@ -5,7 +5,6 @@
 
 #include "cases/loader.hpp"
 #include "support/bad_input.hpp"
-#include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -24,10 +23,6 @@ Case onlyCase(const CommandLine& line, const char* command) {
       "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(file, overrides).front();
-}
-
-fs::path shippedCases(const std::string& folder) {
-  return fs::is_directory(folder) ? fs::path(folder) : dataFolder() / folder;
 }
 
 std::string effectsInWords(const Effects& called) {

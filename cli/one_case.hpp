@@ -12,9 +12,6 @@ namespace crossgrain::inline cli {
 /// @throws BadInput
 Case onlyCase(const CommandLine& line, const char* command);
 
-/// The folder "cases/…" where one stands, else the one that came with the program.
-std::filesystem::path shippedCases(const std::string& folder);
-
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);
 

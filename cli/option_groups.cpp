@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
@@ -74,6 +75,7 @@ void excludeEachOther(CLI::App& app, const std::string& one, const std::string& 
 void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
                int least, int most) {
   CLI::Option* inputs = app.add_option(name, line.inputs, what)->type_name("FILE");
+  inputs->transform([](const std::string& path) { return hereOrInstalled(path).string(); });
   if (most != anyNumber) inputs->expected(least, most);
   if (least > 0) inputs->required();
 }

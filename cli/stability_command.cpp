@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "cases/case_files.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/stability/stability.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -48,7 +48,7 @@ void printRefusals(const json& rows) {
 
 int stability(const CommandLine& line, SuitePart part) {
   std::vector<fs::path> inputs = line.inputs;
-  if (inputs.empty()) inputs.push_back(shippedCases("cases/hard"));
+  if (inputs.empty()) inputs.push_back(hereOrInstalled("cases/hard"));
   std::vector<Case> cases = hardCases(inputs, line.overrides, part);
   if (line.only) cases = selectedCases(cases, *line.only);
   RunStore store(line.run, "stability", keysOfEach(cases));

@@ -16,4 +16,11 @@ fs::path dataFolder() {
   return CROSSGRAIN_SOURCE_DIR;
 }
 
+fs::path hereOrInstalled(const fs::path& path) {
+  std::error_code unknown;
+  if (path.empty() || path.is_absolute() || fs::exists(path, unknown)) return path;
+  const fs::path installed = dataFolder() / path;
+  return fs::exists(installed, unknown) ? installed : path;
+}
+
 }  // namespace crossgrain::inline support

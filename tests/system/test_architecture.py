@@ -1,0 +1,74 @@
+"""Folders know each other one way only: what a file includes lies in a folder named before its own.
+
+The order is that of the list below, from what knows nothing to what knows all. A folder that is not
+in the list fails the test: its place is to be thought about.
+"""
+
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Each may include those before it. In runs/ and reports/ the jobs stand on common/, and on each other where
+# one job makes use of another.
+ORDER = [
+    "support",
+    "engines/grain", "engines/box2d",
+    "adapters", "adapters/worker",
+    "oracle", "stability", "averaging", "cases", "results",
+    "reports/common", "reports/couette", "reports/collide", "reports/effects", "reports/cost", "reports/stability",
+    "reports",
+    "runs/common", "runs/couette", "runs/collide", "runs/stability", "runs/effects", "runs/cost", "runs/check",
+    "cli",
+]  # fmt: skip
+
+# Those that know nothing of the other, though the order would let them.
+STRANGERS = [("engines/box2d", "engines/grain"), ("oracle", "averaging"), ("reports", "cases"), ("results", "cases")]
+
+
+def sources():
+    for top in sorted({folder.split("/")[0] for folder in ORDER}):
+        yield from (path for path in (ROOT / top).rglob("*") if path.suffix in (".hpp", ".cpp"))
+
+
+def folder_of(path):
+    return str(path.parent.relative_to(ROOT))
+
+
+def includes():
+    """(including file, its folder, folder of what it includes), of the project's own headers."""
+    for path in sources():
+        for header in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), re.M):
+            target = ROOT / header if (ROOT / header).exists() else path.parent / header
+            yield path.relative_to(ROOT), folder_of(path), str(pathlib.Path(folder_of(target)))
+
+
+class Architecture(unittest.TestCase):
+    def test_every_folder_has_its_place(self):
+        self.assertEqual(set(), {folder_of(path) for path in sources()} - set(ORDER))
+
+    def test_arrows_go_one_way(self):
+        place = {folder: k for k, folder in enumerate(ORDER)}
+        wrong = [
+            f"{file} includes {target}/"
+            for file, folder, target in includes()
+            if target != folder and place[target] > place[folder]
+        ]
+        self.assertEqual([], wrong)
+
+    def test_strangers_stay_strangers(self):
+        wrong = [
+            f"{file} includes {target}/"
+            for file, folder, target in includes()
+            for who, whom in STRANGERS
+            if (folder + "/").startswith(who + "/") and target == whom
+        ]
+        self.assertEqual([], wrong)
+
+    def test_there_is_something_to_check(self):
+        self.assertGreater(len(list(includes())), 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()
