@@ -1,8 +1,11 @@
 """A packing of the user's own (particles.file): what is wrong with it is status 2 and one line."""
 
 import math
+import itertools
 import os
 import unittest
+
+import h5py
 
 from harness import BAD_INPUT, COUETTE, HELD, SystemTest, settings
 from packing_file import write_packing
@@ -194,12 +197,20 @@ class PackingCache(SystemTest):
                 done = self.compare_with_cache(change)
                 self.assertEqual(made_again, "packing 0: prepared" in done.stderr, str(done))
 
-    def test_next_seed_shares_all_packings_but_one(self):
-        """Packing k of seed s is packing k + 1 of seed s − 1."""
-        self.assert_status(self.compare_with_cache(), HELD)
-        done = self.compare_with_cache("--seed=2")
-        self.assertIn("packing 0: from the cache", done.stderr)
-        self.assertIn("packing 1: prepared", done.stderr)
+    def test_packings_of_different_seeds_have_nothing_in_common(self):
+        for seed in (1, 2):
+            done = self.compare_with_cache(f"--seed={seed}")
+            self.assert_status(done, HELD)
+            for packing in (0, 1):
+                self.assertIn(f"packing {packing}: prepared", done.stderr)
+        files = sorted(self.cache.iterdir())
+        self.assertEqual(4, len(files))
+        places = []
+        for file in files:
+            with h5py.File(file) as packing:
+                places.append(packing["position"][:])
+        for a, b in itertools.combinations(places, 2):
+            self.assertGreater(abs(a - b).min(axis=1).mean(), 1e-3)
 
     def test_truncated_packing_in_the_cache(self):
         self.assert_status(self.compare_with_cache(), HELD)
