@@ -77,10 +77,9 @@ void Core<Real>::save(std::ostream& out) const {
   write(out, recorded_);
   write(out, ledger_.has_value());
   if (!ledger_) return;
-  LedgerSums::forState(
-      *ledger_, [&](const auto& sums) { write(out, sums); },
-      [&](const auto& all) { writeAll(out, all); });
-  writeAll(out, plateAccounts_);
+  const auto list = [&](const auto& all) { writeAll(out, all); };
+  LedgerObserver<Real>::forState(
+      *ledger_, [&](const auto& sums) { write(out, sums); }, list, list);
 }
 
 template <class Real>
@@ -121,10 +120,9 @@ void Core<Real>::restore(std::istream& in) {
   require(hasLedger == ledger_.has_value(),
           hasLedger ? "of a setup with a ledger" : "of a setup without a ledger");
   if (!ledger_) return;
-  LedgerSums::forState(
+  LedgerObserver<Real>::forState(
       *ledger_, [&](auto& sums) { read(in, sums); },
-      [&](auto& all) { readAny(in, all, mostPairs); });
-  readSame(in, plateAccounts_);
+      [&](auto& all) { readAny(in, all, mostPairs); }, [&](auto& all) { readSame(in, all); });
 }
 
 template class Core<double>;

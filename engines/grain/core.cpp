@@ -89,7 +89,7 @@ Core<Real>::Core(Setup setup)
 
   buildWalls(std::move(setup.walls));
   allocate(setup.disks, effects);
-  if (setup.ledger) openLedger(setup);
+  if (setup.ledger) ledger_.emplace(*this, setup);
   start();
 }
 
@@ -164,10 +164,7 @@ void Core<Real>::start() {
   const Real halfStep = std::exchange(law_.halfStep, Real(0));
   addForces(true);
   law_.halfStep = halfStep;
-  if (ledger_) {
-    account(0.0);
-    ledger_->begin();
-  }
+  if (ledger_) ledger_->begin();
   if (integrator_ == Integrator::positionVerlet) {
     halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
     kick(static_cast<Real>(-halfKick_));

@@ -8,19 +8,12 @@
 
 #include "engines/grain/impacts.hpp"
 #include "engines/grain/kernels.hpp"
-#include "engines/grain/ledger.hpp"
+#include "engines/grain/ledger_observer.hpp"
 #include "engines/grain/pair_lists.hpp"
 #include "engines/grain/setup.hpp"
 #include "engines/grain/thread_team.hpp"
 
 namespace grain {
-
-struct Touch;  // account.cpp
-
-/// Velocity of a body's centre, or of a wall's point, and its spin.
-struct BodyMotion {
-  double vx = 0.0, vy = 0.0, spin = 0.0;
-};
 
 /// The time step in one precision. Simulation is its face; "number" is a disk's number there,
 /// "place" its place in the arrays here, which follow the disks' neighbourhood in space.
@@ -54,7 +47,7 @@ class Core {
   double kineticEnergy() const;
   double elasticEnergy() const;
   /// nullptr where none is kept
-  const EnergyLedger* energyLedger() const { return ledger_ ? &ledger_->ledger : nullptr; }
+  const EnergyLedger* energyLedger() const { return ledger_ ? &ledger_->ledger() : nullptr; }
 
   std::uint64_t contactEvaluations() const { return contactEvaluations_; }
   std::uint64_t unfinishedImpacts() const { return unfinishedImpacts_; }
@@ -65,6 +58,7 @@ class Core {
   void restore(std::istream& in);
 
  private:
+  friend class LedgerObserver<Real>;  // reads only
   struct PlacedPlane {
     std::size_t wall, member;
     Plane plane;                                               ///< as it stands now
@@ -95,19 +89,6 @@ class Core {
   void buildWalls(std::vector<Wall> walls);
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
-
-  // The ledger, where one is kept.
-  void openLedger(const Setup& setup);
-  void rememberPlate();
-  void account(double time);
-  void accountContact(const Contact& contact, double time);
-  void accountSpring(const Contact& contact, const Touch& touch, double stiffness);
-  void accountDisk(std::size_t number, double time);
-  void accountPlate(std::size_t number, double time);
-  Touch touchOf(const Contact& contact, double time) const;
-  BodyMotion carried(std::size_t place, double time) const;
-  BodyMotion seen(std::size_t place) const;
-  BodyMotion wallMotion(const Contact& contact) const;
 
   // Housekeeping.
   void renumber();
@@ -199,11 +180,7 @@ class Core {
   std::vector<Impact> impacts_;  ///< of the last step
   mutable std::optional<std::vector<Contact>> known_;
 
-  std::optional<LedgerSums> ledger_;
-  Vec<double> middle_{};  ///< where potentials are 0 [m]
-  bool plateSpin_ = false;
-  std::vector<Vec<Real>> plateBefore_;  ///< springs before the last evaluation, by number [m]
-  std::vector<SpringAccount> plateAccounts_;
+  std::optional<LedgerObserver<Real>> ledger_;
 };
 
 template <class Real>

@@ -21,14 +21,14 @@ constexpr std::uint64_t renumberingInterval = 8192;
 template <class Real>
 void Core<Real>::step(bool record) {
   known_.reset();
-  if (ledger_) rememberPlate();
+  if (ledger_) ledger_->beforeMotion();
   advanceDisks();
   ++steps_;
   moveWalls();
   if (steps_ % renumberingInterval == 0) renumber();
   if (outdated_) updateNeighbours();
-  addForces(record || ledger_);
-  if (ledger_) account(integrator_ == Integrator::semiImplicitEuler ? 0.0 : 0.5 * dt_);
+  addForces(record || ledger_.has_value());
+  if (ledger_) ledger_->afterForces();
   if (integrator_ == Integrator::velocityVerlet) kick(static_cast<Real>(0.5 * dt_));
 }
 
