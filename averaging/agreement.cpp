@@ -63,7 +63,7 @@ double criticalDifference(double standardError, double margin, double level, int
   return high;
 }
 
-/// Share of the differences' variance that stems from the runs' finite length.
+/// BinFraction of the differences' variance that stems from the runs' finite length.
 std::optional<double> withinShareOf(const PairedSample& sample, const EnsembleMean& mean) {
   double sum = 0.0;
   int count = 0;

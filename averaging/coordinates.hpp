@@ -9,18 +9,18 @@
 namespace crossgrain::inline averaging {
 
 /// The part of something that one bin gets.
-struct Share {
+struct BinFraction {
   std::size_t slot;
   double fraction;
 };
-using Shares = std::vector<Share>;
+using BinFractions = std::vector<BinFraction>;
 
 /// How a bin's edges cut a disc: as they are, or straightened (Lätzel 2003, Eq. 5.4).
 enum class Edges { exact, straight };
 
 /// ∂/∂x₁ at a bin as a sum over bins, Σ fraction · field [1/m], and the bin's radius of curvature.
 struct Slope {
-  Shares terms;
+  BinFractions terms;
   double radius;  ///< r of a ring's centre [m]
 };
 
@@ -47,8 +47,9 @@ class Coordinates {
   virtual Vec2 firstDirection(const Vec2& x) const = 0;
 
   /// The area fractions of a disc of radius a [m] about x, in rising order of slots; they add up
-  /// to 1. Whatever was in `shares` is dropped.
-  virtual void discShares(const Vec2& x, double a, Edges edges, Shares& shares) const = 0;
+  /// to 1. Whatever was in `fractions` is dropped.
+  virtual void discFractions(const Vec2& x, double a, Edges edges,
+                             BinFractions& fractions) const = 0;
 
   /// Absent where the coordinate has no derivative to offer.
   virtual std::optional<Slope> slope(std::size_t slot) const = 0;

@@ -70,17 +70,17 @@ void BlockedCounts::endSnapshot() {
   perBlock_ *= 2;
 }
 
-BlockedCounts::Shares BlockedCounts::shares() const {
-  Shares result;
+BlockedCounts::Fractions BlockedCounts::fractions() const {
+  Fractions result;
   result.mean = current_;  // counts, until they are divided
   for (const auto& block : blocks_)
     std::ranges::transform(result.mean, block, result.mean.begin(), std::plus());
   result.total = sumOf(result.mean);
   if (result.total == 0.0) return result;
-  for (double& share : result.mean) share /= result.total;
+  for (double& fraction : result.mean) fraction /= result.total;
   const double n = static_cast<double>(blocks_.size());
   if (blocks_.size() < fewestBlocks) return result;
-  // A share is a ratio of two sums: its error comes from count − share·total, block by block.
+  // A fraction is a ratio of two sums: its error comes from count − fraction·total, block by block.
   const double perBlock = result.total / n;
   result.standardError.assign(result.mean.size(), 0.0);
   for (const auto& block : blocks_) {
@@ -190,22 +190,22 @@ std::vector<Distribution> DistributionAccumulator::distributions() const {
 }
 
 Distribution DistributionAccumulator::distribution(const Collected& collected) const {
-  const BlockedCounts::Shares shares = collected.counts.shares();
+  const BlockedCounts::Fractions fractions = collected.counts.fractions();
   Distribution result{collected.quantity, collected.ring, collected.axes, {}, {}, 0.0,
-                      shares.total};
+                      fractions.total};
   const bool joint = result.axes.size() > 1;
   const auto across = static_cast<std::size_t>(result.axes[0].count);
   const auto rows = static_cast<std::size_t>(joint ? result.axes[1].count : 1);
   const double size = result.axes[0].width * (joint ? result.axes[1].width : 1.0);
-  for (std::size_t slot = 0; slot < shares.mean.size(); ++slot) {
+  for (std::size_t slot = 0; slot < fractions.mean.size(); ++slot) {
     const std::size_t column = slot % (across + 2), row = slot / (across + 2);
     if (column == 0 || column > across || (joint && (row == 0 || row > rows))) {
-      result.outside += shares.mean[slot];
+      result.outside += fractions.mean[slot];
       continue;
     }
-    result.density.push_back(shares.mean[slot] / size);
-    if (!shares.standardError.empty())
-      result.standardError.push_back(shares.standardError[slot] / size);
+    result.density.push_back(fractions.mean[slot] / size);
+    if (!fractions.standardError.empty())
+      result.standardError.push_back(fractions.standardError[slot] / size);
   }
   return result;
 }

@@ -30,12 +30,12 @@ class BlockedCounts {
   void count(std::size_t slot);
   void endSnapshot();
 
-  struct Shares {
+  struct Fractions {
     std::vector<double> mean;           ///< of all counts, per slot
     std::vector<double> standardError;  ///< within the run, from 8 blocks or more; else empty
     double total = 0.0;                 ///< counts
   };
-  Shares shares() const;
+  Fractions fractions() const;
 
  private:
   std::vector<double> current_;             ///< of the block that is not full
@@ -48,9 +48,9 @@ struct Distribution {
   std::string quantity;
   std::optional<int> ring;      ///< absent: the whole cell
   std::vector<Bins> axes;       ///< one or two
-  std::vector<double> density;  ///< per cell, integrates to the share that lies inside [1/units]
+  std::vector<double> density;  ///< per cell, integrates to the fraction that lies inside [1/units]
   std::vector<double> standardError;  ///< within the run, blocks taken as independent; may be empty
-  double outside = 0.0;               ///< share of the samples beyond the bins
+  double outside = 0.0;               ///< fraction of the samples beyond the bins
   double samples = 0.0;
 };
 

@@ -6,7 +6,7 @@
 namespace crossgrain::averaging::formulas {
 
 // Tensors of one bin [N/m², but for fabric: 1]
-LinearTensor stress(const BinView& bin);        ///< with the wall disks' share
+LinearTensor stress(const BinView& bin);        ///< with the wall disks' part
 LinearTensor movingStress(const BinView& bin);  ///< of the moving disks alone
 LinearTensor dynamicStress(const BinView& bin);
 LinearTensor fabric(const BinView& bin);

@@ -25,8 +25,8 @@ std::size_t Grid::slotAt(const Vec2& x) const {
   return inside ? slot(static_cast<int>(place.x()), static_cast<int>(place.y())) : 0;
 }
 
-void Grid::discShares(const Vec2& x, double a, Edges, Shares& shares) const {
-  shares.assign(1, {0, 0.0});
+void Grid::discFractions(const Vec2& x, double a, Edges, BinFractions& fractions) const {
+  fractions.assign(1, {0, 0.0});
   const Vec2 from = (x - Vec2(a, a) - low_).cwiseQuotient(cell_);
   const Vec2 to = (x + Vec2(a, a) - low_).cwiseQuotient(cell_);
   const auto first = [](double place) {
@@ -44,10 +44,10 @@ void Grid::discShares(const Vec2& x, double a, Edges, Shares& shares) const {
     for (int i = first(from.x()); i <= last(to.x(), nx_); ++i) {
       const double area = within(i + 1, j + 1) - within(i, j + 1) - within(i + 1, j) + within(i, j);
       const double fraction = std::max(area / std::numbers::pi, 0.0);
-      shares.push_back({slot(i, j), fraction});
+      fractions.push_back({slot(i, j), fraction});
       rest -= fraction;
     }
-  shares.front().fraction = std::max(rest, 0.0);
+  fractions.front().fraction = std::max(rest, 0.0);
 }
 
 }  // namespace crossgrain::inline averaging

@@ -21,7 +21,7 @@ class Grid : public Coordinates {
   std::size_t slotAt(const Vec2& x) const override;
   Vec2 firstDirection(const Vec2&) const override { return Vec2::UnitX(); }
   /// Straight edges are exact here: both kinds of cut are one.
-  void discShares(const Vec2& x, double a, Edges edges, Shares& shares) const override;
+  void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
   /// Absent: a gradient in the plane needs both directions, and fields know but the first.
   std::optional<Slope> slope(std::size_t) const override { return std::nullopt; }
 

@@ -52,8 +52,8 @@ void requireLength(const char* what, std::size_t got, std::size_t wanted) {
         fmt::format("averaging: the snapshot has {} {}, the scene has {}", got, what, wanted));
 }
 
-void distribute(const Moments& moments, const Shares& shares, std::vector<Moments>& sums) {
-  for (const auto& [slot, w] : shares)
+void distribute(const Moments& moments, const BinFractions& fractions, std::vector<Moments>& sums) {
+  for (const auto& [slot, w] : fractions)
     for (std::size_t q = 0; q < momentCount; ++q) sums[slot][q] += w * moments[q];
 }
 
@@ -96,29 +96,29 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   }
 }
 
-void MomentSums::addWalls(const Snapshot& snapshot, Sharing& sharing,
+void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
                           std::vector<Moments>& sums) const {
   if (!countWallDisks_ && !snapshot.contacts) return;
   for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
     const Vec2& x = snapshot.wallPosition[w];
     const double a = radius_[mass_.size() + w];
     if (countWallDisks_)
-      for (const auto& [slot, share] : sharing.ofDisk(x, a))
+      for (const auto& [slot, fraction] : partition.ofDisk(x, a))
         at(sums[slot], Moment::wallVolume) +=
-            share * std::numbers::pi * a * a * coordinates_->height();
+            fraction * std::numbers::pi * a * a * coordinates_->height();
     const ContactSums& contacts = contactSums_[mass_.size() + w];
     if (contacts.count == 0.0) continue;
     const Vec2 er = coordinates_->firstDirection(x);
-    for (const auto& [slot, share] : sharing.ofWallDisk(x, a)) {
-      at(sums[slot], Moment::wallCoupleR) += share * contacts.couple.dot(er);
-      at(sums[slot], Moment::wallCoupleP) += share * contacts.couple.dot(perpendicular(er));
-      if (!sharing.weight().alongBranch())
-        addStress(contacts.stress, er, share, ofWalls, sums[slot]);
+    for (const auto& [slot, fraction] : partition.ofWallDisk(x, a)) {
+      at(sums[slot], Moment::wallCoupleR) += fraction * contacts.couple.dot(er);
+      at(sums[slot], Moment::wallCoupleP) += fraction * contacts.couple.dot(perpendicular(er));
+      if (!partition.weight().alongBranch())
+        addStress(contacts.stress, er, fraction, ofWalls, sums[slot]);
     }
   }
 }
 
-void MomentSums::addBranches(const Snapshot& snapshot, Sharing& sharing,
+void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
                              std::vector<Moments>& sums) const {
   const Contacts& contacts = *snapshot.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -131,12 +131,12 @@ void MomentSums::addBranches(const Snapshot& snapshot, Sharing& sharing,
       const double a = radius_[p];
       const Vec2& x = wall ? snapshot.wallPosition[p - mass_.size()] : snapshot.position[p];
       const Vec2 branch = (first ? -a : a) * n;
-      for (const auto& [place, part] : branchPoints(a, sharing.weight().width)) {
+      for (const auto& [place, part] : branchPoints(a, partition.weight().width)) {
         const Vec2 point = x + place * branch;
         const Vec2 er = coordinates_->firstDirection(point);
-        for (const auto& [slot, share] :
-             wall ? sharing.ofWallPoint(point, x, a) : sharing.ofPoint(point))
-          addStress(forceNormal, er, a * part * share, wall ? ofWalls : ofDisks, sums[slot]);
+        for (const auto& [slot, fraction] :
+             wall ? partition.ofWallPoint(point, x, a) : partition.ofPoint(point))
+          addStress(forceNormal, er, a * part * fraction, wall ? ofWalls : ofDisks, sums[slot]);
       }
     }
   }

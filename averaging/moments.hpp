@@ -75,7 +75,7 @@ inline double at(const Moments& moments, Moment which) {
 /// −Σ (l × f) l go to the rings that it reaches into, and nothing of them to the overflow bins.
 /// Without it the rings at the walls miss the force on its way from the contact to the wall, a
 /// sixth of the torque for wall disks of a sixth of the ring's width. All other sums are those of
-/// the moving disks; planes have no share.
+/// the moving disks; planes have no part in them.
 ///
 /// Line methods put all sums where the kernel about the disk's centre lies, but for stress: that
 /// lies along l, turned into the directions of each point of it.
@@ -109,11 +109,12 @@ class MomentSums {
   void fetch(std::int32_t disk) const;
   void sumContacts(const Contacts& contacts);
   Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
-  void addWalls(const Snapshot& snapshot, Sharing& sharing, std::vector<Moments>& sums) const;
-  void addBranches(const Snapshot& snapshot, Sharing& sharing, std::vector<Moments>& sums) const;
+  void addWalls(const Snapshot& snapshot, Partition& partition, std::vector<Moments>& sums) const;
+  void addBranches(const Snapshot& snapshot, Partition& partition,
+                   std::vector<Moments>& sums) const;
 
   std::shared_ptr<const Coordinates> coordinates_;
-  std::vector<Sharing> sharings_;
+  std::vector<Partition> sharings_;
   std::vector<double> radius_;  ///< of moving disks, then of wall disks [m]
   std::vector<double> mass_, inertia_;
   std::size_t planes_;

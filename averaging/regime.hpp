@@ -14,9 +14,9 @@
 /// different things, so this is asked first.
 namespace crossgrain::inline averaging {
 
-/// Where the wheel's rotation is taken up, as shares of Ω: 1 = slip + shear + what is left between
-/// the outermost layer and the ring. The layers at the walls are the disks whose centres are within
-/// a diameter of the walls' centres; a layer turns with the mean of its disks' v_φ/r.
+/// Where the wheel's rotation is taken up, as fractions of Ω: 1 = slip + shear + what is left
+/// between the outermost layer and the ring. The layers at the walls are the disks whose centres
+/// are within a diameter of the walls' centres; a layer turns with the mean of its disks' v_φ/r.
 struct WheelMotion {
   double slip = 0.0;   ///< 1 − ω₁/Ω, between the wheel and the layer on it
   double shear = 0.0;  ///< (ω₁ − ω_B)/Ω, among the disks

@@ -69,8 +69,8 @@ Vec2 Rings::firstDirection(const Vec2& x) const {
   return r > 0.0 ? Vec2(x / r) : Vec2(Vec2::UnitX());
 }
 
-void Rings::discShares(const Vec2& x, double a, Edges edges, Shares& shares) const {
-  shares.clear();
+void Rings::discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const {
+  fractions.clear();
   const auto areaWithin = edges == Edges::exact ? commonArea : straightCutArea;
   const double r = x.norm();
   const double area = std::numbers::pi * a * a;
@@ -79,10 +79,10 @@ void Rings::discShares(const Vec2& x, double a, Edges edges, Shares& shares) con
   // Differences of one rising sequence that ends at the whole area: they add up to 1.
   for (; bin < count() && edge(bin + 1) < r + a; ++bin) {
     const double within = areaWithin(r, a, edge(bin + 1)) / area;
-    shares.push_back({slot(bin), std::max(within - before, 0.0)});
+    fractions.push_back({slot(bin), std::max(within - before, 0.0)});
     before = std::max(within, before);
   }
-  shares.push_back({slot(bin), std::max(1.0 - before, 0.0)});
+  fractions.push_back({slot(bin), std::max(1.0 - before, 0.0)});
 }
 
 std::optional<Slope> Rings::slope(std::size_t slot) const {

@@ -55,7 +55,7 @@ class Rings : public Coordinates {
   double volume(std::size_t slot) const override { return ringVolume(static_cast<int>(slot) - 1); }
   std::size_t slotAt(const Vec2& x) const override { return slot(binOf(x.norm())); }
   Vec2 firstDirection(const Vec2& x) const override;
-  void discShares(const Vec2& x, double a, Edges edges, Shares& shares) const override;
+  void discFractions(const Vec2& x, double a, Edges edges, BinFractions& fractions) const override;
 
   /// Of the parabola through the ring and its neighbours, at the first and the last ring through
   /// the three rings there. Absent with fewer than three rings.

@@ -15,7 +15,7 @@ constexpr double offset = 0.38729833462074168852;  // √(3/5)/2
 constexpr std::array<std::array<double, 2>, 3> gauss = {
     {{0.5 - offset, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + offset, 5.0 / 18.0}}};
 
-/// A piece of a branch, in shares of it.
+/// A piece of a branch, in fractions of it.
 struct Piece {
   double from, to;
 };

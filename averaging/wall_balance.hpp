@@ -25,10 +25,10 @@ namespace crossgrain::inline averaging {
 /// A field averaged with weights that spread the stress of a disk over its area (slicing) need not
 /// obey that: in the bulk disks stand everywhere and what one ring is given too much another lacks,
 /// but next to a wall all disks stand alike. A chain of small disks of radius a that begins g
-/// inside R_o, cut by r₁ at the depth c = g + 2a − Δr of its first disk, has the share c/2a of that
-/// disk's branches below r₁, but only (θ − sin θ)/2π, cos ½θ = 1 − c/a, of its area: slicing puts
-/// (2a/Δr)(c/2a − (θ − sin θ)/2π) of the thrust into the ring on top, up to 5.5 % at Δr = 1.01 d.
-/// Oblique chains begin less deep and give less.
+/// inside R_o, cut by r₁ at the depth c = g + 2a − Δr of its first disk, has the fraction c/2a of
+/// that disk's branches below r₁, but only (θ − sin θ)/2π, cos ½θ = 1 − c/a, of its area: slicing
+/// puts (2a/Δr)(c/2a − (θ − sin θ)/2π) of the thrust into the ring on top, up to 5.5 % at Δr = 1.01
+/// d. Oblique chains begin less deep and give less.
 struct WallBalance {
   double alongBranches = 0.0;  ///< σ̄_rr [N/m²]
   double hoopTerm = 0.0;       ///< 1/(r_m Δr) ∫ (r − r₁) σ_φφ dr [N/m²]

@@ -40,7 +40,7 @@ WeightMethod weightMethod(std::string_view name) {
   return static_cast<WeightMethod>(found - weightNames.begin());
 }
 
-Sharing::Sharing(const Coordinates& coordinates, const Weight& weight)
+Partition::Partition(const Coordinates& coordinates, const Weight& weight)
     : coordinates_(coordinates), weight_(weight) {
   if (!weight.alongBranch()) return;
   if (!std::isfinite(weight.width) || !(weight.width > 0.0))
@@ -49,48 +49,49 @@ Sharing::Sharing(const Coordinates& coordinates, const Weight& weight)
   discs_ = kernelDiscs(weight);
 }
 
-const Shares& Sharing::ofDisk(const Vec2& x, double a) {
+const BinFractions& Partition::ofDisk(const Vec2& x, double a) {
   if (weight_.method == WeightMethod::centre)
-    shares_.assign(1, {coordinates_.slotAt(x), 1.0});
+    fractions_.assign(1, {coordinates_.slotAt(x), 1.0});
   else if (!weight_.alongBranch())
-    coordinates_.discShares(
-        x, a, weight_.method == WeightMethod::slicing ? Edges::exact : Edges::straight, shares_);
+    coordinates_.discFractions(
+        x, a, weight_.method == WeightMethod::slicing ? Edges::exact : Edges::straight, fractions_);
   else {
-    shares_.clear();
+    fractions_.clear();
     for (const auto& [radius, part] : discs_) {
-      coordinates_.discShares(x, radius, Edges::exact, disc_);
-      for (const Share& share : disc_) shares_.push_back({share.slot, part * share.fraction});
+      coordinates_.discFractions(x, radius, Edges::exact, disc_);
+      for (const BinFraction& fraction : disc_)
+        fractions_.push_back({fraction.slot, part * fraction.fraction});
     }
   }
-  return shares_;
+  return fractions_;
 }
 
-const Shares& Sharing::ofWallDisk(const Vec2& x, double a) {
+const BinFractions& Partition::ofWallDisk(const Vec2& x, double a) {
   ofDisk(x, a);
   return keepInCell(x, a);
 }
 
-const Shares& Sharing::ofWallPoint(const Vec2& point, const Vec2& centre, double a) {
+const BinFractions& Partition::ofWallPoint(const Vec2& point, const Vec2& centre, double a) {
   ofDisk(point, a);
   return keepInCell(centre, a);
 }
 
-const Shares& Sharing::keepInCell(const Vec2& x, double a) {
-  const auto keep = [&](Shares& shares) {
+const BinFractions& Partition::keepInCell(const Vec2& x, double a) {
+  const auto keep = [&](BinFractions& fractions) {
     double kept = 0.0;
-    for (const Share& share : shares)
-      if (!coordinates_.isOverflow(share.slot)) kept += share.fraction;
+    for (const BinFraction& fraction : fractions)
+      if (!coordinates_.isOverflow(fraction.slot)) kept += fraction.fraction;
     if (!(kept > 0.0)) return false;
-    std::erase_if(shares, [&](const Share& s) { return coordinates_.isOverflow(s.slot); });
-    for (Share& share : shares) share.fraction /= kept;
+    std::erase_if(fractions, [&](const BinFraction& s) { return coordinates_.isOverflow(s.slot); });
+    for (BinFraction& fraction : fractions) fraction.fraction /= kept;
     return true;
   };
-  if (keep(shares_)) return shares_;
+  if (keep(fractions_)) return fractions_;
   // All or nothing by a point on the wall, which rounding may have put outside.
-  coordinates_.discShares(x, a, Edges::exact, disc_);
+  coordinates_.discFractions(x, a, Edges::exact, disc_);
   if (keep(disc_))
-    shares_.assign(1, {std::ranges::max_element(disc_, {}, &Share::fraction)->slot, 1.0});
-  return shares_;
+    fractions_.assign(1, {std::ranges::max_element(disc_, {}, &BinFraction::fraction)->slot, 1.0});
+  return fractions_;
 }
 
 std::vector<BranchPoint> branchPoints(double length, double width) {

@@ -10,7 +10,7 @@
 
 namespace crossgrain::inline averaging {
 
-/// How a disk, and the force along a branch, is shared out among the bins.
+/// How a disk, and the force along a branch, is divided among the bins.
 enum class WeightMethod {
   slicing,       ///< exact area fraction of the disk
   straightCut,   ///< area fraction with the bins' edges taken as straight (Lätzel 2003, Eq. 5.4)
@@ -42,39 +42,39 @@ struct Weight {
   }
 };
 
-/// Shares out disks and branches of one coordinate by one weight; keeps its memory.
+/// BinFractions out disks and branches of one coordinate by one weight; keeps its memory.
 ///
 /// A Gaussian is a mixture of discs, ∫ u e^{−u} (disc of radius w√u) du. Six of them,
 /// Gauss–Laguerre nodes, stand for it: coordinates need to know nothing but how they cut a disc,
-/// and shares stay positive and add up to 1. All moments ⟨r²ᵏ⟩ of the kernel up to k = 10 are
+/// and fractions stay positive and add up to 1. All moments ⟨r²ᵏ⟩ of the kernel up to k = 10 are
 /// exact.
-class Sharing {
+class Partition {
  public:
   /// @throws std::invalid_argument for a line method without a positive width
-  Sharing(const Coordinates& coordinates, const Weight& weight);
+  Partition(const Coordinates& coordinates, const Weight& weight);
 
   const Weight& weight() const { return weight_; }
 
   /// A disk of radius a [m] about x.
-  const Shares& ofDisk(const Vec2& x, double a);
+  const BinFractions& ofDisk(const Vec2& x, double a);
 
   /// Of a wall disk: its part in the cell. What reaches into the overflow is given to the bins that
   /// the disk reaches; a disk that reaches none stays where it is.
-  const Shares& ofWallDisk(const Vec2& x, double a);
+  const BinFractions& ofWallDisk(const Vec2& x, double a);
 
   /// The same for a point of a wall disk's branch.
-  const Shares& ofWallPoint(const Vec2& point, const Vec2& centre, double a);
+  const BinFractions& ofWallPoint(const Vec2& point, const Vec2& centre, double a);
 
   /// The kernel about a point of a branch.
-  const Shares& ofPoint(const Vec2& point) { return ofDisk(point, 0.0); }
+  const BinFractions& ofPoint(const Vec2& point) { return ofDisk(point, 0.0); }
 
  private:
-  const Shares& keepInCell(const Vec2& x, double a);
+  const BinFractions& keepInCell(const Vec2& x, double a);
 
   const Coordinates& coordinates_;
   Weight weight_;
   std::vector<std::pair<double, double>> discs_;  ///< radius and part of the kernel's discs
-  Shares shares_, disc_;
+  BinFractions fractions_, disc_;
 };
 
 /// Points along a branch, from the disk's centre (0) to the contact (1), and their parts of it.

@@ -74,11 +74,12 @@ void cautionsOfEngineSteps(const Case& setup, Lines& lines) {
   for (const auto& [engine, settings] : setup.engines) {
     const auto step = settings.find("dt");
     if (step == settings.end() || !std::holds_alternative<double>(step->second)) continue;
-    const double share = std::get<double>(step->second) * speed / setup.particles.smallRadius / 2.0;
-    if (share > far)
+    const double fraction =
+        std::get<double>(step->second) * speed / setup.particles.smallRadius / 2.0;
+    if (fraction > far)
       lines.push_back(
           fmt::format("[engines.{}] dt = {:g} s: the wheel's rim moves {:.2g} d in a step of it",
-                      engine, std::get<double>(step->second), share));
+                      engine, std::get<double>(step->second), fraction));
   }
 }
 

@@ -84,8 +84,9 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
     }
     const double massSum = pair.mass[0] + pair.mass[1];
     for (const int side : {0, 1}) {
-      const double share = (side == 0 ? 1.0 : -1.0) * pair.mass[1 - side] / massSum;
-      addDisk(scene.disks, pair, side, centre + share * apart, share * velocity, motion.spin[side]);
+      const double fraction = (side == 0 ? 1.0 : -1.0) * pair.mass[1 - side] / massSum;
+      addDisk(scene.disks, pair, side, centre + fraction * apart, fraction * velocity,
+              motion.spin[side]);
     }
   }
   return scene;

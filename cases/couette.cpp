@@ -57,8 +57,8 @@ Disks spreadDisks(const Case& setup) {
   const double goldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   const auto count = static_cast<double>(disks.size());
   for (std::size_t k = 0; k < disks.size(); ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / count;
-    const double r = std::sqrt(inner * inner + share * (outer * outer - inner * inner));
+    const double fraction = (static_cast<double>(k) + 0.5) / count;
+    const double r = std::sqrt(inner * inner + fraction * (outer * outer - inner * inner));
     const double angle = static_cast<double>(k) * goldenAngle;
     disks.position[k] = {r * std::cos(angle), r * std::sin(angle)};
   }

@@ -1,85 +1,91 @@
 #include "cases/effect_switch.hpp"
 
+#include <array>
+#include <string_view>
+
 #include "cases/couette.hpp"
+#include "cases/loader.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
 
-/// What was done, and as TOML.
-struct Switched {
+/// What is done, as a sentence and as TOML.
+struct Change {
   std::string what, fragment;
 };
 
-/// Switches it off in `setup`. @returns empty if it cannot be
-Switched switchOff(Case& setup, Effect effect) {
-  ContactLaw& law = setup.law;
-  switch (effect) {
-    case Effect::normalDamping: {
-      const bool rigid = !law.soft();
-      law.gn = 0.0;
-      law.en = 1.0;
-      return {"Normal contacts lose no energy: no dashpot, restitution 1.",
-              rigid ? "[law]\ne_n = 1.0\n" : "[law]\ngn = 0.0\n"};
-    }
-    case Effect::friction:
-      law.tangential = TangentialLaw::none;
-      law.mu = law.kt = law.gt = 0.0;
-      return {"No tangential force; with it go rotation, tangential springs and dashpots.",
-              "[law]\ntangential = \"none\"\nmu = 0.0\nkt = 0.0\ngt = 0.0\n"};
-    case Effect::tangentialSpring:
-      law.tangential = law.gt > 0.0 ? TangentialLaw::viscous : TangentialLaw::coulomb;
-      law.kt = 0.0;
-      return law.gt > 0.0 ? Switched{"The viscous law: contacts have no history.",
-                                     "[law]\ntangential = \"viscous\"\n"}
-                          : Switched{"Coulomb's law: contacts have no history.",
-                                     "[law]\ntangential = \"coulomb\"\n"};
-    case Effect::tangentialDamping:
-      law.gt = 0.0;
-      if (law.tangential == TangentialLaw::springDashpot) {
-        law.tangential = TangentialLaw::spring;
-        return {"The spring alone holds a contact: no tangential dashpot.",
-                "[law]\ntangential = \"spring\"\n"};
-      }
-      law.tangential = TangentialLaw::coulomb;
-      return {"Coulomb's law, the viscous one's limit of a dashpot without bound.",
-              "[law]\ntangential = \"coulomb\"\n"};
-    case Effect::rotation:
-      setup.particles.rotation = false;
-      return {"Friction acts, but no disk turns about itself: every spin is zero, and stays so.",
-              "[particles]\nrotation = false\n"};
-    case Effect::bottomFriction:
-      setup.bottom.reset();
-      return {"No plate under the disks.", "[bottom]\nmu = 0.0\n"};
-    case Effect::bottomSpinFriction:
-      setup.bottom->spin = false;
-      return {"The plate brakes velocities and leaves spins alone.", "[bottom]\nspin = false\n"};
-    case Effect::gravity:  // no case has it yet
-    case Effect::movingWalls:
-      break;
-  }
-  return {};
+/// One thing that can be switched off.
+struct Switchable {
+  std::string_view name;
+  std::optional<Effect> effect;  ///< that the case has or not; else has() tells
+  bool (*has)(const Case&);
+  Change (*change)(const Case&);
+};
+
+Change noTangentialSpring(const Case& setup) {
+  if (setup.law.gt > 0.0)
+    return {"The viscous law: contacts have no history.", "[law]\ntangential = \"viscous\"\n"};
+  return {"Coulomb's law: contacts have no history.", "[law]\ntangential = \"coulomb\"\n"};
 }
 
-std::optional<EffectSwitch> tensionCut(const Case& setup) {
+Change noTangentialDamping(const Case& setup) {
+  if (setup.law.tangential == TangentialLaw::springDashpot)
+    return {"The spring alone holds a contact: no tangential dashpot.",
+            "[law]\ntangential = \"spring\"\ngt = 0.0\n"};
+  return {"Coulomb's law, the viscous one's limit of a dashpot without bound.",
+          "[law]\ntangential = \"coulomb\"\ngt = 0.0\n"};
+}
+
+bool keepsTension(const Case& setup) {
   const ContactLaw& law = setup.law;
-  if (!law.soft() || law.conventions.tension == Tension::cut || law.gn == 0.0) return std::nullopt;
-  EffectSwitch cut{"tension_cut",
-                   "Normal forces below zero, near the end of a contact, are cut off: another law, "
-                   "with a larger restitution.",
-                   {},
-                   setup};
-  cut.without.law.conventions.tension = Tension::cut;
-  cut.fragment = "[law]\ntension = \"cut\"\n";
-  return cut;
+  return law.soft() && law.conventions.tension != Tension::cut && law.gn > 0.0;
 }
 
-std::optional<EffectSwitch> singlePrecision(const Case& setup) {
-  if (setup.run.precision != Precision::float64) return std::nullopt;
-  EffectSwitch single{"double_precision", "Stepped in single precision (float32).", {}, setup};
-  single.without.run.precision = Precision::float32;
-  single.fragment = "[run]\nprecision = \"float\"\n";
-  return single;
-}
+/// In the order of reports. Gravity, which no case with profiles has, and moving walls, which drive
+/// the flow, are not switched.
+const std::array switchables = {
+    Switchable{"normal_damping", Effect::normalDamping, nullptr,
+               [](const Case& setup) {
+                 return Change{"Normal contacts lose no energy: no dashpot, restitution 1.",
+                               setup.law.soft() ? "[law]\ngn = 0.0\n" : "[law]\ne_n = 1.0\n"};
+               }},
+    Switchable{"friction", Effect::friction, nullptr,
+               [](const Case&) {
+                 return Change{
+                     "No tangential force; with it go rotation, tangential springs and dashpots.",
+                     "[law]\ntangential = \"none\"\nmu = 0.0\nkt = 0.0\ngt = 0.0\n"};
+               }},
+    Switchable{"tangential_spring", Effect::tangentialSpring, nullptr, noTangentialSpring},
+    Switchable{"tangential_damping", Effect::tangentialDamping, nullptr, noTangentialDamping},
+    Switchable{"rotation", Effect::rotation, nullptr,
+               [](const Case&) {
+                 return Change{
+                     "Friction acts, but no disk turns about itself: every spin is zero, and "
+                     "stays so.",
+                     "[particles]\nrotation = false\n"};
+               }},
+    Switchable{"bottom_friction", Effect::bottomFriction, nullptr,
+               [](const Case&) {
+                 return Change{"No plate under the disks.", "[bottom]\nmu = 0.0\n"};
+               }},
+    Switchable{"bottom_spin_friction", Effect::bottomSpinFriction, nullptr,
+               [](const Case&) {
+                 return Change{"The plate brakes velocities and leaves spins alone.",
+                               "[bottom]\nspin = false\n"};
+               }},
+    Switchable{"tension_cut", std::nullopt, keepsTension,
+               [](const Case&) {
+                 return Change{
+                     "Normal forces below zero, near the end of a contact, are cut off: another "
+                     "law, with a larger restitution.",
+                     "[law]\ntension = \"cut\"\n"};
+               }},
+    Switchable{
+        "double_precision", std::nullopt,
+        [](const Case& setup) { return setup.run.precision == Precision::float64; },
+        [](const Case&) {
+          return Change{"Stepped in single precision (float32).", "[run]\nprecision = \"float\"\n"};
+        }}};
 
 }  // namespace
 
@@ -87,24 +93,16 @@ Effects effectsOf(const Case& setup) {
   return effectsOf(couetteScene(setup, {}, 0.0));
 }
 
-std::optional<EffectSwitch> without(const Case& setup, Effect effect) {
-  if (!effectsOf(setup).contains(effect)) return std::nullopt;
-  EffectSwitch off{toString(effect), "", effect, setup};
-  const Switched done = switchOff(off.without, effect);
-  off.what = done.what;
-  off.fragment = done.fragment;
-  if (off.what.empty()) return std::nullopt;
-  return off;
-}
-
 std::vector<EffectSwitch> effectSwitches(const Case& setup) {
+  const Effects called = effectsOf(setup);
   std::vector<EffectSwitch> switches;
-  const auto add = [&](std::optional<EffectSwitch> one) {
-    if (one) switches.push_back(std::move(*one));
-  };
-  for (const Effect effect : allEffects) add(without(setup, effect));
-  add(tensionCut(setup));
-  add(singlePrecision(setup));
+  for (const Switchable& one : switchables) {
+    if (one.effect ? !called.contains(*one.effect) : !one.has(setup)) continue;
+    Change change = one.change(setup);
+    Case without = caseWith(setup, change.fragment);
+    switches.push_back({std::string(one.name), std::move(change.what), one.effect,
+                        std::move(without), std::move(change.fragment)});
+  }
   return switches;
 }
 

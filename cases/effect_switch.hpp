@@ -12,27 +12,23 @@ namespace crossgrain::inline cases {
 /// The effects that a Couette case calls for.
 Effects effectsOf(const Case& setup);
 
-/// A Couette case with one thing switched off, or set to its simpler law. All else is as it was,
-/// the preparation of packings included.
+/// A Couette case with one thing switched off, or set to its simpler law, by a fragment of TOML.
+/// All else is as it was, the preparation of packings included.
 struct EffectSwitch {
   std::string name;  ///< an effect's, or "tension_cut", "double_precision": as in effects.csv
   std::string what;  ///< one sentence on what was switched
   std::optional<Effect> effect;  ///< that the case then lacks, if it is one
   Case without;
-  std::string fragment = {};  ///< TOML that does the same in a case that extends this one
+  std::string fragment;  ///< that makes `without` of the case: see caseWith()
 };
 
-/// The case without the effect:
+/// Every switch that the case has, which was read by loadCase(), in the order of reports:
 /// - normal damping: γ_n = 0;  friction: no tangential force, and so no rotation and no springs;
 /// - tangential spring: the viscous law where γ_t > 0, else Coulomb's;
 /// - tangential damping: the spring alone; of the viscous law its limit γ_t → ∞, Coulomb's;
 /// - rotation: no spins;  bottom friction: no plate;  bottom spin friction: the plate leaves
-///   spins alone.
-/// Absent where the case lacks the effect, and for moving walls: they drive the flow.
-std::optional<EffectSwitch> without(const Case& setup, Effect effect);
-
-/// Every switch that the case has: its effects in their order, then tension (f_n < 0 cut off) and
-/// double precision (single instead).
+///   spins alone;
+/// - tension (f_n < 0 cut off); double precision (single instead).
 std::vector<EffectSwitch> effectSwitches(const Case& setup);
 
 }  // namespace crossgrain::inline cases

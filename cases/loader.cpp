@@ -123,16 +123,23 @@ void checkLength(const Reader& cell, const Case& c) {
                           steps, mostSteps));
 }
 
+/// A plate without friction is none.
+void readPlate(Reader& root, Case& c) {
+  Reader bottom = root.section("bottom");
+  if (!root.has("bottom")) return;
+  readBottom(bottom, c.bottom.emplace());
+  if (c.bottom->mu == 0.0) c.bottom.reset();
+}
+
 void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader cell = root.section("cell");
   Reader particles = root.section("particles");
-  Reader bottom = root.section("bottom");
   Reader preparation = root.section("preparation");
   Reader averaging = root.section("averaging");
   Reader cost = root.section("cost");
   readCell(cell, c.cell);
   readParticles(particles, c.cell, c.particles);
-  if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
+  readPlate(root, c);
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c, c.averaging);
   requireStep(run, c);
@@ -143,9 +150,8 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
 }
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
-  Reader bottom = root.section("bottom");
   Reader assembly = root.section("assembly");
-  if (root.has("bottom")) readBottom(bottom, c.bottom.emplace());
+  readPlate(root, c);
   readAssembly(assembly, c.assembly);
   requireStep(run, c);
   const bool told = c.law.normal == NormalLaw::linear;
@@ -243,6 +249,11 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
     if (said && c.run.dt) warnOfStep(c, *said);
   }
   return cases;
+}
+
+Case caseWith(const Case& setup, const std::string& fragment) {
+  CaseDocument document = documentOf(setup.resolvedToml, setup.variant, fragment);
+  return readCase(setup.file, document);
 }
 
 std::string resolvedFile(const std::vector<Case>& cases) {

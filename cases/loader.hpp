@@ -22,6 +22,10 @@ std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides = {},
                            const std::string& fragment = {});
 
+/// A case that was loaded, with a fragment of TOML merged in, as if it were a file that extends it.
+/// @throws BadInput for what makes no case
+Case caseWith(const Case& setup, const std::string& fragment);
+
 /// What loadCase() gave, all layers merged, as one case file that loads to the same again, wherever
 /// it lies: one case as it is, several as variants of each of which everything is said.
 std::string resolvedFile(const std::vector<Case>& cases);

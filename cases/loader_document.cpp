@@ -46,13 +46,22 @@ toml::table parse(std::string_view text, const std::string& source) {
   }
 }
 
+std::string textOf(const fs::path& file) {
+  try {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (stream) return text;
+  } catch (const std::ios_base::failure&) {
+    // Some files of the system can be opened and not be read.
+  }
+  throw BadInput(file.string() + ": cannot be read");
+}
+
 /// @param foreign  outside the case's own folder: nothing of it is quoted
 toml::table parseFile(const fs::path& file, bool foreign) {
   if (const std::string why = whyNoFile(file); !why.empty())
     throw BadInput(fmt::format("{}: {}{}", file.string(), why, nearestFile(file, caseExtension)));
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw BadInput(file.string() + ": cannot be read");
+  const std::string text = textOf(file);
   if (!foreign) return parse(text, file.string());
   try {
     return toml::parse(text, std::string(foreignMark) + file.string());
@@ -223,6 +232,13 @@ std::string location(const toml::source_region& source) {
 CaseDocument readBaseDocument(const fs::path& file) {
   CaseDocument document{{}, readWithBases(file)};
   takeVariants(document.root);
+  return document;
+}
+
+CaseDocument documentOf(const std::string& printed, const std::string& variant,
+                        const std::string& fragment) {
+  CaseDocument document{variant, parse(printed, std::string(fragmentName))};
+  merge(document.root, parse(fragment, std::string(fragmentName)));
   return document;
 }
 

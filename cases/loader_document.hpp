@@ -25,6 +25,10 @@ std::vector<CaseDocument> readCaseDocuments(const std::filesystem::path& file,
                                             const std::vector<std::string>& overrides,
                                             const std::string& fragment = {});
 
+/// A document that was printed, with a fragment merged in. @throws BadInput
+CaseDocument documentOf(const std::string& printed, const std::string& variant,
+                        const std::string& fragment);
+
 /// Names of cases and variants become parts of file names and cells of CSV files: letters, digits
 /// and . _ - +, at most 80 of them, not starting with a dot.
 bool usableName(std::string_view name);

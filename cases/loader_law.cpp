@@ -104,8 +104,8 @@ void setRestitution(const Reader& in, ContactLaw& law) {
   if (in.has("gn")) in.fail("e_n", "and gn: give one of them");
   if (!(law.en > 0.0)) in.fail("e_n", "a soft law needs it > 0");
   const double log = std::log(law.en);
-  const double share = law.normal == NormalLaw::hertz ? std::sqrt(5.0 / 6.0) : 1.0;
-  law.gn = -2.0 * share * log / std::hypot(std::numbers::pi, log);
+  const double fraction = law.normal == NormalLaw::hertz ? std::sqrt(5.0 / 6.0) : 1.0;
+  law.gn = -2.0 * fraction * log / std::hypot(std::numbers::pi, log);
   law.en = 1.0;
 }
 

@@ -17,7 +17,7 @@ struct Judged {
 };
 
 /// A share of one of the case's own scales, in the unit of the field.
-void readShare(Reader& in, const Judged& field, const Case& setup, Margin& margin) {
+void readFraction(Reader& in, const Judged& field, const Case& setup, Margin& margin) {
   double share = 0.0;
   in.read("share", share, positive());
   std::vector<std::string> names;
@@ -31,7 +31,7 @@ void readShare(Reader& in, const Judged& field, const Case& setup, Margin& margi
     in.fail("of", fmt::format("is in {}, and {} in {}", scale.unit, field.name, field.unit));
   const double whole = scale.of(setup);
   if (!(whole > 0.0)) in.fail("of", "is zero in this case");
-  margin.value = shareOf(scale, share, setup);
+  margin.value = fractionOf(scale, share, setup);
   margin.why = fmt::format("{:g} of {} ({} = {:.4g} {}): ", share, scale.name, scale.meaning, whole,
                            scale.unit);
 }
@@ -41,7 +41,7 @@ Margin readMargin(Reader in, const Judged& field, const Case* setup) {
   margin.relative = in.has("relative");
   in.read("relative", margin.value, positive());
   in.read("absolute", margin.value, positive());
-  if (setup) readShare(in, field, *setup, margin);
+  if (setup) readFraction(in, field, *setup, margin);
   std::string why;
   in.requireText("why", why, "must give the reason");
   in.finish();

@@ -30,7 +30,7 @@ void readMasses(Reader& in, const Cell& cell, Particles& particles) {
 }
 
 /// Which part of the disks are large, by number; given by number or by mass.
-double readLargeShare(Reader& in, const Particles& particles) {
+double readLargeFraction(Reader& in, const Particles& particles) {
   double byNumber = 0.0, byMass = 0.0;
   in.read("large_number_share", byNumber, between(0.0, 1.0));
   in.read("large_mass_share", byMass, between(0.0, 1.0));
@@ -47,7 +47,7 @@ void readNumbers(Reader& in, const Cell& cell, Particles& particles) {
   in.read("small", particles.small, between(0, mostDisks));
   in.read("large", particles.large, between(0, mostDisks));
   in.read("volume_fraction", fraction, inside(0.0, 1.0));
-  const double largeShare = readLargeShare(in, particles);
+  const double largeFraction = readLargeFraction(in, particles);
   const bool shares = in.has("large_number_share") || in.has("large_mass_share");
   if (!in.has("volume_fraction")) {
     if (shares)
@@ -64,11 +64,11 @@ void readNumbers(Reader& in, const Cell& cell, Particles& particles) {
   for (const double given : {particles.smallRadius, particles.largeRadius, particles.smallMass,
                              particles.largeMass, cell.height})
     if (!(given > 0.0)) return;
-  const double most = diskNumber(cell, particles, fraction, largeShare);
+  const double most = diskNumber(cell, particles, fraction, largeFraction);
   if (most > mostDisks)
     in.fail("volume_fraction",
             fmt::format("that would be {:.3g} disks: a case may have at most {}", most, mostDisks));
-  setNumbers(cell, particles, fraction, largeShare);
+  setNumbers(cell, particles, fraction, largeFraction);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ std::span<const Scale> scales() {
   return table;
 }
 
-double shareOf(const Scale& scale, double share, const Case& setup) {
+double fractionOf(const Scale& scale, double share, const Case& setup) {
   return std::strtod(fmt::format("{:.1e}", share * scale.of(setup)).c_str(), nullptr);
 }
 

@@ -20,6 +20,6 @@ std::span<const Scale> scales();
 
 /// A share of a scale, rounded to two digits: a margin is a choice, further digits would claim to
 /// know better.
-double shareOf(const Scale& scale, double share, const Case& setup);
+double fractionOf(const Scale& scale, double share, const Case& setup);
 
 }  // namespace crossgrain::inline cases

@@ -24,18 +24,18 @@ double volumeFraction(const Case& c) {
 }
 
 double diskNumber(const Cell& cell, const Particles& particles, double fraction,
-                  double largeShare) {
-  const double each = (1.0 - largeShare) * square(particles.smallRadius) +
-                      largeShare * square(particles.largeRadius);
+                  double largeFraction) {
+  const double each = (1.0 - largeFraction) * square(particles.smallRadius) +
+                      largeFraction * square(particles.largeRadius);
   return fraction * cellArea(cell) / each;
 }
 
-void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeShare) {
-  const double all = diskNumber(cell, particles, fraction, largeShare);
-  particles.large = static_cast<int>(std::lround(largeShare * all));
+void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeFraction) {
+  const double all = diskNumber(cell, particles, fraction, largeFraction);
+  particles.large = static_cast<int>(std::lround(largeFraction * all));
   const double left = fraction * cellArea(cell) - particles.large * square(particles.largeRadius);
   const double small = left / square(particles.smallRadius);
-  particles.small = largeShare == 1.0 ? 0 : static_cast<int>(std::lround(std::max(0.0, small)));
+  particles.small = largeFraction == 1.0 ? 0 : static_cast<int>(std::lround(std::max(0.0, small)));
 }
 
 }  // namespace crossgrain::inline cases

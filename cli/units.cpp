@@ -33,7 +33,7 @@ double secondsOf(const std::string& budget) {
                         "90s, 10m or 1h");
 }
 
-double shareOf(const std::string& want) {
+double fractionOf(const std::string& want) {
   return numberWithUnit("--want", want, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
 }
 

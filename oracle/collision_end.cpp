@@ -23,7 +23,7 @@ CollidingPair diskOnWall(double radius, double mass, double inertia) {
   return {{radius, 0.0}, {mass, inf}, {inertia, inf}, true};
 }
 
-double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side) {
+double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side) {
   if (arm == LeverArm::radius) return 0.0;
   if (pair.plane) {
     if (side == 1 || plane == PlaneArm::radius) return 0.0;

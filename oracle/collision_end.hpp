@@ -25,7 +25,7 @@ CollidingPair diskOnWall(double radius, double mass, double inertia);
 
 /// The part of the overlap that an arm of body `side` (0 or 1) is short of its radius. A plane does
 /// not turn; `plane` says where the contact point lies on it.
-double leverShare(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
+double leverFraction(LeverArm arm, PlaneArm plane, const CollidingPair& pair, int side);
 
 /// What gives the contact point its tangential velocity before a collision.
 enum class Approach {

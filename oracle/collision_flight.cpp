@@ -40,7 +40,8 @@ std::optional<CollisionEnd> wallCollisionEnd(const Scene& scene, const Snapshot&
   const double height = after.position[disk].x() - wall.x() * after.positionTime;
   const Vec2 velocity = after.velocity[disk] - wall;
   if (velocity.x() <= 0.0 || height < reach) return std::nullopt;
-  CollisionEnd end = endOf(pairOf(scene, disk), start, {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
+  CollisionEnd end = endOf(pairOf(scene, disk), start,
+                           {velocity.x(), velocity.y(), {spinsOf(disks, after)[disk], 0.0}});
   const double parting = (reach - height) / velocity.x();
   const double touch = (disks.position[disk].x() - reach) / (wall.x() - disks.velocity[disk].x());
   if (scene.law.soft()) end.duration = after.positionTime + parting - touch;

@@ -8,8 +8,8 @@
 
 namespace crossgrain::inline oracle {
 
-/// Collisions side by side in one scene: disks 2k and 2k + 1 are pair k; where there is a wall, disk k
-/// and its one plane.
+/// Collisions side by side in one scene: disks 2k and 2k + 1 are pair k; where there is a wall,
+/// disk k and its one plane.
 CollidingPair pairOf(const Scene& scene, std::size_t pair);
 
 /// Traces the free flight after the collision back to the instant when the disks parted. An end

@@ -17,10 +17,10 @@ double TwoBodyProblem::compliance(const Kinematics& k) const {
 }
 
 /// The f_t that makes dv_t/dt = 0. Without f_t, dv_t/dt = −θ' v_n − c_i' ω_i − c_j' ω_j, where θ'
-/// is the rate at which the normal turns and c' = armShare · v_n.
+/// is the rate at which the normal turns and c' = armFraction · v_n.
 double TwoBodyProblem::holdingForce(const State& s, const Kinematics& k) const {
   const double drift = -k.turning * k.normalVelocity -
-                       k.normalVelocity * (armShare(0) * s.spinI + armShare(1) * s.spinJ);
+                       k.normalVelocity * (armFraction(0) * s.spinI + armFraction(1) * s.spinJ);
   return -drift / compliance(k);
 }
 

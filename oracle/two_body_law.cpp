@@ -66,10 +66,10 @@ Kinematics TwoBodyProblem::kinematics(const State& s) const {
   k.nx = pair_.plane ? 1.0 : s.x / k.distance;
   k.ny = pair_.plane ? 0.0 : s.y / k.distance;
   k.overlap = reach_ - k.distance;
-  k.leverI = pair_.radius[0] - k.overlap * leverShare(0);
-  k.leverJ = pair_.radius[1] - k.overlap * leverShare(1);
-  k.armI = pair_.radius[0] - k.overlap * armShare(0);
-  k.armJ = pair_.radius[1] - k.overlap * armShare(1);
+  k.leverI = pair_.radius[0] - k.overlap * leverFraction(0);
+  k.leverJ = pair_.radius[1] - k.overlap * leverFraction(1);
+  k.armI = pair_.radius[0] - k.overlap * armFraction(0);
+  k.armJ = pair_.radius[1] - k.overlap * armFraction(1);
   k.normalVelocity = s.vx * k.nx + s.vy * k.ny;
   k.sideways = -s.vx * k.ny + s.vy * k.nx;
   k.turning = pair_.plane ? 0.0 : k.sideways / k.distance;

@@ -76,10 +76,10 @@ class TwoBodyProblem {
   double trialNormal(const Kinematics& k) const {
     return elasticForce(k.overlap) - normalDamping(k.overlap).value * k.normalVelocity;
   }
-  double leverShare(int side) const { return shareOf(law_.conventions.leverArm, side); }
-  double armShare(int side) const { return shareOf(law_.conventions.armOfVelocity(), side); }
-  double shareOf(LeverArm arm, int side) const {
-    return crossgrain::leverShare(arm, law_.conventions.planeArm, pair_, side);
+  double leverFraction(int side) const { return fractionOf(law_.conventions.leverArm, side); }
+  double armFraction(int side) const { return fractionOf(law_.conventions.armOfVelocity(), side); }
+  double fractionOf(LeverArm arm, int side) const {
+    return crossgrain::leverFraction(arm, law_.conventions.planeArm, pair_, side);
   }
   double normalForce(const Kinematics& k) const;
   double bound(double normal) const;

@@ -36,8 +36,8 @@ nlohmann::json readResultsFile(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in)
     throw BadInput(
-        fmt::format("{}: cannot be read; a folder that compare, collide, effects, cost or "
-                    "stability wrote has it",
+        fmt::format("{}: cannot be read; a folder that compare, collide, effects, cost, "
+                    "stability, average or rev wrote has it",
                     file.string()));
   nlohmann::json results;
   try {

@@ -67,10 +67,10 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
     inverse = stiffness > Real(0) ? Real(1) / stiffness : Real(0);
   Real stretch = contact.tangentialVelocity * law.dt;
   if (force) stretch *= stiffness;
-  const Real share = law.stretch == Stretch::after    ? Real(0)
-                     : law.stretch == Stretch::before ? Real(1)
-                                                      : Real(0.5);
-  const Real stretched = law.stretch == Stretch::after ? spring : spring + share * stretch;
+  const Real part = law.stretch == Stretch::after    ? Real(0)
+                    : law.stretch == Stretch::before ? Real(1)
+                                                     : Real(0.5);
+  const Real stretched = law.stretch == Stretch::after ? spring : spring + part * stretch;
   const Real elastic = -unit * stretched;
   Real viscous = Real(0), gt = Real(0);
   if (law.tangential == Tangential::springDashpot) {
@@ -85,7 +85,7 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
   const Real slipping = signedLike(bound, tested);
   Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
-  spring = holds ? stretched + (Real(1) - share) * stretch : slipped;
+  spring = holds ? stretched + (Real(1) - part) * stretch : slipped;
   return {normal, holds ? trial : slipping, holds ? Real(0) : Real(1)};
 }
 

@@ -39,7 +39,7 @@ struct SpringAccount {
   double energy = 0.0;        ///< ½ · modulus · square [J]
   double modulus = 0.0;       ///< k of a spring, 1/k of a remembered force
   double square = 0.0;        ///< of the stretch or the remembered force, that of this time
-  double openingWork = 0.0;   ///< on the disks until the next look [J]
+  double openingWork = 0.0;   ///< on the disks until the next evaluation [J]
 };
 
 /// The sums of an energy ledger: what the forces of one evaluation did, term by term.
@@ -50,11 +50,11 @@ struct SpringAccount {
 /// τ = dt/2 towards the time t of the force, from v − a dt/2 to v, and by dt/2 on from there; half
 /// way the velocities are v ∓ a dt/4. Euler's scheme kicks once, by dt, on from t: v + a dt/2. So
 ///   K(t) − K(0) = Σ of τ F·u over all kicks since, but for rounding,
-/// and as F is a sum over contacts, plate and gravity, so is the work. A contact's share, of wall
+/// and as F is a sum over contacts, plate and gravity, so is the work. A contact's part, of wall
 /// w, is f_n v_n + f_t v_t with the relative velocities that the law means, made of these u, and
 /// F·v_w (+ l_w f_t ω_w), which is the wall's work.
 ///
-/// The dampers' share of that is exact too, as forces beyond their springs' are known. Springs give
+/// The dampers' part of that is exact too, as forces beyond their springs' are known. Springs give
 /// back what they took only as exactly as Σ τ f_el·u is the integral of f_el dδ (gravity: of F dx):
 /// that difference is the ledger's residual, and nothing else is in it. Where a spring slides, its
 /// ξ is set, so what it took from the motion beyond what it then holds is lost to sliding (Lätzel

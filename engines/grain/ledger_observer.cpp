@@ -208,16 +208,16 @@ void LedgerObserver<Real>::accountContact(const Contact& contact, double time) {
 }
 
 /// ξ is kept as the next evaluation will begin with it; what carries the force of this one is ξ
-/// without the share of v_t dt that was added since.
+/// without the part of v_t dt that was added since.
 template <class Real>
 void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& touch,
                                          double stiffness) {
   const bool remembersForce = core_.law_.history == History::force;
-  double share = 0.0;  // of v_t dt
-  if (core_.law_.stretch == Stretch::after && !contact.sliding) share = 1.0;
-  if (core_.law_.stretch == Stretch::midpoint) share = 0.5;
+  double part = 0.0;  // of v_t dt
+  if (core_.law_.stretch == Stretch::after && !contact.sliding) part = 1.0;
+  if (core_.law_.stretch == Stretch::midpoint) part = 0.5;
   const double unit = remembersForce ? 1.0 : stiffness;
-  const double stretch = contact.spring - share * static_cast<double>(core_.law_.dt) *
+  const double stretch = contact.spring - part * static_cast<double>(core_.law_.dt) *
                                               touch.seenSlip * (remembersForce ? stiffness : 1.0);
   SpringAccount account;
   account.i = contact.i;

@@ -60,7 +60,7 @@ Touch touchAt(const Contacts& contacts, std::size_t c, const WatchedRun& run,
   const auto turning = [&](LeverArm arm) {
     const auto of = [&](int side) {
       return run.pair.radius[side] -
-             leverShare(arm, how.planeArm, run.pair, side) * contacts.overlap[c];
+             leverFraction(arm, how.planeArm, run.pair, side) * contacts.overlap[c];
     };
     return of(0) * motions.spin(i, time) + (wall ? 0.0 : of(1) * motions.spin(j, time));
   };

@@ -43,7 +43,7 @@ std::vector<PairedSample> randomFamily(std::mt19937_64& generator, int rings, in
   return family;
 }
 
-/// Share of families with at least one ring of that verdict.
+/// BinFraction of families with at least one ring of that verdict.
 double familyRate(Verdict verdict, double shift, double margin, int repeats) {
   std::mt19937_64 generator(14);
   int hits = 0;

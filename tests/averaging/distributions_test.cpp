@@ -118,10 +118,10 @@ TEST(BlockedCounts, ErrorsOfIndependentCountsAreBinomial) {
       for (int k = 0; k < 4; ++k) counts.count(hit(generator));
       counts.endSnapshot();
     }
-    const auto shares = counts.shares();
-    EXPECT_EQ(shares.total, 20000.0);
-    mean += shares.mean[1] / repeats;
-    square += shares.standardError[1] * shares.standardError[1] / repeats;
+    const auto fractions = counts.fractions();
+    EXPECT_EQ(fractions.total, 20000.0);
+    mean += fractions.mean[1] / repeats;
+    square += fractions.standardError[1] * fractions.standardError[1] / repeats;
   }
   EXPECT_NEAR(mean, 0.3, 0.001);
   // About 19 blocks a time: the mean square of 200 scatters by 2.4 %.

@@ -56,10 +56,10 @@ TEST(DiscShares, AgreeWithPointsAtRandomOnRingsAndGrids) {
       const Vec2 x(unit(generator), unit(generator));
       const double a = 0.05 + 0.2 * (1.0 + unit(generator));
       const auto sampled = sampledShares(*coordinates, x, a, samples, generator);
-      Shares shares;
-      coordinates->discShares(x, a, Edges::exact, shares);
+      BinFractions fractions;
+      coordinates->discFractions(x, a, Edges::exact, fractions);
       std::vector<double> exact(coordinates->slots(), 0.0);
-      for (const Share& share : shares) exact[share.slot] += share.fraction;
+      for (const BinFraction& share : fractions) exact[share.slot] += share.fraction;
       for (std::size_t slot = 0; slot < exact.size(); ++slot)
         // Five standard deviations of a fraction of 40,000 points; 600 are looked at.
         EXPECT_NEAR(exact[slot], sampled[slot], 5.0 * 0.5 / std::sqrt(samples)) << slot;
@@ -125,7 +125,7 @@ TEST(LineWeights, AGaussianOnAGridIsAProductOfErrorFunctions) {
   const double w = 0.3;
   const Vec2 x(0.13, -0.07);
   std::vector<double> found(grid.slots(), 0.0);
-  for (const Share& share : Sharing(grid, {WeightMethod::lineGaussian, w}).ofPoint(x))
+  for (const BinFraction& share : Partition(grid, {WeightMethod::lineGaussian, w}).ofPoint(x))
     found[share.slot] += share.fraction;
   const auto part = [&](double from, double to) {
     return 0.5 * (std::erf(to / w) - std::erf(from / w));
@@ -152,7 +152,7 @@ TEST(LineWeights, HeavisideOfTheDisksOwnRadiusIsSlicing) {
 }
 
 TEST(LineWeights, NeedAWidth) {
-  EXPECT_THROW(Sharing(test::thesisRings(), WeightMethod::lineGaussian), std::invalid_argument);
+  EXPECT_THROW(Partition(test::thesisRings(), WeightMethod::lineGaussian), std::invalid_argument);
 }
 
 TEST(LineWeights, StressLiesAlongTheBranch) {

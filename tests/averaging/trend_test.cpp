@@ -33,21 +33,21 @@ std::vector<double> tilted(std::vector<double> series, double rise) {
   return series;
 }
 
-struct Shares {
+struct BinFractions {
   double drifts = 0.0, notSeen = 0.0, cannotTell = 0.0;
 };
 
 template <class Make>
-Shares sharesOf(Make make, int repeats) {
+BinFractions sharesOf(Make make, int repeats) {
   std::mt19937_64 generator(5);
-  Shares shares;
+  BinFractions fractions;
   for (int k = 0; k < repeats; ++k) {
     const Drift verdict = relativeDrift(make(generator), confidence, limit).verdict;
-    (verdict == Drift::drifts    ? shares.drifts
-     : verdict == Drift::notSeen ? shares.notSeen
-                                 : shares.cannotTell) += 1.0 / repeats;
+    (verdict == Drift::drifts    ? fractions.drifts
+     : verdict == Drift::notSeen ? fractions.notSeen
+                                 : fractions.cannotTell) += 1.0 / repeats;
   }
-  return shares;
+  return fractions;
 }
 
 TEST(Trend, IsTheLeastSquaresLine) {
@@ -77,7 +77,7 @@ TEST(Trend, ErrorIsRightInTheMeanSquare) {
 
 TEST(RelativeDrift, WhiteNoiseIsRarelyCalledADrift) {
   // 5 % and three binomial errors of 4000 repeats.
-  const Shares white = sharesOf([](auto& g) { return noisy(g, 0.0, 200); }, 4000);
+  const BinFractions white = sharesOf([](auto& g) { return noisy(g, 0.0, 200); }, 4000);
   EXPECT_LE(white.drifts, 0.06);
   EXPECT_GT(white.notSeen, 0.9);  // 200 samples of 10 ± 1 exclude a quarter
 }
@@ -85,7 +85,7 @@ TEST(RelativeDrift, WhiteNoiseIsRarelyCalledADrift) {
 TEST(RelativeDrift, CorrelatedNoiseIsNotMistaken) {
   // τ = 9.5: from 20 τ on about 7 % where 5 % are promised, for τ itself comes from the series.
   for (const int length : {190, 475, 1900}) {
-    const Shares slow = sharesOf([&](auto& g) { return noisy(g, 0.9, length); }, 2000);
+    const BinFractions slow = sharesOf([&](auto& g) { return noisy(g, 0.9, length); }, 2000);
     EXPECT_LE(slow.drifts, 0.09) << length;
   }
   // A line's error that takes samples for independent calls most of these a drift.
@@ -99,7 +99,8 @@ TEST(RelativeDrift, CorrelatedNoiseIsNotMistaken) {
 
 TEST(RelativeDrift, ALineIsFound) {
   // A rise of 4 in noise of 1: the rise's error is √(12/200) = 0.24.
-  const Shares rising = sharesOf([](auto& g) { return tilted(noisy(g, 0.0, 200), 4.0); }, 200);
+  const BinFractions rising =
+      sharesOf([](auto& g) { return tilted(noisy(g, 0.0, 200), 4.0); }, 200);
   EXPECT_GT(rising.drifts, 0.999);
   std::mt19937_64 generator(7);
   const RelativeDrift falls =
@@ -120,7 +121,7 @@ TEST(RelativeDrift, AFallToNothingIsFoundThoughItIsNoLine) {
 
 TEST(RelativeDrift, AFallThatEndsEarlyIsFoundThoughMostOfItIsABend) {
   // The same over four rotations: 216 to 11 N/m², with noise of a tenth that is correlated over 3.
-  const Shares falls = sharesOf(
+  const BinFractions falls = sharesOf(
       [](auto& g) {
         auto series = noisy(g, 0.7, 400);
         for (std::size_t t = 0; t < series.size(); ++t)
@@ -135,13 +136,13 @@ TEST(RelativeDrift, AFallThatEndsEarlyIsFoundThoughMostOfItIsABend) {
 TEST(RelativeDrift, SlowNoiseIsNotTakenForAFall) {
   // Correlated over a fifth and a tenth of the series: it wanders, 9 to 15 % as a line would.
   for (const int length : {98, 195}) {
-    const Shares slow = sharesOf([&](auto& g) { return noisy(g, 0.95, length); }, 2000);
+    const BinFractions slow = sharesOf([&](auto& g) { return noisy(g, 0.95, length); }, 2000);
     EXPECT_LE(slow.drifts, 0.17) << length;
   }
 }
 
 TEST(RelativeDrift, WhatIsTooNoisyOrTooShortCannotBeTold) {
-  const Shares wide = sharesOf(
+  const BinFractions wide = sharesOf(
       [](auto& g) {
         auto series = noisy(g, 0.0, 40);
         for (double& x : series) x -= 9.0;  // 1 ± 1: a quarter of it cannot be excluded
@@ -151,7 +152,7 @@ TEST(RelativeDrift, WhatIsTooNoisyOrTooShortCannotBeTold) {
   EXPECT_GT(wide.cannotTell, 0.9);
   EXPECT_EQ(wide.notSeen, 0.0);
   // About three correlation times long: whatever it looks like, not "no drift seen".
-  const Shares brief = sharesOf([](auto& g) { return noisy(g, 0.95, 60); }, 400);
+  const BinFractions brief = sharesOf([](auto& g) { return noisy(g, 0.95, 60); }, 400);
   EXPECT_LT(brief.notSeen, 0.2);
   EXPECT_EQ(relativeDrift(std::vector(5, 1.0), confidence, limit).verdict, Drift::cannotTell);
   EXPECT_FALSE(relativeDrift(std::vector(5, 1.0), confidence, limit).change);

@@ -51,20 +51,20 @@ double areaByQuadrature(double r, double a, double R) {
 }
 
 /// The weights of a disk on the x axis.
-Shares sharesOf(const Rings& rings, Weight weight, double r, double a) {
-  return Sharing(rings, weight).ofDisk({r, 0.0}, a);
+BinFractions sharesOf(const Rings& rings, Weight weight, double r, double a) {
+  return Partition(rings, weight).ofDisk({r, 0.0}, a);
 }
 
-double sumOf(const Shares& shares) {
+double sumOf(const BinFractions& fractions) {
   double sum = 0.0;
-  for (const Share& share : shares) sum += share.fraction;
+  for (const BinFraction& share : fractions) sum += share.fraction;
   return sum;
 }
 
 /// The fraction in one ring, or overflow bin.
-double fractionIn(const Rings& rings, const Shares& shares, int bin) {
+double fractionIn(const Rings& rings, const BinFractions& fractions, int bin) {
   double sum = 0.0;
-  for (const Share& share : shares)
+  for (const BinFraction& share : fractions)
     if (share.slot == rings.slot(bin)) sum += share.fraction;
   return sum;
 }
@@ -156,9 +156,9 @@ TEST(Weights, AddUpToOneForEveryMethod) {
       for (const auto method :
            {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre,
             WeightMethod::lineGaussian, WeightMethod::lineHeaviside}) {
-        const Shares shares = sharesOf(rings, {method, 0.003}, r, a);
-        EXPECT_NEAR(sumOf(shares), 1.0, 1e-14);
-        for (const Share& share : shares) {
+        const BinFractions shares = sharesOf(rings, {method, 0.003}, r, a);
+        EXPECT_NEAR(sumOf(fractions), 1.0, 1e-14);
+        for (const BinFraction& share : fractions) {
           EXPECT_GE(share.fraction, 0.0);
           EXPECT_LT(share.slot, rings.slots());
         }
@@ -169,7 +169,7 @@ TEST(Weights, AddUpToOneForEveryMethod) {
 
 TEST(Weights, DiskCutByThreeRings) {
   const Rings rings(0.1, 0.2, 10, 0.006, 0.0074);
-  const Shares weights =
+  const BinFractions weights =
       sharesOf(rings, WeightMethod::slicing, 0.145, 0.012);  // covers 0.133 … 0.157
   ASSERT_EQ(weights.size(), 3u);
   const double disk = pi * 0.012 * 0.012;
@@ -183,7 +183,7 @@ TEST(Weights, DiskCutByThreeRings) {
 TEST(Weights, RingsInsideOneDisk) {
   // The disk reaches over the origin: the wheel's hole and the first rings lie inside it whole.
   const Rings rings(0.01, 0.05, 4, 0.006, 0.0074);
-  const Shares weights = sharesOf(rings, WeightMethod::slicing, 0.005, 0.04);
+  const BinFractions weights = sharesOf(rings, WeightMethod::slicing, 0.005, 0.04);
   const double disk = 0.04 * 0.04;
   EXPECT_NEAR(fractionIn(rings, weights, -1), 0.01 * 0.01 / disk, 1e-15);
   EXPECT_NEAR(fractionIn(rings, weights, 0), (0.02 * 0.02 - 0.01 * 0.01) / disk, 1e-15);
@@ -194,9 +194,10 @@ TEST(Weights, RingsInsideOneDisk) {
 TEST(Weights, HalfADiskOnTheWallLiesOutside) {
   // Centre on R_i: a straight edge would halve it, the curved one leaves a little more outside R_i.
   const Rings rings = test::thesisRings();
-  const Shares straight = sharesOf(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125);
+  const BinFractions straight =
+      sharesOf(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125);
   EXPECT_NEAR(fractionIn(rings, straight, -1), 0.5, 1e-13);
-  const Shares weights = sharesOf(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125);
+  const BinFractions weights = sharesOf(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125);
   // The arc bends away from its tangent at the centre by y²/2R; over −a … a that is a³/3R of πa².
   const double cap = 0.00125 / (3.0 * pi * rings.innerRadius());
   EXPECT_NEAR(0.5 - fractionIn(rings, weights, -1), cap, 0.02 * cap);
@@ -210,7 +211,7 @@ TEST(Weights, StraightCutIsTheFormulaOfTheThesis) {
   const double phiOuter = std::acos((rings.edge(6) - r) / a);
   const double slice = pi - phiInner + std::sin(phiInner) * std::cos(phiInner) - phiOuter +
                        std::sin(phiOuter) * std::cos(phiOuter);
-  const Shares weights = sharesOf(rings, WeightMethod::straightCut, r, a);
+  const BinFractions weights = sharesOf(rings, WeightMethod::straightCut, r, a);
   EXPECT_NEAR(fractionIn(rings, weights, 5), slice / pi, 1e-14);
 }
 
@@ -222,8 +223,8 @@ TEST(Weights, StraightCutIsWithinOnePerCentInTheThesisCell) {
     for (int k = 0; k <= 4000; ++k) {
       const double r = rings.innerRadius() + a +
                        (rings.outerRadius() - rings.innerRadius() - 2.0 * a) * k / 4000;
-      const Shares exact = sharesOf(rings, WeightMethod::slicing, r, a);
-      const Shares straight = sharesOf(rings, WeightMethod::straightCut, r, a);
+      const BinFractions exact = sharesOf(rings, WeightMethod::slicing, r, a);
+      const BinFractions straight = sharesOf(rings, WeightMethod::straightCut, r, a);
       for (int bin = -1; bin <= rings.count(); ++bin)
         worst = std::max(
             worst, std::abs(fractionIn(rings, exact, bin) - fractionIn(rings, straight, bin)));

@@ -3,23 +3,49 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "cases/couette.hpp"
+#include "cases/loader.hpp"
 
 namespace crossgrain {
 namespace {
 
 /// Table 4.1 of Lätzel (2003) in a small cell: every effect that a case can have.
-Case thesisCase() {
-  Case setup;
-  setup.law.kn = 352.1;
-  setup.law.gn = 0.19;
-  setup.law.kt = 267.1;
-  setup.law.gt = 0.15;
-  setup.law.mu = 0.44;
-  setup.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
-  setup.cell = {0.03, 0.075, 0.00125, 0.0025, 0.006, 1.0};
-  return setup;
+constexpr const char* thesisText = R"([case]
+kind = "couette"
+[law]
+tangential = "spring_dashpot"
+kn = 352.1
+gn = 0.19
+kt = 267.1
+gt = 0.15
+mu = 0.44
+[bottom]
+mu = 2e-5
+kb = 267.1
+gb = 0.15
+tau_m = 1e-4
+[cell]
+inner_radius = 0.03
+outer_radius = 0.075
+wall_radius = 0.00125
+wall_spacing = 0.0025
+height = 0.006
+omega = 1.0
+[particles]
+small = 100
+small_radius = 0.0037
+large_radius = 0.004495
+small_mass = 0.275e-3
+large_mass = 0.490e-3
+)";
+
+Case thesisCase(const std::vector<std::string>& changes = {}) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "every_effect.toml";
+  std::ofstream(file) << thesisText;
+  return loadCase(file, changes).front();
 }
 
 std::vector<std::string> namesOf(const Case& setup) {
@@ -32,16 +58,21 @@ const Case& off(const std::vector<EffectSwitch>& switches, const std::string& na
   return std::ranges::find(switches, name, &EffectSwitch::name)->without;
 }
 
+/// The switch that takes an effect away; absent where the case does not have it.
+std::optional<EffectSwitch> without(const Case& setup, Effect effect) {
+  for (EffectSwitch& one : effectSwitches(setup))
+    if (one.effect == effect) return std::move(one);
+  return std::nullopt;
+}
+
 TEST(EffectSwitch, AreThoseOfTheCaseAndNeverItsMovingWalls) {
   EXPECT_EQ(namesOf(thesisCase()),
             (std::vector<std::string>{"normal_damping", "friction", "tangential_spring",
                                       "tangential_damping", "rotation", "bottom_friction",
                                       "bottom_spin_friction", "tension_cut", "double_precision"}));
-  Case bare = thesisCase();
-  bare.law.tangential = TangentialLaw::none;
-  bare.law.mu = bare.law.kt = bare.law.gt = bare.law.gn = 0.0;
-  bare.bottom.reset();
-  bare.run.precision = Precision::float32;
+  const Case bare = thesisCase({"law.tangential=none", "law.mu=0", "law.kt=0", "law.gt=0",
+                                "law.gn=0", "bottom.mu=0", "run.precision=float"});
+  EXPECT_FALSE(bare.bottom);
   EXPECT_TRUE(namesOf(bare).empty());
   EXPECT_TRUE(effectsOf(bare).contains(Effect::movingWalls));
   EXPECT_FALSE(without(bare, Effect::movingWalls));
@@ -96,6 +127,13 @@ TEST(EffectSwitch, LeaveAllConstantsOfOtherEffectsAlone) {
   EXPECT_FALSE(off(switches, "rotation").particles.rotation);
 }
 
+TEST(EffectSwitch, FragmentsMakeTheSameCaseOfTheFile) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "every_effect.toml";
+  for (const EffectSwitch& one : effectSwitches(thesisCase()))
+    EXPECT_EQ(loadCase(file, {}, one.fragment).front().resolvedToml, one.without.resolvedToml)
+        << one.name;
+}
+
 TEST(EffectSwitch, BlockedRotationDropsThePackingsSpins) {
   const Case base = thesisCase();
   Packing packing;
@@ -108,14 +146,11 @@ TEST(EffectSwitch, BlockedRotationDropsThePackingsSpins) {
 }
 
 TEST(EffectSwitch, GoDownTheLadderOfTangentialLaws) {
-  Case setup = thesisCase();
-  setup.law.gt = 0.0;
+  Case setup = thesisCase({"law.tangential=spring", "law.gt=0"});
   EXPECT_EQ(without(setup, Effect::tangentialSpring)->without.law.tangential,
             TangentialLaw::coulomb);
   EXPECT_FALSE(without(setup, Effect::tangentialDamping));
-  setup = thesisCase();
-  setup.law.tangential = TangentialLaw::viscous;
-  setup.law.kt = 0.0;
+  setup = thesisCase({"law.tangential=viscous", "law.kt=0"});
   EXPECT_EQ(without(setup, Effect::tangentialDamping)->without.law.tangential,
             TangentialLaw::coulomb);
 }

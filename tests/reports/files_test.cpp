@@ -98,8 +98,8 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
     return messageOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
   };
   EXPECT_EQ(message(), file +
-                           ": cannot be read; a folder that compare, collide, effects, cost or "
-                           "stability wrote has it");
+                           ": cannot be read; a folder that compare, collide, effects, cost, "
+                           "stability, average or rev wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");

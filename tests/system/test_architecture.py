@@ -44,6 +44,19 @@ def includes():
             yield path.relative_to(ROOT), folder_of(path), str(pathlib.Path(folder_of(target)))
 
 
+def types_of(path):
+    """(namespace, name) of each type that a file defines outside of nameless namespaces."""
+    inside = []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if opened := re.match(r"namespace ?([\w:]*(?: \w+)?) ?\{$", line):
+            inside.append(opened[1])
+        elif line.startswith("}  // namespace"):
+            inside.pop()
+        elif defined := re.match(r"(?:struct|class|enum class) (?:alignas\(\d+\) )?(\w+)\b[^;]*$", line):
+            if "" not in inside:
+                yield "::".join(inside), defined[1]
+
+
 class Architecture(unittest.TestCase):
     def test_every_folder_has_its_place(self):
         self.assertEqual(set(), {folder_of(path) for path in sources()} - set(ORDER))
@@ -65,6 +78,15 @@ class Architecture(unittest.TestCase):
             if (folder + "/").startswith(who + "/") and target == whom
         ]
         self.assertEqual([], wrong)
+
+    def test_no_two_types_of_one_namespace_have_one_name(self):
+        """The linker would take one for the other (the odr preset has the compiler look, too)."""
+        found = {}
+        for path in sources():
+            for namespace, name in types_of(path):
+                found.setdefault((namespace, name), set()).add(str(path.relative_to(ROOT)))
+        self.assertGreater(len(found), 300)
+        self.assertEqual({}, {name: files for name, files in found.items() if len(files) > 1})
 
     def test_there_is_something_to_check(self):
         self.assertGreater(len(list(includes())), 1000)

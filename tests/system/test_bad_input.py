@@ -249,10 +249,12 @@ class Files(SystemTest):
 
     def test_a_named_pipe_of_snapshots(self):
         os.mkfifo(self.folder / "pipe.h5")
-        done = self.run_program(
-            "average", self.folder / "pipe.h5", COUETTE, "--out", self.out, timeout=20
-        )
-        self.assert_one_line(done, BAD_INPUT, "is a named pipe")
+        for command in ("average", "rev"):
+            done = self.run_program(command, self.folder / "pipe.h5", COUETTE, "--out", self.out)
+            self.assert_one_line(done, BAD_INPUT, "is a named pipe")
+
+    def test_a_file_that_opens_and_cannot_be_read(self):
+        self.refuse("/proc/self/mem", "mem: cannot be read")
 
     def test_nothing_of_a_foreign_file_is_quoted(self):
         theirs = self.folder / "theirs"
