@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "adapters/box2d.hpp"
+#include "adapters/engine_entry.hpp"
+#include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/suitability.hpp"
@@ -217,6 +219,44 @@ Stats Box2dImpulse::stats() const {
           stopwatch_.wallSeconds,
           stopwatch_.cpuSeconds,
           {{"impacts", static_cast<double>(world_->impacts())}}};
+}
+
+EngineEntry box2dImpulseEngine() {
+  return {"box2d-impulse",
+          "Box2D's impulse solver, with tangential restitution",
+          makeBox2dImpulse,
+          {},
+          {},
+          ""};
+}
+
+EngineEntry box2dImpulseMirror() {
+  const auto make = [] {
+    return makeGrainMirror({{"normal", {"rigid"}},
+                            {"integrator", {"semi_implicit_euler"}},
+                            {"damping_velocity", {"lagged"}},
+                            {"lever_arm", {"overlap_middle"}},
+                            {"velocity_arm", {"lever_arm"}},
+                            {"plane_arm", {"middle"}}});
+  };
+  return {"grain-as-box2d-impulse",
+          "the in-house engine with impulses, as Box2D's solver has them for two disks",
+          make,
+          {},
+          {},
+          "box2d-impulse",
+          {"rigid"}};
+}
+
+/// In the quick cell Box2D's solver holds about 16 times the pressure of the soft law.
+EngineEntry stiffGrainEngine() {
+  return {"grain-stiff",
+          "the in-house engine with contacts 25 times as stiff, towards rigid ones",
+          [] { return makeStiffGrain(25.0); },
+          {},
+          {},
+          "box2d-impulse",
+          {"linear"}};
 }
 
 }  // namespace crossgrain

@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "adapters/box2d.hpp"
+#include "adapters/engine_entry.hpp"
+#include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 
@@ -99,6 +101,33 @@ Stats Box2dPenalty::stats() const {
           stopwatch_.wallSeconds,
           stopwatch_.cpuSeconds,
           {{"close_pairs", static_cast<double>(world_->contacts().size())}}};
+}
+
+EngineEntry box2dPenaltyEngine() {
+  return {"box2d-penalty",
+          "the scene's soft law on Box2D's collision detection",
+          makeBox2dPenalty,
+          {},
+          {},
+          ""};
+}
+
+EngineEntry box2dPenaltyMirror() {
+  const auto make = [] {
+    return makeGrainMirror({{"integrator", {"semi_implicit_euler"}},
+                            {"damping_velocity", {"lagged"}},
+                            {"spring_update", {"after", "before"}},
+                            {"lever_arm", {"radius", "contact_point"}},
+                            {"velocity_arm", {"lever_arm"}},
+                            {"plane_arm", {"surface"}}});
+  };
+  return {"grain-as-box2d-penalty",
+          "the in-house engine held to the penalty engine's conventions",
+          make,
+          {},
+          {},
+          "box2d-penalty",
+          {"linear"}};
 }
 
 }  // namespace crossgrain

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "adapters/engine_entry.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
@@ -330,6 +331,10 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions) {
 
 std::unique_ptr<Engine> makeStiffGrain(double factor) {
   return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
+}
+
+EngineEntry grainEngine() {
+  return {"grain", "in-house: soft disks, every convention an option", makeGrain, {}, {}, ""};
 }
 
 }  // namespace crossgrain

@@ -1,29 +1,11 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine_entry.hpp"
 
 namespace crossgrain {
-
-/// How to start an engine: in this process through `make`, or as a worker of its own.
-struct EngineEntry {
-  std::string name;
-  std::string summary;  ///< one line for `crossgrain engines`
-  /// Makes the engine in the calling process; empty for engines that are programs of their own.
-  std::function<std::unique_ptr<Engine>()> make;
-  /// Argument vector of the worker program; empty: `crossgrain __serve NAME`.
-  std::function<std::vector<std::string>()> command;
-  /// Why it cannot be run here, one line; empty if it can.
-  std::function<std::string()> missing;
-  /// A mirror is the in-house engine set to a peer's conventions: that peer's name, else empty.
-  std::string mirrors;
-  /// Of a mirror: the normal laws (lawOptionValue) of scenes in which it stands for that peer.
-  std::vector<std::string> mirrorsNormal = {};
-};
 
 /// All engines known to this build, in the order of the reports.
 const std::vector<EngineEntry>& engineRegistry();

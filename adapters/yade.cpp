@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "adapters/engine_entry.hpp"
+#include "adapters/grain.hpp"
 #include "support/data_folder.hpp"
 
 namespace crossgrain {
@@ -40,6 +42,33 @@ std::string yadeMissing() {
         "engines/yade/worker.py",
         script().string());
   return {};
+}
+
+EngineEntry yadeEngine() {
+  return {"yade",      "YADE, its viscoelastic and Hertz-Mindlin laws on spheres held in a plane",
+          {},          yadeCommand,
+          yadeMissing, ""};
+}
+
+/// Law2_ScGeom_ViscElPhys_Basic or Law2_ScGeom_MindlinPhys_Mindlin, which share its conventions,
+/// and NewtonIntegrator (engines/yade/README.md).
+EngineEntry yadeMirror() {
+  const auto make = [] {
+    return makeGrainMirror({{"tension", {"cut"}},
+                            {"coulomb_bound", {"compression"}},
+                            {"dashpot", {"outside"}},
+                            {"spring_reset", {"total"}},
+                            {"spring_update", {"before"}},
+                            {"lever_arm", {"overlap_middle"}},
+                            {"velocity_arm", {"lever_arm"}},
+                            {"plane_arm", {"surface"}},
+                            {"history", {"force"}},
+                            {"damping_velocity", {"lagged"}},
+                            {"integrator", {"position_verlet"}}});
+  };
+  return {
+      "grain-as-yade",    "the in-house engine held to YADE's conventions", make, {}, {}, "yade",
+      {"linear", "hertz"}};
 }
 
 }  // namespace crossgrain

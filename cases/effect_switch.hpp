@@ -19,7 +19,7 @@ struct EffectSwitch {
   std::string what;  ///< one sentence on what was switched
   std::optional<Effect> effect;  ///< that the case then lacks, if it is one
   Case without;
-  std::string fragment;  ///< that makes `without` of the case: see caseWith()
+  std::string fragment = {};  ///< that makes `without` of the case: see caseWith()
 };
 
 /// Every switch that the case has, which was read by loadCase(), in the order of reports:

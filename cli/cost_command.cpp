@@ -105,7 +105,7 @@ Action declare(CLI::App& app, CommandLine& line) {
           "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine");
   return [&line, own] {
     const double budget = secondsOf(own->budget.value_or("12m"));
-    const auto want = own->want ? std::optional(fractionOf(*own->want)) : std::nullopt;
+    const auto want = own->want ? std::optional(shareOf(*own->want)) : std::nullopt;
     return resumably(line.run, [&] { return cost(line, budget, want); });
   };
 }

@@ -157,8 +157,8 @@ TEST(Weights, AddUpToOneForEveryMethod) {
            {WeightMethod::slicing, WeightMethod::straightCut, WeightMethod::centre,
             WeightMethod::lineGaussian, WeightMethod::lineHeaviside}) {
         const BinFractions shares = sharesOf(rings, {method, 0.003}, r, a);
-        EXPECT_NEAR(sumOf(fractions), 1.0, 1e-14);
-        for (const BinFraction& share : fractions) {
+        EXPECT_NEAR(sumOf(shares), 1.0, 1e-14);
+        for (const BinFraction& share : shares) {
           EXPECT_GE(share.fraction, 0.0);
           EXPECT_LT(share.slot, rings.slots());
         }
