@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cases/couette.hpp"
+#include "tests/support/laws.hpp"
 
 namespace crossgrain {
 namespace {
@@ -12,13 +13,9 @@ namespace {
 /// Table 4.1 of Lätzel (2003) in a small cell: every effect that a case can have.
 Case thesisCase() {
   Case setup;
-  setup.law.kn = 352.1;
-  setup.law.gn = 0.19;
-  setup.law.kt = 267.1;
-  setup.law.gt = 0.15;
-  setup.law.mu = 0.44;
-  setup.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
-  setup.cell = {0.03, 0.075, 0.00125, 0.0025, 0.006, 1.0};
+  setup.law = test::thesisLaw();
+  setup.bottom = test::thesisBottom<BottomPlate>();
+  setup.cell = {0.03, 0.075, test::wallRadius, 0.0025, 0.006, 1.0};
   return setup;
 }
 
