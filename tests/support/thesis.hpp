@@ -7,7 +7,7 @@ namespace crossgrain::test {
 // Table 3.1, the small radius as cases use it.
 inline constexpr double smallRadius = 3.7e-3;    ///< [m]
 inline constexpr double largeRadius = 4.495e-3;  ///< [m]
-inline constexpr double wallRadius = 1.25e-3;    ///< of a wall's disks [m]
+inline constexpr double wallRadius = 1.25e-3;    ///< of the walls' disks, as cases have it [m]
 inline constexpr double smallMass = 0.275e-3;    ///< [kg]
 inline constexpr double largeMass = 0.490e-3;    ///< [kg]
 
