@@ -11,7 +11,7 @@
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
-#include "random_draw.hpp"
+#include "random_pair.hpp"
 
 namespace {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -45,8 +44,8 @@ inline grain::Setup packed(int side, std::uint64_t seed) {
   grain::Setup setup;
   setup.law = thesisLaw();
   setup.dt = 4e-5;
-  std::mt19937_64 random(seed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+  Draw draw(seed);
+  const auto uniform = [&] { return draw.uniform(-1.0, 1.0); };
   const double spacing = 2.0 * smallRadius * 1.045, row = spacing * std::sqrt(0.75);
   const double width = spacing * (side + 0.5);
   const auto rows = static_cast<int>(width / row);

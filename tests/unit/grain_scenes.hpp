@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <ostream>
-#include <random>
 
 #include "engines/grain/simulation.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/thesis.hpp"
 
 // What the names of parametrised tests show.
@@ -83,8 +83,8 @@ inline grain::Setup crowd(int side, std::uint64_t seed, double dt) {
   grain::Setup setup;
   setup.law = thesisLaw();
   setup.dt = dt;
-  std::mt19937_64 random(seed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  Draw draw(seed);
+  const auto uniform = [&] { return draw.uniform(-0.5, 0.5); };
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
       addDisk(setup.disks, 2.02 * smallRadius * i, 2.02 * smallRadius * j, 0.5 * uniform(),
