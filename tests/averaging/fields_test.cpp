@@ -8,6 +8,7 @@
 
 #include "averaging/moments.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -196,7 +197,7 @@ TEST(Fields, AnEmptyRingHasAVolumeFractionAndNothingElse) {
 
 TEST(Fields, SlopesMatchFiniteDifferences) {
   const Rings rings = test::thesisRings();
-  const SpringConstants springs{352.1, 267.1};
+  const SpringConstants springs{test::thesis.kn, test::thesis.kt};
   const auto moments = test::momentsOf(rings, test::randomInstant(5, 2000));
   const std::size_t slot = rings.slot(7);
   for (const FieldSpec& field : fieldTable()) {

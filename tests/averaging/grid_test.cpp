@@ -12,6 +12,7 @@
 #include "averaging/profiles.hpp"
 #include "tests/averaging/lattice.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -75,7 +76,7 @@ TEST(Grid, RefusesWhatIsNoGrid) {
 TEST(Grid, SquareLatticeUnderUnequalForcesKeepsItsDirections) {
   // Cells of whole lattice constants: σ_xx = f_x/(2ah) and σ_yy = f_y/(2ah) to rounding, which
   // rings average away.
-  constexpr double a = 0.0037, fx = 3e-3, fy = 1e-3, h = 0.006;
+  constexpr double a = test::smallRadius, fx = 3e-3, fy = 1e-3, h = 0.006;
   const Instant instant =
       test::lattice(a, {2.0 * a, 0.0}, {0.0, 2.0 * a}, {{1, 0, fx}, {0, 1, fy}});
   const double side = 2.0 * a * 5.0;
@@ -125,8 +126,8 @@ TEST(LineWeights, AGaussianOnAGridIsAProductOfErrorFunctions) {
   const double w = 0.3;
   const Vec2 x(0.13, -0.07);
   std::vector<double> found(grid.slots(), 0.0);
-  for (const BinFraction& share : Partition(grid, {WeightMethod::lineGaussian, w}).ofPoint(x))
-    found[share.slot] += share.fraction;
+  Partition partition(grid, {WeightMethod::lineGaussian, w});
+  for (const BinFraction& share : partition.ofPoint(x)) found[share.slot] += share.fraction;
   const auto part = [&](double from, double to) {
     return 0.5 * (std::erf(to / w) - std::erf(from / w));
   };
@@ -141,11 +142,12 @@ TEST(LineWeights, AGaussianOnAGridIsAProductOfErrorFunctions) {
 TEST(LineWeights, HeavisideOfTheDisksOwnRadiusIsSlicing) {
   const Instant instant = [] {
     Instant one;
-    one.addDisk({0.15, 0.01}, 0.0037, 1.0, {0.1, 0.2}, 3.0);
+    one.addDisk({0.15, 0.01}, test::smallRadius, 1.0, {0.1, 0.2}, 3.0);
     return one;
   }();
   const Rings rings = test::thesisRings(80);
-  const auto line = test::momentsOf(rings, instant, {WeightMethod::lineHeaviside, 0.0037});
+  const auto line =
+      test::momentsOf(rings, instant, {WeightMethod::lineHeaviside, test::smallRadius});
   const auto slices = test::momentsOf(rings, instant);
   for (std::size_t slot = 0; slot < rings.slots(); ++slot)
     for (std::size_t q = 0; q < momentCount; ++q) EXPECT_EQ(line[slot][q], slices[slot][q]);

@@ -5,6 +5,7 @@
 
 #include "averaging/fields.hpp"
 #include "tests/averaging/lattice.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using test::valueOf;
 
 constexpr double pi = std::numbers::pi;
-constexpr double a = 0.0037;
+constexpr double a = test::smallRadius;
 
 Rings wideRings() {
   return {0.1032, 0.2524, 4, 0.006, 0.0074};

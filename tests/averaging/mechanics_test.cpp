@@ -8,6 +8,7 @@
 
 #include "tests/averaging/lattice.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -16,7 +17,7 @@ using test::Instant;
 using test::valueOf;
 
 constexpr double pi = std::numbers::pi;
-constexpr SpringConstants springs{352.1, 267.1};
+constexpr SpringConstants springs{test::thesis.kn, test::thesis.kt};
 
 Rings twoRings() {
   return {1.0, 3.0, 2, 0.5, 0.2};
@@ -33,7 +34,7 @@ Instant elasticInstant(std::uint64_t seed) {
 
 TEST(Strain, EqualOverlapsOnALatticeAreIsotropic) {
   // ε = (δ/a) I (Lätzel 2003, Eq. 7.88 with prefactor 1), exactly, however rings cut the disks.
-  constexpr double a = 0.0037, delta = 2e-6;
+  constexpr double a = test::smallRadius, delta = 2e-6;
   const Rings rings(0.1032, 0.2524, 7, 0.006, 0.0074);
   Instant instant = test::triangularLattice(a, 1e-3);
   for (double& overlap : instant.snapshot.contacts->overlap) overlap = delta;
@@ -48,7 +49,7 @@ TEST(Strain, EqualOverlapsOnALatticeAreIsotropic) {
 
 TEST(Strain, StiffnessOfALatticeIsTheTraceOfItsFabric) {
   // 2πhE/k_n = tr F where all overlaps are equal (Lätzel 2003, Eq. 7.104 read with E).
-  constexpr double a = 0.0037, force = 1e-3;
+  constexpr double a = test::smallRadius, force = 1e-3;
   const Rings rings(0.1032, 0.2524, 7, 0.006, 0.0074);
   Instant instant = test::triangularLattice(a, force);
   for (double& overlap : instant.snapshot.contacts->overlap) overlap = force / *springs.kn;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/scenes.hpp"
+
 namespace crossgrain::test {
 
 Rings thesisRings(int count) {
@@ -21,12 +23,7 @@ Instant::Instant() {
 
 void Instant::addDisk(const Vec2& position, double radius, double mass, const Vec2& velocity,
                       double spin) {
-  scene.disks.radius.push_back(radius);
-  scene.disks.mass.push_back(mass);
-  scene.disks.inertia.push_back(0.5 * mass * radius * radius);
-  scene.disks.position.push_back(position);
-  scene.disks.velocity.push_back(velocity);
-  scene.disks.spin.push_back(spin);
+  test::addDisk(scene, radius, mass, position, velocity, spin);
   snapshot.position.push_back(position);
   snapshot.velocity.push_back(velocity);
   snapshot.spin->push_back(spin);
@@ -47,20 +44,20 @@ Instant randomInstant(std::uint64_t seed, int disks) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::normal_distribution<double> normal;
   Instant instant;
-  instant.scene.law.kn = 352.1;
-  instant.scene.law.kt = 267.1;
+  instant.scene.law.kn = thesis.kn;
+  instant.scene.law.kt = thesis.kt;
   for (int p = 0; p < disks; ++p) {
     const double r = 0.095 + 0.165 * unit(generator);
     const double angle = 2.0 * std::numbers::pi * unit(generator);
     const bool large = unit(generator) < 0.15;
-    instant.addDisk(r * Vec2(std::cos(angle), std::sin(angle)), large ? 0.004495 : 0.0037,
-                    large ? 0.490e-3 : 0.275e-3, 0.1 * Vec2(normal(generator), normal(generator)),
+    instant.addDisk(r * Vec2(std::cos(angle), std::sin(angle)), large ? largeRadius : smallRadius,
+                    large ? largeMass : smallMass, 0.1 * Vec2(normal(generator), normal(generator)),
                     normal(generator));
   }
   WallBody body;
   body.name = "wheel";
   body.diskPosition = {Vec2(0.1032, 0.0), Vec2(-0.1032, 0.0)};
-  body.diskRadius = {0.00125, 0.00125};
+  body.diskRadius = {wallRadius, wallRadius};
   instant.scene.bodies.push_back(body);
   instant.snapshot.bodies.emplace_back();
   instant.snapshot.wallPosition = body.diskPosition;

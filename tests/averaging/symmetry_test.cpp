@@ -6,6 +6,7 @@
 
 #include "averaging/profiles.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -98,11 +99,11 @@ TEST(Symmetry, TheOrderOfAPairDoesNotMatter) {
   Instant one, other;
   const Vec2 left(0.15, 0.01), right(0.157, 0.012);
   const Vec2 toRight = (right - left).normalized();
-  one.addDisk(left, 0.0037, 1.0, {0.1, 0.2});
+  one.addDisk(left, test::smallRadius, 1.0, {0.1, 0.2});
   one.addDisk(right, 0.0045, 2.0, {-0.3, 0.4});
   one.addContact(0, 1, -toRight, 2.0, 0.7);
   other.addDisk(right, 0.0045, 2.0, {-0.3, 0.4});
-  other.addDisk(left, 0.0037, 1.0, {0.1, 0.2});
+  other.addDisk(left, test::smallRadius, 1.0, {0.1, 0.2});
   other.addContact(0, 1, toRight, 2.0, 0.7);  // f_t along z × n: the reaction has the same f_t
   const Rings rings = test::thesisRings();
   const auto a = test::momentsOf(rings, one), b = test::momentsOf(rings, other);

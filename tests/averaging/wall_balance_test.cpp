@@ -8,6 +8,7 @@
 
 #include "averaging/global.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 // Structures at rest whose thrust on the wall is known, in a cell of the thesis' size.
 
@@ -15,10 +16,11 @@ namespace crossgrain {
 namespace {
 
 using test::Instant;
+using test::wallRadius;
 
 constexpr double pi = std::numbers::pi;
 constexpr double innerRadius = 0.1032, outerRadius = 0.2524, height = 0.006, d = 0.0074;
-constexpr double a = 0.5 * d, wallRadius = 1.25e-3;
+constexpr double a = 0.5 * d;
 
 Rings ringsOfWidth(double width) {
   return Rings({innerRadius, outerRadius - width, outerRadius}, height, d);

@@ -12,6 +12,7 @@
 #include "averaging/areas.hpp"
 #include "averaging/rings.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain {
 namespace {
@@ -136,7 +137,7 @@ TEST(CommonArea, KeepsItsRelativeAccuracyNearTangency) {
 }
 
 TEST(CommonArea, RisesWithTheRadius) {
-  const double r = 0.15, a = 0.0037;
+  const double r = 0.15, a = test::smallRadius;
   double before = 0.0;
   for (int k = 0; k <= 10000; ++k) {
     const double now = commonArea(r, a, r - a + 2.0 * a * k / 10000);
@@ -195,18 +196,19 @@ TEST(Weights, HalfADiskOnTheWallLiesOutside) {
   // Centre on R_i: a straight edge would halve it, the curved one leaves a little more outside R_i.
   const Rings rings = test::thesisRings();
   const BinFractions straight =
-      sharesOf(rings, WeightMethod::straightCut, rings.innerRadius(), 0.00125);
+      sharesOf(rings, WeightMethod::straightCut, rings.innerRadius(), test::wallRadius);
   EXPECT_NEAR(fractionIn(rings, straight, -1), 0.5, 1e-13);
-  const BinFractions weights = sharesOf(rings, WeightMethod::slicing, rings.innerRadius(), 0.00125);
+  const BinFractions weights =
+      sharesOf(rings, WeightMethod::slicing, rings.innerRadius(), test::wallRadius);
   // The arc bends away from its tangent at the centre by y²/2R; over −a … a that is a³/3R of πa².
-  const double cap = 0.00125 / (3.0 * pi * rings.innerRadius());
+  const double cap = test::wallRadius / (3.0 * pi * rings.innerRadius());
   EXPECT_NEAR(0.5 - fractionIn(rings, weights, -1), cap, 0.02 * cap);
 }
 
 TEST(Weights, StraightCutIsTheFormulaOfTheThesis) {
   // Lätzel 2003, Eq. 5.4, for a disk that reaches over both edges of ring 5.
   const Rings rings = test::thesisRings(40);
-  const double r = rings.centre(5) + 0.0004, a = 0.004495;
+  const double r = rings.centre(5) + 0.0004, a = test::largeRadius;
   const double phiInner = std::acos((r - rings.edge(5)) / a);
   const double phiOuter = std::acos((rings.edge(6) - r) / a);
   const double slice = pi - phiInner + std::sin(phiInner) * std::cos(phiInner) - phiOuter +
@@ -219,7 +221,7 @@ TEST(Weights, StraightCutIsWithinOnePerCentInTheThesisCell) {
   // Lätzel 2003, section 5.2: "well below one per-cent in all situations considered here".
   const Rings rings = test::thesisRings(20);
   double worst = 0.0;
-  for (const double a : {0.0037, 0.004495})
+  for (const double a : {test::smallRadius, test::largeRadius})
     for (int k = 0; k <= 4000; ++k) {
       const double r = rings.innerRadius() + a +
                        (rings.outerRadius() - rings.innerRadius() - 2.0 * a) * k / 4000;

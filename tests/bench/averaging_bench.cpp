@@ -100,9 +100,6 @@ void registerAll() {
 }  // namespace crossgrain::bench
 
 int main(int argc, char** argv) {
-  crossgrain::bench::packingFolder = crossgrain::bench::takePackingFolder(argc, argv);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  crossgrain::bench::registerAll();
-  benchmark::RunSpecifiedBenchmarks();
+  using namespace crossgrain::bench;
+  return runBenchmarks(argc, argv, packingFolder, registerAll);
 }

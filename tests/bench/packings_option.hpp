@@ -1,5 +1,7 @@
 #pragma once
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
@@ -20,6 +22,17 @@ inline std::filesystem::path takePackingFolder(int& argc, char** argv) {
     return folder;
   }
   return packingCacheFile("").parent_path();
+}
+
+/// The main() of a program of benchmarks on packings, which are kept in `packings`.
+inline int runBenchmarks(int argc, char** argv, std::filesystem::path& packings,
+                         void (*registerAll)()) {
+  packings = takePackingFolder(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  registerAll();
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }
 
 }  // namespace crossgrain::bench

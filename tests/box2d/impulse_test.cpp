@@ -22,7 +22,7 @@ Scene onePair(const ContactLaw& law, double vn, double psi, double gap = 1.3e-4)
 }
 
 TEST(Box2dImpulse, FollowsTheHardSphereLaw) {
-  constexpr double en = 0.3, mu = 0.44;
+  constexpr double en = 0.3, mu = thesis.mu;
   const auto engine = makeBox2dImpulse();
   for (const double et0 : {0.0, 0.5}) {
     double lowest = 0.0, highest = 0.0, error = 0.0;
@@ -41,7 +41,7 @@ TEST(Box2dImpulse, FollowsTheHardSphereLaw) {
 }
 
 TEST(Box2dImpulse, SweepInOneSceneEqualsSinglePairs) {
-  const ContactLaw law = rigidLaw(0.3, 0.5, 0.44);
+  const ContactLaw law = rigidLaw(0.3, 0.5, thesis.mu);
   const auto engine = makeBox2dImpulse();
   Scene sweep;
   sweep.law = law;
@@ -74,10 +74,10 @@ TEST(Box2dImpulse, RestitutionOfUnequalMassesAndOfWalls) {
 
   for (const bool plane : {false, true}) {
     Scene wall;
-    wall.law = rigidLaw(en, 0.0, 0.44);
+    wall.law = rigidLaw(en, 0.0, thesis.mu);
     addDisk(wall, smallRadius, smallMass, Vec2(0, 0), Vec2(approach, 0));
-    wall.bodies = {plane ? floorPlane(Vec2(smallRadius + 1e-4, 0), -Vec2::UnitX())
-                         : wallDisk(Vec2(smallRadius + 1.35e-3, 0), 1.25e-3)};
+    wall.bodies = {plane ? planeWall(Vec2(smallRadius + 1e-4, 0), -Vec2::UnitX())
+                         : diskWall(Vec2(smallRadius + 1.35e-3, 0), wallRadius)};
     after = runTo(*engine, wall, 0.02);
     EXPECT_NEAR(-after.velocity[0].x() / approach, en, 1e-3) << "plane " << plane;
   }
@@ -86,7 +86,7 @@ TEST(Box2dImpulse, RestitutionOfUnequalMassesAndOfWalls) {
 TEST(Box2dImpulse, SoftLawRunsWithItsOwnRestitution) {
   const auto engine = makeBox2dImpulse();
   for (const auto& [tension, en] : {std::pair{Tension::allow, 0.2223}, {Tension::cut, 0.3408}}) {
-    Scene scene = onePair(thesisLaw(), approach, 0.5);
+    Scene scene = onePair(box2dLaw(), approach, 0.5);
     scene.law.conventions.tension = tension;
     const Realised realised = engine->load(scene, {});
     ASSERT_EQ(realised.pairs.size(), 1u);
@@ -103,7 +103,7 @@ TEST(Box2dImpulse, SoftLawRunsWithItsOwnRestitution) {
 TEST(Box2dImpulse, SlowContactsGetNoTangentialRestitution) {
   const auto engine = makeBox2dImpulse();
   const double slow = 0.004;
-  const Scene scene = onePair(rigidLaw(0.3, 0.5, 0.44), slow, 0.5, 2e-6);
+  const Scene scene = onePair(rigidLaw(0.3, 0.5, thesis.mu), slow, 0.5, 2e-6);
   const Outcome byDefault = outcome(runTo(*engine, scene, 0.02), 0, slow);
   EXPECT_NEAR(byDefault.psiF, 0.0, 2e-3);
   EXPECT_EQ(engine->stats().counters.at("impacts"), 0.0);
@@ -117,7 +117,7 @@ TEST(Box2dImpulse, WhatRestsUnderGravityDoesNotRebound) {
   // At 5×10⁻⁴ s gravity gives 4.9 mm/s a step. A disk on a floor stays; one that falls from 4 mm
   // meets it with 0.28 m/s and rises to e_n² of the height.
   constexpr double en = 0.6, g = 9.81, height = 4e-3;
-  Scene scene = onePair(rigidLaw(en, 0.0, 0.44), 0.0, 0.0);
+  Scene scene = onePair(rigidLaw(en, 0.0, thesis.mu), 0.0, 0.0);
   WallBody floor;
   floor.name = "floor";
   floor.planes.emplace_back();
@@ -147,9 +147,9 @@ TEST(Box2dImpulse, WhatRestsUnderGravityDoesNotRebound) {
 
 TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
   Scene scene;
-  scene.law = rigidLaw(0.6, 0.4, 0.44);
+  scene.law = rigidLaw(0.6, 0.4, thesis.mu);
   addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(approach, 0.03), 5.0);
-  scene.bodies = {wallDisk(Vec2(smallRadius + 1.35e-3, 1e-3), 1.25e-3)};
+  scene.bodies = {diskWall(Vec2(smallRadius + 1.35e-3, 1e-3), wallRadius)};
   const auto engine = makeBox2dImpulse();
   engine->load(scene, {});
   EXPECT_FALSE(engine->snapshot(ContactReport::instant).contacts);  // nothing has acted yet
@@ -187,10 +187,10 @@ TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
 
 TEST(Box2dImpulse, RefusesWhatItCannotDo) {
   const auto engine = makeBox2dImpulse();
-  Scene scene = onePair(thesisLaw(), approach, 0.5);
-  scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  Scene scene = onePair(box2dLaw(), approach, 0.5);
+  scene.bottom = thesisBottom<BottomPlate>();
   EXPECT_THROW(engine->load(scene, {}), UnsupportedScene);
-  EXPECT_THROW(engine->load(onePair(thesisLaw(), approach, 0.5), {{"impct_speed", 0.1}}),
+  EXPECT_THROW(engine->load(onePair(box2dLaw(), approach, 0.5), {{"impct_speed", 0.1}}),
                std::invalid_argument);
 }
 

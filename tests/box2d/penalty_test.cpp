@@ -22,7 +22,7 @@ Scene onePair(const ContactLaw& law, double psi, double dt) {
 TEST(Box2dPenalty, RestitutionWithTensionAndCut) {
   const auto engine = makeBox2dPenalty();
   for (const auto& [tension, en] : {std::pair{Tension::allow, 0.2223}, {Tension::cut, 0.3408}}) {
-    Scene scene = onePair(thesisLaw(), 0.0, fine);
+    Scene scene = onePair(box2dLaw(), 0.0, fine);
     scene.law.conventions.tension = tension;
     const Outcome got = outcome(runTo(*engine, scene, 3.0 * smallContactTime), 0, slow);
     EXPECT_NEAR(got.en, en, 0.01 * en);
@@ -35,7 +35,7 @@ TEST(Box2dPenalty, RestitutionWithTensionAndCut) {
 // spring follows another curve at any step (−0.48 instead of −0.59 at Ψ = 0.75), for then a spring
 // that slips as the bound falls can be unloaded by the motion.
 double reboundOf(TangentialLaw tangential, double psi) {
-  const ContactLaw law = thesisLaw();
+  const ContactLaw law = box2dLaw();
   const double reducedMass = 0.5 * smallMass;
   const double dt = smallContactTime / 50000.0;
   double delta = 0.0, vn = -slow, vt = psi * slow, xi = 0.0;
@@ -74,7 +74,7 @@ TEST_P(EveryTangentialLaw, FollowsTheWholeCurve) {
   std::vector<double> psis;
   for (double psi = 0.0; psi <= 4.0; psi += 0.25) psis.push_back(psi);
   Scene sweep;
-  sweep.law = thesisLaw(GetParam());
+  sweep.law = box2dLaw(GetParam());
   sweep.dt = fine;
   for (std::size_t k = 0; k < psis.size(); ++k)
     addPair(sweep, Vec2(0.03 * static_cast<double>(k), 0), slow, psis[k], 1e-9);
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Box2dPenalty, EveryTangentialLaw,
 
 TEST(Box2dPenalty, KeepsMomentumAndWithContactPointArmsAngularMomentum) {
   Scene scene;
-  scene.law = thesisLaw();
+  scene.law = box2dLaw();
   scene.law.conventions.leverArm = LeverArm::contactPoint;
   scene.dt = 4e-5;
   addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(0.1, 0.02), 8.0);
@@ -129,25 +129,26 @@ TEST(Box2dPenalty, KeepsMomentumAndWithContactPointArmsAngularMomentum) {
 
 TEST(Box2dPenalty, ContactsAndWallForcesAreThoseOfTheMoment) {
   Scene scene;
-  scene.law = thesisLaw();
+  scene.law = box2dLaw();
   scene.dt = 4e-5;
   addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(0.1, 0.03), 5.0);
-  scene.bodies = {wallDisk(Vec2(smallRadius + 1.25e-3 - 1e-5, 0), 1.25e-3)};
+  scene.bodies = {diskWall(Vec2(smallRadius + wallRadius - 1e-5, 0), wallRadius)};
   scene.bodies[0].centre = Vec2(0, 0.1);
   const auto engine = makeBox2dPenalty();
   const Snapshot start = runTo(*engine, scene, 0.0);
   ASSERT_EQ(start.contacts->size(), 1u);
   // By hand: δ = 1e-5 m, n = −x, v_n = −0.1 m/s, v_t = −0.03 − a·5 = −0.0485 m/s, ξ = 0.
-  const double normal = 352.1 * 1e-5 + 0.19 * 0.1;
-  const double tangential = std::min(0.15 * 0.0485, 0.44 * normal);
+  const double normal = thesis.kn * 1e-5 + thesis.gn * 0.1;
+  const double tangential = std::min(thesis.gt * 0.0485, thesis.mu * normal);
   EXPECT_NEAR(start.contacts->overlap[0], 1e-5, 1e-15);
   EXPECT_NEAR(start.contacts->normalForce[0], normal, 1e-12);
   EXPECT_NEAR(start.contacts->tangentialForce[0], tangential, 1e-12);
   // On i: (−f_n, −f_t), as z × n = −y; on the wall the opposite, at the wall disk's own centre.
   EXPECT_NEAR((*start.bodies[0].force - Vec2(normal, tangential)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR(*start.bodies[0].torque,
-              (smallRadius + 1.25e-3 - 1e-5) * tangential + 0.1 * normal - 1.25e-3 * tangential,
-              1e-14);
+  EXPECT_NEAR(
+      *start.bodies[0].torque,
+      (smallRadius + wallRadius - 1e-5) * tangential + 0.1 * normal - wallRadius * tangential,
+      1e-14);
   engine->advance(4e-5);
   const Snapshot next = engine->snapshot(ContactReport::instant);
   EXPECT_NEAR(next.velocity[0].x(), 0.1 - 4e-5 * normal / smallMass, 1e-15);
@@ -156,7 +157,7 @@ TEST(Box2dPenalty, ContactsAndWallForcesAreThoseOfTheMoment) {
 
 TEST(Box2dPenalty, SlowDiskMoves) {
   Scene scene;
-  scene.law = thesisLaw();
+  scene.law = box2dLaw();
   scene.dt = 4e-5;
   addDisk(scene, smallRadius, smallMass, Vec2(0.2, 0), Vec2(1e-6, 0));
   const auto engine = makeBox2dPenalty();
@@ -169,9 +170,9 @@ TEST(Box2dPenalty, SlowDiskMoves) {
 // g on ½ m a²).
 TEST(Box2dPenalty, BottomPlateBrakes) {
   Scene scene;
-  scene.law = thesisLaw();
+  scene.law = box2dLaw();
   scene.dt = 4e-5;
-  scene.bottom = BottomPlate{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  scene.bottom = thesisBottom<BottomPlate>(2e-3);
   addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(0.01, 0), 10.0);
   const auto engine = makeBox2dPenalty();
   const Snapshot after = runTo(*engine, scene, 0.2);

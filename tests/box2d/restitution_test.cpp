@@ -20,7 +20,7 @@ PairInertia disksOfReducedMass(double mass) {
 }
 
 SoftLaw softLaw(Tension tension, TangentialLaw tangential = TangentialLaw::springDashpot) {
-  ContactLaw law = thesisLaw(tangential);
+  ContactLaw law = box2dLaw(tangential);
   law.conventions.tension = tension;
   return box2dSoftLaw(law);
 }

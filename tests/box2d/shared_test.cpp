@@ -18,7 +18,7 @@ class BothBox2dEngines : public testing::TestWithParam<Kind> {
 
   Scene empty() const {
     Scene scene;
-    scene.law = thesisLaw();
+    scene.law = box2dLaw();
     scene.dt = GetParam().dt;
     return scene;
   }
@@ -30,13 +30,11 @@ Scene busyScene(Scene scene) {
   for (int k = 0; k < 12; ++k)
     addDisk(scene, k % 3 ? smallRadius : largeRadius, k % 3 ? smallMass : largeMass,
             Vec2(9.5e-3 * (k % 4), 6e-3 + 9.5e-3 * (k / 4)), Vec2(0.05 * (k % 5) - 0.1, -0.1), k);
-  WallBody wheel = wallDisk(Vec2(0.04, 0.02), 2e-3);
+  WallBody wheel = diskWall(Vec2(0.04, 0.02), 2e-3);
   wheel.centre = Vec2(0.05, 0.02);
-  wheel.motion.kind = Motion::Kind::rotating;
-  wheel.motion.angularVelocity = 20.0;
-  scene.bodies = {floorPlane(Vec2::Zero(), Vec2::UnitY()),
-                  floorPlane(Vec2(-6e-3, 0), Vec2::UnitX()),
-                  floorPlane(Vec2(0.05, 0), -Vec2::UnitX()), wheel};
+  wheel.motion = rotating(20.0);
+  scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitY()), planeWall(Vec2(-6e-3, 0), Vec2::UnitX()),
+                  planeWall(Vec2(0.05, 0), -Vec2::UnitX()), wheel};
   return scene;
 }
 
@@ -75,7 +73,7 @@ TEST_P(BothBox2dEngines, RestsOnAPlane) {
   const bool soft = GetParam().make == makeBox2dPenalty;
   const double height = smallRadius - (soft ? smallMass * 9.81 / scene.law.kn : 0.0);
   addDisk(scene, smallRadius, smallMass, Vec2(0.01, height), Vec2::Zero());
-  scene.bodies = {floorPlane(Vec2::Zero(), Vec2::UnitY())};
+  scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitY())};
   const auto e = engine();
   const Snapshot after = runTo(*e, scene, 1.0);
   // The soft disk starts in equilibrium. Box2D's solver may let the rigid one sink by its slop,
@@ -89,7 +87,7 @@ TEST_P(BothBox2dEngines, ForceOfARestingDiskIsItsWeight) {
   Scene scene = empty();
   scene.gravity = Vec2(0, -9.81);
   addDisk(scene, smallRadius, smallMass, Vec2(0.01, smallRadius), Vec2::Zero());
-  scene.bodies = {floorPlane(Vec2::Zero(), Vec2::UnitY())};
+  scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitY())};
   const auto e = engine();
   e->load(scene, {});
   e->advance(1.0);
@@ -111,14 +109,13 @@ TEST_P(BothBox2dEngines, ForceOfARestingDiskIsItsWeight) {
 TEST_P(BothBox2dEngines, WheelIsWhereItShouldBe) {
   // A wall disk at 0.1 m turns at 2 /s towards a disk at rest 6 rad ahead.
   Scene scene = empty();
-  WallBody wheel = wallDisk(Vec2(0.1, 0), 1.25e-3);
-  wheel.motion.kind = Motion::Kind::rotating;
-  wheel.motion.angularVelocity = 2.0;
+  WallBody wheel = diskWall(Vec2(0.1, 0), wallRadius);
+  wheel.motion = rotating(2.0);
   scene.bodies = {wheel};
   const double ahead = 6.0;
   addDisk(scene, smallRadius, smallMass, 0.1 * Vec2(std::cos(ahead), std::sin(ahead)),
           Vec2::Zero());
-  const double between = 2.0 * std::asin(0.5 * (smallRadius + 1.25e-3) / 0.1);
+  const double between = 2.0 * std::asin(0.5 * (smallRadius + wallRadius) / 0.1);
   const double hit = (ahead - between) / 2.0;
 
   const auto e = engine();
@@ -138,7 +135,7 @@ TEST_P(BothBox2dEngines, MovingPlanePushes) {
   Scene scene = empty();
   scene.law.tangential = TangentialLaw::none;
   addDisk(scene, smallRadius, smallMass, Vec2(smallRadius + 1e-3, 0), Vec2::Zero());
-  scene.bodies = {floorPlane(Vec2::Zero(), Vec2::UnitX())};
+  scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitX())};
   scene.bodies[0].motion.kind = Motion::Kind::translating;
   scene.bodies[0].motion.velocity = Vec2(0.1, 0);
   const auto e = engine();
@@ -167,7 +164,7 @@ TEST_P(BothBox2dEngines, BlockedSpinsStayAndRub) {
 TEST_P(BothBox2dEngines, RefusesAShrinkingRing) {
   Scene scene = empty();
   addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());
-  scene.bodies = {wallDisk(Vec2(0.1, 0), 1e-3)};
+  scene.bodies = {diskWall(Vec2(0.1, 0), 1e-3)};
   scene.bodies[0].motion.kind = Motion::Kind::radial;
   try {
     engine()->load(scene, {});

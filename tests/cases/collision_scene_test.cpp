@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -13,8 +13,8 @@ using namespace crossgrain;
 
 TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
   Case setup = test::smallPairCase();
-  setup.collision.radius[1] = 2.0 * test::radius;
-  setup.collision.mass[1] = 8.0 * test::mass;
+  setup.collision.radius[1] = 2.0 * test::smallRadius;
+  setup.collision.mass[1] = 8.0 * test::smallMass;
   const Scene scene = collisionScene(setup, {{0.5, 0.1}, {3.0, 0.2}}, 1e-4);
   ASSERT_EQ(scene.disks.size(), 4u);
   for (std::size_t k = 0; k < 2; ++k) {
@@ -22,7 +22,7 @@ TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
     const std::size_t i = 2 * k, j = i + 1;
     const Vec2 apart = scene.disks.position[i] - scene.disks.position[j];
     const Vec2 velocity = scene.disks.velocity[i] - scene.disks.velocity[j];
-    const double reach = 3.0 * test::radius;
+    const double reach = 3.0 * test::smallRadius;
     EXPECT_NEAR(apart.norm(), reach + 0.5 * 1e-4 * vn, 1e-15);  // touch half a step after the start
     EXPECT_NEAR(velocity.dot(apart.normalized()), -vn, 1e-15);
     const double slip = -(scene.disks.radius[i] * scene.disks.spin[i] +
@@ -36,7 +36,7 @@ TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
 
 TEST(CollisionScene, AnObliqueApproachHasNoSpinAndTouchesOnTheAxis) {
   Case setup = test::smallPairCase();
-  setup.collision.mass[1] = 8.0 * test::mass;
+  setup.collision.mass[1] = 8.0 * test::smallMass;
   const double dt = 1e-4;
   const Scene scene = collisionScene(setup, {{2.0, 0.1, Approach::oblique}}, dt);
   const Vec2 velocity = scene.disks.velocity[0] - scene.disks.velocity[1];
@@ -44,7 +44,7 @@ TEST(CollisionScene, AnObliqueApproachHasNoSpinAndTouchesOnTheAxis) {
   EXPECT_NEAR(velocity.y(), 0.2, 1e-15);  // z × n is +y
   EXPECT_EQ(scene.disks.spin, (std::vector<double>{0.0, 0.0}));
   const Vec2 touch = scene.disks.position[0] - scene.disks.position[1] + 0.5 * dt * velocity;
-  EXPECT_NEAR(touch.x(), 2.0 * test::radius, 1e-16);
+  EXPECT_NEAR(touch.x(), 2.0 * test::smallRadius, 1e-16);
   EXPECT_NEAR(touch.y(), 0.0, 1e-16);
 }
 
@@ -78,10 +78,10 @@ TEST(CollisionScene, APairThatStillTouchesHasNoEnd) {
   const CollisionStart start{1.0, 0.5};
   const Scene scene = collisionScene(test::smallPairCase(), {start}, 1e-4);
   Snapshot after;
-  after.position = {Vec2(1.9 * test::radius, 0.0), Vec2(0.0, 0.0)};
+  after.position = {Vec2(1.9 * test::smallRadius, 0.0), Vec2(0.0, 0.0)};
   after.velocity = {Vec2(0.1, 0.0), Vec2(0.0, 0.0)};
   EXPECT_FALSE(collisionEnd(scene, after, 0, start));
-  after.position[0].x() = 2.1 * test::radius;
+  after.position[0].x() = 2.1 * test::smallRadius;
   after.velocity[0].x() = -0.1;  // still approaching
   EXPECT_FALSE(collisionEnd(scene, after, 0, start));
 }

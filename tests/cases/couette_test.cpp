@@ -7,7 +7,7 @@
 #include "adapters/grain.hpp"
 #include "cases/preparation.hpp"
 #include "support/bad_input.hpp"
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/laws.hpp"
 
 namespace {
 
@@ -18,13 +18,13 @@ Case quickCell() {
   setup.name = "cell";
   setup.file = "cell.toml";
   setup.law = test::thesisLaw();
-  setup.cell = {0.03, 0.075, 1.25e-3, 2.5e-3, 6e-3, 1.0};
+  setup.cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
   setup.particles.small = 190;
   setup.particles.large = 30;
-  setup.particles.smallRadius = 3.7e-3;
-  setup.particles.largeRadius = 4.495e-3;
-  setup.particles.smallMass = 0.275e-3;
-  setup.particles.largeMass = 0.49e-3;
+  setup.particles.smallRadius = test::smallRadius;
+  setup.particles.largeRadius = test::largeRadius;
+  setup.particles.smallMass = test::smallMass;
+  setup.particles.largeMass = test::largeMass;
   setup.preparation.shrinkTime = 0.1;
   setup.preparation.rotations = 0.01;
   return setup;
@@ -62,7 +62,7 @@ TEST(Couette, PreparationFillsTheCell) {
   const Packing packing = preparePacking(setup, 0, 4e-5, *engine, [&](double f) { last = f; });
   EXPECT_EQ(last, 1.0);
   ASSERT_EQ(packing.disks.size(), 220u);
-  EXPECT_EQ(std::ranges::count(packing.disks.radius, 4.495e-3), 30);
+  EXPECT_EQ(std::ranges::count(packing.disks.radius, test::largeRadius), 30);
   for (const Vec2& position : packing.disks.position) {
     EXPECT_GT(position.norm(), setup.cell.innerRadius);
     EXPECT_LT(position.norm(), setup.cell.outerRadius);

@@ -4,7 +4,7 @@
 
 #include "files.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 
 using LoaderErrors = InFolder;
 
@@ -33,4 +33,4 @@ inline std::string collision(int number, const std::string& text) {
   return withLine(soundCollision, number, text);
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::test

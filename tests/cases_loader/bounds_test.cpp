@@ -5,7 +5,7 @@
 
 #include "bad_cases.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 TEST_F(LoaderErrors, NotANumberIsSaidOfEveryNumberOfEverySection) {
@@ -152,4 +152,4 @@ TEST_F(LoaderErrors, NothingOfAFileOutsideTheCasesFolderIsQuoted) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -2,7 +2,7 @@
 
 #include "files.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 using KeysOfCases = InFolder;
@@ -50,4 +50,4 @@ TEST(CaseKeysInSections, ASectionIsNotWhatBeginsLikeIt) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -11,7 +11,7 @@
 #include "cases/loader.hpp"
 #include "cases/volume_fraction.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 Case cellOf(const char* name, int small, int large) {
@@ -102,4 +102,4 @@ TEST(Cautions, OfGasSqueezedDisksFewStepsAndNothingToJudge) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

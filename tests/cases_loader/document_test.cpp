@@ -3,7 +3,7 @@
 #include "cases/volume_fraction.hpp"
 #include "files.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 using LoaderMerging = InFolder;
@@ -161,4 +161,4 @@ TEST_F(LoaderMerging, APackingFileIsRelativeToTheFileThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -2,7 +2,7 @@
 // and collisions: law_errors_test.cpp.
 #include "bad_cases.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 TEST_F(LoaderErrors, TheSoundCasesAreSound) {
@@ -291,4 +291,4 @@ TEST_F(LoaderErrors, OverridesNameThemselves) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -9,7 +9,7 @@
 
 #include "cases/loader.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 
 /// A folder of its own for one test, and the current one while the test runs, so that messages name
 /// files as they were written.
@@ -77,6 +77,21 @@ radius = 0.0037
 mass = 0.275e-3
 )";
 
+/// An assembly of one disk, likewise.
+inline const std::string soundAssembly = R"([case]
+kind = "assembly"
+[law]
+kn = 100.0
+gn = 0.0
+tangential = "none"
+[assembly]
+contact_times = 3
+[[assembly.disks]]
+position = [0.0, 1.0]
+radius = 0.5
+mass = 2.0
+)";
+
 /// The text with one line (counted from 1) replaced.
 inline std::string withLine(const std::string& text, int number, const std::string& line) {
   std::size_t from = 0;
@@ -95,4 +110,4 @@ inline std::string messageOf(const std::filesystem::path& file,
   return {};
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::test

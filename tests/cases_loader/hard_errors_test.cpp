@@ -1,22 +1,8 @@
 // [assembly] and [stability]: what is read, and one line for everything that is wrong.
 #include "bad_cases.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
-
-const std::string soundAssembly = R"([case]
-kind = "assembly"
-[law]
-kn = 100.0
-gn = 0.0
-tangential = "none"
-[assembly]
-contact_times = 3
-[[assembly.disks]]
-position = [0.0, 1.0]
-radius = 0.5
-mass = 2.0
-)";
 
 const std::string soundStability = R"([stability]
 tests = "a"
@@ -84,4 +70,4 @@ TEST_F(LoaderErrors, OfHardCases) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

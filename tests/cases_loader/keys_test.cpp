@@ -12,24 +12,10 @@
 #include "files.hpp"
 #include "oracle/collision_quantities.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 using Names = std::set<std::string>;
-
-const std::string soundAssembly = R"([case]
-kind = "assembly"
-[law]
-kn = 100.0
-gn = 0.0
-tangential = "none"
-[assembly]
-contact_times = 3
-[[assembly.disks]]
-position = [0.0, 1.0]
-radius = 0.5
-mass = 2.0
-)";
 
 const std::string noKey = "zzzzzzzzzzzzzzzzzzzz";
 
@@ -161,4 +147,4 @@ TEST_F(Keys, AreDescribed) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

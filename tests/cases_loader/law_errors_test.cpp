@@ -1,7 +1,7 @@
 // Bad input as in errors_test.cpp, of laws and of collisions.
 #include "bad_cases.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 TEST_F(LoaderErrors, LawsNeedWhatTheyUseAndNothingElse) {
@@ -132,4 +132,4 @@ TEST_F(LoaderErrors, SweepsOfCollisions) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

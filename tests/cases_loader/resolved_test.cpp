@@ -6,7 +6,7 @@
 #include "cases/time_step.hpp"
 #include "files.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 using Resolved = InFolder;
@@ -71,4 +71,4 @@ TEST_F(Resolved, APackingFileIsNamedInFull) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -7,8 +7,9 @@
 #include "bad_cases.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
+#include "tests/support/thesis.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 using Scales = InFolder;
@@ -39,10 +40,10 @@ TEST_F(Scales, AreWhatTheyAreCalled) {
   EXPECT_DOUBLE_EQ(value("spin_scale"), 0.06 / 0.0074);  // Ω D/d with D = 2 R_i
   EXPECT_DOUBLE_EQ(value("shear_rate"), 0.03 / 0.0074);
   EXPECT_DOUBLE_EQ(value("diameter"), 0.0074);
-  const double density = 0.275e-3 / (std::numbers::pi * 0.0037 * 0.0037 * 0.006);
+  const double density = smallMass / (std::numbers::pi * smallRadius * smallRadius * 0.006);
   EXPECT_DOUBLE_EQ(value("disk_density"), density);
   EXPECT_DOUBLE_EQ(value("rim_pressure"), density * 0.03 * 0.03);
-  EXPECT_DOUBLE_EQ(value("contact_pressure"), 352.1 / 0.006);
+  EXPECT_DOUBLE_EQ(value("contact_pressure"), thesis.kn / 0.006);
 }
 
 TEST_F(Scales, TheLaterWayToSayAMarginReplacesTheEarlier) {
@@ -96,8 +97,8 @@ TEST_F(Scales, AVolumeFractionMakesTheNumbersOfDisks) {
     c.cell = {.innerRadius = 0.1032, .outerRadius = 0.2524, .height = 0.006};
     c.particles.small = small;
     c.particles.large = large;
-    c.particles.smallRadius = 0.0037;
-    c.particles.largeRadius = 0.004495;
+    c.particles.smallRadius = smallRadius;
+    c.particles.largeRadius = largeRadius;
     const double fraction = volumeFraction(c);
     setNumbers(c.cell, c.particles, fraction, static_cast<double>(large) / (small + large));
     EXPECT_EQ(c.particles.small, small);
@@ -111,7 +112,7 @@ TEST_F(Scales, TheShareOfLargeDisksIsByNumberOrByMass) {
   EXPECT_EQ(byNumber.particles.small, 210);
   EXPECT_EQ(byNumber.particles.large, 34);
   EXPECT_NEAR(volumeFraction(byNumber), 0.754,
-              0.5 * 0.0037 * 0.0037 / (0.075 * 0.075 - 0.03 * 0.03));
+              0.5 * smallRadius * smallRadius / (0.075 * 0.075 - 0.03 * 0.03));
   // 34 · 0.49 g of 34 · 0.49 g + 210 · 0.275 g
   write("case.toml", particles(masses + "volume_fraction = 0.754\nlarge_mass_share = 0.2239\n"));
   const Case byMass = loadCase("case.toml").front();
@@ -126,7 +127,8 @@ TEST_F(Scales, TheShareOfLargeDisksIsByNumberOrByMass) {
 TEST_F(Scales, ADensityMakesMassesOfDisksOfTheCellsHeight) {
   write("case.toml", particles("density = 1060.0\nsmall = 210\nlarge = 34\n"));
   const Case c = loadCase("case.toml").front();
-  EXPECT_DOUBLE_EQ(c.particles.smallMass, 1060.0 * std::numbers::pi * 0.0037 * 0.0037 * 0.006);
+  EXPECT_DOUBLE_EQ(c.particles.smallMass,
+                   1060.0 * std::numbers::pi * smallRadius * smallRadius * 0.006);
   EXPECT_NEAR(c.particles.largeMass, 0.404e-3, 0.0005e-3);  // facts 1.1
 }
 
@@ -163,7 +165,7 @@ TEST_F(Scales, ALayerMayChangeTheForm) {
   write("fraction.toml", particles(masses + "volume_fraction = 0.7\nlarge_number_share = 0.1\n"));
   EXPECT_EQ(loadCase("fraction.toml", {"particles.small=100"}).front().particles.small, 100);
   EXPECT_EQ(loadCase("base.toml", {"particles.density=1000"}).front().particles.smallMass,
-            1000.0 * std::numbers::pi * 0.0037 * 0.0037 * 0.006);
+            1000.0 * std::numbers::pi * smallRadius * smallRadius * 0.006);
 }
 
 TEST_F(Scales, AStepThatWasChosenForOtherContactsIsToldOf) {
@@ -183,4 +185,4 @@ TEST_F(Scales, AStepThatWasChosenForOtherContactsIsToldOf) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

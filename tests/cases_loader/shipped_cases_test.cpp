@@ -11,8 +11,9 @@
 #include "cases/volume_fraction.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
+#include "tests/support/thesis.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
 const std::filesystem::path folder = CROSSGRAIN_CASES;
@@ -37,7 +38,7 @@ TEST(ShippedCases, TheThesisCellHasItsVolumeFraction) {
   EXPECT_EQ(c.particles.small + c.particles.large, 2921);
   EXPECT_NEAR(volumeFraction(c), 0.8041, 0.00005);  // facts 1.1, four digits
   EXPECT_EQ(timeStep(c), 4e-5);
-  EXPECT_NEAR(contactTime(c.law, lightestReducedMass(c)), 2.18e-3, 0.005e-3);
+  EXPECT_NEAR(contactTime(c.law, lightestReducedMass(c)), smallContactTime, 0.005e-3);
   EXPECT_EQ(c.averaging.rings, 20);
   EXPECT_EQ(c.averaging.margins.size(), 7u);
 }
@@ -77,11 +78,11 @@ TEST(ShippedCases, TheQuickCellIsTheSamePhysicsInASmallerCell) {
   EXPECT_EQ(std::get<double>(c.engines.at("box2d-impulse").at("dt")), 5e-4);
   for (const LawOption& option : lawOptions())
     EXPECT_EQ(option.get(c.law), option.get(reference.law)) << option.name;
-  EXPECT_EQ(c.law.kn, 352.1);
-  EXPECT_EQ(c.law.gn, 0.19);
-  EXPECT_EQ(c.law.mu, 0.44);
-  EXPECT_EQ(c.law.kt, 267.1);
-  EXPECT_EQ(c.law.gt, 0.15);
+  EXPECT_EQ(c.law.kn, thesis.kn);
+  EXPECT_EQ(c.law.gn, thesis.gn);
+  EXPECT_EQ(c.law.mu, thesis.mu);
+  EXPECT_EQ(c.law.kt, thesis.kt);
+  EXPECT_EQ(c.law.gt, thesis.gt);
   ASSERT_TRUE(c.bottom);
   EXPECT_EQ(c.bottom->mu, 2e-5);
   EXPECT_EQ(c.bottom->tauM, 1e-4);
@@ -110,8 +111,8 @@ TEST(ShippedCases, Figure43HasFourLawsWithAndWithoutTension) {
     EXPECT_EQ(c.collision.psi.back(), 4.0);
     EXPECT_EQ(c.variant, lawOptionValue(c.law, "tangential") +
                              (c.law.conventions.tension == Tension::cut ? "-cut" : "-tension"));
-    EXPECT_NEAR(collisionTimeSteps(c)[0], 2.18e-3 / 50, 0.1e-6);
-    EXPECT_NEAR(collisionTimeSteps(c).back(), 2.18e-3 / 2000, 0.005e-6);
+    EXPECT_NEAR(collisionTimeSteps(c)[0], smallContactTime / 50, 0.1e-6);
+    EXPECT_NEAR(collisionTimeSteps(c).back(), smallContactTime / 2000, 0.005e-6);
   }
   EXPECT_EQ(cases[0].law.tangential, TangentialLaw::coulomb);
   EXPECT_EQ(cases[7].law.tangential, TangentialLaw::springDashpot);
@@ -173,4 +174,4 @@ TEST(VolumeFraction, MeetsTheTableOfTheThesis) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -8,34 +8,26 @@
 
 #include "cases/stable_step.hpp"
 #include "support/nearest.hpp"
+#include "tests/support/laws.hpp"
 
-namespace crossgrain {
+namespace crossgrain::test {
 namespace {
 
-/// Lätzel 2003, table 4.1.
-ContactLaw thesisLaw() {
-  ContactLaw law;
-  law.kn = 352.1;
-  law.gn = 0.19;
-  return law;
-}
-
-constexpr double smallMass = 0.275e-3;
-
 TEST(ContactTime, OfTwoSmallThesisDisksIs2180Microseconds) {
-  EXPECT_NEAR(contactTime(thesisLaw(), smallMass / 2), 2.18e-3, 0.005e-3);  // as printed: 3 digits
+  EXPECT_NEAR(contactTime(thesisLaw(), smallMass / 2), smallContactTime,
+              0.005e-3);  // as printed: 3 digits
 }
 
 TEST(ContactTime, AgreesWithTheRestitutionThatTheThesisPrints) {
   // e_n = exp(−η t_c), an independent number: 0.2223 (section 4.1)
-  const double eta = 0.19 / smallMass;
+  const double eta = thesis.gn / smallMass;
   EXPECT_NEAR(std::exp(-eta * contactTime(thesisLaw(), smallMass / 2)), 0.2223, 0.00005);
 }
 
 TEST(ContactTime, UndampedIsHalfAPeriodOfTheOscillator) {
   ContactLaw law = thesisLaw();
   law.gn = 0.0;
-  EXPECT_DOUBLE_EQ(contactTime(law, 2.0), std::numbers::pi * std::sqrt(2.0 / 352.1));
+  EXPECT_DOUBLE_EQ(contactTime(law, 2.0), std::numbers::pi * std::sqrt(2.0 / thesis.kn));
 }
 
 TEST(ContactTime, DoesNotExistForRigidAndOverdampedLaws) {
@@ -53,7 +45,7 @@ TEST(TimeStep, IsGivenOrAFractionOfTheLightestPairsContact) {
   c.particles.small = 10;
   c.particles.large = 5;
   c.particles.smallMass = smallMass;
-  c.particles.largeMass = 0.490e-3;
+  c.particles.largeMass = largeMass;
   EXPECT_NEAR(timeStep(c), 43.5e-6, 0.05e-6);  // t_c/50, rounded to 44 µs in the thesis' digest
   c.particles.small = 0;                       // √(m_l/m_s) longer, up to the damping's share
   EXPECT_GT(timeStep(c), 55e-6);
@@ -91,7 +83,7 @@ Case thesisCell() {
   Case c;
   c.law = thesisLaw();
   c.particles.small = 10;
-  c.particles.smallRadius = 0.0037;
+  c.particles.smallRadius = smallRadius;
   c.particles.smallMass = smallMass;
   c.cell = {.innerRadius = 0.1, .outerRadius = 0.2, .height = 0.006, .omega = 1.0};
   return c;
@@ -99,7 +91,7 @@ Case thesisCell() {
 
 TEST(StepLimit, OfALinearLawIsTwoOverOmega) {
   const Case c = thesisCell();
-  const double limit = 2.0 * std::sqrt(smallMass / 2.0 / 352.1);
+  const double limit = 2.0 * std::sqrt(smallMass / 2.0 / thesis.kn);
   EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, limit);
   EXPECT_EQ(whyUnstableStep(c, 0.999 * limit, "run.dt"), "");
   EXPECT_EQ(whyUnstableStep(c, 1.0, "run.dt"),
@@ -113,7 +105,7 @@ TEST(StepLimit, OfHertzFollowsTheDeepestImpactAtTheRimsSpeed) {
   c.law.normal = NormalLaw::hertz;
   c.law.kn = 1e6;
   // δ_max^(5/2) = m₁₂ v²/(0.8 k √R₁₂), dF/dδ = 1.5 k √(R₁₂ δ)
-  const double mass = smallMass / 2.0, radius = 0.0037 / 2.0, speed = 0.1;
+  const double mass = smallMass / 2.0, radius = smallRadius / 2.0, speed = 0.1;
   const double deepest = std::pow(mass * speed * speed / (0.8 * 1e6 * std::sqrt(radius)), 0.4);
   EXPECT_NEAR(pairStepLimit(c)->stiffness, 1.5e6 * std::sqrt(radius * deepest), 1e-6);
 }
@@ -129,4 +121,4 @@ TEST(StepLimit, OfRigidDisksAndOfCollisionsIsNone) {
 }
 
 }  // namespace
-}  // namespace crossgrain
+}  // namespace crossgrain::test

@@ -9,7 +9,7 @@
 #include "adapters/suitability.hpp"
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 bool named(const std::vector<Deviation>& deviations, const std::string& name) {
@@ -101,7 +101,7 @@ TEST_P(Conformance, SimulatesWhatTheSceneCallsFor) {
   ContactLaw dashpotless = law();
   dashpotless.gt = 0.0;
   Scene busy = busyScene(law());
-  busy.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  busy.bottom = thesisBottom<BottomPlate>();
   Scene coarse = busy;
   coarse.bottom->spin = false;
   const Encounter pair;
@@ -126,7 +126,7 @@ TEST_P(Conformance, SimulatesWhatTheSceneCallsFor) {
 /// springs in a rigid engine included.
 TEST_P(Conformance, EffectsAreThoseThatItsCapabilitiesSay) {
   Scene busy = busyScene(fullLaw());
-  busy.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  busy.bottom = thesisBottom<BottomPlate>();
   ASSERT_EQ(effectsOf(busy).size(), allEffects.size());
   std::vector<std::string> all;
   for (const Effect effect : allEffects) all.push_back(toString(effect));
@@ -146,4 +146,4 @@ TEST_P(Conformance, EffectsAreThoseThatItsCapabilitiesSay) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

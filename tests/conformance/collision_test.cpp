@@ -7,8 +7,9 @@
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "tests/conformance/conformance.hpp"
+#include "tests/support/pairs.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 constexpr double fine = 400.0;   // steps in a contact, where an outcome is compared
@@ -51,8 +52,8 @@ const Tolerance restitution = {0.0, 0.02, "a first-order scheme at t_c/400"};
 
 TEST_P(Conformance, HeadOnCollision) {
   Encounter unequal;  // masses 1 : 10 of one material
-  unequal.radii[1] = std::sqrt(10.0) * radius;
-  unequal.masses[1] = 10.0 * mass;
+  unequal.radii[1] = std::sqrt(10.0) * smallRadius;
+  unequal.masses[1] = 10.0 * smallMass;
   unequal.drift = {0.013, -0.021};
   for (const Encounter& pair : {Encounter{}, unequal}) {
     const Scene scene = encounterScene(pair, law(), fine);
@@ -68,8 +69,8 @@ TEST_P(Conformance, HeadOnCollision) {
     const double en = (after.velocity[0] - after.velocity[1]).x() / Encounter::speed;
     EXPECT_TRUE(close(en, restitutionOf(scene.law, pair.reducedMass()), restitution));
     // Nothing slides, so nothing turns.
-    const Tolerance turn = {byPrecision(1e-12, 1e-5, "").absolute * Encounter::speed / radius, 0.0,
-                            "head on, without spin"};
+    const Tolerance turn = {byPrecision(1e-12, 1e-5, "").absolute * Encounter::speed / smallRadius,
+                            0.0, "head on, without spin"};
     for (const double spin : spinsOf(scene, after)) EXPECT_TRUE(close(spin, 0.0, turn));
   }
 }
@@ -77,8 +78,8 @@ TEST_P(Conformance, HeadOnCollision) {
 Scene throwAt(const WallBody& wall, const ContactLaw& law) {
   Scene scene = emptyScene(law, fine);
   scene.bodies = {wall};
-  const double height = Encounter::gap + (wall.planes.empty() ? 2.0 : 1.0) * radius;
-  addDisk(scene, radius, mass, {0.001, height}, {0.0, -Encounter::speed});
+  const double height = Encounter::gap + (wall.planes.empty() ? 2.0 : 1.0) * smallRadius;
+  addDisk(scene, smallRadius, smallMass, {0.001, height}, {0.0, -Encounter::speed});
   return scene;
 }
 
@@ -86,7 +87,8 @@ TEST_P(Conformance, WallDiskDoesNotYield) {
   const Scene scene = throwAt(wallOf("post", {0.001, 0.0}, {{0.001, 0.0}}), law());
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
   const Snapshot after = at(Encounter::end);
-  EXPECT_TRUE(close(after.velocity[0], Vec2(0.0, restitutionOf(scene.law, mass) * Encounter::speed),
+  EXPECT_TRUE(close(after.velocity[0],
+                    Vec2(0.0, restitutionOf(scene.law, smallMass) * Encounter::speed),
                     restitution));
   EXPECT_EQ(after.wallPosition[0], Vec2(0.001, 0.0));
 }
@@ -95,7 +97,8 @@ TEST_P(Conformance, PlaneDoesNotYield) {
   const Scene scene = throwAt(planeWall({0.5, 0.0}, {0.0, 1.0}), law());
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
   const Snapshot after = at(Encounter::end);
-  EXPECT_TRUE(close(after.velocity[0], Vec2(0.0, restitutionOf(scene.law, mass) * Encounter::speed),
+  EXPECT_TRUE(close(after.velocity[0],
+                    Vec2(0.0, restitutionOf(scene.law, smallMass) * Encounter::speed),
                     restitution));
 }
 
@@ -116,15 +119,14 @@ TEST_P(Conformance, EnergyIsNotGained) {
 /// Two small disks head on with equal spins: v_t = Ψ_i v_n.
 Scene spinningPair(const ContactLaw& law, double psi) {
   Encounter pair;
-  pair.spins[0] = pair.spins[1] = -psi * Encounter::speed / (2.0 * radius);
+  pair.spins[0] = pair.spins[1] = -psi * Encounter::speed / (2.0 * smallRadius);
   return encounterScene(pair, law, fine);
 }
 
 /// The oracle's outcome; none for conventions that have no limit of small steps.
 std::optional<CollisionEnd> oracle(const ContactLaw& law, const CollisionStart& start) {
-  const double inertia = 0.5 * mass * radius * radius;
   try {
-    return oracleOutcome(law, {{radius, radius}, {mass, mass}, {inertia, inertia}}, start);
+    return oracleOutcome(law, smallPair(), start);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }
@@ -174,9 +176,9 @@ TEST_P(Conformance, FrictionlessDisksKeepTheirSpins) {
 /// A disk that is thrown to and fro between two posts, with friction that loads the springs.
 Scene toAndFro(const ContactLaw& law) {
   Scene scene = emptyScene(law, coarse);
-  const double post = 2.0 * radius + Encounter::gap;
+  const double post = 2.0 * smallRadius + Encounter::gap;
   scene.bodies = {wallOf("posts", Vec2::Zero(), {{-post, 0.0}, {post, 0.0}})};
-  addDisk(scene, radius, mass, {0.0, 0.0004}, {-Encounter::speed, 0.0}, 20.0);
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0004}, {-Encounter::speed, 0.0}, 20.0);
   return scene;
 }
 
@@ -214,7 +216,7 @@ TEST_P(Conformance, FreeFlightRemembersNothing) {
   EXPECT_TRUE(close(resumed.velocity[0], last.velocity[0],
                     {rounding.absolute * Encounter::speed, 0.0, rounding.why}));
   EXPECT_TRUE(close(spinsOf(scene, resumed)[0], spinsOf(scene, last)[0],
-                    {rounding.absolute * Encounter::speed / radius, 0.0, rounding.why}));
+                    {rounding.absolute * Encounter::speed / smallRadius, 0.0, rounding.why}));
 }
 
 /// With the arms to the contact point both torques and the moment of the force couple add up to
@@ -243,10 +245,10 @@ TEST_P(Conformance, AngularMomentumIsKept) {
       for (const Snapshot& now : seen)
         for (std::size_t c = 0; now.contacts && c < now.contacts->size(); ++c)
           expected -= now.contacts->overlap[c] * now.contacts->tangentialForce[c] * realised_.dt;
-    const double unit = scene.disks.mass[0] * Encounter::speed * radius;
+    const double unit = scene.disks.mass[0] * Encounter::speed * smallRadius;
     const Tolerance sum = {byPrecision(1e-11, 1e-5, "").absolute * unit, 0.0,
                            "roundings of the additions"};
-    const Tolerance moved = {Encounter::speed * realised_.dt / radius * unit, 0.0,
+    const Tolerance moved = {Encounter::speed * realised_.dt / smallRadius * unit, 0.0,
                              "a rigid engine moves disks apart that overlap after a step"};
     EXPECT_TRUE(close(angularMomentum(scene, seen.back()), expected, rigid() ? moved : sum))
         << "lever_arm = " << lawOptionValue(each, "lever_arm")
@@ -255,4 +257,4 @@ TEST_P(Conformance, AngularMomentumIsKept) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -13,7 +13,7 @@
 #include "oracle/collision_oracle.hpp"
 #include "runs/common/engine_access.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 constexpr double timeout = 60.0;  // for one answer [s]
@@ -136,4 +136,4 @@ double restitutionOf(const ContactLaw& law, double reducedMass) {
   return closedRestitution(law, reducedMass).value();
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -11,7 +11,7 @@
 #include "tests/conformance/scenes.hpp"
 #include "tests/conformance/tolerance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 /// Starts another worker of an engine.
 std::unique_ptr<Engine> startWorker(const EngineEntry& entry);
@@ -75,4 +75,4 @@ std::vector<double> spinsOf(const Scene& scene, const Snapshot& snapshot);
 /// e_n that the law gives in a head-on collision of this reduced mass [kg].
 double restitutionOf(const ContactLaw& law, double reducedMass);
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -6,7 +6,7 @@
 
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 constexpr double steps = 50.0;  // in one contact
@@ -67,8 +67,8 @@ double arm(const ContactLaw& law, double a, double b, double overlap) {
 /// Two disks that hit a wall disk, a plane and each other.
 Scene allKindsOfContact(const ContactLaw& law, bool withPlane) {
   Scene scene = emptyScene(law, steps);
-  addDisk(scene, radius, mass, {0.0, 0.0}, {0.03, 0.0}, 8.0);
-  addDisk(scene, 4.495e-3, 0.490e-3, {0.0083, 0.0005}, {-0.08, 0.01}, -3.0);
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0.03, 0.0}, 8.0);
+  addDisk(scene, largeRadius, largeMass, {0.0083, 0.0005}, {-0.08, 0.01}, -3.0);
   scene.bodies = {wallOf("post", {-0.0076, 0.001}, {{-0.0076, 0.001}, {-0.02, 0.0}})};
   if (withPlane) {
     scene.bodies.push_back(planeWall({0.0, -0.0045}, {0.0, 1.0}));
@@ -94,7 +94,7 @@ void expectGeometry(const Contacts& contacts, const Place& place, const Film& fi
       normal = film.plane().normal;
       overlap = place.radii[i] - (place.centre[i] - film.plane().point).dot(normal);
     }
-    const Tolerance direction = {length.absolute / radius, 0.0, length.why};
+    const Tolerance direction = {length.absolute / smallRadius, 0.0, length.why};
     EXPECT_TRUE(close(contacts.normal[c], normal, direction)) << i << ", " << j;
     EXPECT_TRUE(close(contacts.overlap[c], overlap, length)) << i << ", " << j;
     if (soft) {
@@ -109,7 +109,7 @@ TEST_P(Conformance, ContactsSayWhereTheyAre) {
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
   const std::vector<Snapshot> seen = watch(2.0 * Encounter::end);
   const Film film(scene, seen);
-  const Tolerance length = {byPrecision(1e-12, 1e-6, "").absolute * radius, 0.0, "roundings"};
+  const Tolerance length = {byPrecision(1e-12, 1e-6, "").absolute * smallRadius, 0.0, "roundings"};
   bool pair = false, wall = false;
   for (const Snapshot& now : seen) {
     if (!now.contacts) continue;
@@ -125,7 +125,7 @@ TEST_P(Conformance, ContactsWithPlanesSayWhereTheyAre) {
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
   const std::vector<Snapshot> seen = watch(2.0 * Encounter::end);
   const Film film(scene, seen);
-  const Tolerance length = {byPrecision(1e-12, 1e-6, "").absolute * radius, 0.0, "roundings"};
+  const Tolerance length = {byPrecision(1e-12, 1e-6, "").absolute * smallRadius, 0.0, "roundings"};
   bool plane = false;
   for (const Snapshot& now : seen) {
     if (!now.contacts) continue;
@@ -144,7 +144,7 @@ TEST_P(Conformance, ForcesPointWhereTheySay) {
     pair.spins[0] = pair.spins[1] = spin;
     const Scene scene = encounterScene(pair, law(), steps);
     if (const auto why = refused(scene)) GTEST_SKIP() << *why;
-    const double slip = -2.0 * radius * spin;
+    const double slip = -2.0 * smallRadius * spin;
     double pushed = 0.0, dragged = 0.0;
     for (const Snapshot& now : watch(Encounter::end)) {
       if (!now.contacts || now.contacts->size() == 0) continue;
@@ -207,7 +207,7 @@ TEST_P(Conformance, ContactForcesAreThoseThatAct) {
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
   const std::vector<Snapshot> seen = watch(Encounter::end);
   // A mean over an interval is shown with the normal of its end, which has turned since.
-  const double turn = seen.back().contactInterval * Encounter::speed / radius;
+  const double turn = seen.back().contactInterval * Encounter::speed / smallRadius;
   const double relative = byPrecision(1e-12, 1e-5, "").relative + turn;
   double largest = 0.0;
   for (const Snapshot& now : seen) largest = std::max(largest, forceOn(now, 0).norm());
@@ -229,7 +229,7 @@ TEST_P(Conformance, ContactForcesAreThoseThatAct) {
       impulse += realised_.dt * after;
       for (std::size_t c = 0; now.contacts && c < now.contacts->size(); ++c)
         angularImpulse -= realised_.dt * now.contacts->tangentialForce[c] *
-                          arm(scene.law, radius, radius, now.contacts->overlap[c]);
+                          arm(scene.law, smallRadius, smallRadius, now.contacts->overlap[c]);
     }
     const double unit = scene.disks.mass[id] * Encounter::speed;
     const Tolerance sum = {relative * unit, 0.0, "roundings, and a normal that turns"};
@@ -238,29 +238,27 @@ TEST_P(Conformance, ContactForcesAreThoseThatAct) {
         Vec2(scene.disks.mass[id] * (seen.back().velocity[id] - seen.front().velocity[id])), sum));
     const double spun = spinsOf(scene, seen.back())[id] - spinsOf(scene, seen.front())[id];
     EXPECT_TRUE(close(angularImpulse, scene.disks.inertia[id] * spun,
-                      {relative * unit * radius, 0.0, sum.why}));
+                      {relative * unit * smallRadius, 0.0, sum.why}));
   }
 }
 
 /// A wall's force and torque are those of the contacts of its disks.
 TEST_P(Conformance, WallLoadsAreThoseOfTheirContacts) {
   if (contactReport() == ContactReport::none) GTEST_SKIP() << "shows no contacts";
-  Motion turning;
-  turning.kind = Motion::Kind::rotating;
-  turning.angularVelocity = 0.5;
   const Vec2 centre(0.01, -0.02);
   std::vector<Vec2> rim;
   for (const double angle : {-0.35, 0.0, 0.35})
     rim.push_back(centre + 0.025 * Vec2(std::cos(angle), std::sin(angle)));
   Scene scene = emptyScene(law(), steps);
-  scene.bodies = {wallOf("wheel", centre, rim, turning)};
+  scene.bodies = {wallOf("wheel", centre, rim, rotating(0.5))};
   const Vec2 between(std::cos(0.175), std::sin(0.175));
-  addDisk(scene, radius, mass, centre + 0.0308 * between, -Encounter::speed * between, 9.0);
+  addDisk(scene, smallRadius, smallMass, centre + 0.0308 * between, -Encounter::speed * between,
+          9.0);
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
 
   const std::vector<Snapshot> seen = watch(Encounter::end);
   const Film film(scene, seen);
-  const double turn = seen.back().contactInterval * Encounter::speed / radius;
+  const double turn = seen.back().contactInterval * Encounter::speed / smallRadius;
   const double relative = byPrecision(1e-12, 1e-5, "").relative + 2.0 * turn;
   std::set<std::int32_t> touched;
   for (const Snapshot& now : seen) {
@@ -274,7 +272,7 @@ TEST_P(Conformance, WallLoadsAreThoseOfTheirContacts) {
       const Vec2 onWall = -forceOn(*now.contacts, c);
       force += onWall;
       torque += cross(place.centre[now.contacts->j[c]] - centre, onWall) -
-                arm(scene.law, radius, radius, now.contacts->overlap[c]) *
+                arm(scene.law, smallRadius, smallRadius, now.contacts->overlap[c]) *
                     now.contacts->tangentialForce[c];
       size += onWall.norm();
     }
@@ -291,14 +289,14 @@ TEST_P(Conformance, WallLoadsAreThoseOfTheirContacts) {
 TEST_P(Conformance, PlaneLoadsAreThoseOfTheirContacts) {
   if (contactReport() == ContactReport::none) GTEST_SKIP() << "shows no contacts";
   Scene scene = emptyScene(law(), steps);
-  scene.bodies = {planeWall({0.2, -radius - Encounter::gap}, {0.0, 1.0})};
+  scene.bodies = {planeWall({0.2, -smallRadius - Encounter::gap}, {0.0, 1.0})};
   scene.bodies[0].centre = {-0.01, 0.003};
-  addDisk(scene, radius, mass, {0.0, 0.0}, {0.02, -Encounter::speed}, 9.0);
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0.02, -Encounter::speed}, 9.0);
   if (const auto why = refused(scene)) GTEST_SKIP() << *why;
 
   const std::vector<Snapshot> seen = watch(Encounter::end);
   const Film film(scene, seen);
-  const double turn = seen.back().contactInterval * Encounter::speed / radius;
+  const double turn = seen.back().contactInterval * Encounter::speed / smallRadius;
   const double relative = byPrecision(1e-12, 1e-5, "").relative + 2.0 * turn;
   bool touched = false;
   for (const Snapshot& now : seen) {
@@ -321,4 +319,4 @@ TEST_P(Conformance, PlaneLoadsAreThoseOfTheirContacts) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 std::span<const ExpectedSkip> expectedSkips() {
   static constexpr std::array table = {
@@ -28,4 +28,4 @@ std::span<const ExpectedSkip> expectedSkips() {
   return table;
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

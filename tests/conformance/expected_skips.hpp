@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 /// A test that an engine cannot run, and part of the reason that it gives.
 struct ExpectedSkip {
@@ -13,4 +13,4 @@ struct ExpectedSkip {
 /// All of them. An engine that is not listed skips nothing.
 std::span<const ExpectedSkip> expectedSkips();
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

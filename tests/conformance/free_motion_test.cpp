@@ -1,14 +1,14 @@
 // A disk that nothing touches.
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 constexpr double flight = 0.05;  // [s]
 
 Scene oneDisk(const ContactLaw& law) {
   Scene scene = emptyScene(law, 20.0);
-  addDisk(scene, radius, mass, {0.002, -0.001}, {0.31, -0.17}, 5.0);
+  addDisk(scene, smallRadius, smallMass, {0.002, -0.001}, {0.31, -0.17}, 5.0);
   return scene;
 }
 
@@ -49,13 +49,7 @@ TEST_P(Conformance, FallsFreely) {
 }
 
 BottomPlate roughPlate(bool spin) {
-  BottomPlate plate;
-  plate.mu = 0.05;
-  plate.kb = 267.1;
-  plate.gb = 0.15;
-  plate.tauM = 1e-4;
-  plate.spin = spin;
-  return plate;
+  return thesisBottom<BottomPlate>(0.05, spin);
 }
 
 /// Everything slides at once, γ_b v > µ_b m g: the disk loses µ_b g t of its speed and, where the
@@ -74,11 +68,11 @@ TEST_P(Conformance, BottomPlateBrakesADisk) {
     const Tolerance step = {scene.bottom->mu * scene.bottom->gravity * realised_.dt, 0.0,
                             "whether the plate acts in the first half step"};
     EXPECT_TRUE(close(after.velocity[0], expected, step));
-    const double slower = spin ? 4.0 / 3.0 * lost / radius : 0.0;
-    const Tolerance turn = {4.0 / 3.0 * step.absolute / radius, 0.0, step.why};
+    const double slower = spin ? 4.0 / 3.0 * lost / smallRadius : 0.0;
+    const Tolerance turn = {4.0 / 3.0 * step.absolute / smallRadius, 0.0, step.why};
     EXPECT_TRUE(close(spinsOf(scene, after)[0], 30.0 - slower, turn));
   }
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -3,7 +3,7 @@
 
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 TEST_P(Conformance, AdvancesByWholeSteps) {
@@ -110,4 +110,4 @@ TEST_P(Conformance, WorkersAgreeBitForBit) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -8,7 +8,7 @@
 #include "tests/conformance/conformance.hpp"
 #include "tests/conformance/names.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 /// Writes one ctest entry for each engine, since a worker takes seconds to start, and one for what
@@ -38,10 +38,10 @@ class EndOfWorkers : public testing::Environment {
 };
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test
 
 int main(int argc, char** argv) {
-  using namespace crossgrain::conformance;
+  using namespace crossgrain::test;
   gsl_set_error_handler_off();  // as in cli/main.cpp
   if (argc == 3 && std::string_view(argv[1]) == "__serve") return serveEngine(argv[2]);
   if (argc == 3 && std::string_view(argv[1]) == "--write-tests")

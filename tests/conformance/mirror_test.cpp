@@ -5,7 +5,7 @@
 #include "tests/conformance/conformance.hpp"
 #include "tests/conformance/names.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 class MirrorConformance : public Conformance {
@@ -61,7 +61,8 @@ class MirrorConformance : public Conformance {
       const Snapshot ours = at(t);
       ASSERT_EQ(ours.positionTime, theirs.positionTime);
       for (std::size_t i = 0; i < ours.position.size(); ++i) {
-        EXPECT_TRUE(close(ours.position[i], theirs.position[i], {allowed() * radius, 0.0, turns}))
+        EXPECT_TRUE(
+            close(ours.position[i], theirs.position[i], {allowed() * smallRadius, 0.0, turns}))
             << "disk " << i << " at t = " << t << " s";
       }
     }
@@ -75,8 +76,8 @@ class MirrorConformance : public Conformance {
     const double unit = allowed() * Encounter::speed;
     for (std::size_t i = 0; i < ours.velocity.size(); ++i) {
       EXPECT_TRUE(close(ours.velocity[i], theirs.velocity[i], {unit, 0.0, turns}));
-      EXPECT_TRUE(
-          close(spinsOf(scene_, ours)[i], spinsOf(scene_, theirs)[i], {unit / radius, 0.0, turns}));
+      EXPECT_TRUE(close(spinsOf(scene_, ours)[i], spinsOf(scene_, theirs)[i],
+                        {unit / smallRadius, 0.0, turns}));
     }
   }
 
@@ -124,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(Mirrors, MirrorConformance, testing::ValuesIn(mirrors()
                          [](const auto& one) { return testName(one.param); });
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

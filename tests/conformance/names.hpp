@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 /// An engine's name as googletest can have it: letters, digits and underscores.
 inline std::string testName(std::string engine) {
@@ -11,4 +11,4 @@ inline std::string testName(std::string engine) {
   return engine;
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

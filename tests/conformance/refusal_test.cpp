@@ -7,7 +7,7 @@
 #include "support/bad_input.hpp"
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 template <typename Refusal>
@@ -31,7 +31,7 @@ bool named(const std::vector<Deviation>& deviations, const std::string& name) {
 /// A scene that calls for all that the law has.
 Scene fullScene(const ContactLaw& law) {
   Scene scene = busyScene(law);
-  scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  scene.bottom = thesisBottom<BottomPlate>();
   return scene;
 }
 
@@ -129,4 +129,4 @@ TEST_P(Conformance, UnknownSettingsAreRefused) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -5,29 +5,12 @@
 
 #include "oracle/impact.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 ContactLaw fullLaw() {
-  ContactLaw law;
-  law.kn = 352.1;
-  law.gn = 0.19;
-  law.kt = 267.1;
-  law.gt = 0.15;
-  law.mu = 0.44;
+  ContactLaw law = thesisLaw();
   law.en = 0.8;
   law.et0 = 0.3;
-  return law;
-}
-
-ContactLaw hertzLaw() {
-  ContactLaw law;
-  law.normal = NormalLaw::hertz;
-  law.damper = Damper::critical;
-  law.kn = 7e5;
-  law.gn = 0.3;
-  law.kt = 1.2 * law.kn;
-  law.gt = 0.2;
-  law.mu = 0.44;
   return law;
 }
 
@@ -43,18 +26,8 @@ Scene emptyScene(const ContactLaw& law, double steps) {
   scene.law = law;
   ContactLaw soft = law;
   if (!law.soft()) soft.normal = NormalLaw::linear;
-  scene.dt = impactTime(soft, {0.5 * mass, 0.5 * radius, Encounter::speed}) / steps;
+  scene.dt = impactTime(soft, {0.5 * smallMass, 0.5 * smallRadius, Encounter::speed}) / steps;
   return scene;
-}
-
-void addDisk(Scene& scene, double a, double m, const Vec2& position, const Vec2& velocity,
-             double spin) {
-  scene.disks.radius.push_back(a);
-  scene.disks.mass.push_back(m);
-  scene.disks.inertia.push_back(0.5 * m * a * a);
-  scene.disks.position.push_back(position);
-  scene.disks.velocity.push_back(velocity);
-  scene.disks.spin.push_back(spin);
 }
 
 WallBody wallOf(const std::string& name, const Vec2& centre, const std::vector<Vec2>& disks,
@@ -63,22 +36,15 @@ WallBody wallOf(const std::string& name, const Vec2& centre, const std::vector<V
   body.name = name;
   body.centre = centre;
   body.diskPosition = disks;
-  body.diskRadius.assign(disks.size(), radius);
+  body.diskRadius.assign(disks.size(), smallRadius);
   body.motion = motion;
-  return body;
-}
-
-WallBody planeWall(const Vec2& point, const Vec2& normal) {
-  WallBody body;
-  body.name = "plane";
-  body.planes = {{point, normal}};
   return body;
 }
 
 Encounter crookedEncounter() {
   Encounter pair;
-  pair.radii[1] = 4.495e-3;
-  pair.masses[1] = 0.490e-3;
+  pair.radii[1] = largeRadius;
+  pair.masses[1] = largeMass;
   pair.obliqueness = 0.5;
   pair.spins[0] = 6.0;
   pair.spins[1] = -2.5;
@@ -103,8 +69,8 @@ Scene encounterScene(const Encounter& pair, const ContactLaw& law, double steps)
 Scene landingScene(const ContactLaw& law, double steps) {
   Scene scene = emptyScene(law, steps);
   scene.bodies = {planeWall({0.0, -1e-3}, {0.0, 1.0})};
-  const double height = radius - 1e-3 + Encounter::gap;
-  addDisk(scene, radius, mass, {0.0, height}, {0.05, -0.05}, 6.0);
+  const double height = smallRadius - 1e-3 + Encounter::gap;
+  addDisk(scene, smallRadius, smallMass, {0.0, height}, {0.05, -0.05}, 6.0);
   return scene;
 }
 
@@ -120,17 +86,15 @@ Scene busyScene(const ContactLaw& law) {
   }
   for (const double side : {-2.3, 2.3})
     for (int k = 0; k < 5; ++k) posts.emplace_back(side * column, 0.019 + 7.4e-3 * k);
-  Motion turning;
-  turning.kind = Motion::Kind::rotating;
-  turning.angularVelocity = 3.0;
-  scene.bodies = {wallOf("wheel", Vec2::Zero(), rim, turning), wallOf("posts", {0.0, 0.03}, posts)};
+  scene.bodies = {wallOf("wheel", Vec2::Zero(), rim, rotating(3.0)),
+                  wallOf("posts", {0.0, 0.03}, posts)};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 4; ++c) {
       const bool large = (r + c) % 3 == 0;
-      addDisk(scene, large ? 4.495e-3 : radius, large ? 0.490e-3 : mass,
+      addDisk(scene, large ? largeRadius : smallRadius, large ? largeMass : smallMass,
               {column * (c - 1.5), 0.0285 + row * r}, {0.02 * r, -0.1 * (r + 1)}, 5.0 - c);
     }
   return scene;
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

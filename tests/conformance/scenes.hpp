@@ -3,21 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "adapters/scene.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
-/// Disks of Lätzel 2003, Table 3.1, the small radius as cases use it.
-inline constexpr double radius = 3.70e-3;  ///< [m]
-inline constexpr double mass = 0.275e-3;   ///< [kg]
-
-/// Lätzel 2003, Table 4.1; its rigid side, for engines that have only that, restores e_n = 0.8 and
+/// The thesis' law; its rigid side, for engines that have only that, restores e_n = 0.8 and
 /// e_t0 = 0.3.
 ContactLaw fullLaw();
-
-/// Hertz' law with critical dampers, as deep at Encounter::speed as fullLaw(); bodies of Poisson's
-/// ratio 1/3.
-ContactLaw hertzLaw();
 
 /// The law without anything that could turn a disk.
 ContactLaw frictionless(ContactLaw law);
@@ -26,22 +19,16 @@ ContactLaw frictionless(ContactLaw law);
 /// Encounter::speed where that matters.
 Scene emptyScene(const ContactLaw& law, double steps);
 
-/// A solid disk, J = ½ m a².
-void addDisk(Scene& scene, double a, double m, const Vec2& position, const Vec2& velocity,
-             double spin = 0.0);
-
 /// A body of wall disks of the small radius.
 WallBody wallOf(const std::string& name, const Vec2& centre, const std::vector<Vec2>& disks,
                 const Motion& motion = {});
-
-WallBody planeWall(const Vec2& point, const Vec2& normal);
 
 /// Two disks that meet. Disk 0 comes from the right at `speed` relative to disk 1; the line of
 /// centres makes the angle `obliqueness` with the path when they touch. Their centre of mass starts
 /// at the origin and moves at `drift`.
 struct Encounter {
-  double radii[2] = {radius, radius};
-  double masses[2] = {mass, mass};
+  double radii[2] = {smallRadius, smallRadius};
+  double masses[2] = {smallMass, smallMass};
   double obliqueness = 0.0;  ///< [rad]
   double spins[2] = {0.0, 0.0};
   Vec2 drift = Vec2::Zero();
@@ -67,4 +54,4 @@ Scene landingScene(const ContactLaw& law, double steps);
 Scene busyScene(const ContactLaw& law);
 inline constexpr double busyEnd = 0.02;  ///< [s]
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -6,7 +6,7 @@
 #include "tests/conformance/expected_skips.hpp"
 #include "tests/conformance/names.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 std::string reasonOf(const testing::TestResult& result) {
@@ -79,4 +79,4 @@ TEST(ExpectedSkips, AreOfEnginesThatThereAre) {
     EXPECT_TRUE(findEngine(std::string(skip.engine))) << skip.engine;
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

@@ -1,7 +1,7 @@
 // Space has no preferred place, direction or handedness.
 #include "tests/conformance/conformance.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 namespace {
 
 /// A map of the plane onto itself that keeps lengths.
@@ -30,10 +30,10 @@ void expectImage(const Snapshot& image, const Isometry& map, const Scene& scene,
     return Tolerance{relative.relative * unit, 0.0, relative.why};
   };
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
-    EXPECT_TRUE(close(image.position[i], map.point(original.position[i]), in(radius)));
+    EXPECT_TRUE(close(image.position[i], map.point(original.position[i]), in(smallRadius)));
     EXPECT_TRUE(close(image.velocity[i], map.vector(original.velocity[i]), in(Encounter::speed)));
     EXPECT_TRUE(close(spinsOf(mapped(scene, map), image)[i], map.spin(spinsOf(scene, original)[i]),
-                      in(Encounter::speed / radius)));
+                      in(Encounter::speed / smallRadius)));
   }
 }
 
@@ -68,4 +68,4 @@ TEST_P(Conformance, RotatedSceneGivesTheRotatedResult) {
 }
 
 }  // namespace
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

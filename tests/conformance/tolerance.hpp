@@ -8,7 +8,7 @@
 
 #include "adapters/vec2.hpp"
 
-namespace crossgrain::conformance {
+namespace crossgrain::test {
 
 /// How far a value may be from what it should be: `absolute` or `relative` of the expected value,
 /// whichever allows more. `why` is not optional.
@@ -39,4 +39,4 @@ inline testing::AssertionResult close(const Vec2& actual, const Vec2& expected,
                             actual.y(), expected.x(), expected.y()));
 }
 
-}  // namespace crossgrain::conformance
+}  // namespace crossgrain::test

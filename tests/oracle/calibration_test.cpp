@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -151,7 +151,7 @@ TEST(ImpliedImpact, ThesisDisks) {
   const ImpliedImpact is = impliedImpact(law, test::smallPair());
   EXPECT_NEAR(is.enAllowed, 0.2223, 5e-5);
   EXPECT_NEAR(is.enCut, 0.3408, 5e-5);
-  EXPECT_NEAR(is.contactTime, 2.18e-3, 5e-6);
+  EXPECT_NEAR(is.contactTime, test::smallContactTime, 5e-6);
   EXPECT_NEAR(is.slidingConstant.value(), 1.770, 5e-4);
   // Friction ends with f_n > 0, so cutting tension leaves e_t0 as it is.
   law.conventions.tension = Tension::cut;
@@ -196,11 +196,11 @@ TEST(ImpliedImpact, LargestOverlapOfAnUndampedContact) {
   ContactLaw law = test::thesisLaw();
   law.gn = 0.0;
   EXPECT_DOUBLE_EQ(impliedImpact(law, test::smallPair()).overlapPerSpeed,
-                   std::sqrt(0.1375e-3 / 352.1));
+                   std::sqrt(0.5 * test::smallMass / test::thesis.kn));
   // Damped: δ = (v/ω) e^{−ηt} sin ωt, sampled.
-  law.gn = 0.19;
-  const double eta = 0.19 / 0.275e-3;
-  const double omega = std::sqrt(352.1 / 0.1375e-3 - eta * eta);
+  law.gn = test::thesis.gn;
+  const double eta = test::thesis.gn / test::smallMass;
+  const double omega = std::sqrt(test::thesis.kn / (0.5 * test::smallMass) - eta * eta);
   double largest = 0.0;
   for (double t = 0.0; t < pi / omega; t += 1e-7)
     largest = std::max(largest, std::exp(-eta * t) * std::sin(omega * t) / omega);

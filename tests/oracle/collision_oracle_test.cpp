@@ -8,7 +8,7 @@
 #include "adapters/grain.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_flight.hpp"
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -91,18 +91,9 @@ TEST(CollisionOracle, ConventionsWithoutALimitAreRefused) {
   EXPECT_THROW(oracleOutcome(law, smallPair(), {1.0, 0.1}), std::invalid_argument);
 }
 
-ContactLaw rigidLaw() {
-  ContactLaw law;
-  law.normal = NormalLaw::rigid;
-  law.en = 0.9;
-  law.et0 = 0.5;
-  law.mu = 0.44;
-  return law;
-}
-
 TEST(CollisionOracle, RigidLawIsWaltons) {
   const auto psi = [](double start) {
-    return oracleOutcome(rigidLaw(), smallPair(), {start, 0.1}).psi;
+    return oracleOutcome(rigidLaw(0.9, 0.5, 0.44), smallPair(), {start, 0.1}).psi;
   };
   EXPECT_NEAR(psi(1.0), -0.5, 1e-15);
   EXPECT_NEAR(psi(4.0), 4.0 - 3.0 * 1.9 * 0.44, 1e-15);
@@ -113,15 +104,15 @@ TEST(CollisionOracle, SaysWhereTheLawHasNoLimitOfSmallSteps) {
   // Spring and dashpot near the transition: the in-house engine settles at Ψ_i = 1.65; at 1.75 ever
   // smaller steps go on giving other outcomes.
   Case setup = smallPairCase();
-  setup.collision.radius[1] = 3.0 * radius;
-  setup.collision.mass[1] = 20.0 * mass;
+  setup.collision.radius[1] = 3.0 * smallRadius;
+  setup.collision.mass[1] = 20.0 * smallMass;
   const auto spread = [&](const CollisionStart& start) {
     double low = INFINITY, high = -INFINITY;
     for (const double steps : {1e4, 3e4, 1e5, 3e5}) {
-      const Scene scene = collisionScene(setup, {start}, contactTime / steps);
+      const Scene scene = collisionScene(setup, {start}, smallContactTime / steps);
       const auto engine = makeGrain();
       engine->load(scene, {});
-      engine->advance(2.5 * contactTime);
+      engine->advance(2.5 * smallContactTime);
       const double psi = collisionEnd(scene, engine->snapshot(ContactReport::none), 0, start)->psi;
       low = std::min(low, psi);
       high = std::max(high, psi);
@@ -220,10 +211,10 @@ TEST_P(WholeCurve, TheInHouseEngineConvergesToTheOracle) {
   for (int k = 0; k <= 40; ++k) starts.push_back({0.1 * k, 0.1});
 
   const auto rmsError = [&](double steps) {
-    const Scene scene = collisionScene(setup, starts, contactTime / steps);
+    const Scene scene = collisionScene(setup, starts, smallContactTime / steps);
     const auto engine = makeGrain();
     engine->load(scene, {});
-    engine->advance(2.5 * contactTime);
+    engine->advance(2.5 * smallContactTime);
     const Snapshot after = engine->snapshot(ContactReport::none);
     double squares = 0.0;
     for (std::size_t k = 0; k < starts.size(); ++k) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "oracle/collision_oracle.hpp"
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -101,14 +101,14 @@ TEST(CollisionQuantities, CentresAndContactPointAreDifferentQuantities) {
   EXPECT_NEAR(*oblique.beta, -oblique.psi / 4.0, 1e-15);
   EXPECT_NEAR(*oblique.et, (4.0 - c) / 4.0, 1e-5);
   EXPECT_NEAR(std::tan(oblique.reboundAngle), (4.0 - c) / oblique.en, 1e-4);
-  EXPECT_NEAR(oblique.spin[0] * radius, c * v, 1e-5 * v);
-  EXPECT_NEAR(oblique.spin[1] * radius, c * v, 1e-5 * v);
+  EXPECT_NEAR(oblique.spin[0] * smallRadius, c * v, 1e-5 * v);
+  EXPECT_NEAR(oblique.spin[1] * smallRadius, c * v, 1e-5 * v);
 
   const CollisionEnd spun = oracleOutcome(law, smallPair(), {4.0, v});
   EXPECT_NEAR(spun.psi, oblique.psi, 1e-5);
   EXPECT_NEAR(spun.centrePsi, -c, 1e-5);
   EXPECT_FALSE(spun.et) << "the centres met head on";
-  EXPECT_NEAR(spun.spin[0] * radius, (-2.0 + c) * v, 1e-5 * v);
+  EXPECT_NEAR(spun.spin[0] * smallRadius, (-2.0 + c) * v, 1e-5 * v);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "oracle/collision_oracle.hpp"
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "oracle/collision_oracle.hpp"
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -83,7 +83,7 @@ struct Outcome {
 /// Obliquely, without spins; the last step is cut where the disks part.
 Outcome integrate(const ContactLaw& law, const CollidingPair& pair, double psi, double vn) {
   constexpr int stepsPerContact = 200'000;
-  const double h = test::contactTime / stepsPerContact;
+  const double h = test::smallContactTime / stepsPerContact;
   Plain plain{law, pair};
   State s{pair.radius[0] + pair.radius[1], 0.0, -vn, psi * vn, 0.0, 0.0, 0.0};
   for (int step = 0; step < 4 * stepsPerContact; ++step) {

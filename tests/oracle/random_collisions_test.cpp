@@ -9,11 +9,12 @@
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
-#include "random_draw.hpp"
+#include "random_pair.hpp"
 
 namespace {
 
 using namespace crossgrain;
+using test::Draw;
 
 /// A pair with radii up to 1 : 10 and masses up to 1 : 1000, and a law with e_n from 0.05 to 1 (of
 /// the uncut law), k_t/k_n from 0.1 to 1.5, µ from 0 to 2.
@@ -21,11 +22,7 @@ Case randomCase(Draw& draw) {
   Case setup;
   setup.kind = CaseKind::collision;
   Collision& c = setup.collision;
-  c.radius[0] = 1e-3 * draw.logarithmic(1.0, 10.0);
-  c.radius[1] = 1e-3 * draw.logarithmic(1.0, 10.0);
-  c.mass[0] = 1e-4;
-  c.mass[1] = 1e-4 * draw.logarithmic(1.0, 1000.0);
-  c.inertiaFactor = draw.uniform(0.4, 0.5);
+  drawPair(draw, c);
   c.approach = draw.oneOf({Approach::spin, Approach::oblique});
   ContactLaw& law = setup.law;
   const double reduced = collidingPair(setup).reducedMass();

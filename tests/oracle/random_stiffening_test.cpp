@@ -11,11 +11,12 @@
 #include "oracle/collision_flight.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
-#include "random_draw.hpp"
+#include "random_pair.hpp"
 
 namespace {
 
 using namespace crossgrain;
+using test::Draw;
 
 /// Hertz' law and polynomials, every damper, every tangential law, both histories; a second disk of
 /// up to 10 times the radius and 1000 times the mass, or a wall. Conventions are those that never
@@ -25,11 +26,7 @@ Case randomStiffeningCase(Draw& draw) {
   setup.kind = CaseKind::collision;
   Collision& c = setup.collision;
   c.wall = draw.oneOf({false, true});
-  c.radius[0] = 1e-3 * draw.logarithmic(1.0, 10.0);
-  c.radius[1] = 1e-3 * draw.logarithmic(1.0, 10.0);
-  c.mass[0] = 1e-4;
-  c.mass[1] = 1e-4 * draw.logarithmic(1.0, 1000.0);
-  c.inertiaFactor = draw.uniform(0.4, 0.5);
+  drawPair(draw, c);
   c.approach = draw.oneOf({Approach::spin, Approach::firstSpin, Approach::oblique});
   ContactLaw& law = setup.law;
   law.normal = draw.oneOf({NormalLaw::hertz, NormalLaw::polynomial});

@@ -5,7 +5,7 @@
 
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
-#include "thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -105,10 +105,10 @@ TEST(PolynomialOracle, TheMeasuredDiskStopsWhereItsWorkIsTheKineticEnergy) {
   const CollisionEnd end = oracleOutcome(law, test::smallPair(), {0.0, 0.1});
   const double d = *end.maxOverlap;
   const double work = 8.456e9 * d * d * d / 3.0 - 3.73e12 * d * d * d * d / 4.0;
-  EXPECT_NEAR(work, 0.25 * test::mass * 0.01, 1e-10 * work);
+  EXPECT_NEAR(work, 0.25 * test::smallMass * 0.01, 1e-10 * work);
   EXPECT_NEAR(end.en, 1.0, 1e-11);
   EXPECT_NEAR(*end.duration,
-              impactTime(law, {test::smallPair().reducedMass(), 0.5 * test::radius, 0.1}),
+              impactTime(law, {test::smallPair().reducedMass(), 0.5 * test::smallRadius, 0.1}),
               1e-7 * *end.duration);
   // Beyond δ = 2 k₂/(3 |k₃|) it softens, and gives way where its whole work does not stop the
   // disks.
@@ -185,9 +185,9 @@ TEST(WallOracle, IsTheLimitOfAHugeHeavyDisk) {
   law.conventions.springUpdate = SpringUpdate::midpoint;
   law.conventions.springReset = SpringReset::springOnly;
   CollidingPair huge = test::smallPair();
-  const CollidingPair wall = diskOnWall(test::radius, test::mass, huge.inertia[0]);
-  huge.radius[1] = 1e6 * test::radius;
-  huge.mass[1] = 1e12 * test::mass;
+  const CollidingPair wall = diskOnWall(test::smallRadius, test::smallMass, huge.inertia[0]);
+  huge.radius[1] = 1e6 * test::smallRadius;
+  huge.mass[1] = 1e12 * test::smallMass;
   huge.inertia[1] = huge.mass[1] * huge.radius[1] * huge.radius[1];
   for (const LeverArm lever : {LeverArm::radius, LeverArm::contactPoint})
     for (const Approach approach : {Approach::firstSpin, Approach::oblique})
@@ -197,7 +197,7 @@ TEST(WallOracle, IsTheLimitOfAHugeHeavyDisk) {
         const CollisionEnd a = oracleOutcome(law, huge, start), b = oracleOutcome(law, wall, start);
         EXPECT_NEAR(a.psi, b.psi, 1e-5);
         EXPECT_NEAR(a.en, b.en, 1e-5);
-        EXPECT_NEAR(a.spin[0], b.spin[0], 1e-5 * 0.01 / test::radius);
+        EXPECT_NEAR(a.spin[0], b.spin[0], 1e-5 * 0.01 / test::smallRadius);
         EXPECT_NEAR(b.reboundAngle, std::atan2(b.centrePsi, b.en), 1e-14);
       }
 }
@@ -206,10 +206,11 @@ TEST(WallOracle, IsTheLimitOfAHugeHeavyDisk) {
 TEST(WallOracle, SlidesByTheClosedForm) {
   ContactLaw law = test::thesisLaw();
   law.tangential = TangentialLaw::coulomb;
-  const CollidingPair wall = diskOnWall(test::radius, test::mass, test::smallPair().inertia[0]);
+  const CollidingPair wall =
+      diskOnWall(test::smallRadius, test::smallMass, test::smallPair().inertia[0]);
   ContactLaw cut = law;
   cut.conventions.tension = Tension::cut;
-  const double constant = 3.0 * (1.0 + restitutionOfLinearLaw(cut, test::mass)) * law.mu;
+  const double constant = 3.0 * (1.0 + restitutionOfLinearLaw(cut, test::smallMass)) * law.mu;
   EXPECT_NEAR(*slidingConstant(law, wall), constant, 1e-14);
   EXPECT_NEAR(oracleOutcome(law, wall, {4.0, 0.1}).psi, 4.0 - constant, 1e-9);
   // A grazing impact slides too, with the same constant.

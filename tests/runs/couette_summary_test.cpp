@@ -8,6 +8,7 @@
 #include "averaging/rings.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/velocity_notes.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace {
 
@@ -16,11 +17,11 @@ using nlohmann::json;
 
 Case cell() {
   Case setup;
-  setup.cell = {0.03, 0.075, 1.25e-3, 2.5e-3, 6e-3, 1.0};
-  setup.particles.smallRadius = 3.7e-3;
-  setup.particles.smallMass = setup.particles.largeMass = 0.275e-3;
+  setup.cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
+  setup.particles.smallRadius = test::smallRadius;
+  setup.particles.smallMass = setup.particles.largeMass = test::smallMass;
   setup.averaging.rings = 6;
-  setup.law.kn = 352.1;
+  setup.law.kn = test::thesis.kn;
   return setup;
 }
 

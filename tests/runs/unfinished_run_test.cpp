@@ -5,6 +5,8 @@
 #include <fstream>
 
 #include "adapters/grain.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace {
 
@@ -15,22 +17,12 @@ namespace fs = std::filesystem;
 Scene bouncing() {
   Scene scene;
   scene.name = "bouncing";
-  scene.law.kn = 352.1;
+  scene.law = test::thesisLaw();
   scene.law.gn = 0.05;
-  scene.law.kt = 267.1;
-  scene.law.gt = 0.15;
-  scene.law.mu = 0.44;
-  scene.law.tangential = TangentialLaw::springDashpot;
   scene.gravity = {0.3, -9.81};
   scene.dt = 4e-5;
-  for (const double x : {0.0, 7.3e-3}) {
-    scene.disks.radius.push_back(3.7e-3);
-    scene.disks.mass.push_back(0.275e-3);
-    scene.disks.inertia.push_back(0.5 * 0.275e-3 * 3.7e-3 * 3.7e-3);
-    scene.disks.position.push_back({x, 5e-3 + x});
-    scene.disks.velocity.push_back({0.02, 0.0});
-    scene.disks.spin.push_back(3.0);
-  }
+  for (const double x : {0.0, 7.3e-3})
+    test::addDisk(scene, test::smallRadius, test::smallMass, {x, 5e-3 + x}, {0.02, 0.0}, 3.0);
   WallBody floor;
   floor.name = "floor";
   floor.planes.emplace_back();

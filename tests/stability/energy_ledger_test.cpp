@@ -5,7 +5,7 @@
 #include "adapters/grain.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 // The in-house engine's energy ledger against the account that the oracle integrates.
 
@@ -26,8 +26,8 @@ Sides collide(const ContactLaw& law, double psi, double stepsPerContact) {
   setup.run.energyLedger = true;
   const auto starts = collisionStarts(setup);
   const auto engine = makeGrain();
-  engine->load(collisionScene(setup, starts, test::contactTime / stepsPerContact), {});
-  engine->advance(3.0 * test::contactTime);
+  engine->load(collisionScene(setup, starts, test::smallContactTime / stepsPerContact), {});
+  engine->advance(3.0 * test::smallContactTime);
   const Snapshot end = engine->snapshot(ContactReport::none);
   return {end.ledger.value(), oracleOutcome(law, collidingPair(setup), starts.front())};
 }

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 Simulation run(grain::Setup setup) {
   Simulation simulation(std::move(setup));
@@ -89,7 +90,7 @@ TEST_P(AbsentEffects, APlateThatBrakesNoSpinLeavesASingleDiskTurning) {
   setup.law = test::thesisLaw();
   setup.dt = 4e-5;
   setup.precision = GetParam();
-  setup.bottom = Bottom{0.02, 267.1, 0.15, 1e-4, 9.81, false};
+  setup.bottom = test::thesisBottom<Bottom>(0.02, false);
   test::addDisk(setup.disks, 0.0, 0.0, 0.1, 0.0, 8.0);
   Simulation turning(setup);
   setup.bottom->spin = true;

@@ -58,6 +58,7 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 /// Allocations of `steps` steps once the run has warmed up.
 std::size_t allocationsOf(const grain::Setup& setup, std::uint64_t warmUp, std::uint64_t steps) {
@@ -87,8 +88,8 @@ class SteadyState : public testing::TestWithParam<std::tuple<Precision, Integrat
   grain::Setup scene() const {
     grain::Setup setup = test::packed(10, 6);
     std::tie(setup.precision, setup.integrator, setup.threads) = GetParam();
-    setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
-    setup.skin = 0.1 * test::radius;
+    setup.bottom = test::thesisBottom<Bottom>(2e-3);
+    setup.skin = 0.1 * test::smallRadius;
     return setup;
   }
 
@@ -130,7 +131,7 @@ class AbsentEffects : public testing::TestWithParam<Precision> {
   static grain::Setup scene() {
     grain::Setup setup = test::packed(20, 6);
     setup.precision = GetParam();
-    setup.skin = 0.2 * test::radius;
+    setup.skin = 0.2 * test::smallRadius;
     return setup;
   }
   static std::size_t real() { return GetParam() == Precision::float64 ? 8 : 4; }
@@ -172,7 +173,7 @@ TEST_P(AbsentEffects, FrictionlessScenesHoldWhatOnesWithoutSpringsAndRotationDo)
 TEST_P(AbsentEffects, ScenesWithoutAPlateHoldNoSpringsOfIt) {
   auto setup = scene();
   const std::size_t without = bytesHeld(setup);
-  setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.bottom = test::thesisBottom<Bottom>(2e-3);
   // Springs along x and y, and the mass that it carries.
   EXPECT_GE(bytesHeld(setup), without + 3 * real() * setup.disks.size());
 }

@@ -7,9 +7,10 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
-constexpr double dt = 1e-6, overlap = 2e-4, gt = 0.15;
-constexpr double radiusI = test::radius, radiusJ = 4.495e-3;
+constexpr double dt = 1e-6, overlap = 2e-4, gt = test::thesis.gt;
+constexpr double radiusI = test::smallRadius, radiusJ = test::largeRadius;
 constexpr double spinI = 7.0, spinJ = -3.0;
 
 double arm(Lever lever, double a, double other) {
@@ -21,7 +22,7 @@ double arm(Lever lever, double a, double other) {
 /// is F dt, and the law sees the velocities that the disks start with.
 grain::Setup viscous(Lever lever, std::optional<Lever> velocityLever, PlaneLever plane) {
   grain::Setup setup;
-  setup.law.kn = 352.1;
+  setup.law.kn = test::thesis.kn;
   setup.law.tangential = Tangential::viscous;
   setup.law.gt = gt;
   setup.law.mu = 1e6;

@@ -8,6 +8,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 std::string saved(const Simulation& simulation) {
   std::ostringstream out;
@@ -23,7 +24,7 @@ void restore(Simulation& simulation, const std::string& bytes) {
 grain::Setup scene(Precision precision = Precision::float64) {
   grain::Setup setup = test::packed(10, 3);
   setup.precision = precision;
-  setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.bottom = test::thesisBottom<Bottom>(2e-3);
   return setup;
 }
 
@@ -80,7 +81,7 @@ TEST(Checkpoints, OfEveryLawAndIntegratorGoOnToTheBit) {
 
 TEST(Checkpoints, MayBeTakenWithOtherSkinsAndThreads) {
   grain::Setup other = scene();
-  other.skin = 0.7 * test::radius;
+  other.skin = 0.7 * test::smallRadius;
   other.threads = 2;
   Simulation whole(scene()), resumed(other);
   whole.advance(250);

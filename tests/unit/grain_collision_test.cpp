@@ -10,7 +10,7 @@
 namespace {
 
 using namespace grain;
-using namespace test;
+using namespace crossgrain::test;
 using grain::Setup;
 
 /// e_n of the pair, with v_n taken where the overlap passes zero: carried there from the last step
@@ -18,7 +18,7 @@ using grain::Setup;
 /// so a step that straddles one end is off by up to η dt, whatever the scheme: contacts here begin
 /// midway between two steps, and end where they end.
 double restitution(Setup setup, double v) {
-  const double reduced = 0.5 * mass, kn = setup.law.kn, gn = setup.law.gn;
+  const double reduced = 0.5 * smallMass, kn = setup.law.kn, gn = setup.law.gn;
   Simulation simulation(std::move(setup));
   double overlap = 0.0, velocity = 0.0, force = 0.0;
   do {
@@ -38,8 +38,8 @@ double restitution(Setup setup, double v) {
 /// Lätzel (2003), section 4.1: exp(−η π/ω) with tension, exp(−(η/ω)(π − atan2(2ηω, ω² − η²)))
 /// without.
 double closedForm(bool cut) {
-  const double reduced = 0.5 * mass, eta = 0.19 / (2.0 * reduced);
-  const double omega = std::sqrt(352.1 / reduced - eta * eta);
+  const double reduced = 0.5 * smallMass, eta = thesis.gn / (2.0 * reduced);
+  const double omega = std::sqrt(thesis.kn / reduced - eta * eta);
   const double end = cut ? M_PI - std::atan2(2.0 * eta * omega, omega * omega - eta * eta) : M_PI;
   return std::exp(-eta / omega * end);
 }
@@ -105,7 +105,7 @@ GeneralLaw<double> kernelLaw() {
 TEST(GrainCollision, TensionOfTheNormalForceIsAllowedOrCut) {
   auto law = kernelLaw();
   const ContactMotion<double> parting{1e-7, 0.05, 0.0, 0.0, 0.0};
-  EXPECT_DOUBLE_EQ(normalForce(law, parting), 352.1e-7 - 0.19 * 0.05);
+  EXPECT_DOUBLE_EQ(normalForce(law, parting), 352.1e-7 - thesis.gn * 0.05);
   law.cutTension = true;
   EXPECT_EQ(normalForce(law, parting), 0.0);
 }
@@ -125,36 +125,38 @@ TEST(GrainCollision, TangentialLawsByHand) {
   law.normalDamping = false;  // f_n = 352.1 · 1e-4 = 0.03521 N, bound 0.0154924 N
   const ContactMotion<double> slow{1e-4, 0.0, 0.01, 0.0, 0.0};
   const ContactMotion<double> fast{1e-4, 0.0, 1.0, 0.0, 0.0};
-  const double bound = 0.44 * 0.03521;
+  const double bound = thesis.mu * 0.03521;
   double spring = 0.0;
 
   law.tangential = Tangential::coulomb;
   EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -bound);
   law.tangential = Tangential::viscous;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -0.15 * 0.01);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -thesis.gt * 0.01);
   EXPECT_DOUBLE_EQ(contactForce(law, fast, spring).tangential, -bound);
   EXPECT_EQ(spring, 0.0);
 
   law.tangential = Tangential::spring;
   spring = 2e-5;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -267.1 * 2e-5);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -thesis.kt * 2e-5);
   EXPECT_DOUBLE_EQ(spring, 2e-5 + 0.01 * 1e-6);  // stretched after the force
   spring = 1e-4;                                 // 0.02671 N, beyond the bound
   const ContactForce<double> slipping = contactForce(law, slow, spring);
   EXPECT_EQ(slipping.sliding, 1.0);
   EXPECT_DOUBLE_EQ(slipping.tangential, -bound);
-  EXPECT_DOUBLE_EQ(spring, bound / 267.1);
+  EXPECT_DOUBLE_EQ(spring, bound / thesis.kt);
 
   law.tangential = Tangential::springDashpot;
   spring = 2e-5;
-  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential, -267.1 * 2e-5 - 0.15 * 0.01);
+  EXPECT_DOUBLE_EQ(contactForce(law, slow, spring).tangential,
+                   -thesis.kt * 2e-5 - thesis.gt * 0.01);
   law.resetSpringOnly = true;
   spring = 2e-5;
   contactForce(law, fast, spring);
-  EXPECT_NEAR(-267.1 * spring - 0.15 * 1.0, -bound, 1e-16);  // together they carry the bound
+  EXPECT_NEAR(-thesis.kt * spring - thesis.gt * 1.0, -bound,
+              1e-16);  // together they carry the bound
   law.dashpotOutsideBound = true;
   spring = 2e-5;  // within the bound by itself, so the dashpot comes on top of it
-  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring).tangential, -267.1 * 2e-5 - 0.15 * 1.0);
+  EXPECT_DOUBLE_EQ(contactForce(law, fast, spring).tangential, -thesis.kt * 2e-5 - thesis.gt * 1.0);
 }
 
 }  // namespace

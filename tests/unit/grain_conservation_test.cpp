@@ -7,7 +7,7 @@
 namespace {
 
 using namespace grain;
-using namespace test;
+using namespace crossgrain::test;
 
 struct Totals {
   double px = 0.0, py = 0.0, angular = 0.0;
@@ -16,9 +16,10 @@ struct Totals {
 Totals totals(const Simulation& s) {
   Totals t;
   for (std::size_t i = 0; i < s.movingCount(); ++i) {
-    t.px += mass * s.velocityX(i);
-    t.py += mass * s.velocityY(i);
-    t.angular += mass * (s.x(i) * s.velocityY(i) - s.y(i) * s.velocityX(i)) + inertia * s.spin(i);
+    t.px += smallMass * s.velocityX(i);
+    t.py += smallMass * s.velocityY(i);
+    t.angular +=
+        smallMass * (s.x(i) * s.velocityY(i) - s.y(i) * s.velocityX(i)) + smallInertia * s.spin(i);
   }
   return t;
 }
@@ -30,7 +31,7 @@ TEST(GrainConservation, MomentumOfACrowdIsKeptToRounding) {
   for (int step = 0; step < 2000; ++step) {
     simulation.step();
     for (std::size_t i = 0; i < simulation.movingCount(); ++i)
-      largest = std::max(largest, mass * std::abs(simulation.velocityX(i)));
+      largest = std::max(largest, smallMass * std::abs(simulation.velocityX(i)));
   }
   const Totals after = totals(simulation);
   // 144 disks, 2000 sums each: rounding of 1e-16 per sum on momenta of `largest`.
@@ -142,7 +143,7 @@ TEST(GrainConservation, ShiftedMirroredAndTurnedScenesGiveTheSamePhysics) {
   ASSERT_GT(original.contactEvaluations(), 1000u);
   // Rounding, grown over some tens of collisions a disk: chaos multiplies it by about e per
   // collision.
-  const double place = 1e-9 * radius, spin = 1e-6;
+  const double place = 1e-9 * smallRadius, spin = 1e-6;
   for (std::size_t i = 0; i < original.movingCount(); ++i) {
     EXPECT_NEAR(shifted.x(i) - 0.25, original.x(i), place);
     EXPECT_NEAR(shifted.spin(i), original.spin(i), spin);

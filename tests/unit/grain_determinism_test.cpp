@@ -14,6 +14,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 /// Environment variable for as long as this lives, then as it was.
 class WithInstructions {
@@ -32,7 +33,7 @@ class WithInstructions {
 grain::Setup scene(Precision precision, int side = 12) {
   grain::Setup setup = test::packed(side, 5);
   setup.precision = precision;
-  setup.bottom = Bottom{2e-3, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.bottom = test::thesisBottom<Bottom>(2e-3);
   return setup;
 }
 
@@ -109,10 +110,10 @@ TEST_P(Determinism, AnySkinGivesTheSameBits) {
   for (const double share : {0.01, 0.1, 0.5, 2.0}) {
     SCOPED_TRACE(share);
     grain::Setup setup = scene(GetParam());
-    setup.skin = share * test::radius;
+    setup.skin = share * test::smallRadius;
     const auto simulation = run(std::move(setup), pastARenumbering);
     EXPECT_EQ(test::difference(simulation, reference), "");
-    EXPECT_EQ(simulation.neighbours().skin, share * test::radius);
+    EXPECT_EQ(simulation.neighbours().skin, share * test::smallRadius);
     EXPECT_LT(simulation.neighbours().rebuilds, rebuilds);
     rebuilds = simulation.neighbours().rebuilds;
   }

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 /// Two disks too soft for the speed they meet with, or one against a plane, that fly through.
 grain::Setup tunnelling() {
@@ -79,9 +80,9 @@ TEST(OverlapGuard, SeesADiskInAWallDisk) {
   test::putOnPlane(setup);
   Wall& wall = setup.walls.front();
   wall.planes.clear();
-  wall.diskX = {1.0, -test::radius};  // the first far away
+  wall.diskX = {1.0, -test::smallRadius};  // the first far away
   wall.diskY = {0.0, 0.0};
-  wall.diskRadius = {test::radius, test::radius};
+  wall.diskRadius = {test::smallRadius, test::smallRadius};
   const std::string why = endOf(setup, through);
   EXPECT_EQ(why.rfind("disk 0 and wall disk 1 overlap by", 0), 0u) << why;
 }
@@ -91,9 +92,9 @@ TEST(OverlapGuard, LooksAtTheStart) {
   setup.law = test::thesisLaw();
   setup.dt = 4e-5;
   test::addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
-  test::addDisk(setup.disks, 0.9 * test::radius, 0.0, 0.0, 0.0, 0.0);
+  test::addDisk(setup.disks, 0.9 * test::smallRadius, 0.0, 0.0, 0.0, 0.0);
   EXPECT_THROW(Simulation{setup}, std::runtime_error);
-  setup.disks.x[1] = 1.1 * test::radius;
+  setup.disks.x[1] = 1.1 * test::smallRadius;
   EXPECT_NO_THROW(Simulation{setup});
 }
 

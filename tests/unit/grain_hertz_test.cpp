@@ -10,6 +10,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 using grain::Setup;
 
 /// Two equal spheres head on, after Chung and Ooi (2011), test 1; E in Pa, density in kg/m³.
@@ -137,7 +138,7 @@ TEST(GrainHertz, ViscoelasticSpheresLoseMoreWhereTheyAreFaster) {
 /// The disk that Lätzel measured (2003, Fig. 4.4): f = 8.456e9 δ² − 3.73e12 δ³. Its deepest overlap
 /// is where the work of f equals the kinetic energy.
 TEST(GrainPolynomial, TheMeasuredDiskStopsWhereItsWorkIsTheKineticEnergy) {
-  const double v = 0.1, reduced = 0.5 * test::mass;
+  const double v = 0.1, reduced = 0.5 * test::smallMass;
   grain::Setup setup = test::collidingPair(v, 0.0, 0.0, 1e-8);
   setup.law = {};
   setup.law.normal = Normal::polynomial;

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 constexpr double en = 0.8, et0 = 0.3, mu = 0.4, speed = 0.1;
 
@@ -27,15 +28,15 @@ grain::Setup headOn(double psi, double dt = 1e-5) {
   setup.law.lever = Lever::contactPoint;
   setup.integrator = Integrator::semiImplicitEuler;
   setup.dt = dt;
-  const double ahead = 0.25 * speed * dt, spin = -psi * speed / (2.0 * test::radius);
-  test::addDisk(setup.disks, test::radius + ahead, 0.0, -0.5 * speed, 0.0, spin);
-  test::addDisk(setup.disks, -test::radius - ahead, 0.0, 0.5 * speed, 0.0, spin);
+  const double ahead = 0.25 * speed * dt, spin = -psi * speed / (2.0 * test::smallRadius);
+  test::addDisk(setup.disks, test::smallRadius + ahead, 0.0, -0.5 * speed, 0.0, spin);
+  test::addDisk(setup.disks, -test::smallRadius - ahead, 0.0, 0.5 * speed, 0.0, spin);
   return setup;
 }
 
 double psiAfter(const Simulation& now) {
   const double slip =
-      now.velocityY(0) - now.velocityY(1) - test::radius * (now.spin(0) + now.spin(1));
+      now.velocityY(0) - now.velocityY(1) - test::smallRadius * (now.spin(0) + now.spin(1));
   return slip / speed;
 }
 
@@ -67,7 +68,7 @@ TEST(GrainImpulse, OnAPlaneTheDiskIsTheWholeMass) {
   Simulation simulation(setup);
   simulation.advance(10);
   EXPECT_NEAR(simulation.velocityX(0), en * 0.5 * speed, 1e-12);
-  const double slip = simulation.velocityY(0) - test::radius * simulation.spin(0);
+  const double slip = simulation.velocityY(0) - test::smallRadius * simulation.spin(0);
   EXPECT_NEAR(slip, -et0 * 0.25 * speed, 1e-4 * speed);
 }
 
@@ -126,7 +127,7 @@ TEST(GrainImpulse, ARowOfDisksPassesTheImpactOn) {
     setup.law.mu = 0.0;
     setup.disks = {};
     for (int k = 0; k < 10; ++k)
-      test::addDisk(setup.disks, direction * k * (2.0 - 1e-9) * test::radius, 0.0,
+      test::addDisk(setup.disks, direction * k * (2.0 - 1e-9) * test::smallRadius, 0.0,
                     k == 0 ? direction * speed : 0.0, 0.0, 0.0);
     Simulation simulation(setup);
     simulation.advance(3);
@@ -144,7 +145,7 @@ grain::Setup gas(double restitution, double friction) {
   setup.disks = {};
   std::mt19937_64 random(3);
   std::normal_distribution<double> velocity(0.0, 0.3);
-  const double spacing = std::sqrt(M_PI / 0.38) * test::radius;
+  const double spacing = std::sqrt(M_PI / 0.38) * test::smallRadius;
   for (int row = 0; row < 12; ++row)
     for (int column = 0; column < 12; ++column)
       test::addDisk(setup.disks, (column + 0.5) * spacing, (row + 0.5) * spacing, velocity(random),
@@ -198,7 +199,8 @@ TEST(GrainImpulse, WhatRestsDoesNotSink) {
   setup.law.en = 0.0;
   setup.disks = {};
   for (int k = 0; k < 3; ++k)
-    test::addDisk(setup.disks, (1.0 - 1e-9 + k * (2.0 - 2e-9)) * test::radius, 0.0, 0.0, 0.0, 0.0);
+    test::addDisk(setup.disks, (1.0 - 1e-9 + k * (2.0 - 2e-9)) * test::smallRadius, 0.0, 0.0, 0.0,
+                  0.0);
   setup.gravityX = -9.81;
   grain::Wall floor;
   floor.planes = {{0.0, 0.0, 1.0, 0.0}};
@@ -208,9 +210,9 @@ TEST(GrainImpulse, WhatRestsDoesNotSink) {
   Simulation simulation(setup);
   simulation.advance(10'000);  // a second, in which free fall would be 5 m
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(simulation.x(k), setup.disks.x[k], 1e-8 * test::radius) << k;
+    EXPECT_NEAR(simulation.x(k), setup.disks.x[k], 1e-8 * test::smallRadius) << k;
   // What each contact carries: the weight above it.
-  const double weight = 9.81 * test::mass;
+  const double weight = 9.81 * test::smallMass;
   const auto& contacts = simulation.contacts();
   ASSERT_EQ(contacts.size(), 3u);
   EXPECT_NEAR(contacts[0].normalForce, 2.0 * weight, 1e-6 * weight);
@@ -224,9 +226,9 @@ TEST(GrainImpulse, SaysWhereImpactsDoNotEnd) {
   grain::Setup setup = headOn(0.0);
   setup.law.en = 0.5;
   test::putOnPlane(setup);
-  setup.disks.x = {0.999 * test::radius};
+  setup.disks.x = {0.999 * test::smallRadius};
   grain::Wall press;
-  press.planes = {{1.998 * test::radius, 0.0, -1.0, 0.0}};
+  press.planes = {{1.998 * test::smallRadius, 0.0, -1.0, 0.0}};
   press.motion = [](double t) {
     grain::WallState state;
     state.x = -0.01 * t;

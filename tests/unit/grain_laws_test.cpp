@@ -11,6 +11,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 double between(double low, double high) {
   const int share = *rc::gen::inRange(0, 1000001);
@@ -58,7 +59,7 @@ grain::Setup anyCollision() {
     test::addDisk(disks, 0.0, 0.0, -0.5 * side * between(0.01, 0.3), between(-0.1, 0.1),
                   between(-50.0, 50.0));
     disks.radius.back() = a;
-    disks.mass.back() = test::mass * a * a / (test::radius * test::radius);
+    disks.mass.back() = test::smallMass * a * a / (test::smallRadius * test::smallRadius);
     disks.inertia.back() = 0.5 * disks.mass.back() * a * a;
   }
   const double lightest = std::min(disks.mass[0], disks.mass[1]);

@@ -11,6 +11,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 /// > 0: energy from nowhere [J].
 double residual(const EnergyLedger& l) {
@@ -213,7 +214,7 @@ TEST(LedgerOfImpulses, LosesWhatRestitutionSays) {
   setup.law.en = 0.6;
   setup = with(setup, Integrator::semiImplicitEuler);
   const EnergyLedger end = ledgerOf(setup, 2e-3);
-  const double lost = 0.5 * (0.5 * test::mass) * (1.0 - 0.36) * 0.01;
+  const double lost = 0.5 * (0.5 * test::smallMass) * (1.0 - 0.36) * 0.01;
   EXPECT_NEAR(end.lostNormalDamping, lost, 1e-12 * lost);
   EXPECT_EQ(end.lostSliding + end.lostTangentialDamping + end.workOfWalls, 0.0);
 }
@@ -225,7 +226,7 @@ TEST(LedgerTerms, NormalDampingOfACollision) {
   grain::Setup setup = test::collidingPair(0.1, 0.0, 0.0, dtOf(400));
   setup.law.tangential = Tangential::none;
   const EnergyLedger end = ledgerOf(setup, 1.5 * test::contactTime());
-  const double eta = 0.19 / test::mass, e = std::exp(-eta * test::contactTime());
+  const double eta = test::thesis.gn / test::smallMass, e = std::exp(-eta * test::contactTime());
   EXPECT_NEAR(end.lostNormalDamping, end.initial * (1.0 - e * e), 1e-4 * end.initial);
   EXPECT_EQ(end.elasticNormal, 0.0);
 }
@@ -258,9 +259,9 @@ TEST(LedgerTerms, SlidingIsTheForceTimesTheSlip) {
     const Contact& contact = s.contacts().front();
     const double slip = (s.velocityY(0) - s.velocityY(1)) * contact.nx -
                         (s.velocityX(0) - s.velocityX(1)) * contact.ny -
-                        test::radius * (s.spin(0) + s.spin(1));
+                        test::smallRadius * (s.spin(0) + s.spin(1));
     slid -= contact.tangentialForce * slip * s.dt();
-    const double bound = 0.44 * std::max(contact.normalForce, 0.0);
+    const double bound = test::thesis.mu * std::max(contact.normalForce, 0.0);
     EXPECT_LE(std::abs(contact.tangentialForce), bound * (1.0 + 1e-12));
     if (contact.sliding) slidAtBound += bound * std::abs(slip) * s.dt();
   });
@@ -282,7 +283,7 @@ TEST(LedgerTerms, PotentialOfAColumn) {
   setup.gravityY = -9.81;
   for (int k = 0; k < 5; ++k) test::addDisk(setup.disks, 0.5, 4e-3 + 7.6e-3 * k, 0.0, 0.0, 0.0);
   Wall floor;
-  floor.planes = {{0.0, 0.0, 0.0, 1.0}, {0.5 + test::radius, 0.0, -1.0, 0.0}};
+  floor.planes = {{0.0, 0.0, 0.0, 1.0}, {0.5 + test::smallRadius, 0.0, -1.0, 0.0}};
   floor.motion = [](double) { return WallState{}; };
   floor.moves = false;
   setup.walls.push_back(floor);
@@ -290,7 +291,7 @@ TEST(LedgerTerms, PotentialOfAColumn) {
   const EnergyLedger end = ledgerOf(setup, 1.0, [&](const Simulation& s) {
     potential = 0.0;
     for (std::size_t i = 0; i < 5; ++i)
-      potential += test::mass * (9.81 * (s.y(i) - (4e-3 + 2 * 7.6e-3)) - (s.x(i) - 0.5));
+      potential += test::smallMass * (9.81 * (s.y(i) - (4e-3 + 2 * 7.6e-3)) - (s.x(i) - 0.5));
     scale = std::max(scale, std::abs(potential));
     EXPECT_NEAR(s.energyLedger()->potential, potential, 1e-15);
   });
@@ -305,21 +306,21 @@ TEST(LedgerTerms, PotentialOfAColumn) {
 /// contacts, each by half its way.
 TEST(LedgerTerms, WorkOfAPlaneThatCompresses) {
   grain::Setup setup;
-  setup.law.kn = 352.1;
+  setup.law.kn = test::thesis.kn;
   setup.dt = 1e-5;
-  test::addDisk(setup.disks, test::radius, 0.0, 0.0, 0.0, 0.0);
+  test::addDisk(setup.disks, test::smallRadius, 0.0, 0.0, 0.0, 0.0);
   Wall fixed, press;
   fixed.planes = {{0.0, 0.0, 1.0, 0.0}};
   fixed.motion = [](double) { return WallState{}; };
   fixed.moves = false;
-  press.planes = {{2.0 * test::radius, 0.0, -1.0, 0.0}};
+  press.planes = {{2.0 * test::smallRadius, 0.0, -1.0, 0.0}};
   press.motion = [](double t) { return WallState{.x = -1e-4 * t, .vx = -1e-4}; };
   setup.walls = {fixed, press};
   const double way = 1e-4 * 1.0;
   double pushed = 0.0;
   const EnergyLedger end = ledgerOf(
       setup, 1.0, [&](const Simulation& s) { pushed += s.wallLoad(1).fx * 1e-4 * s.dt(); });
-  const double stored = 2.0 * 0.5 * 352.1 * 0.25 * way * way;
+  const double stored = 2.0 * 0.5 * test::thesis.kn * 0.25 * way * way;
   // Slowly, but with a beginning: the disk swings by v/ω about the middle.
   EXPECT_NEAR(end.workOfWalls, stored, 2e-2 * stored);
   EXPECT_NEAR(end.workOfWalls, pushed, 1e-4 * stored);
@@ -337,7 +338,7 @@ TEST(LedgerTerms, PlateTakesWhatADiskLosesOnTheWay) {
   const EnergyLedger end = ledgerOf(setup, 0.2, [&](const Simulation& s) {
     springs = std::max(springs, s.energyLedger()->plateSprings);
   });
-  const double bound = 0.1 * test::mass * 9.81;
+  const double bound = 0.1 * test::smallMass * 9.81;
   EXPECT_NEAR(springs, 0.5 * bound * bound / 200.0, 1e-3 * springs);
   EXPECT_LT(end.kinetic, 1e-4 * end.initial);
   EXPECT_NEAR(end.lostBottom - end.gainedByConvention, end.initial - end.plateSprings - end.kinetic,
@@ -399,7 +400,7 @@ TEST_P(PackedLedger, ResidualShrinksAtTheSchemesOrder) {
 /// Looking changes nothing; nor do threads what the ledger says; a checkpoint carries it on.
 TEST_P(PackedLedger, ChangesNoBitAndIsPartOfTheState) {
   grain::Setup setup = scene(4e-5);
-  setup.bottom = Bottom{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.bottom = test::thesisBottom<Bottom>();
   Simulation without(setup);
   setup.ledger = true;
   Simulation one(setup);

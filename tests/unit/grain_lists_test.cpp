@@ -11,6 +11,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 using Pairs = std::set<std::pair<std::size_t, std::size_t>>;
 
@@ -72,7 +73,7 @@ int expectThemAtEveryStep(grain::Setup setup, int steps) {
 class Lists : public testing::TestWithParam<double> {
  protected:
   grain::Setup withSkin(grain::Setup setup) const {
-    setup.skin = GetParam() * test::radius;
+    setup.skin = GetParam() * test::smallRadius;
     return setup;
   }
 };
@@ -110,8 +111,8 @@ TEST_P(Lists, FindADiskThatIsFastOnlyOnceItWasKicked) {
   setup.law.kn = 1e6;  // leaves at once
   setup.dt = 1e-6;
   for (int k = 0; k < 12; ++k)
-    test::addDisk(setup.disks, 2.3 * test::radius * k, 0.0, 0.0, 0.0, 0.0);
-  test::addDisk(setup.disks, -2.5 * test::radius, 0.1 * test::radius, 300.0, 0.0, 0.0);
+    test::addDisk(setup.disks, 2.3 * test::smallRadius * k, 0.0, 0.0, 0.0, 0.0);
+  test::addDisk(setup.disks, -2.5 * test::smallRadius, 0.1 * test::smallRadius, 300.0, 0.0, 0.0);
   EXPECT_GT(expectThemAtEveryStep(withSkin(std::move(setup)), 600), 3);
 }
 
@@ -130,7 +131,7 @@ TEST_P(Lists, FindADiskThatComesBackFromFarAway) {
 TEST_P(Lists, FindTheDisksOfAFastWheel) {
   grain::Setup setup = test::packed(8, 17);
   setup.walls.pop_back();
-  const double centre = 8.5 * test::radius * 1.045;
+  const double centre = 8.5 * test::smallRadius * 1.045;
   setup.walls.push_back(test::wheel(centre, centre, 0.012, 9000.0));  // 4.3 mm a step
   setup.law.kn = setup.law.kt = 1.0;
   EXPECT_GT(expectThemAtEveryStep(withSkin(std::move(setup)), 200), 100);
@@ -142,13 +143,13 @@ grain::Setup comb(grain::Wall wall, double dt, double nearest, double pitch) {
   grain::Setup setup;
   setup.law.kn = 1e-9;
   setup.dt = dt;
-  const double wallRadius = 1.25e-3, apart = 4.0 * test::radius;
+  const double apart = 4.0 * test::smallRadius;
   for (int k = 0; k < 8; ++k) {
     wall.diskX.push_back(0.0);
     wall.diskY.push_back(apart * k);
-    wall.diskRadius.push_back(wallRadius);
-    test::addDisk(setup.disks, wallRadius + test::radius + nearest + pitch * k, apart * k, 0.0, 0.0,
-                  0.0);
+    wall.diskRadius.push_back(test::wallRadius);
+    test::addDisk(setup.disks, test::wallRadius + test::smallRadius + nearest + pitch * k,
+                  apart * k, 0.0, 0.0, 0.0);
     for (int l = 1; l < 20; ++l) test::addDisk(setup.disks, apart * l, apart * k, 0.0, 0.0, 0.0);
   }
   setup.walls.push_back(std::move(wall));

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 using Pair = std::pair<std::int32_t, std::int32_t>;
 
@@ -200,7 +201,7 @@ TEST(NeighboursOfASimulation, TheSkinChangesTimeOnly) {
     simulation.advance(1000);
     return simulation;
   };
-  const auto thin = run(0.02 * test::radius), thick = run(1.5 * test::radius);
+  const auto thin = run(0.02 * test::smallRadius), thick = run(1.5 * test::smallRadius);
   EXPECT_GT(thin.neighbours().rebuilds, 2 * thick.neighbours().rebuilds);
   for (std::size_t i = 0; i < thin.movingCount(); ++i) {
     EXPECT_EQ(thin.x(i), thick.x(i));

@@ -1,18 +1,16 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "tests/unit/grain_scenes.hpp"
 
 /// A packed scene with every kind of wall, for tests that compare runs.
-namespace test {
+namespace crossgrain::test {
 
 /// A turning wheel of wall disks [m, rad/s].
 inline grain::Wall wheel(double x, double y, double rim, double omega) {
-  const double wallRadius = 1.25e-3;
   const auto count = static_cast<int>(2.0 * M_PI * rim / (2.0 * wallRadius));
   grain::Wall wall;
   for (int k = 0; k < count; ++k) {
@@ -46,26 +44,26 @@ inline grain::Setup packed(int side, std::uint64_t seed) {
   grain::Setup setup;
   setup.law = thesisLaw();
   setup.dt = 4e-5;
-  std::mt19937_64 random(seed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
-  const double spacing = 2.0 * radius * 1.045, row = spacing * std::sqrt(0.75);
+  Draw draw(seed);
+  const auto uniform = [&] { return draw.uniform(-1.0, 1.0); };
+  const double spacing = 2.0 * smallRadius * 1.045, row = spacing * std::sqrt(0.75);
   const double width = spacing * (side + 0.5);
   const auto rows = static_cast<int>(width / row);
   const double height = row * (rows - 1) + spacing;
   const double rim = 0.15 * width, omega = 0.5 / rim;
   for (int l = 0; l < rows; ++l)
     for (int k = 0; k < side; ++k) {
-      const double x = spacing * (k + (l % 2 == 0 ? 0.5 : 1.0)) + 0.02 * radius * uniform();
-      const double y = 0.5 * spacing + row * l + 0.02 * radius * uniform();
-      const double a = radius * (1.0 + 0.1 * uniform());
+      const double x = spacing * (k + (l % 2 == 0 ? 0.5 : 1.0)) + 0.02 * smallRadius * uniform();
+      const double y = 0.5 * spacing + row * l + 0.02 * smallRadius * uniform();
+      const double a = smallRadius * (1.0 + 0.1 * uniform());
       const double vx = 0.1 * uniform(), vy = 0.1 * uniform(), spin = 30.0 * uniform();
       if (std::hypot(x - 0.5 * width, y - 0.5 * height) < rim + a + 1e-3) continue;
       addDisk(setup.disks, x, y, vx, vy, spin);
       setup.disks.radius.back() = a;
-      setup.disks.mass.back() = mass * a * a / (radius * radius);
+      setup.disks.mass.back() = smallMass * a * a / (smallRadius * smallRadius);
       setup.disks.inertia.back() = 0.5 * setup.disks.mass.back() * a * a;
     }
-  setup.walls = box(width, height, 0.3 * radius);
+  setup.walls = box(width, height, 0.3 * smallRadius);
   setup.walls.push_back(wheel(0.5 * width, 0.5 * height, rim, omega));
   return setup;
 }
@@ -108,4 +106,4 @@ inline std::string difference(const grain::Simulation& a, const grain::Simulatio
   return a.contactEvaluations() == b.contactEvaluations() ? "" : "contact evaluations";
 }
 
-}  // namespace test
+}  // namespace crossgrain::test

@@ -8,8 +8,9 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
-constexpr double weight = 352.1 * 1e-7;  // presses an overlap of 1e-7 m [N]
+constexpr double weight = test::thesis.kn * 1e-7;  // presses an overlap of 1e-7 m [N]
 
 /// A disk that its weight holds against one partner at the place (x, y), to the right of it.
 grain::Setup pressed(double x, double y, double gap, Precision precision) {
@@ -17,16 +18,16 @@ grain::Setup pressed(double x, double y, double gap, Precision precision) {
   setup.law = test::thesisLaw();
   setup.precision = precision;
   setup.dt = 4e-5;
-  setup.gravityX = -weight / test::mass;
-  test::addDisk(setup.disks, x + gap + test::radius, y, 0.0, 0.0, 0.0);
+  setup.gravityX = -weight / test::smallMass;
+  test::addDisk(setup.disks, x + gap + test::smallRadius, y, 0.0, 0.0, 0.0);
   return setup;
 }
 
 Wall oneDisk(double x, double y) {
   Wall wall;
-  wall.diskX = {x - test::radius};
+  wall.diskX = {x - test::smallRadius};
   wall.diskY = {y};
-  wall.diskRadius = {test::radius};
+  wall.diskRadius = {test::smallRadius};
   wall.motion = [](double) { return WallState{}; };
   wall.moves = false;
   return wall;
@@ -43,7 +44,7 @@ Wall onePlane(double x, double y) {
 /// How many diameters from the origin.
 class FarFromTheOrigin : public testing::TestWithParam<std::tuple<double, Precision>> {
  protected:
-  double far() const { return 2.0 * test::radius * std::get<0>(GetParam()); }
+  double far() const { return 2.0 * test::smallRadius * std::get<0>(GetParam()); }
   Precision precision() const { return std::get<1>(GetParam()); }
 
   /// Single: local coordinates below 2^-7 m are rounded by ρ = 2.3e-10 m, and so are distance and
@@ -56,7 +57,7 @@ class FarFromTheOrigin : public testing::TestWithParam<std::tuple<double, Precis
     ASSERT_EQ(simulation.contacts().size(), 1u);
     const Contact& contact = simulation.contacts()[0];
     EXPECT_NEAR(contact.overlap, 1e-7, tolerance());
-    EXPECT_NEAR(contact.normalForce, weight, 352.1 * tolerance());
+    EXPECT_NEAR(contact.normalForce, weight, test::thesis.kn * tolerance());
   }
 };
 
@@ -163,7 +164,7 @@ TEST(SinglePrecision, TellsTheOverlapsThatItsForcesCameFrom) {
   for (const Contact& contact : simulation.contacts()) {
     const bool plane = static_cast<std::size_t>(contact.j) >= simulation.diskCount();
     EXPECT_FLOAT_EQ(static_cast<float>(contact.normalForce),
-                    352.1f * static_cast<float>(contact.overlap))
+                    static_cast<float>(test::thesis.kn) * static_cast<float>(contact.overlap))
         << (plane ? "plane" : "pair");
   }
 }

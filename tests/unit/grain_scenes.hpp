@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <ostream>
-#include <random>
 
 #include "engines/grain/simulation.hpp"
+#include "tests/support/draw.hpp"
+#include "tests/support/thesis.hpp"
 
 // What the names of parametrised tests show.
 namespace grain {
@@ -24,39 +25,31 @@ inline void PrintTo(Tangential law, std::ostream* out) {
 
 }  // namespace grain
 
-/// Scenes in the numbers of Lätzel (2003), Table 4.1: two small disks are the pair of section 2.
-namespace test {
-
-inline constexpr double radius = 3.7e-3;
-inline constexpr double mass = 0.275e-3;
-inline constexpr double inertia = 0.5 * mass * radius * radius;
+/// Scenes of the thesis' small disks.
+namespace crossgrain::test {
 
 inline grain::Law thesisLaw() {
-  grain::Law law;
-  law.kn = 352.1;
-  law.gn = 0.19;
-  law.kt = 267.1;
-  law.gt = 0.15;
-  law.mu = 0.44;
+  grain::Law law = withThesisConstants(grain::Law{});
   law.tangential = grain::Tangential::springDashpot;
   return law;
 }
 
 /// t_c = π/ω of two small disks [s].
 inline double contactTime() {
-  const double reduced = 0.5 * mass, eta = 0.19 / (2.0 * reduced);
-  return M_PI / std::sqrt(352.1 / reduced - eta * eta);
+  const double reduced = 0.5 * smallMass, eta = thesis.gn / (2.0 * reduced);
+  return M_PI / std::sqrt(thesis.kn / reduced - eta * eta);
 }
 
+/// A small disk.
 inline void addDisk(grain::Disks& disks, double x, double y, double vx, double vy, double spin) {
   disks.x.push_back(x);
   disks.y.push_back(y);
   disks.vx.push_back(vx);
   disks.vy.push_back(vy);
   disks.spin.push_back(spin);
-  disks.radius.push_back(radius);
-  disks.mass.push_back(mass);
-  disks.inertia.push_back(inertia);
+  disks.radius.push_back(smallRadius);
+  disks.mass.push_back(smallMass);
+  disks.inertia.push_back(smallInertia);
 }
 
 /// Two small disks that touch half a step after t = 0 and approach with v [m/s] along x, offset
@@ -67,8 +60,8 @@ inline grain::Setup collidingPair(double v, double impact, double spin, double d
   setup.dt = dt;
   const double nx = std::sqrt(1.0 - impact * impact);
   const double ahead = 0.25 * v * dt;
-  addDisk(setup.disks, radius * nx + ahead, radius * impact, -0.5 * v, 0.0, spin);
-  addDisk(setup.disks, -radius * nx - ahead, -radius * impact, 0.5 * v, 0.0, spin);
+  addDisk(setup.disks, smallRadius * nx + ahead, smallRadius * impact, -0.5 * v, 0.0, spin);
+  addDisk(setup.disks, -smallRadius * nx - ahead, -smallRadius * impact, 0.5 * v, 0.0, spin);
   return setup;
 }
 
@@ -90,13 +83,13 @@ inline grain::Setup crowd(int side, std::uint64_t seed, double dt) {
   grain::Setup setup;
   setup.law = thesisLaw();
   setup.dt = dt;
-  std::mt19937_64 random(seed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  Draw draw(seed);
+  const auto uniform = [&] { return draw.uniform(-0.5, 0.5); };
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j)
-      addDisk(setup.disks, 2.02 * radius * i, 2.02 * radius * j, 0.5 * uniform(), 0.5 * uniform(),
-              100.0 * uniform());
+      addDisk(setup.disks, 2.02 * smallRadius * i, 2.02 * smallRadius * j, 0.5 * uniform(),
+              0.5 * uniform(), 100.0 * uniform());
   return setup;
 }
 
-}  // namespace test
+}  // namespace crossgrain::test

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 constexpr int steps = 150;
 
@@ -38,7 +39,7 @@ Setup scene(Tangential tangential, bool cut, Dashpot dashpot, bool rotation, Pla
   setup.law.damping = dashpot == Dashpot::lagged ? Damping::lagged : Damping::predicted;
   setup.rotation = rotation;
   if (plate != Plate::none)
-    setup.bottom = Bottom{0.02, 267.1, 0.15, 1e-4, 9.81, plate == Plate::spinning};
+    setup.bottom = test::thesisBottom<Bottom>(0.02, plate == Plate::spinning);
   if (gravity) setup.gravityY = -9.81;
   return setup;
 }

@@ -10,6 +10,7 @@
 namespace {
 
 using namespace grain;
+namespace test = crossgrain::test;
 
 TEST(ThreadTeam, DoesEveryPartOnceInEveryRound) {
   for (const std::size_t parts : {1u, 2u, 3u, 5u}) {

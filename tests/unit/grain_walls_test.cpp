@@ -7,7 +7,7 @@
 namespace {
 
 using namespace grain;
-using namespace test;
+using namespace crossgrain::test;
 
 Wall fixedFloor() {
   Wall floor;
@@ -21,13 +21,13 @@ TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
   setup.law = thesisLaw();
   setup.dt = 4e-5;
   setup.gravityY = -9.81;
-  const double sink = mass * 9.81 / 352.1;  // k_n δ = m g
-  addDisk(setup.disks, 0.0, radius - sink, 0.0, 0.0, 0.0);
+  const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
+  addDisk(setup.disks, 0.0, smallRadius - sink, 0.0, 0.0, 0.0);
   setup.walls.push_back(fixedFloor());
   Simulation simulation(std::move(setup));
   for (int step = 0; step < 10000; ++step) simulation.step();
-  EXPECT_NEAR(simulation.y(0), radius - sink, 1e-15);
-  EXPECT_NEAR(simulation.wallLoad(0).fy, -mass * 9.81, 1e-12);
+  EXPECT_NEAR(simulation.y(0), smallRadius - sink, 1e-15);
+  EXPECT_NEAR(simulation.wallLoad(0).fy, -smallMass * 9.81, 1e-12);
   ASSERT_EQ(simulation.contacts().size(), 1u);
   EXPECT_EQ(simulation.contacts()[0].j, 1);  // planes come after all disks
   EXPECT_NEAR(simulation.contacts()[0].overlap, sink, 1e-15);
@@ -40,12 +40,12 @@ TEST(GrainWalls, ASlidingDiskRollsInTheEndAtTwoThirdsOfItsSpeed) {
   setup.law = thesisLaw();
   setup.dt = 2e-5;
   setup.gravityY = -9.81;
-  addDisk(setup.disks, 0.0, radius - mass * 9.81 / 352.1, 0.3, 0.0, 0.0);
+  addDisk(setup.disks, 0.0, smallRadius - smallMass * 9.81 / thesis.kn, 0.3, 0.0, 0.0);
   setup.walls.push_back(fixedFloor());
   Simulation simulation(std::move(setup));
   for (int step = 0; step < 20000; ++step) simulation.step();
   EXPECT_NEAR(simulation.velocityX(0), 0.2, 1e-4);  // the sunk contact: δ/a = 2e-3 of the arm
-  EXPECT_NEAR(simulation.spin(0), -0.2 / radius, 1e-4 / radius);
+  EXPECT_NEAR(simulation.spin(0), -0.2 / smallRadius, 1e-4 / smallRadius);
 }
 
 TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
@@ -53,7 +53,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   const double rim = 0.03;
   wheel.diskX = {rim};
   wheel.diskY = {0.0};
-  wheel.diskRadius = {1.25e-3};
+  wheel.diskRadius = {wallRadius};
   const double omega = 2.0;
   wheel.motion = [&](double t) {
     WallState now;
@@ -65,7 +65,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   setup.law = thesisLaw();
   setup.law.lever = Lever::contactPoint;
   setup.dt = 4e-5;
-  addDisk(setup.disks, rim + radius + 1.25e-3 - 1e-5, 0.0, 0.0, 0.0, 0.0);
+  addDisk(setup.disks, rim + smallRadius + wallRadius - 1e-5, 0.0, 0.0, 0.0, 0.0);
   setup.walls.push_back(wheel);
   Simulation simulation(std::move(setup));
   simulation.step();
@@ -82,7 +82,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   EXPECT_DOUBLE_EQ(load.fx, -fx);
   EXPECT_DOUBLE_EQ(load.fy, -fy);
   // About the centre the pair's forces act at one point, with the contact point as arm.
-  const double lever = radius - c.overlap * 1.25e-3 / (radius + 1.25e-3);
+  const double lever = smallRadius - c.overlap * wallRadius / (smallRadius + wallRadius);
   const double px = simulation.x(0) - lever * c.nx;
   const double py = simulation.y(0) - lever * c.ny;
   EXPECT_NEAR(load.torque, -(px * fy - py * fx), 1e-15 * std::abs(fx));
@@ -114,7 +114,7 @@ TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
   // µ = 0.02 and 53 ms.
   grain::Setup setup;
   setup.law = thesisLaw();
-  setup.bottom = Bottom{0.02, 267.1, 0.15, 1e-4, 9.81, true};
+  setup.bottom = thesisBottom<Bottom>(0.02);
   setup.dt = 1e-5;
   addDisk(setup.disks, 0.0, 0.0, 0.0103, 0.0, 0.0);
   Simulation simulation(std::move(setup));
@@ -126,14 +126,16 @@ TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
 }
 
 TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {
-  const BottomConstants<double> plate({2e-5, 267.1, 0.15, 1e-4, 9.81, true}, 1e-5);
+  const BottomConstants<double> plate(thesisBottom<Bottom>(), 1e-5);
   double springX = 0.0, springY = 0.0;
-  const auto left = bottomForce<true>(plate, mass, radius, 0.0, 0.0, 3.0, springX, springY);
-  const auto right = bottomForce<true>(plate, mass, radius, 0.0, 0.0, -3.0, springX, springY);
+  const auto left =
+      bottomForce<true>(plate, smallMass, smallRadius, 0.0, 0.0, 3.0, springX, springY);
+  const auto right =
+      bottomForce<true>(plate, smallMass, smallRadius, 0.0, 0.0, -3.0, springX, springY);
   EXPECT_LT(left.torque, 0.0);
   EXPECT_DOUBLE_EQ(left.torque, -right.torque);
   // γ_b ω a = 1.7e-3 N is far beyond the bound µ_b m g, so the torque is µ_b m g (2/3) a.
-  EXPECT_DOUBLE_EQ(left.torque, -2e-5 * mass * 9.81 * (2.0 / 3.0) * radius);
+  EXPECT_DOUBLE_EQ(left.torque, -2e-5 * smallMass * 9.81 * (2.0 / 3.0) * smallRadius);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
+#include "tests/support/thesis.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -153,11 +154,11 @@ Scene toyScene() {
   floor.motion = {Motion::Kind::oscillating, 0.0, {0.3, 0.1}, {0.7, 1e-9}, 2.0 / 3.0, -0.1, 4.7};
   scene.bodies = {wheel, floor};
   scene.law.tangential = TangentialLaw::spring;
-  scene.law.kn = 352.1;
+  scene.law.kn = thesis.kn;
   scene.law.mu = 1.0 / 3.0;
   scene.law.conventions.tension = Tension::cut;
   scene.law.conventions.integrator = Integrator::semiImplicitEuler;
-  scene.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, false};
+  scene.bottom = thesisBottom<BottomPlate>(2e-5, false);
   scene.gravity = {0.0, -9.81};
   scene.dt = 4e-5;
   scene.energyLedger = true;

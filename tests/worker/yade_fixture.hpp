@@ -8,47 +8,17 @@
 
 #include "adapters/worker/worker_engine.hpp"
 #include "adapters/yade.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace crossgrain::test {
-
-// Lätzel 2003, tables 3.1 and 4.1.
-inline constexpr double small = 3.7e-3, large = 4.495e-3, wall = 1.25e-3;
-inline constexpr double smallMass = 0.275e-3, largeMass = 0.490e-3;
 
 inline Scene emptyScene() {
   Scene scene;
   scene.name = "yade test";
-  scene.law.kn = 352.1;
-  scene.law.gn = 0.19;
-  scene.law.kt = 267.1;
-  scene.law.gt = 0.15;
-  scene.law.mu = 0.44;
+  scene.law = thesisLaw();
   scene.dt = 4e-5;
   return scene;
-}
-
-/// Hertz' law between alike bodies, 1/E₁₂ = 2 (1 − ν²)/E, as stiff as the linear one where disks
-/// meet at 0.1 m/s.
-inline ContactLaw hertzLaw() {
-  ContactLaw law;
-  law.normal = NormalLaw::hertz;
-  law.damper = Damper::critical;
-  law.kn = 7e5;
-  law.kt = 1.2 * law.kn;  // ν = 1/3
-  law.gn = 0.3;
-  law.gt = 0.2;
-  law.mu = 0.44;
-  return law;
-}
-
-inline void addDisk(Scene& scene, double radius, double mass, Vec2 position, Vec2 velocity,
-                    double spin = 0.0) {
-  scene.disks.radius.push_back(radius);
-  scene.disks.mass.push_back(mass);
-  scene.disks.inertia.push_back(0.5 * mass * radius * radius);
-  scene.disks.position.push_back(position);
-  scene.disks.velocity.push_back(velocity);
-  scene.disks.spin.push_back(spin);
 }
 
 inline WallBody ringBody(const std::string& name, Vec2 centre, double radius, int count,
@@ -60,16 +30,9 @@ inline WallBody ringBody(const std::string& name, Vec2 centre, double radius, in
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * std::numbers::pi * k / count;
     body.diskPosition.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
-    body.diskRadius.push_back(wall);
+    body.diskRadius.push_back(wallRadius);
   }
   return body;
-}
-
-inline Motion rotating(double omega) {
-  Motion motion;
-  motion.kind = Motion::Kind::rotating;
-  motion.angularVelocity = omega;
-  return motion;
 }
 
 /// Disks pressed together by gravity onto a turning wheel and a floor that shakes.
@@ -80,7 +43,7 @@ inline Scene crowdedScene(const ContactLaw& law = emptyScene().law) {
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 5; ++column) {
       const bool big = (row + column) % 3 == 0;
-      addDisk(scene, big ? large : small, big ? largeMass : smallMass,
+      addDisk(scene, big ? largeRadius : smallRadius, big ? largeMass : smallMass,
               {8.3e-3 * column + 2e-3 * row, 0.0165 + 8.1e-3 * row},
               {0.02 * row, 0.03 - 0.01 * column}, 5.0 - column);
     }

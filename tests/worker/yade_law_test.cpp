@@ -15,8 +15,8 @@ TEST_F(YadeWorker, RestitutionOfTwoDisksIsThatOfTheLaw) {
 
   const double contactTime = std::numbers::pi / omega;
   scene.dt = contactTime / 1000;
-  addDisk(scene, small, smallMass, {-small - 0.5e-6, 0.0}, {0.05, 0.0});
-  addDisk(scene, small, smallMass, {small + 0.5e-6, 0.0}, {-0.05, 0.0});
+  addDisk(scene, smallRadius, smallMass, {-smallRadius - 0.5e-6, 0.0}, {0.05, 0.0});
+  addDisk(scene, smallRadius, smallMass, {smallRadius + 0.5e-6, 0.0}, {-0.05, 0.0});
   engine_->load(scene, {});
   engine_->advance(2 * contactTime);
   const Snapshot after = engine_->snapshot(ContactReport::instant);
@@ -30,8 +30,8 @@ TEST_F(YadeWorker, RestitutionOfTwoDisksIsThatOfTheLaw) {
 TEST_F(YadeWorker, BlocksSpinsThatTheSceneBlocks) {
   Scene scene = emptyScene();
   scene.rotation = false;
-  addDisk(scene, small, smallMass, {-small - 0.5e-6, 0.0}, {0.05, 0.0}, 10.0);
-  addDisk(scene, small, smallMass, {small + 0.5e-6, 0.0}, {-0.05, 0.0}, -3.0);
+  addDisk(scene, smallRadius, smallMass, {-smallRadius - 0.5e-6, 0.0}, {0.05, 0.0}, 10.0);
+  addDisk(scene, smallRadius, smallMass, {smallRadius + 0.5e-6, 0.0}, {-0.05, 0.0}, -3.0);
   scene.dt = 4e-5;
   const Realised realised = engine_->load(scene, {});
   EXPECT_TRUE(realised.effects.contains(Effect::friction));
@@ -45,9 +45,9 @@ TEST_F(YadeWorker, BlocksSpinsThatTheSceneBlocks) {
 
 TEST_F(YadeWorker, MixesToTheScenesConstantsForEveryPair) {
   Scene scene = emptyScene();
-  addDisk(scene, small, smallMass, {0.0, 0.0}, {0, 0});
-  addDisk(scene, large, largeMass, {0.1, 0.0}, {0, 0});
-  addDisk(scene, large, largeMass, {0.2, 0.0}, {0, 0});
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0}, {0, 0});
+  addDisk(scene, largeRadius, largeMass, {0.1, 0.0}, {0, 0});
+  addDisk(scene, largeRadius, largeMass, {0.2, 0.0}, {0, 0});
   scene.bodies.push_back(ringBody("ring", {0, 0}, 0.3, 4, {}));
   scene.bodies[0].planes.push_back({{0.0, -0.1}, {0.0, 1.0}});
   const Realised realised = engine_->load(scene, {});
@@ -67,8 +67,8 @@ TEST_F(YadeWorker, MixesToTheScenesConstantsForEveryPair) {
 
 TEST_F(YadeWorker, KeepsMomentumInAnObliqueCollision) {
   Scene scene = emptyScene();
-  addDisk(scene, small, smallMass, {-3.7e-3, 0.5e-3}, {0.05, 0.02}, 10.0);
-  addDisk(scene, large, largeMass, {4.6e-3, -0.5e-3}, {-0.03, 0.0}, 4.0);
+  addDisk(scene, smallRadius, smallMass, {-smallRadius, 0.5e-3}, {0.05, 0.02}, 10.0);
+  addDisk(scene, largeRadius, largeMass, {4.6e-3, -0.5e-3}, {-0.03, 0.0}, 4.0);
   const auto momentum = [&](const Snapshot& s) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // linear, and angular about the origin
     for (std::size_t i = 0; i < 2; ++i) {

@@ -17,7 +17,7 @@ void expectSameState(const Snapshot& a, const Snapshot& b) {
 TEST_F(YadeWorker, MovesWallsAsPrescribed) {
   Scene scene = emptyScene();
   scene.dt = 1e-4;
-  addDisk(scene, small, smallMass, {1.0, 1.0}, {0, 0});
+  addDisk(scene, smallRadius, smallMass, {1.0, 1.0}, {0, 0});
   Motion translating, oscillating, radial;
   translating.kind = Motion::Kind::translating;
   translating.velocity = {0.01, -0.02};
@@ -60,7 +60,7 @@ TEST_F(YadeWorker, FliesAParabola) {
   Scene scene = emptyScene();
   scene.dt = 1e-3;
   scene.gravity = {0.5, -9.81};
-  addDisk(scene, small, smallMass, {0.1, 0.2}, {0.3, 0.4}, 3.0);
+  addDisk(scene, smallRadius, smallMass, {0.1, 0.2}, {0.3, 0.4}, 3.0);
   engine_->load(scene, {});
   engine_->advance(0.5);
   const Snapshot now = engine_->snapshot(ContactReport::instant);
@@ -114,7 +114,7 @@ TEST_F(YadeWorker, RefusesWhatItCannotDo) {
     return std::string("ran");
   };
   Scene bottom = crowdedScene();
-  bottom.bottom = BottomPlate{2e-5, 267.1, 0.15, 1e-4, 9.81, true};
+  bottom.bottom = thesisBottom<BottomPlate>();
   EXPECT_EQ(refusal(bottom), "has no bottom_friction");
   Scene viscous = crowdedScene();
   viscous.law.tangential = TangentialLaw::viscous;

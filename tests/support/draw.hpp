@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
+
+namespace crossgrain::test {
 
 /// Draws of the same bits everywhere: the standard's distributions may differ between libraries.
 class Draw {
@@ -22,3 +25,5 @@ class Draw {
  private:
   std::mt19937_64 bits_;
 };
+
+}  // namespace crossgrain::test
