@@ -7,6 +7,7 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
+#include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
@@ -34,10 +35,23 @@ Capabilities grainCan() {
 }
 
 TEST(CostSettings, TheFirstIsTheCaseAsItIs) {
-  for (const CostKind kind : {CostKind::collision, CostKind::trajectory, CostKind::averages}) {
+  for (const CostKind kind : costKinds) {
     const auto settings = settingsOf(kind, test::costCase(), grainCan());
     EXPECT_EQ(settings.front().fragment, "");
     EXPECT_EQ(settings.front().setup.resolvedToml, test::costCase().resolvedToml);
+  }
+}
+
+/// The table of knobs and what their settings are go together.
+TEST(CostSettings, EveryKnobHasSettingsInTheKindsOfErrorItMayChange) {
+  Case setup = test::costCase();
+  for (const CostKnob& knob : costKnobs()) {
+    setup.cost.knobs = {std::string(knob.name)};
+    for (const CostKind kind : costKinds) {
+      const bool may = std::ranges::find(knob.kinds, kind) != knob.kinds.end();
+      EXPECT_EQ(settingsOf(kind, setup, grainCan()).size() > 1, may)
+          << knob.name << ", " << toString(kind);
+    }
   }
 }
 
