@@ -1,5 +1,6 @@
 #include "runs/cost/analysis.hpp"
 
+#include "runs/cost/cheapest.hpp"
 #include "runs/cost/front.hpp"
 #include "runs/cost/order.hpp"
 

@@ -78,7 +78,7 @@ struct SweepScore {
   double dt = 0.0;  ///< [s]
   std::uint64_t steps = 0, contactEvaluations = 0;
   double wallSeconds = 0.0;  ///< [s]
-  std::string failure = {};       ///< why it did not finish; empty if it did
+  std::string failure = {};  ///< why it did not finish; empty if it did
   double largestEn = 0.0;    ///< |e_n|
   std::map<std::string, double> rms = {};
 };

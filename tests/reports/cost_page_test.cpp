@@ -20,7 +20,7 @@ bool has(const std::string& page, const std::string& words) {
 
 /// One kind, one measure, one engine: 10 % in 1 s, 1 % in 10 s, a failure; analysed by hand.
 CostResults byHand() {
-  const auto point = [](const std::string& setting, double dt, double error, double wall) {
+  const auto of = [](const std::string& setting, double dt, double error, double wall) {
     CostPoint point;
     point.engine = "a";
     point.knob = "time_step";
@@ -39,8 +39,8 @@ CostResults byHand() {
   results.head.schema = schemaVersion;
   results.head.kind = kindCost;
   results.engines = {{"a", "", "", "", EngineStatus::ran, ""}};
-  results.points = {point("t_c/10", 0.1, 0.1, 1.0), point("t_c/100", 0.01, 0.01, 10.0),
-                    point("t_c/1", 1.0, 0.0, 0.1), point("float, slow", 0.01, 0.01, 20.0)};
+  results.points = {of("t_c/10", 0.1, 0.1, 1.0), of("t_c/100", 0.01, 0.01, 10.0),
+                    of("t_c/1", 1.0, 0.0, 0.1), of("float, slow", 0.01, 0.01, 20.0)};
   CostPoint& failed = results.points[2];
   failed.error.reset();
   failed.status = CostStatus::failed;
@@ -169,18 +169,22 @@ TEST_F(CostPage, NotMeasuredIsNeitherUndecidedNorNotReached) {
 
 /// Under a budget that left most out, no engine is said not to reach anything.
 TEST(CostPageOf, ABudgetThatLeftOutFinerStepsSaysSo) {
-  const auto advice = [](const std::string& engine, CostVerdict verdict) {
-    return Advice{engine, 1e-6, verdict};
+  const auto on = [](const std::string& engine, CostVerdict verdict) {
+    Advice advice;
+    advice.engine = engine;
+    advice.target = 1e-6;
+    advice.verdict = verdict;
+    return advice;
   };
   CostResults results = byHand();
-  results.advice = {advice("a", CostVerdict::notMeasured), advice("b", CostVerdict::undecided)};
+  results.advice = {on("a", CostVerdict::notMeasured), on("b", CostVerdict::undecided)};
   EXPECT_EQ(
       targetInWords(results, 1e-6),
       "10⁻⁶: of 2 engines, none is shown to reach it; of 1 it is undecided, of 1 not measured "
       "far enough to tell.");
-  results.advice = {advice("a", CostVerdict::notReached)};
+  results.advice = {on("a", CostVerdict::notReached)};
   EXPECT_EQ(targetInWords(results, 1e-6), "10⁻⁶: no engine reaches it with any setting measured.");
-  results.advice = {advice("a", CostVerdict::notReached), advice("b", CostVerdict::notMeasured)};
+  results.advice = {on("a", CostVerdict::notReached), on("b", CostVerdict::notMeasured)};
   EXPECT_EQ(
       targetInWords(results, 1e-6),
       "10⁻⁶: of 2 engines, none is shown to reach it; of 1 not measured far enough to tell, 1 "

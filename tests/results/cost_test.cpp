@@ -65,7 +65,10 @@ CostResults study() {
   results.fronts = {{CostKind::averages, "stress_rr", "", {0}, {0.1}}};
   results.cheapest = {{"grain", CostKind::averages, "stress_rr", 0.01, CostVerdict::notMeasured}};
   results.cheapest[0].point = 0;
-  Advice advice{"grain", 0.1, CostVerdict::reached};
+  Advice advice;
+  advice.engine = "grain";
+  advice.target = 0.1;
+  advice.verdict = CostVerdict::reached;
   advice.kinds = {CostKind::collision, CostKind::averages};
   advice.cheapest = true;
   results.advice = {advice};

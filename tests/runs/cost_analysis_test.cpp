@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "runs/cost/cheapest.hpp"
 #include "runs/cost/front.hpp"
 #include "runs/cost/order.hpp"
 
