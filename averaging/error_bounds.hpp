@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <string_view>
 
 namespace crossgrain::inline averaging {
 
@@ -35,10 +34,5 @@ struct MeasuredError {
     return mayBeChance() ? high() : value;
   }
 };
-
-/// Of the kinds of error of `crossgrain cost` averages scatter: packings differ.
-inline bool kindScatters(std::string_view errorKind) {
-  return errorKind == "averages";
-}
 
 }  // namespace crossgrain::inline averaging

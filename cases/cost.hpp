@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "cases/cost_kind.hpp"
+
 namespace crossgrain::inline cases {
 
 /// What `crossgrain cost` varies and measures in a Couette case, [cost] of a case file. Steps are
 /// numbers of steps in the contact time t_c of two small disks.
 struct Cost {
-  std::vector<std::string> kinds = {"collision", "trajectory", "averages"};  ///< of error
-  std::vector<std::string> knobs = {"time_step", "integrator", "precision", "tangential",
-                                    "tension",   "settings",   "method",    "snapshots",
-                                    "omega",     "stiffness",  "effects"};
-  double timed = 0.02;  ///< shortest time that counts as measured [s]
-  int repeats = 3;      ///< of which the shortest counts
+  std::vector<CostKind> kinds = {costKinds.begin(), costKinds.end()};
+  std::vector<std::string> knobs;  ///< names of CostKnobs (cases/cost_knobs.hpp)
+  double timed = 0.02;             ///< shortest time that counts as measured [s]
+  int repeats = 3;                 ///< of which the shortest counts
 
   /// Two small disks that meet as in `approach = "spin"`, Ψ_i = 0 … psiMax.
   std::vector<double> collisionSteps = {400, 200, 100, 50, 20, 10, 5, 2, 1.2};
@@ -34,13 +34,13 @@ struct Cost {
   std::vector<double> averageSteps = {100, 50, 20, 10, 5, 2};
   double averageReference = 200.0;
 
-  std::vector<std::string> tangential = {"viscous", "coulomb", "spring"};
-  std::vector<std::string> methods = {"slicing", "centre"};  ///< of averaging, from the same run
-  std::vector<double> snapshots = {4, 16, 64};     ///< every so many-th snapshot, of the same run
-  std::vector<double> omega = {0.5, 2.0};          ///< times the case's Ω
-  std::vector<double> stiffness = {0.25, 0.0625};  ///< times the case's k_n and k_t, same e_n
+  /// What knobs are set to, by the name of the knob: of each either texts or numbers.
+  std::map<std::string, std::vector<std::string>> texts;
+  std::map<std::string, std::vector<double>> numbers;
   /// Engine → its setting → values, [cost.settings.NAME].
   std::map<std::string, std::map<std::string, std::vector<double>>> settings;
+
+  Cost();  ///< all knobs, with the values they have by default
 };
 
 }  // namespace crossgrain::inline cases

@@ -1,4 +1,6 @@
-#include "averaging/weights.hpp"
+#include <algorithm>
+
+#include "cases/cost_knobs.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -14,15 +16,32 @@ void readSettings(Reader in, Cost& cost) {
   in.finish();
 }
 
+void readKinds(Reader& in, std::vector<CostKind>& kinds) {
+  std::vector<std::string> all, names;
+  for (const CostKind kind : costKinds) all.push_back(toString(kind));
+  for (const CostKind kind : kinds) names.push_back(toString(kind));
+  in.read("kinds", names, all);
+  kinds.clear();
+  for (const std::string& name : names)
+    kinds.push_back(
+        costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
+}
+
+void readKnobs(Reader& in, Cost& cost) {
+  for (const CostKnob& knob : costKnobs()) {
+    const std::string name(knob.name);
+    if (!knob.texts.empty()) in.read(knob.key, cost.texts[name], knob.choices);
+    if (!knob.numbers.empty())
+      in.read(knob.key, cost.numbers[name], knob.least > 0.0 ? atLeast(knob.least) : positive());
+  }
+}
+
 }  // namespace
 
 void readCost(Reader& in, Cost& cost) {
-  static const std::vector<std::string> kinds = cost.kinds, knobs = cost.knobs;
-  static const std::vector<std::string> laws = {"none", "coulomb", "viscous", "spring",
-                                                "spring_dashpot"};
-  static const std::vector<std::string> methods(weightNames.begin(), weightNames.end());
+  static const std::vector<std::string> knobs = cost.knobs;
   const Range steps = above(0.5);
-  in.read("kinds", cost.kinds, kinds);
+  readKinds(in, cost.kinds);
   in.read("knobs", cost.knobs, knobs);
   in.read("timed", cost.timed, positive("s"));
   in.read("repeats", cost.repeats, between(1, 1000));
@@ -38,11 +57,7 @@ void readCost(Reader& in, Cost& cost) {
   in.read("growth_time", cost.growthTime, positive("s"));
   in.read("average_steps", cost.averageSteps, steps);
   in.read("average_reference", cost.averageReference, steps);
-  in.read("tangential", cost.tangential, laws);
-  in.read("methods", cost.methods, methods);
-  in.read("snapshots", cost.snapshots, atLeast(1.0));
-  in.read("omega", cost.omega, positive());
-  in.read("stiffness", cost.stiffness, positive());
+  readKnobs(in, cost);
   readSettings(in.section("settings"), cost);
   in.finish();
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -11,13 +12,10 @@
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/cost/advice.hpp"
-#include "runs/cost/analysis.hpp"
 #include "runs/cost/cost.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {
-
-using nlohmann::json;
 
 namespace {
 
@@ -50,63 +48,58 @@ Case caseWith(const CommandLine& line, const std::string& fragment) {
   return loadCase(line.inputs.front(), overrides, fragment).front();
 }
 
-/// "ran 81, failed 4 (…), undecided 12"
-std::string countsInWords(const json& points) {
-  std::map<std::string, int> count;
-  for (const json& point : points) ++count[point["status"]];
-  std::string text;
-  for (const char* status : {"ran", "failed", "refused", "undecided"})
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[status], status);
-  return text;
+/// "81 ran, 4 failed, 0 refused, 12 not measured"
+std::string countsInWords(const std::vector<CostPoint>& points) {
+  const auto count = [&](CostStatus status) {
+    return std::ranges::count(points, status, &CostPoint::status);
+  };
+  return fmt::format("{} ran, {} failed, {} refused, {} not measured", count(CostStatus::ran),
+                     count(CostStatus::failed), count(CostStatus::refused),
+                     count(CostStatus::notMeasured));
 }
 
 /// @param budget time that all may take [s]
-/// @param want accuracy to print a fragment for, 0.01 is 1 %
-int cost(const CommandLine& line, double budget, std::optional<double> want) {
+/// @param target accuracy to print a fragment for, 0.01 is 1 %
+int cost(const CommandLine& line, double budget, std::optional<double> target) {
   onlyCase(line, "cost");  // throws for a case that is none
   const Case setup = caseWith(line, "");
-  CostRequest request{line.run, budget, {}};
+  CostRequest request{line.run, budget};
   if (!line.json && !line.run.quiet)
     request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
+  if (target) request.targets.push_back(*target);
   RunStore store(line.run, "cost", soleCase(setup));
   const CaseWith with = [&](const std::string& fragment) { return caseWith(line, fragment); };
   if (line.run.dryRun) return told(costPlan(setup, with, request, store));
-  json results = measureCost(setup, with, request, store);
-  std::vector<double> wants = usualWants();
-  if (want) wants.push_back(*want);
-  addCostAnalysis(results, wants);
-  writeReport(results, line.run.out);
+  const CostResults results = measureCost(setup, with, request, store);
+  writeReport(toJson(results), line.run.out);
 
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
-  else if (want) {
-    std::vector<CostPoint> points;
-    for (const json& point : results["points"]) points.push_back(costPointFromJson(point));
-    fmt::print("{}", adviceAsToml(advice(points, {*want}), points));
-  } else {
-    fmt::print("{}\nreport: {}\n", countsInWords(results["points"]),
+  else if (target)
+    fmt::print("{}", adviceAsToml(advice(results.points, {*target}), results.points));
+  else
+    fmt::print("{}\nreport: {}\n", countsInWords(results.points),
                (line.run.out / "report.html").string());
-  }
-  for (const json& reason : results["engine_failures"])
-    fmt::print(stderr, "crossgrain: {}\n", BadInput(reason.get<std::string>()).what());
-  return results["engine_failures"].empty() ? exitHeld : exitEngineFailed;
+  for (const std::string& reason : results.engineFailures)
+    fmt::print(stderr, "crossgrain: {}\n", BadInput(reason).what());
+  return results.engineFailures.empty() ? exitHeld : exitEngineFailed;
 }
 
 Action declare(CLI::App& app, CommandLine& line) {
   struct Own {
-    std::optional<std::string> budget, want;
+    std::optional<std::string> budget, target;
   };
   const auto own = std::make_shared<Own>();
   addCase(app, line);
   addRun(app, line);
   addPackings(app, line);
   addText(app, "--budget", own->budget, "time that all may take, e.g. 90s, 10m, 1h (default: 12m)");
-  addText(app, "--want", own->want,
+  addText(app, "--want", own->target,
           "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine");
   return [&line, own] {
     const double budget = secondsOf(own->budget.value_or("12m"));
-    const auto want = own->want ? std::optional(shareOf(*own->want)) : std::nullopt;
-    return resumably(line.run, [&] { return cost(line, budget, want); });
+    const auto target = own->target ? std::optional(fractionOf(*own->target)) : std::nullopt;
+    return resumably(line.run, [&] { return cost(line, budget, target); });
   };
 }
 

@@ -1,5 +1,7 @@
 #include "reports/report.hpp"
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 
@@ -9,6 +11,7 @@
 #include "reports/common/json_view.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/junit.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
@@ -21,14 +24,22 @@ using namespace reports;
 
 /// What a kind of results is written as.
 struct Kind {
-  std::vector<std::pair<const char*, std::string (*)(const Json&)>> tables;
-  std::vector<Figure> (*figures)(const Json&);
-  std::vector<Picture> (*pictures)(const Json&);
-  std::string (*page)(const Json&, const Illustrations&);
+  std::vector<std::pair<const char*, std::function<std::string(const Json&)>>> tables;
+  std::function<std::vector<Figure>(const Json&)> figures;
+  std::function<std::vector<Picture>(const Json&)> pictures;
+  std::function<std::string(const Json&, const Illustrations&)> page;
 };
 
 std::vector<Picture> noPictures(const Json&) {
   return {};
+}
+
+Kind costKind(const Json& json) {
+  const auto results = std::make_shared<const CostResults>(costFromJson(json));
+  return {{{"cost.csv", [=](const Json&) { return costCsv(*results); }}},
+          [=](const Json&) { return costFigures(*results); },
+          noPictures,
+          [=](const Json&, const Illustrations& shown) { return costPage(*results, shown); }};
 }
 
 Kind kindOf(const Json& results) {
@@ -45,7 +56,7 @@ Kind kindOf(const Json& results) {
             stabilityFigures,
             stabilityPictures,
             stabilityPage};
-  if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
+  if (kind == kindCost) return costKind(results);
   if (kind == kindAverage)
     return {{{"profiles.csv", profilesCsv},
              {"series.csv", seriesCsv},

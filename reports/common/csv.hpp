@@ -59,11 +59,6 @@ std::string effectsCsv(const Json& results);
 /// One row per engine, case and variant; step and time are those at which the limit was passed
 /// first, or an engine that failed was seen last.
 std::string stabilityCsv(const Json& results);
-/// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
-/// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front
-/// One row per point, those that did not run too; on_front is of the front over all engines.
-std::string costCsv(const Json& results);
-
 /// engine,method,field,r_m,width_over_d,mean,stderr,unit
 std::string revCsv(const Json& results);
 

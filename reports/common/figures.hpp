@@ -23,10 +23,6 @@ std::vector<Figure> collideFigures(const Json& results);
 /// and changes; effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const Json& results);
 
-/// Every plot of a study of cost: cost_KIND, error against time, and cost_orders_KIND, against the
-/// step, for each kind of error; cost_parts, of averages; cost_contacts; cost_growth.
-std::vector<Figure> costFigures(const Json& results);
-
 /// Plots of fields against ring width: rev_FIELD.
 std::vector<Figure> revFigures(const Json& results);
 

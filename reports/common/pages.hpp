@@ -25,7 +25,6 @@ std::string comparePage(const Json& results, const Illustrations& shown);
 std::string collidePage(const Json& results, const Illustrations& shown);
 std::string effectsPage(const Json& results, const Illustrations& shown);
 std::string stabilityPage(const Json& results, const Illustrations& shown);
-std::string costPage(const Json& results, const Illustrations& shown);
 std::string revPage(const Json& results, const Illustrations& shown);
 
 }  // namespace crossgrain::reports

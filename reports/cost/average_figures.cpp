@@ -1,42 +1,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/common/engines.hpp"
 #include "reports/cost/panels.hpp"
+#include "reports/cost/words.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Rows = std::vector<CostRow>;
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<CostEngine>;
 
-std::optional<double> stepsOf(const CostRow& row) {
-  return row.stepsPerContact;
+std::optional<double> stepsOf(const CostPoint& point) {
+  return point.stepsPerContact;
 }
 
 /// Time steps only: the two parts of an error that has both.
-Panel partsPanel(const Rows& all, const Engines& engines, const CostMeasure& measure) {
-  Rows rows = rowsOf(all, measure);
-  std::erase_if(rows, [](const CostRow& row) {
-    return !row.ran() || row.knob != "time_step" || !row.statistical;
+Panel partsPanel(const CostPoints& all, const Engines& engines, const CostMeasure& measure) {
+  CostPoints points = pointsOf(all, measure);
+  std::erase_if(points, [](const CostPoint& point) {
+    return !point.ran() || point.knob != "time_step" || !point.statistical;
   });
   const CostAxis axis{stepsOf, "steps in a contact"};
-  Panel panel = errorPanel(rows, measure.name, axis);
+  Panel panel = errorPanel(points, measure.name, axis);
   panel.shadedTo.reset();
   panel.yRange.reset();
-  for (const EngineResults& engine : engines) {
+  for (const CostEngine& engine : engines) {
     Curve bias{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
     Curve bound{"", {engine.style.colour, openTriangle, false}, Draw::points, {}, 1.5};
     Curve noise{"", openMarks(engine.style), Draw::linesAndPoints, {}, 1.0};
     noise.style.dashed = true;
-    for (const CostRow& row : rows) {
-      const auto x = axis.value(row);
-      if (row.engine != engine.name || !x) continue;
-      noise.points.push_back({*x, *row.statistical, {}});
-      if (row.mayBeChance())
-        bound.points.push_back({*x, row.counted().value_or(0.0), {}});
-      else if (row.systematic)
-        bias.points.push_back({*x, *row.systematic, row.statistical});
+    for (const CostPoint& point : points) {
+      const auto x = axis.value(point);
+      if (point.engine != engine.name || !x) continue;
+      noise.points.push_back({*x, *point.statistical, {}});
+      if (mayBeChance(point))
+        bound.points.push_back({*x, countedError(point).value_or(0.0), {}});
+      else if (point.systematic)
+        bias.points.push_back({*x, *point.systematic, point.statistical});
     }
     for (Curve* curve : {&bias, &noise}) std::ranges::sort(curve->points, {}, &Point::x);
     if (bias.points.empty()) noise.name = engine.name;
@@ -56,7 +57,7 @@ Curve rootLine(const std::vector<Point>& points, const LineStyle& style) {
 
 }  // namespace
 
-Figure costPartsFigure(const Rows& rows, const Engines& engines) {
+Figure costPartsFigure(const CostPoints& points, const Engines& engines) {
   Figure figure;
   figure.name = "cost_parts";
   figure.title = "Systematic and statistical part of averages";
@@ -64,38 +65,37 @@ Figure costPartsFigure(const Rows& rows, const Engines& engines) {
       "The two parts of an average's error, at the time steps. Filled, joined: the systematic "
       "part, ± the statistical one; longer runs do not lessen it. Open, dashed: the statistical "
       "part.";
-  for (const CostMeasure& measure : costMeasures(rows))
-    if (measure.kind == "averages") figure.panels.push_back(partsPanel(rows, engines, measure));
+  for (const CostMeasure& measure : measuresIn(points))
+    if (measure.kind == CostKind::averages)
+      figure.panels.push_back(partsPanel(points, engines, measure));
   if (drawsMark(figure, openTriangle))
     figure.caption += " ▽: the upper bound of the systematic part where it may be none.";
   arrange(figure);
   return figure;
 }
 
-Figure costFallsFigure(const Json& results, const Engines& engines) {
+Figure costFallsFigure(const CostResults& results, const Engines& engines) {
   Figure figure;
   figure.name = "cost_falls";
   figure.title = "Statistical part against simulated time";
   figure.caption =
       "The statistical part of averages over the first part of the runs. Dashed: falling with the "
       "root of simulated time, as independent samples do.";
-  const Json& falls = list(member(results, "averages"), "falls");
+  const std::vector<StatisticalFall>& falls = results.averages.falls;
   std::vector<std::string> measures;
-  for (const Json& one : falls)
-    if (std::ranges::find(measures, text(one, "measure")) == measures.end())
-      measures.push_back(text(one, "measure"));
+  for (const StatisticalFall& one : falls)
+    if (std::ranges::find(measures, one.measure) == measures.end()) measures.push_back(one.measure);
   for (const std::string& measure : measures) {
     Panel panel;
     panel.title = measureEnhanced(measure);
     panel.xLabel = "rotations";
     panel.yLabel = "statistical part";
     panel.logX = panel.logY = true;
-    for (const EngineResults& engine : engines) {
+    for (const CostEngine& engine : engines) {
       Curve curve{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
-      for (const Json& one : falls)
-        if (const auto x = number(one, "rotations"), y = number(one, "statistical");
-            x && y && text(one, "engine") == engine.name && text(one, "measure") == measure)
-          curve.points.push_back({*x, *y, {}});
+      for (const StatisticalFall& one : falls)
+        if (one.engine == engine.name && one.measure == measure)
+          curve.points.push_back({one.rotations, one.statistical, {}});
       if (curve.points.empty()) continue;
       panel.curves.push_back(rootLine(curve.points, engine.style));
       panel.curves.push_back(std::move(curve));
@@ -106,28 +106,23 @@ Figure costFallsFigure(const Json& results, const Engines& engines) {
   return figure;
 }
 
-Figure costGrowthFigure(const Json& results) {
-  const Json& trajectory = member(results, "trajectory");
+Figure costGrowthFigure(const CostResults& results) {
+  Figure figure;
+  figure.name = "cost_growth";
+  figure.title = "How fast trajectories part";
+  figure.caption =
+      "Root mean square distance of the disks of two runs of one engine that began next to alike. "
+      "Shaded: the window in which trajectories are compared, before chaos takes over.";
+  if (!results.trajectory) return figure;
   Panel panel;
   panel.xLabel = "time [s]";
   panel.yLabel = "separation / d";
   panel.logY = true;
   Curve grown{"", engineStyle(0), Draw::linesAndPoints, {}, 1.2};
-  for (const Json& entry : list(trajectory, "growth"))
-    if (const auto time = number(entry, "t_s"), distance = number(entry, "separation");
-        time && distance)
-      grown.points.push_back({*time, *distance, {}});
+  for (const Separation& at : results.trajectory->separations)
+    grown.points.push_back({at.time, at.value, {}});
   panel.curves.push_back(std::move(grown));
-  const auto window = number(trajectory, "window_s");
-  if (window) panel.shaded = Range{0.0, *window};
-  Figure figure;
-  figure.name = "cost_growth";
-  figure.title = "How fast trajectories part";
-  figure.caption =
-      "Root mean square distance of the disks of two runs of one engine that began next to alike.";
-  if (window)
-    figure.caption +=
-        " Shaded: the window in which trajectories are compared, before chaos takes over.";
+  panel.shaded = Range{0.0, results.trajectory->window.length};
   figure.panels.push_back(std::move(panel));
   arrange(figure);
   return figure;

@@ -3,39 +3,37 @@
 
 #include <algorithm>
 
-#include "reports/common/figures.hpp"
 #include "reports/cost/panels.hpp"
+#include "reports/cost/report.hpp"
+#include "reports/cost/words.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Rows = std::vector<CostRow>;
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<CostEngine>;
 
-std::optional<double> wallOf(const CostRow& row) {
-  return row.wall;
+std::optional<double> wallOf(const CostPoint& point) {
+  return point.wallSeconds;
 }
-std::optional<double> contactsOf(const CostRow& row) {
-  return row.contacts;
+std::optional<double> contactsOf(const CostPoint& point) {
+  return point.contactEvaluations;
 }
 
 constexpr const char* frontName = "Pareto front";
 
 /// Steps down from point to point: what the best setting reaches in a given time.
-Curve frontCurve(const Json& results, const Rows& all, const CostMeasure& measure,
-                 const CostAxis& axis) {
+Curve frontCurve(const CostResults& results, const CostMeasure& measure, const CostAxis& axis) {
   Curve curve{frontName, {"#c9d3dc", 7, false}, Draw::lines, {}, 6.0};
-  for (const Json& front : list(results, "fronts")) {
-    if (!text(front, "engine").empty() || text(front, "error_kind") != measure.kind ||
-        text(front, "measure") != measure.name)
+  for (const Front& front : results.fronts) {
+    if (!front.engine.empty() || front.kind != measure.kind || front.measure != measure.name)
       continue;
-    for (const Json& place : list(front, "points")) {
-      const CostRow* row = rowAt(all, place);
-      const auto point = row ? errorPoint(*row, axis) : std::nullopt;
-      if (!point) continue;
-      if (!curve.points.empty()) curve.points.push_back({point->x, curve.points.back().y, {}});
-      curve.points.push_back({point->x, point->y, {}});
+    for (const std::size_t place : front.points) {
+      const CostPoint* point = pointAt(results.points, place);
+      const auto mark = point ? errorPoint(*point, axis) : std::nullopt;
+      if (!mark) continue;
+      if (!curve.points.empty()) curve.points.push_back({mark->x, curve.points.back().y, {}});
+      curve.points.push_back({mark->x, mark->y, {}});
     }
   }
   return curve;
@@ -43,21 +41,21 @@ Curve frontCurve(const Json& results, const Rows& all, const CostMeasure& measur
 
 /// Each of an engine's schemes at its time steps, joined; its other settings, numbered; what may be
 /// chance; what failed.
-void addEngine(Panel& panel, const Rows& rows, const EngineResults& engine, const CostAxis& axis,
-               const std::vector<OtherSetting>& others) {
+void addEngine(Panel& panel, const CostPoints& points, const CostEngine& engine,
+               const CostAxis& axis, const std::vector<OtherSetting>& others) {
   std::vector<Curve> schemes = {{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5}};
   Curve marks{"", openMarks(engine.style), Draw::points, {}, 1.5};
   Curve chance{"", {engine.style.colour, openTriangle, false}, Draw::points, {}, 1.5};
-  for (const CostRow& row : rows) {
-    auto point = errorPoint(row, axis);
-    if (row.engine != engine.name || !point) continue;
-    const auto scheme = row.scheme();
+  for (const CostPoint& point : points) {
+    auto mark = errorPoint(point, axis);
+    if (point.engine != engine.name || !mark) continue;
+    const auto scheme = schemeOf(point);
     if (!scheme) {
-      const auto place = std::ranges::find(others, OtherSetting{row.knob, row.setting});
-      point->label = std::to_string(place - others.begin() + 1);
+      const auto place = std::ranges::find(others, OtherSetting{point.knob, point.setting});
+      mark->label = std::to_string(place - others.begin() + 1);
     }
-    if (row.mayBeChance() || !scheme) {
-      (row.mayBeChance() ? chance : marks).points.push_back(*point);
+    if (mayBeChance(point) || !scheme) {
+      (mayBeChance(point) ? chance : marks).points.push_back(*mark);
       continue;
     }
     const std::string name = scheme->empty() ? engine.name : engine.name + ", " + *scheme;
@@ -66,31 +64,32 @@ void addEngine(Panel& panel, const Rows& rows, const EngineResults& engine, cons
       curve = schemes.insert(curve, {name, openMarks(engine.style), Draw::linesAndPoints, {}, 1.0});
       curve->style.dashed = true;
     }
-    curve->points.push_back(*point);
+    curve->points.push_back(*mark);
   }
   for (Curve& scheme : schemes) std::ranges::sort(scheme.points, {}, &Point::x);
   addCurves(panel, std::move(schemes));
-  addCurves(panel, {std::move(marks), std::move(chance), failures(panel, rows, engine, axis)});
+  addCurves(panel, {std::move(marks), std::move(chance), failures(panel, points, engine, axis)});
 }
 
-Panel costPanel(const Rows& all, const Engines& engines, const CostMeasure& measure,
+Panel costPanel(const CostPoints& all, const Engines& engines, const CostMeasure& measure,
                 const CostAxis& axis, Curve behind) {
-  const Rows rows = rowsOf(all, measure);
-  Panel panel = errorPanel(rows, measure.name, axis);
+  const CostPoints points = pointsOf(all, measure);
+  Panel panel = errorPanel(points, measure.name, axis);
   addCurves(panel, {std::move(behind)});
-  for (const EngineResults& engine : engines)
-    addEngine(panel, rows, engine, axis, otherSettings(all));
+  for (const CostEngine& engine : engines)
+    addEngine(panel, points, engine, axis, otherSettings(all));
   return panel;
 }
 
-std::string numbersInWords(const Rows& rows, const std::string& kind) {
-  const auto all = otherSettings(rows);
+std::string numbersInWords(const CostPoints& points, CostKind kind) {
+  const auto all = otherSettings(points);
   std::vector<std::string> words;
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (std::ranges::any_of(rows, [&](const CostRow& row) {
-          return row.kind == kind && row.counted() && OtherSetting{row.knob, row.setting} == all[k];
+    if (std::ranges::any_of(points, [&](const CostPoint& point) {
+          return point.kind == kind && countedError(point) &&
+                 OtherSetting{point.knob, point.setting} == all[k];
         }))
-      words.push_back(fmt::format("{} {}", k + 1, settingWords(all[k])));
+      words.push_back(fmt::format("{} {}", k + 1, settingWords(all[k].knob, all[k].setting)));
   return words.empty() ? "" : fmt::format(" Other settings: {}.", fmt::join(words, ", "));
 }
 
@@ -115,33 +114,33 @@ std::string drawnInWords(const Figure& figure) {
   return words;
 }
 
-std::string barsInWords(const Rows& rows, const std::string& kind) {
+std::string barsInWords(const CostPoints& points, CostKind kind) {
   const bool any = std::ranges::any_of(
-      rows, [&](const CostRow& row) { return row.kind == kind && row.statistical; });
+      points, [&](const CostPoint& point) { return point.kind == kind && point.statistical; });
   return any ? " Bars: the statistical part." : "";
 }
 
 }  // namespace
 
-Figure costTimeFigure(const Json& results, const Rows& rows, const Engines& engines,
-                      const std::string& kind) {
+Figure costTimeFigure(const CostResults& results, const Engines& engines, CostKind kind) {
+  const CostPoints& points = results.points;
   const CostAxis axis{wallOf, fmt::format("wall time of {} [s]", timeUnit(kind))};
   Figure figure;
-  figure.name = "cost_" + kind;
-  figure.title = "Error against time: " + kind;
-  for (const CostMeasure& measure : costMeasures(rows))
+  figure.name = "cost_" + toString(kind);
+  figure.title = "Error against time: " + toString(kind);
+  for (const CostMeasure& measure : measuresIn(points))
     if (measure.kind == kind)
       figure.panels.push_back(
-          costPanel(rows, engines, measure, axis, frontCurve(results, rows, measure, axis)));
+          costPanel(points, engines, measure, axis, frontCurve(results, measure, axis)));
   figure.caption =
       fmt::format("Error against the wall time of {}.{}{}{}", timeUnit(kind), drawnInWords(figure),
-                  barsInWords(rows, kind), numbersInWords(rows, kind));
+                  barsInWords(points, kind), numbersInWords(points, kind));
   arrange(figure);
   figure.png = true;
   return figure;
 }
 
-Figure costContactsFigure(const Rows& rows, const Engines& engines) {
+Figure costContactsFigure(const CostPoints& points, const Engines& engines) {
   Figure figure;
   figure.name = "cost_contacts";
   figure.title = "Error against contact evaluations";
@@ -150,31 +149,31 @@ Figure costContactsFigure(const Rows& rows, const Engines& engines) {
       "depend on the machine: how often a contact's force was worked out. What then remains "
       "between "
       "engines is the method, not the code's speed.";
-  Rows steps = rows;
-  std::erase_if(steps, [](const CostRow& row) { return !row.scheme(); });
-  const auto measures = costMeasures(steps);
-  for (const std::string& kind : costKinds(steps)) {
+  CostPoints steps = points;
+  std::erase_if(steps, [](const CostPoint& point) { return !schemeOf(point); });
+  const auto measures = measuresIn(steps);
+  for (const CostKind kind : kindsIn(steps)) {
     const auto measure = std::ranges::find(measures, kind, &CostMeasure::kind);
     Panel panel = costPanel(steps, engines, *measure,
                             {contactsOf, "contact evaluations in " + timeUnit(kind)}, {});
-    panel.title = kind + ": " + panel.title;
+    panel.title = toString(kind) + ": " + panel.title;
     figure.panels.push_back(std::move(panel));
   }
   arrange(figure);
   return figure;
 }
 
-std::vector<Figure> costFigures(const Json& results) {
-  const Rows rows = costRows(results);
+std::vector<Figure> costFigures(const CostResults& results) {
+  const CostPoints& points = results.points;
   const Engines engines = costEngines(results);
   std::vector<Figure> figures;
-  for (const std::string& kind : costKinds(rows)) {
-    figures.push_back(costTimeFigure(results, rows, engines, kind));
-    figures.push_back(costOrderFigure(results, rows, engines, kind));
+  for (const CostKind kind : kindsIn(points)) {
+    figures.push_back(costTimeFigure(results, engines, kind));
+    figures.push_back(costOrderFigure(results, engines, kind));
   }
-  figures.push_back(costPartsFigure(rows, engines));
+  figures.push_back(costPartsFigure(points, engines));
   figures.push_back(costFallsFigure(results, engines));
-  figures.push_back(costContactsFigure(rows, engines));
+  figures.push_back(costContactsFigure(points, engines));
   figures.push_back(costGrowthFigure(results));
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
   return figures;

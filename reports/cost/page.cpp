@@ -3,114 +3,114 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/cost/tables.hpp"
+#include "reports/cost/words.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
 /// The finest accuracy that some engine reaches, else the coarsest wanted.
-std::string leadOf(const Json& results) {
-  const auto wants = costWants(results);
-  if (wants.empty()) return "Nothing was measured.";
-  double finest = wants.front();
-  for (const Json& one : list(results, "advice"))
-    if (member(one, "cheapest") == Json(true))
-      finest = std::min(finest, number(one, "want").value_or(finest));
-  return wantInWords(results, finest);
+std::string leadOf(const CostResults& results) {
+  const auto targets = costTargets(results);
+  if (targets.empty()) return "Nothing was measured.";
+  double finest = targets.front();
+  for (const Advice& one : results.advice)
+    if (one.cheapest) finest = std::min(finest, one.target);
+  return targetInWords(results, finest);
 }
 
-std::string countsOf(const Json& results, const std::vector<CostRow>& rows) {
-  std::map<std::string, std::size_t> counts;
-  for (const CostRow& row : rows) ++counts[row.status];
-  std::string words = fmt::format("{} points: {} ran", rows.size(), counts["ran"]);
-  for (const char* status : {"failed", "refused"})
-    if (counts[status] > 0) words += fmt::format(", {} {}", counts[status], status);
-  if (counts["undecided"] == 0) return words + ".";
-  words += fmt::format(", {} not measured, for they did not fit into the budget of {}",
-                       counts["undecided"], readableDuration(number(results, "budget_s")));
-  if (const auto left = number(results, "budget_for_the_rest_s"))
+std::string countsOf(const CostResults& results) {
+  const auto count = [&](CostStatus status) {
+    return std::ranges::count(results.points, status, &CostPoint::status);
+  };
+  std::string words =
+      fmt::format("{} points: {} ran", results.points.size(), count(CostStatus::ran));
+  for (const CostStatus status : {CostStatus::failed, CostStatus::refused})
+    if (count(status) > 0) words += fmt::format(", {} {}", count(status), statusText(status));
+  const auto notMeasured = count(CostStatus::notMeasured);
+  if (notMeasured == 0) return words + ".";
+  words += fmt::format(", {} not measured, for they did not fit into the budget of {}", notMeasured,
+                       readableDuration(results.budget));
+  if (const auto left = results.budgetForTheRest)
     words += fmt::format(": with --resume and a budget of about {} they would",
                          readableDuration(std::ceil(*left / 10.0) * 10.0));
   return words + ".";
 }
 
-std::string trajectoryInWords(const Json& results) {
-  const Json& trajectory = member(results, "trajectory");
-  const auto exponent = number(trajectory, "exponent_per_s");
-  if (!exponent) return {};
+std::string trajectoryInWords(const CostResults& results) {
+  if (!results.trajectory || !results.trajectory->growth.exponent) return {};
+  const auto& [separations, growth, window] = *results.trajectory;
   return fmt::format(
       "Trajectories part with the exponent {} per second; they are compared over {}{}.",
-      readable(exponent, number(trajectory, "exponent_stderr")),
-      readableDuration(number(trajectory, "window_s")),
-      text(trajectory, "why").empty() ? "" : ": " + text(trajectory, "why"));
+      readable(growth.exponent, growth.standardError), readableDuration(window.length),
+      window.why.empty() ? "" : ": " + window.why);
 }
 
-Json sentencesOf(const Json& results, const std::vector<CostRow>& rows, const std::string& lead) {
+Json sentencesOf(const CostResults& results, const std::string& lead) {
   Json sentences = Json::array();
-  for (const double want : costWants(results))
-    if (const std::string words = wantInWords(results, want); words != lead)
+  for (const double target : costTargets(results))
+    if (const std::string words = targetInWords(results, target); words != lead)
       sentences.push_back(words);
   for (const std::string& finding : unmetOrders(results)) sentences.push_back(finding);
   if (const std::string words = trajectoryInWords(results); !words.empty())
     sentences.push_back(words);
-  sentences.push_back(countsOf(results, rows));
-  for (const Json& engine : list(results, "engines"))
-    if (text(engine, "status") == "refused")
-      sentences.push_back(
-          fmt::format("{} refused the scene: {}", text(engine, "name"), text(engine, "reason")));
+  sentences.push_back(countsOf(results));
+  for (const EngineRow& engine : results.engines)
+    if (engine.status == EngineStatus::refused)
+      sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   return sentences;
 }
 
-const char* errorOf(const std::string& kind) {
-  if (kind == "collision")
-    return "Two disks collide, over a whole curve of Ψ_i; the error is the root mean square "
-           "distance "
-           "from the oracle, in units of the range of its curve.";
-  if (kind == "trajectory")
-    return "One packing over a time short against its chaos; the error is the root mean square "
-           "distance of the disks, in diameters, from a run at a much smaller step.";
-  if (kind == "averages")
-    return "Profiles and fitted numbers of a sheared cell, against a reference on the same "
-           "packings: the mean paired difference, in units of the profile's largest value.";
-  return "";
+const char* errorOf(CostKind kind) {
+  constexpr std::array errors = {
+      "Two disks collide, over a whole curve of Ψ_i; the error is the root mean square distance "
+      "from the oracle, in units of the range of its curve.",
+      "One packing over a time short against its chaos; the error is the root mean square "
+      "distance of the disks, in diameters, from a run at a much smaller step.",
+      "Profiles and fitted numbers of a sheared cell, against a reference on the same "
+      "packings: the mean paired difference, in units of the profile's largest value."};
+  return errors[static_cast<std::size_t>(kind)];
 }
 
 /// Figures that stand beside those of a kind of error.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> furtherFigures = {
-    {{"trajectory", "cost_growth"}, {"averages", "cost_parts"}, {"averages", "cost_falls"}}};
+constexpr std::array<std::pair<CostKind, std::string_view>, 3> furtherFigures = {
+    {{CostKind::trajectory, "cost_growth"},
+     {CostKind::averages, "cost_parts"},
+     {CostKind::averages, "cost_falls"}}};
 
-Json kindViews(const std::vector<CostRow>& rows, const Illustrations& shown) {
+Json kindViews(const CostResults& results, const Illustrations& shown) {
   Json views = Json::array();
-  for (const std::string& kind : costKinds(rows)) {
-    Json figures = figureViews(shown, "cost_" + kind);
+  for (const CostKind kind : kindsIn(results.points)) {
+    Json figures = figureViews(shown, "cost_" + toString(kind));
     for (const auto& [belongsTo, name] : furtherFigures)
       if (kind == belongsTo)
         for (Json& figure : figureViews(shown, name)) figures.push_back(std::move(figure));
-    views.push_back(
-        {{"kind", kind}, {"id", "kind-" + kind}, {"what", errorOf(kind)}, {"figures", figures}});
+    views.push_back({{"kind", toString(kind)},
+                     {"id", "kind-" + toString(kind)},
+                     {"what", errorOf(kind)},
+                     {"figures", figures}});
   }
   return views;
 }
 
 }  // namespace
 
-std::string costPage(const Json& results, const Illustrations& shown) {
-  const std::vector<CostRow> rows = costRows(results);
-  const std::vector<EngineResults> engines = costEngines(results);
-  Json view = commonView(results, shown);
+std::string costPage(const CostResults& results, const Illustrations& shown) {
+  const std::vector<CostEngine> engines = costEngines(results);
+  Json view = commonView(results.head, results.elapsed, results.notes, shown);
   const std::string lead = leadOf(results);
   view["lead"] = lead;
-  view["sentences"] = sentencesOf(results, rows, lead);
+  view["sentences"] = sentencesOf(results, lead);
   view["wants"] = Json::array();
-  for (const double want : costWants(results)) view["wants"].push_back(wantText(want));
+  for (const double target : costTargets(results)) view["wants"].push_back(targetText(target));
   view["advice"] = adviceRows(results, engines);
   view["cheapest"] = cheapestGroups(results, engines);
-  view["kinds"] = kindViews(rows, shown);
+  view["kinds"] = kindViews(results, shown);
   view["contacts"] = figureViews(shown, "cost_contacts");
   view["orderFigures"] = figureViews(shown, "cost_orders_");
   view["orders"] = orderRows(results);

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/cost/words.hpp"
+
 namespace crossgrain::reports {
 
 namespace {
 
-using Rows = std::vector<CostRow>;
-
 /// Whole decades around the errors, with room for what stands at the upper edge.
-Range errorRange(const Rows& rows) {
+Range errorRange(const CostPoints& points) {
   double low = offScale, high = 0.0;
-  for (const CostRow& row : rows)
-    if (const auto error = row.counted(); error && *error > 0.0 && *error <= offScale) {
+  for (const CostPoint& point : points)
+    if (const auto error = countedError(point); error && *error > 0.0 && *error <= offScale) {
       low = std::min(low, *error);
       high = std::max(high, *error);
     }
@@ -23,11 +23,11 @@ Range errorRange(const Rows& rows) {
 }
 
 /// The largest uncertainty of a reference of these points.
-std::optional<double> referenceOf(const Rows& rows) {
+std::optional<double> referenceOf(const CostPoints& points) {
   std::optional<double> largest;
-  for (const CostRow& row : rows)
-    if (row.reference && *row.reference > 0.0)
-      largest = std::max(*row.reference, largest.value_or(0.0));
+  for (const CostPoint& point : points)
+    if (point.referenceError && *point.referenceError > 0.0)
+      largest = std::max(*point.referenceError, largest.value_or(0.0));
   return largest;
 }
 
@@ -38,40 +38,41 @@ LineStyle openMarks(LineStyle style) {
   return style;
 }
 
-Rows rowsOf(const Rows& rows, const CostMeasure& measure) {
-  Rows own;
-  for (const CostRow& row : rows)
-    if (measure.has(row)) own.push_back(row);
+CostPoints pointsOf(const CostPoints& points, const CostMeasure& measure) {
+  CostPoints own;
+  for (const CostPoint& point : points)
+    if (measure.has(point)) own.push_back(point);
   return own;
 }
 
-Panel errorPanel(const Rows& rows, const std::string& measure, const CostAxis& axis) {
+Panel errorPanel(const CostPoints& points, const std::string& measure, const CostAxis& axis) {
   Panel panel;
   panel.title = measureEnhanced(measure);
   panel.xLabel = axis.label;
   panel.yLabel = "error";
   panel.logX = panel.logY = true;
-  panel.yRange = errorRange(rows);
-  if (const auto reference = referenceOf(rows); reference && *reference > panel.yRange->low)
+  panel.yRange = errorRange(points);
+  if (const auto reference = referenceOf(points); reference && *reference > panel.yRange->low)
     panel.shadedTo = std::min(*reference, panel.yRange->high);
   return panel;
 }
 
-std::optional<Point> errorPoint(const CostRow& row, const CostAxis& axis) {
-  const auto error = row.counted(), x = axis.value(row);
+std::optional<Point> errorPoint(const CostPoint& point, const CostAxis& axis) {
+  const auto error = countedError(point), x = axis.value(point);
   if (!error || *error > offScale || !x) return std::nullopt;
-  Point point{*x, *error, {}};
-  if (row.statistical && !row.mayBeChance()) point.error = row.statistical;
-  return point;
+  Point mark{*x, *error, {}};
+  if (point.statistical && !mayBeChance(point)) mark.error = point.statistical;
+  return mark;
 }
 
-Curve failures(const Panel& panel, const Rows& rows, const EngineResults& engine,
+Curve failures(const Panel& panel, const CostPoints& points, const CostEngine& engine,
                const CostAxis& axis) {
   constexpr double belowEdge = 1.35;
   Curve crosses{"", {engine.style.colour, crossMark, false}, Draw::points, {}, 1.5};
-  for (const CostRow& row : rows) {
-    const bool failed = row.status == "failed" || row.counted().value_or(0.0) > offScale;
-    if (const auto x = axis.value(row); failed && x && row.engine == engine.name)
+  for (const CostPoint& point : points) {
+    const bool failed =
+        point.status == CostStatus::failed || countedError(point).value_or(0.0) > offScale;
+    if (const auto x = axis.value(point); failed && x && point.engine == engine.name)
       crosses.points.push_back({*x, panel.yRange->high / belowEdge, {}});
   }
   return crosses;

@@ -13,7 +13,7 @@ namespace crossgrain::reports {
 
 /// What stands on the x axis.
 struct CostAxis {
-  std::optional<double> (*value)(const CostRow&);
+  std::optional<double> (*value)(const CostPoint&);
   std::string label;
 };
 
@@ -24,19 +24,18 @@ inline constexpr double offScale = 10.0;
 inline constexpr int crossMark = 2, openTriangle = 10;
 LineStyle openMarks(LineStyle style);
 
-std::vector<CostRow> rowsOf(const std::vector<CostRow>& rows, const CostMeasure& measure);
+CostPoints pointsOf(const CostPoints& points, const CostMeasure& measure);
 
 /// A panel of errors on log axes, without curves: grey up to the largest uncertainty of a
 /// reference, with room at the upper edge.
-Panel errorPanel(const std::vector<CostRow>& rows, const std::string& measure,
-                 const CostAxis& axis);
+Panel errorPanel(const CostPoints& points, const std::string& measure, const CostAxis& axis);
 
 /// The point with what it counts with; absent off scale or without a place on the axis. Bars are of
 /// the statistical part.
-std::optional<Point> errorPoint(const CostRow& row, const CostAxis& axis);
+std::optional<Point> errorPoint(const CostPoint& point, const CostAxis& axis);
 
 /// What failed, at the upper edge of the panel.
-Curve failures(const Panel& panel, const std::vector<CostRow>& rows, const EngineResults& engine,
+Curve failures(const Panel& panel, const CostPoints& points, const CostEngine& engine,
                const CostAxis& axis);
 
 /// Adds those of the curves that have points.
@@ -50,14 +49,13 @@ bool drawsMark(const Figure& figure, int pointType);
 void arrange(Figure& figure);
 
 /// The parts of costFigures.
-Figure costTimeFigure(const Json& results, const std::vector<CostRow>& rows,
-                      const std::vector<EngineResults>& engines, const std::string& kind);
-Figure costContactsFigure(const std::vector<CostRow>& rows,
-                          const std::vector<EngineResults>& engines);
-Figure costOrderFigure(const Json& results, const std::vector<CostRow>& rows,
-                       const std::vector<EngineResults>& engines, const std::string& kind);
-Figure costPartsFigure(const std::vector<CostRow>& rows, const std::vector<EngineResults>& engines);
-Figure costFallsFigure(const Json& results, const std::vector<EngineResults>& engines);
-Figure costGrowthFigure(const Json& results);
+Figure costTimeFigure(const CostResults& results, const std::vector<CostEngine>& engines,
+                      CostKind kind);
+Figure costContactsFigure(const CostPoints& points, const std::vector<CostEngine>& engines);
+Figure costOrderFigure(const CostResults& results, const std::vector<CostEngine>& engines,
+                       CostKind kind);
+Figure costPartsFigure(const CostPoints& points, const std::vector<CostEngine>& engines);
+Figure costFallsFigure(const CostResults& results, const std::vector<CostEngine>& engines);
+Figure costGrowthFigure(const CostResults& results);
 
 }  // namespace crossgrain::reports

@@ -3,39 +3,41 @@
 #include <string>
 #include <vector>
 
+#include "reports/common/json_view.hpp"
 #include "reports/cost/points.hpp"
+#include "results/cost.hpp"
 
-/// The tables of a study of cost, and what they say in sentences.
+/// The tables of a study of cost, as views for the page, and what they say in sentences.
 namespace crossgrain::reports {
 
-/// The wanted accuracies, coarsest first.
-std::vector<double> costWants(const Json& results);
+/// The accuracies that settings were looked for, coarsest first.
+std::vector<double> costTargets(const CostResults& results);
 
-/// One line on each want: the engine that reaches it in collisions and averages with the least
+/// One line on each target: the engine that reaches it in collisions and averages with the least
 /// time.
-std::string wantInWords(const Json& results, double want);
+std::string targetInWords(const CostResults& results, double target);
 
 /// "Finding: ENGINE, INTEGRATOR: order 2 is claimed and not met: collision Ψ_f 1.02 ± 0.05, …."
-std::vector<std::string> unmetOrders(const Json& results);
+std::vector<std::string> unmetOrders(const CostResults& results);
 
-/// An engine per row, a want per column: the recommended setting.
-Json adviceRows(const Json& results, const std::vector<EngineResults>& engines);
+/// An engine per row, a target per column: the recommended setting.
+Json adviceRows(const CostResults& results, const std::vector<CostEngine>& engines);
 
-/// {engine, settings [{wants, label, fragment}]} of each engine that reaches something.
-Json fragmentViews(const Json& results, const std::vector<EngineResults>& engines);
+/// {engine, wants, setting, fragment} of each setting that some engine reaches something with.
+Json fragmentViews(const CostResults& results, const std::vector<CostEngine>& engines);
 
-/// A group per kind and measure: an engine per row, a want per column.
-Json cheapestGroups(const Json& results, const std::vector<EngineResults>& engines);
+/// A group per kind and measure: an engine per row, a target per column.
+Json cheapestGroups(const CostResults& results, const std::vector<CostEngine>& engines);
 
-Json orderRows(const Json& results);
+Json orderRows(const CostResults& results);
 
 /// A group per kind, {kind, measures, rows}: a row per engine and setting that is no time step.
-Json knobGroups(const Json& results, const std::vector<EngineResults>& engines);
+Json knobGroups(const CostResults& results, const std::vector<CostEngine>& engines);
 
 /// What failed, was refused or could not be afforded, alike reasons together.
-Json notRunRows(const Json& results);
+Json notRunRows(const CostResults& results);
 
-Json startupRows(const Json& results);
-Json referenceRows(const Json& results);
+Json startupRows(const CostResults& results);
+Json referenceRows(const CostResults& results);
 
 }  // namespace crossgrain::reports

@@ -17,8 +17,6 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr const char* profileMeasures[] = {"azimuthal_velocity", "stress_rr", "volume_fraction"};
@@ -38,73 +36,73 @@ const std::vector<std::string>& averageMeasures() {
   return names;
 }
 
-std::string nameOf(const View& view) {
-  std::string name = view.method;
-  if (view.every > 1) name += fmt::format("/{}", view.every);
-  if (view.share < 1.0) name += fmt::format("@{:g}", view.share);
+std::string nameOf(const Sampling& sampling) {
+  std::string name = sampling.method;
+  if (sampling.every > 1) name += fmt::format("/{}", sampling.every);
+  if (sampling.fraction < 1.0) name += fmt::format("@{:g}", sampling.fraction);
   return name;
 }
 
-View viewOf(const Case& setup, const CostSetting& setting) {
+Sampling samplingOf(const Case& setup, const CostSetting& setting) {
   const Averaging& averaging = setting.setup.averaging;
   return {averaging.methods.front(),
           std::max(1, setup.averaging.snapshotsPerRotation / averaging.snapshotsPerRotation)};
 }
 
-std::vector<View> allViews(const Case& setup) {
+std::vector<Sampling> allSamplings(const Case& setup) {
   const std::string first = setup.averaging.methods.front();
-  std::vector<View> views = {{first}};
-  for (const std::string& method : setup.cost.methods)
-    if (method != first) views.push_back({method});
+  std::vector<Sampling> samplings = {{first}};
+  for (const std::string& method : setup.cost.texts.at("method"))
+    if (method != first) samplings.push_back({method});
   const int all = setup.averaging.snapshotsPerRotation;
-  for (const double every : setup.cost.snapshots)
-    if (every > 1.0) views.push_back({first, all / snapshotsPerRotation(setup, every)});
-  for (const double share : {0.25, 0.5}) views.push_back({first, 1, share});
-  return views;
+  for (const double every : setup.cost.numbers.at("snapshots"))
+    if (every > 1.0) samplings.push_back({first, all / snapshotsPerRotation(setup, every)});
+  for (const double fraction : {0.25, 0.5}) samplings.push_back({first, 1, fraction});
+  return samplings;
 }
 
 namespace {
 
-/// One view's sums.
-class ViewAverages {
+/// One sampling's sums.
+class SampledAverages {
  public:
-  ViewAverages(const View& view, const Case& setup, const Scene& scene)
-      : view_(view),
+  SampledAverages(const Sampling& sampling, const Case& setup, const Scene& scene)
+      : sampling_(sampling),
         setup_(setup),
-        most_(static_cast<int>(std::lround(view.share * snapshotsOf(setup)))),
-        profiles_(ringsOf(setup), weightsOf(setup, std::vector<std::string>{view.method}), scene) {}
+        most_(static_cast<int>(std::lround(sampling.fraction * snapshotsOf(setup)))),
+        profiles_(ringsOf(setup), weightsOf(setup, std::vector<std::string>{sampling.method}),
+                  scene) {}
 
   /// @param count  of snapshots, this one included
   void add(const Snapshot& snapshot, int count) {
-    if (count % view_.every == 0 && (count <= most_ || profiles_.snapshots() == 0))
+    if (count % sampling_.every == 0 && (count <= most_ || profiles_.snapshots() == 0))
       profiles_.add(snapshot);
   }
 
-  json numbers() const {
-    json numbers = json::object();
+  AveragedPacking::Numbers numbers() const {
+    AveragedPacking::Numbers numbers;
     const std::vector<Profile> profiles = profiles_.profiles();
     const double rim = setup_.cell.omega * setup_.cell.innerRadius;
     for (const Profile& profile : profiles) {
       if (std::ranges::find(profileMeasures, profile.field) == std::end(profileMeasures)) continue;
-      json& list = numbers[profile.field] = json::array();
+      auto& rings = numbers[profile.field];
       const double unit = profile.field == profileMeasures[0] ? rim : 1.0;
-      for (const auto& mean : profile.mean) list.push_back(mean ? json(*mean / unit) : json());
+      for (const auto& mean : profile.mean)
+        rings.push_back(mean ? std::optional(*mean / unit) : std::nullopt);
     }
-    for (const json& fit : couetteFits(setup_, profiles)) {
-      if (!fit["value"].is_number()) continue;
-      if (fit["name"] == "velocity_decay") numbers["shear_band_width"] = {fit["value"]};
-      if (fit["name"] == "velocity_amplitude")
-        numbers["wall_slip"] = {1.0 - fit["value"].get<double>()};
+    for (const nlohmann::json& fit : couetteFits(setup_, profiles)) {
+      const auto value = optionalNumber(fit["value"]);
+      if (!value) continue;
+      if (fit["name"] == "velocity_decay") numbers["shear_band_width"] = {*value};
+      if (fit["name"] == "velocity_amplitude") numbers["wall_slip"] = {1.0 - *value};
     }
-    if (numbers.contains("stress_rr")) {
-      const auto level = ensembleMean(optionalNumbers(numbers["stress_rr"]));
-      if (level) numbers["stress_level"] = {level->mean};
-    }
+    if (const auto stress = numbers.find("stress_rr"); stress != numbers.end())
+      if (const auto level = ensembleMean(stress->second)) numbers["stress_level"] = {level->mean};
     return numbers;
   }
 
  private:
-  View view_;
+  Sampling sampling_;
   const Case& setup_;
   int most_;
   ProfileAccumulator profiles_;
@@ -112,9 +110,9 @@ class ViewAverages {
 
 }  // namespace
 
-json averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
-                    const Packing& packing, const std::vector<View>& views,
-                    const std::function<void(double)>& progress) {
+AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
+                               const Packing& packing, const std::vector<Sampling>& samplings,
+                               const std::function<void(double)>& progress) {
   const Scene scene = couetteScene(setup, packing, timeStep(setup));
   const Realised realised = loadScene(engine, entry, setup, scene);
   const ContactReport report =
@@ -129,7 +127,7 @@ json averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
     now = time;
     progress(time / end);
   };
-  const auto look = [&] {
+  const auto sample = [&] {
     Snapshot seen = engine.snapshot(report);
     if (const std::string wild = blowUp(setup, seen); !wild.empty()) throw EngineFailure(wild);
     return seen;
@@ -138,16 +136,16 @@ json averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
   // What blows up does so soon: it need not settle for long to be seen.
   for (int k = 1; k <= 16; ++k) {
     advanceTo(settled * k / 16);
-    look();
+    sample();
   }
   const Stats before = engine.stats();
-  std::vector<ViewAverages> averages;
-  averages.reserve(views.size());
-  for (const View& view : views) averages.emplace_back(view, setup, scene);
+  std::vector<SampledAverages> averages;
+  averages.reserve(samplings.size());
+  for (const Sampling& sampling : samplings) averages.emplace_back(sampling, setup, scene);
   for (int taken = 1; taken <= samples; ++taken) {
     advanceTo(settled + taken * interval);
-    const Snapshot seen = look();
-    for (ViewAverages& view : averages) view.add(seen, taken);
+    const Snapshot seen = sample();
+    for (SampledAverages& each : averages) each.add(seen, taken);
   }
   const Stats after = engine.stats();
 
@@ -155,50 +153,50 @@ json averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
   const auto perRotation = [&](std::uint64_t count) {
     return static_cast<std::uint64_t>(std::llround(static_cast<double>(count) / rotations));
   };
-  json run = {
-      {"dt_s", realised.dt},
-      {"wall_s", (after.wallSeconds - before.wallSeconds) / rotations},
-      {"cpu_s", (after.cpuSeconds - before.cpuSeconds) / rotations},
-      {"steps", perRotation(after.steps - before.steps)},
-      {"contact_evaluations", perRotation(after.contactEvaluations - before.contactEvaluations)},
-      {"views", json::object()}};
-  for (std::size_t k = 0; k < views.size(); ++k)
-    run["views"][nameOf(views[k])] = averages[k].numbers();
+  AveragedPacking run{
+      .dt = realised.dt,
+      .wallSeconds = (after.wallSeconds - before.wallSeconds) / rotations,
+      .cpuSeconds = (after.cpuSeconds - before.cpuSeconds) / rotations,
+      .steps = perRotation(after.steps - before.steps),
+      .contactEvaluations = perRotation(after.contactEvaluations - before.contactEvaluations)};
+  for (std::size_t k = 0; k < samplings.size(); ++k)
+    run.samplings[nameOf(samplings[k])] = averages[k].numbers();
   return run;
 }
 
 namespace {
 
-/// One ring of a measure over packings; absent where a run has none.
-std::optional<double> numberOf(const json& run, const std::string& view, const std::string& measure,
-                               std::size_t ring) {
-  if (run.is_null() || !run["views"].contains(view)) return std::nullopt;
-  const json& numbers = run["views"][view];
-  if (!numbers.contains(measure) || ring >= numbers[measure].size()) return std::nullopt;
-  return optionalNumber(numbers[measure][ring]);
+/// A measure over rings; empty where the run has none.
+const std::vector<std::optional<double>>& valuesOf(const AveragedPacking& run,
+                                                   const std::string& sampling,
+                                                   const std::string& measure) {
+  static const std::vector<std::optional<double>> none;
+  const auto sampled = run.samplings.find(sampling);
+  if (sampled == run.samplings.end()) return none;
+  const auto found = sampled->second.find(measure);
+  return found == sampled->second.end() ? none : found->second;
 }
 
-std::size_t ringsIn(const std::vector<json>& runs, const std::string& view,
-                    const std::string& measure) {
-  std::size_t rings = 0;
-  for (const json& run : runs)
-    if (!run.is_null() && run["views"].contains(view) && run["views"][view].contains(measure))
-      rings = std::max(rings, run["views"][view][measure].size());
-  return rings;
+std::optional<double> valueAt(const std::vector<std::optional<double>>& rings, std::size_t ring) {
+  return ring < rings.size() ? rings[ring] : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<WeakError> weakError(const std::vector<json>& runs, const std::string& view,
-                                   const std::vector<json>& reference,
-                                   const std::string& referenceView, const std::string& measure) {
+std::optional<WeakError> weakError(const std::vector<AveragedPacking>& runs,
+                                   const std::string& sampling,
+                                   const std::vector<AveragedPacking>& reference,
+                                   const std::string& referenceSampling,
+                                   const std::string& measure) {
   double differences = 0.0, variances = 0.0, scale = 0.0;
-  std::size_t rings = 0, withError = 0;
-  for (std::size_t ring = 0; ring < ringsIn(reference, referenceView, measure); ++ring) {
+  std::size_t rings = 0, withError = 0, all = 0;
+  for (const AveragedPacking& run : reference)
+    all = std::max(all, valuesOf(run, referenceSampling, measure).size());
+  for (std::size_t ring = 0; ring < all; ++ring) {
     std::vector<std::optional<double>> paired, level;
     for (std::size_t k = 0; k < std::min(runs.size(), reference.size()); ++k) {
-      const auto one = numberOf(runs[k], view, measure, ring);
-      const auto other = numberOf(reference[k], referenceView, measure, ring);
+      const auto one = valueAt(valuesOf(runs[k], sampling, measure), ring);
+      const auto other = valueAt(valuesOf(reference[k], referenceSampling, measure), ring);
       level.push_back(other);
       paired.push_back(one && other ? std::optional(*one - *other) : std::nullopt);
     }
@@ -211,7 +209,7 @@ std::optional<WeakError> weakError(const std::vector<json>& runs, const std::str
     ++withError;
     variances += *difference->standardError * *difference->standardError;
   }
-  if (measure == "wall_slip") scale = 1.0;  // it is a share of the rim's speed already
+  if (measure == "wall_slip") scale = 1.0;  // it is a fraction of the rim's speed already
   if (rings == 0 || !(scale > 0.0)) return std::nullopt;
   const auto count = static_cast<double>(rings);
   WeakError found{std::sqrt(differences / count) / scale, {}, {}};

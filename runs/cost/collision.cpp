@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "cases/time_step.hpp"
-#include "runs/common/records.hpp"
+#include "runs/cost/limits.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 Case collisionOf(const Case& setup) {
   Case pair = setup;
@@ -73,29 +73,52 @@ SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pa
   return best;
 }
 
-/// Why a sweep says nothing about the case, empty if it does.
-std::string failureOf(const json& sweep, const Case& pair, double dt) {
-  const double share = dt / stabilityLimit(pair);
-  const std::string limit =
-      share > 1.0 ? fmt::format("beyond its stability limit (dt = {:.3g} · 2/ω): ", share) : "";
-  if (sweep["status"] != "finished") return limit + sweep["reason"].get<std::string>();
-  double largest = 0.0;
+/// What a point takes from a sweep of collisions.
+struct SweepScore {
+  double dt = 0.0;  ///< [s]
+  std::uint64_t steps = 0, contactEvaluations = 0;
+  double wallSeconds = 0.0;  ///< [s]
+  std::string failure = {};  ///< why it did not finish; empty if it did
+  double largestEn = 0.0;    ///< |e_n|
+  std::map<std::string, double> rms = {};
+};
+
+SweepScore sweepScore(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
+                      const CollisionReference& reference) {
+  const nlohmann::json sweep =
+      runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*look=*/false);
+  SweepScore score{.dt = sweep["dt"],
+                   .steps = sweep["stats"]["steps"],
+                   .contactEvaluations = sweep["stats"]["contact_evaluations"],
+                   .wallSeconds = sweep["stats"]["wall_s"]};
+  if (sweep["status"] != "finished") score.failure = sweep["reason"];
   if (const auto found = sweep["points"].find("e_n"); found != sweep["points"].end())
-    for (const json& en : *found)
-      if (en.is_number()) largest = std::max(largest, std::abs(en.get<double>()));
-  if (largest > 1.0)
+    for (const nlohmann::json& en : *found)
+      if (en.is_number()) score.largestEn = std::max(score.largestEn, std::abs(en.get<double>()));
+  for (const char* const measure : collisionMeasures)
+    if (sweep["score"].contains(measure)) score.rms[measure] = sweep["score"][measure]["rms"];
+  return score;
+}
+
+/// Why a sweep says nothing about the case, empty if it does.
+std::string failureOf(const SweepScore& sweep, const Case& pair, double dt) {
+  const double ofLimit = dt / stabilityLimit(pair);
+  const std::string limit =
+      ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
+  if (!sweep.failure.empty()) return limit + sweep.failure;
+  if (sweep.largestEn > 1.0)
     return fmt::format("{}pairs part {:.3g} times as fast as they met",
-                       limit.empty() ? "beyond its stability limit: " : limit, largest);
+                       limit.empty() ? fmt::format("{}: ", beyondLimit) : limit, sweep.largestEn);
   return {};
 }
 
 /// √(mean of squares) of a score over sweeps; absent where one has none.
-std::optional<double> rmsOf(const std::vector<json>& sweeps, const char* measure) {
+std::optional<double> rmsOf(const std::vector<SweepScore>& sweeps, const std::string& measure) {
   double squares = 0.0;
-  for (const json& sweep : sweeps) {
-    if (!sweep["score"].contains(measure)) return std::nullopt;
-    const double rms = sweep["score"][measure]["rms"];
-    squares += rms * rms;
+  for (const SweepScore& sweep : sweeps) {
+    const auto found = sweep.rms.find(measure);
+    if (found == sweep.rms.end()) return std::nullopt;
+    squares += found->second * found->second;
   }
   return std::sqrt(squares / static_cast<double>(sweeps.size()));
 }
@@ -107,28 +130,26 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
                                         const CollisionReference& reference) {
   Case pair = collisionOf(setting.setup);
   const double dt = timeStep(setting.setup);
-  std::vector<json> sweeps;
+  std::vector<SweepScore> sweeps;
   for (int k = 0; k < collisionPhases; ++k) {
     pair.collision.startPhase = (k + 0.5) / collisionPhases;
-    sweeps.push_back(
-        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*look=*/false));
+    sweeps.push_back(sweepScore(engine, entry, pair, dt, reference));
   }
-  const json& sweep = sweeps.front();
-  CostPoint point = pointOf(entry.name, setting, CostKind::collision, sweep["dt"]);
-  point.steps = sweep["stats"]["steps"];
-  point.contactEvaluations = sweep["stats"]["contact_evaluations"];
-  for (const json& each : sweeps)
-    if (point.reason.empty()) point.reason = failureOf(each, pair, point.dt);
-  if (!point.reason.empty()) point.status = "failed";
-  const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
-                                       std::max(sweep["stats"]["wall_s"].get<double>(), 1e-6));
+  const SweepScore& first = sweeps.front();
+  CostPoint point = pointOf(entry.name, setting, CostKind::collision, first.dt);
+  countWork(point, first.steps, first.contactEvaluations);
+  for (const SweepScore& each : sweeps)
+    if (point.reason.empty()) point.reason = failureOf(each, pair, first.dt);
+  if (!point.reason.empty()) point.status = CostStatus::failed;
+  const SweepTime time =
+      shortestSweep(engine, entry, pair, dt, reference.starts, std::max(first.wallSeconds, 1e-6));
   point.wallSeconds = time.wall;
   point.cpuSeconds = time.cpu;
 
   std::vector<CostPoint> points;
-  for (const char* const measure : {"psi_f", "e_n"}) {
+  for (const char* const measure : collisionMeasures) {
     point.measure = measure;
-    point.error = point.status == "ran" ? rmsOf(sweeps, measure) : std::nullopt;
+    point.error = point.ran() ? rmsOf(sweeps, measure) : std::nullopt;
     points.push_back(point);
   }
   return points;

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "runs/collide/sweep.hpp"
-#include "runs/cost/point.hpp"
 #include "runs/cost/settings.hpp"
 
 namespace crossgrain::inline runs {
@@ -19,6 +18,9 @@ struct CollisionReference {
   OracleCurve oracle;
 };
 CollisionReference collisionReference(const Case& setup);
+
+/// What is measured of them.
+inline constexpr const char* collisionMeasures[] = {"psi_f", "e_n"};
 
 /// The largest stable step of a contact, 2/ω with ω² = k_n/m₁₂ [s]: what a symplectic integrator
 /// bears of an undamped oscillator.

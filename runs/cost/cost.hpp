@@ -1,12 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "results/cost.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
+#include "runs/cost/advice.hpp"
 #include "runs/cost/settings.hpp"
 
 namespace crossgrain::inline runs {
@@ -15,18 +16,17 @@ struct CostRequest {
   RunCommand run;
   double budget = 720.0;  ///< for all that is measured [s]
   /// Told the plan before anything of it runs.
-  std::function<void(const std::string&)> tellPlan;
+  std::function<void(const std::string&)> tellPlan = {};
+  std::vector<double> targets = usualTargets();  ///< accuracies to find settings for
 };
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
 /// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in the store
 /// at once. A setting that an engine fails at ends by itself.
 /// @param caseWith  the case that a fragment makes of `setup`
-/// @returns results.json of kind "cost", without its analysis; "engine_failures" lists what failed
-///          for other reasons than a step beyond the stability limit
 /// @throws BadInput, UnsupportedScene, OutputError, Interrupted
-nlohmann::json measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
-                           RunStore& store);
+CostResults measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
+                        RunStore& store);
 
 /// Which settings that would measure, for people. Engines are asked what they can do; nothing is
 /// computed, so that neither the time nor what fits into a budget is known.

@@ -5,17 +5,6 @@
 
 namespace crossgrain::inline runs {
 
-std::optional<MeasuredError> measuredError(const CostPoint& point) {
-  if (!point.error) return std::nullopt;
-  return MeasuredError{*point.error, point.statistical, point.referenceError,
-                       kindScatters(point.errorKind)};
-}
-
-std::optional<double> countedError(const CostPoint& point) {
-  const auto error = measuredError(point);
-  return point.status == "ran" && error ? error->counted() : std::nullopt;
-}
-
 std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
   struct Candidate {
     double time, error;
@@ -41,12 +30,12 @@ std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
 namespace {
 
 /// @param engine  empty: all
-Front frontOf(const std::vector<CostPoint>& points, const std::string& kind,
-              const std::string& measure, const std::string& engine) {
+Front frontOf(const std::vector<CostPoint>& points, CostKind kind, const std::string& measure,
+              const std::string& engine) {
   std::vector<CostPoint> own;
   std::vector<std::size_t> members;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].errorKind != kind || points[k].measure != measure) continue;
+    if (points[k].kind != kind || points[k].measure != measure) continue;
     if (!engine.empty() && points[k].engine != engine) continue;
     own.push_back(points[k]);
     members.push_back(k);
@@ -74,7 +63,7 @@ std::vector<Front> paretoFronts(const std::vector<CostPoint>& points) {
   const auto engines = distinct(points, [](const CostPoint& p) { return p.engine; });
   std::vector<Front> fronts;
   for (const auto& [kind, measure] :
-       distinct(points, [](const CostPoint& p) { return std::pair(p.errorKind, p.measure); })) {
+       distinct(points, [](const CostPoint& p) { return std::pair(p.kind, p.measure); })) {
     fronts.push_back(frontOf(points, kind, measure, ""));
     for (const std::string& engine : engines)
       if (Front own = frontOf(points, kind, measure, engine); !own.points.empty())

@@ -12,7 +12,7 @@ namespace {
 
 /// A packing whose springs are dropped, or that loses its friction, lets go at several times ΩR_i;
 /// an instability grows without bound.
-constexpr double wildShare = 10.0;
+constexpr double wildSpeed = 10.0;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::string blowUp(const Case& setup, const Snapshot& seen) {
   }
   const double speed = std::sqrt(squares / static_cast<double>(seen.position.size()));
   const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
-  if (!(speed < wildShare * rim))
+  if (!(speed < wildSpeed * rim))
     return fmt::format("{}: at t = {:.3g} s the disks' rms speed is {:.3g} times the wheel's rim",
                        beyondLimit, seen.positionTime, speed / rim);
   return {};

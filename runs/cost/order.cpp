@@ -23,16 +23,20 @@ using Points = std::vector<CostPoint>;
 using Indices = std::vector<std::size_t>;
 
 double slopeBetween(const CostPoint& a, const CostPoint& b) {
-  return std::log(*b.error / *a.error) / std::log(b.dt / a.dt);
+  return std::log(*b.error / *a.error) / std::log(*b.dt / *a.dt);
 }
 
 /// Why a point cannot be in any fit; empty if it can.
 std::string unusable(const CostPoint& point) {
-  if (point.status != "ran")
-    return point.reason.empty() ? point.status : point.status + ": " + point.reason;
+  if (!point.ran()) {
+    const std::string status = toString(point.status);
+    return point.reason.empty() ? status : status + ": " + point.reason;
+  }
+  if (!point.dt) return "no time step is known";
   if (!point.error) return "no error is known";
   if (*point.error <= 0.0) return "no error is left";
-  if (point.errorKind == "averages" && !point.statistical) return "no statistical error is known";
+  if (point.kind == CostKind::averages && !point.statistical)
+    return "no statistical error is known";
   if (point.referenceError && *point.error < aboveFloor * *point.referenceError)
     return fmt::format("below {} times the reference's own error", aboveFloor);
   if (point.statistical && *point.error < aboveFloor * *point.statistical)
@@ -80,7 +84,7 @@ std::pair<std::size_t, std::size_t> asymptoticRange(const Points& points, const 
 void fitLine(OrderFit& fit, const Points& points) {
   std::vector<double> x, y;
   for (const std::size_t k : fit.used) {
-    x.push_back(std::log(points[k].dt));
+    x.push_back(std::log(*points[k].dt));
     y.push_back(std::log(*points[k].error));
   }
   double intercept = 0.0, slope = 0.0, var00 = 0.0, var01 = 0.0, var11 = 0.0, squares = 0.0;
@@ -93,13 +97,13 @@ void fitLine(OrderFit& fit, const Points& points) {
   fit.amplitude = std::exp(intercept);
 }
 
-std::string verdictOn(const OrderFit& fit) {
-  if (!fit.order) return "no fit";
-  if (!fit.theory) return "no claim";
+OrderVerdict verdictOn(const OrderFit& fit) {
+  if (!fit.order) return OrderVerdict::noFit;
+  if (!fit.theory) return OrderVerdict::noClaim;
   const double distance = *fit.order - *fit.theory, reach = *fit.halfWidth + bend;
-  if (distance < -reach) return "not met";
-  if (distance > reach) return "exceeded";
-  return *fit.halfWidth > slopeTolerance ? "undecided" : "met";
+  if (distance < -reach) return OrderVerdict::notMet;
+  if (distance > reach) return OrderVerdict::exceeded;
+  return *fit.halfWidth > slopeTolerance ? OrderVerdict::undecided : OrderVerdict::met;
 }
 
 /// Points that can be fitted, by rising dt, one per dt; the others go to fit.leftOut.
@@ -126,7 +130,7 @@ OrderFit fitOrder(const std::vector<CostPoint>& points, std::optional<double> th
   OrderFit fit;
   if (!points.empty()) {
     fit.engine = points.front().engine;
-    fit.errorKind = points.front().errorKind;
+    fit.kind = points.front().kind;
     fit.measure = points.front().measure;
   }
   fit.theory = theory;
@@ -144,7 +148,11 @@ OrderFit fitOrder(const std::vector<CostPoint>& points, std::optional<double> th
       fit.used.push_back(rising[k]);
     else
       fit.leftOut.push_back({rising[k], count >= fewest ? "the local slope departs" : "too few"});
-  if (!fit.used.empty()) fitLine(fit, points);
+  if (!fit.used.empty()) {
+    fit.dtLow = points[fit.used.front()].dt;
+    fit.dtHigh = points[fit.used.back()].dt;
+    fitLine(fit, points);
+  }
   fit.verdict = verdictOn(fit);
   if (!fit.order)
     fit.reason = level && rising.size() < fewest
@@ -155,17 +163,10 @@ OrderFit fitOrder(const std::vector<CostPoint>& points, std::optional<double> th
 
 namespace {
 
-/// Of points that a step alone tells apart; absent for all others.
-std::optional<std::string> integratorOf(const CostPoint& point) {
-  if (point.knob == "time_step") return std::string();
-  if (point.knob == "integrator") return point.setting.substr(0, point.setting.find(','));
-  return std::nullopt;
-}
-
-std::optional<double> claimOf(const std::map<std::string, double>& theory,
-                              const std::string& engine, const std::string& integrator) {
+std::optional<double> claimOf(const std::map<std::string, int>& theory, const std::string& engine,
+                              const std::string& integrator) {
   const auto claim = theory.find(integrator.empty() ? engine : engine + " " + integrator);
-  return claim == theory.end() ? std::nullopt : std::optional(claim->second);
+  return claim == theory.end() ? std::nullopt : std::optional<double>(claim->second);
 }
 
 bool severalSteps(const Points& points) {
@@ -175,13 +176,13 @@ bool severalSteps(const Points& points) {
 }  // namespace
 
 std::vector<OrderFit> fitOrders(const std::vector<CostPoint>& points,
-                                const std::map<std::string, double>& theory) {
-  using Group = std::tuple<std::string, std::string, std::string, std::string>;
+                                const std::map<std::string, int>& theory) {
+  using Group = std::tuple<std::string, CostKind, std::string, std::string>;
   std::vector<std::pair<Group, Indices>> groups;  // in the order of the points
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto integrator = integratorOf(points[k]);
-    if (!integrator) continue;
-    const Group group{points[k].engine, points[k].errorKind, points[k].measure, *integrator};
+    const auto scheme = schemeOf(points[k].knob, points[k].setting);
+    if (!scheme) continue;
+    const Group group{points[k].engine, points[k].kind, points[k].measure, *scheme};
     auto found = std::ranges::find(groups, group, &std::pair<Group, Indices>::first);
     if (found == groups.end()) found = groups.insert(groups.end(), {group, {}});
     found->second.push_back(k);

@@ -29,7 +29,7 @@ bool comesBefore(const PlannedPoint& one, const PlannedPoint& other) {
   return rank(one) < rank(other);
 }
 
-std::string undecidedReason(double seconds, double left, double budget) {
+std::string doesNotFit(double seconds, double left, double budget) {
   return fmt::format(
       "would take about {:.3g} s, {:.3g} s are left of the engine's share of {:.3g} s", seconds,
       std::max(left, 0.0), budget);
@@ -46,7 +46,7 @@ std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
     const double share = shares[point.engine];
     // Sums of the same numbers in another order differ in their last digits.
     if (spent[point.engine] + point.seconds > share * (1.0 + 1e-9) && point.seconds > 0.0)
-      point.undecided = undecidedReason(point.seconds, share - spent[point.engine], share);
+      point.notMeasured = doesNotFit(point.seconds, share - spent[point.engine], share);
     else
       spent[point.engine] += point.seconds;
   }
@@ -58,27 +58,26 @@ double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
   std::vector<double> references(overhead.size(), 0.0);
   double seconds = 0.0;
   for (const PlannedPoint& point : points) {
-    if (point.undecided.empty()) continue;
+    if (point.notMeasured.empty()) continue;
     seconds += point.seconds;
     if (point.kind == CostKind::trajectory) references[point.engine] = overhead[point.engine];
   }
   return std::accumulate(references.begin(), references.end(), seconds);
 }
 
-std::string planInWords(const std::vector<PlannedPoint>& points,
-                        const std::vector<std::string>& engines,
-                        const std::vector<double>& overhead, double common, double budget) {
+std::string planInWords(const CostPlan& plan, const std::vector<std::string>& engines,
+                        double budget) {
   std::string text = fmt::format("plan for a budget of {:.3g} s:\n", budget);
-  double total = common;
+  double total = plan.common;
   for (std::size_t e = 0; e < engines.size(); ++e) {
-    total += overhead[e];
-    for (const CostKind kind : {CostKind::collision, CostKind::trajectory, CostKind::averages}) {
+    total += plan.overhead[e];
+    for (const CostKind kind : costKinds) {
       int count = 0, left = 0;
-      double seconds = kind == CostKind::trajectory ? overhead[e] : 0.0;
-      for (const PlannedPoint& point : points) {
+      double seconds = kind == CostKind::trajectory ? plan.overhead[e] : 0.0;
+      for (const PlannedPoint& point : plan.points) {
         if (point.engine != e || point.kind != kind) continue;
         ++count;
-        if (!point.undecided.empty())
+        if (!point.notMeasured.empty())
           ++left;
         else
           seconds += point.seconds, total += point.seconds;
@@ -90,7 +89,8 @@ std::string planInWords(const std::vector<PlannedPoint>& points,
     }
   }
   return text + fmt::format("  {:<28} {:22} {:6.1f} s\n  {:<28} {:22} {:6.1f} s\n",
-                            "references of the in-house engine", "", common, "in all", "", total);
+                            "references of the in-house engine", "", plan.common, "in all", "",
+                            total);
 }
 
 }  // namespace crossgrain::inline runs

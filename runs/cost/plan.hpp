@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,14 +14,24 @@ struct PlannedPoint {
   CostKind kind = CostKind::collision;
   std::size_t setting = 0;  ///< of that engine and kind
   double seconds = 0.0;     ///< predicted; 0: an earlier run has it, or it costs nothing more
-  std::string undecided;    ///< why it is not measured; empty if it is
+  std::string notMeasured;  ///< why it is not; empty if it is
+};
+
+/// What is to be measured, and what it is predicted to take.
+struct CostPlan {
+  std::vector<PlannedPoint> points = {};
+  std::vector<double> overhead = {};                ///< of each engine's references [s]
+  std::vector<double> shares = {};                  ///< of the budget, by engine [s]
+  double common = 0.0;                              ///< of references that all engines share [s]
+  std::map<CostKind, std::string> impossible = {};  ///< kinds without references, and why
+  double budgetForTheRest = 0.0;                    ///< for what does not fit, all else kept [s]
 };
 
 /// A budget shared fairly: nobody gets more than wanted, and what some leave goes to the others in
 /// equal parts.
 std::vector<double> fairShares(const std::vector<double>& wanted, double budget);
 
-/// Marks as undecided what does not fit. Engines share the budget fairly; each takes collisions
+/// Marks as not measured what does not fit. Engines share the budget fairly; each takes collisions
 /// before trajectories before averages, and of each kind the case as it is first, then the cheapest
 /// (within a kind all points tell about as much).
 /// @param overhead  what each engine's references take besides its points [s]
@@ -37,11 +47,10 @@ double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
 bool comesBefore(const PlannedPoint& one, const PlannedPoint& other);
 
 /// "would take about 90 s; grain's share …"
-std::string undecidedReason(double seconds, double left, double budget);
+std::string doesNotFit(double seconds, double left, double budget);
 
-/// The plan as lines: per engine and kind how many points, how many seconds, how many undecided.
-std::string planInWords(const std::vector<PlannedPoint>& points,
-                        const std::vector<std::string>& engines,
-                        const std::vector<double>& overhead, double common, double budget);
+/// The plan as lines: per engine and kind how many points, how many seconds, how many do not fit.
+std::string planInWords(const CostPlan& plan, const std::vector<std::string>& engines,
+                        double budget);
 
 }  // namespace crossgrain::inline runs

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "adapters/law_options.hpp"
+#include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
@@ -16,11 +17,6 @@
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline runs {
-
-std::string toString(CostKind kind) {
-  constexpr const char* names[] = {"collision", "trajectory", "averages"};
-  return names[static_cast<int>(kind)];
-}
 
 double costContactTime(const Case& setup) {
   if (setup.law.normal != NormalLaw::linear)
@@ -38,8 +34,9 @@ double engineStep(const Case& setup, const std::string& engine, const Capabiliti
   return own ? *own : timeStep(setup);
 }
 
-std::string integratorOf(const CostSetting& setting) {
-  return setting.knob == "integrator" ? setting.setting.substr(0, setting.setting.find(',')) : "";
+bool CostSetting::isSampling() const {
+  const CostKnob* const known = findCostKnob(knob);
+  return known && known->sameRun;
 }
 
 CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt) {
@@ -48,130 +45,146 @@ CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKin
   point.knob = setting.knob;
   point.setting = setting.setting;
   point.fragment = setting.fragment;
-  point.errorKind = toString(kind);
-  point.dt = dt;
+  point.kind = kind;
+  if (dt > 0.0) point.dt = dt;
   point.stepsPerContact = costContactTime(setting.setup) / dt;
   return point;
 }
 
+void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations) {
+  if (steps > 0) point.steps = steps;
+  if (contactEvaluations > 0) point.contactEvaluations = contactEvaluations;
+}
+
 namespace {
 
-class SettingList {
- public:
-  SettingList(const Case& setup, std::string engine, const Capabilities& can,
-              const CaseWith& caseWith)
-      : setup_(setup), engine_(std::move(engine)), can_(can), caseWith_(caseWith) {}
+/// What knobs have in common when they say what their settings are.
+struct SettingsSoFar {
+  const Case& setup;
+  std::string engine;
+  const Capabilities& can;
+  const CaseWith& caseWith;
+  const std::vector<double>& steps;  ///< per t_c
+  std::vector<CostSetting> list = {};
 
-  void add(const std::string& knob, const std::string& setting, const std::string& fragment) {
-    CostSetting one{knob, setting, fragment, caseWith_(fragment), {}};
-    one.refusal = switchRefusal(can_, setup_, {knob, "", {}, one.setup});
-    settings.push_back(std::move(one));
+  CostSetting& add(const std::string& knob, const std::string& setting,
+                   const std::string& fragment) {
+    CostSetting one{knob, setting, fragment, caseWith(fragment), {}};
+    one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
+    return list.emplace_back(std::move(one));
   }
-
-  void addSteps(const std::vector<double>& steps) {
-    for (const double n : steps)
-      add("time_step", fmt::format("t_c/{:g}", n), stepFragment(setup_, engine_, can_, n));
+  const std::vector<double>& numbers(const char* knob) const { return setup.cost.numbers.at(knob); }
+  const std::vector<std::string>& texts(const char* knob) const {
+    return setup.cost.texts.at(knob);
   }
+};
 
-  /// Every other integrator at every step; one that the engine lacks is refused once, and one that
-  /// it always takes is what its time steps show.
-  void addIntegrators(const std::vector<double>& steps) {
-    const auto option = std::ranges::find(lawOptions(), "integrator", &LawOption::name);
-    const auto own = can_.lawOptions.find("integrator");
-    for (const std::string_view value : option->values) {
-      if (value == lawOptionValue(setup_.law, "integrator")) continue;
-      if (own != can_.lawOptions.end() && own->second == std::vector{std::string(value)}) continue;
-      const std::string law = fmt::format("[law]\nintegrator = \"{}\"\n", value);
-      add("integrator", std::string(value), law);
-      std::string& refusal = settings.back().refusal;
-      if (own == can_.lawOptions.end()) refusal = "has no such option";
-      if (!refusal.empty()) continue;
-      settings.pop_back();
-      for (const double n : steps)
-        add("integrator", fmt::format("{}, t_c/{:g}", value, n),
-            law + "\n" + stepFragment(setup_, engine_, can_, n));
+void addSteps(SettingsSoFar& to) {
+  for (const double n : to.steps)
+    to.add("time_step", fmt::format("t_c/{:g}", n), stepFragment(to.setup, to.engine, to.can, n));
+}
+
+/// Every other integrator at every step; one that the engine lacks is refused once, and one that
+/// it always takes is what its time steps show.
+void addIntegrators(SettingsSoFar& to) {
+  const auto option = std::ranges::find(lawOptions(), "integrator", &LawOption::name);
+  const auto own = to.can.lawOptions.find("integrator");
+  for (const std::string_view value : option->values) {
+    if (value == lawOptionValue(to.setup.law, "integrator")) continue;
+    if (own != to.can.lawOptions.end() && own->second == std::vector{std::string(value)}) continue;
+    const std::string law = fmt::format("[law]\nintegrator = \"{}\"\n", value);
+    std::string& refusal = to.add("integrator", std::string(value), law).refusal;
+    if (own == to.can.lawOptions.end()) refusal = "has no such option";
+    if (!refusal.empty()) continue;
+    to.list.pop_back();
+    for (const double n : to.steps)
+      to.add("integrator", fmt::format("{}, t_c/{:g}", value, n),
+             law + "\n" + stepFragment(to.setup, to.engine, to.can, n));
+  }
+}
+
+void addPrecision(SettingsSoFar& to) {
+  if (to.setup.run.precision == Precision::float64)
+    to.add("precision", "float", "[run]\nprecision = \"float\"\n");
+}
+
+void addOwnSettings(SettingsSoFar& to) {
+  const auto own = to.setup.cost.settings.find(to.engine);
+  if (own == to.setup.cost.settings.end()) return;
+  for (const auto& [name, values] : own->second)
+    for (const double value : values) {
+      const CostSetting& one =
+          to.add(name, fmt::format("{} = {:g}", name, value),
+                 fmt::format("[engines.{}]\n{} = {}\n", to.engine, name, value));
+      settingsFor(one.setup, to.engine, to.can);  // throws for one that it does not have
     }
-  }
+}
 
-  void addPrecision() {
-    if (setup_.run.precision == Precision::float64)
-      add("precision", "float", "[run]\nprecision = \"float\"\n");
-  }
+void addLaw(SettingsSoFar& to, const std::string& option, const std::vector<std::string>& values) {
+  for (const std::string& value : values)
+    if (value != lawOptionValue(to.setup.law, option))
+      to.add(option, value, fmt::format("[law]\n{} = \"{}\"\n", option, value));
+}
 
-  void addLaw(const std::string& option, const std::vector<std::string>& values) {
-    for (const std::string& value : values)
-      if (value != lawOptionValue(setup_.law, option))
-        add(option, value, fmt::format("[law]\n{} = \"{}\"\n", option, value));
-  }
+void addTangential(SettingsSoFar& to) {
+  addLaw(to, "tangential", to.texts("tangential"));
+}
 
-  void addOwnSettings() {
-    const auto own = setup_.cost.settings.find(engine_);
-    if (own == setup_.cost.settings.end()) return;
-    for (const auto& [name, values] : own->second)
-      for (const double value : values) {
-        add(name, fmt::format("{} = {:g}", name, value),
-            fmt::format("[engines.{}]\n{} = {}\n", engine_, name, value));
-        settingsFor(settings.back().setup, engine_, can_);  // throws for one that it does not have
-      }
-  }
+void addTension(SettingsSoFar& to) {
+  addLaw(to, "tension", {"allow", "cut"});
+}
 
-  void addSampling() {
-    const Averaging& averaging = setup_.averaging;
-    if (wants("method"))
-      for (const std::string& method : setup_.cost.methods)
-        if (method != averaging.methods.front())
-          add("method", method, fmt::format("[averaging]\nmethod = \"{}\"\n", method));
-    if (wants("snapshots"))
-      for (const double every : setup_.cost.snapshots) {
-        const int number = snapshotsPerRotation(setup_, every);
-        add("snapshots", fmt::format("{} per rotation", number),
-            fmt::format("[averaging]\nsnapshots_per_rotation = {}\n", number));
-      }
-  }
+void addMethods(SettingsSoFar& to) {
+  for (const std::string& method : to.texts("method"))
+    if (method != to.setup.averaging.methods.front())
+      to.add("method", method, fmt::format("[averaging]\nmethod = \"{}\"\n", method));
+}
 
-  void addScales() {
-    if (wants("omega"))
-      for (const double factor : setup_.cost.omega)
-        add("omega", fmt::format("{:g} Ω", factor),
-            fmt::format("[cell]\nomega = {}\n", setup_.cell.omega * factor));
-    if (wants("stiffness"))
-      for (const double factor : setup_.cost.stiffness) addStiffness(factor);
+void addSnapshots(SettingsSoFar& to) {
+  for (const double every : to.numbers("snapshots")) {
+    const int number = snapshotsPerRotation(to.setup, every);
+    to.add("snapshots", fmt::format("{} per rotation", number),
+           fmt::format("[averaging]\nsnapshots_per_rotation = {}\n", number));
   }
+}
 
-  /// Softer disks of the same restitution: dashpots by the root, and with them the step.
-  void addStiffness(double factor) {
-    const ContactLaw& law = setup_.law;
+void addOmega(SettingsSoFar& to) {
+  for (const double factor : to.numbers("omega"))
+    to.add("omega", fmt::format("{:g} Ω", factor),
+           fmt::format("[cell]\nomega = {}\n", to.setup.cell.omega * factor));
+}
+
+/// Softer disks of the same restitution: dashpots by the root, and with them the step.
+void addStiffness(SettingsSoFar& to) {
+  const ContactLaw& law = to.setup.law;
+  for (const double factor : to.numbers("stiffness")) {
     const double root = law.damper == Damper::constant       ? std::sqrt(factor)
                         : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
                                                              : 1.0;
-    add("stiffness", fmt::format("{:g} k_n", factor),
+    to.add(
+        "stiffness", fmt::format("{:g} k_n", factor),
         fmt::format("[law]\nkn = {}\nkt = {}\ngn = {}\ngt = {}\n\n{}", law.kn * factor,
                     law.kt * factor, law.gn * root, law.gt * root,
-                    stepOfItsOwn(setup_, engine_, can_)
+                    stepOfItsOwn(to.setup, to.engine, to.can)
                         ? std::string()
-                        : fmt::format("[run]\ndt = {}\n", timeStep(setup_) / std::sqrt(factor))));
+                        : fmt::format("[run]\ndt = {}\n", timeStep(to.setup) / std::sqrt(factor))));
   }
+}
 
-  void addEffects() {
-    for (const EffectSwitch& off : effectSwitches(setup_)) {
-      if (!off.effect) continue;  // tension and precision are knobs of their own
-      add("effect:" + off.name, "without " + off.name, off.fragment);
-      settings.back().refusal = switchRefusal(can_, setup_, off);
-    }
+void addEffects(SettingsSoFar& to) {
+  for (const EffectSwitch& off : effectSwitches(to.setup)) {
+    if (!off.effect) continue;  // tension and precision are knobs of their own
+    to.add("effect:" + off.name, "without " + off.name, off.fragment).refusal =
+        switchRefusal(to.can, to.setup, off);
   }
+}
 
-  bool wants(const char* knob) const {
-    return std::ranges::find(setup_.cost.knobs, knob) != setup_.cost.knobs.end();
-  }
-
-  std::vector<CostSetting> settings;
-
- private:
-  const Case& setup_;
-  std::string engine_;
-  const Capabilities& can_;
-  const CaseWith& caseWith_;
-};
+/// What the settings of each knob are (cases/cost_knobs.hpp), in the order of the results.
+constexpr std::pair<std::string_view, void (*)(SettingsSoFar&)> settingsOfKnobs[] = {
+    {"time_step", addSteps},      {"integrator", addIntegrators}, {"precision", addPrecision},
+    {"settings", addOwnSettings}, {"tangential", addTangential},  {"tension", addTension},
+    {"method", addMethods},       {"snapshots", addSnapshots},    {"omega", addOmega},
+    {"stiffness", addStiffness},  {"effects", addEffects}};
 
 }  // namespace
 
@@ -192,20 +205,15 @@ std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const st
   const auto& steps = kind == CostKind::collision    ? cost.collisionSteps
                       : kind == CostKind::trajectory ? cost.trajectorySteps
                                                      : cost.averageSteps;
-  SettingList list(setup, engine, can, caseWith);
-  list.add("time_step", "the case's own", "");
-  if (list.wants("time_step")) list.addSteps(steps);
-  if (list.wants("integrator") && kind != CostKind::averages) list.addIntegrators(steps);
-  if (list.wants("precision")) list.addPrecision();
-  if (list.wants("settings")) list.addOwnSettings();
-  if (kind == CostKind::trajectory) return std::move(list.settings);
-  if (list.wants("tangential")) list.addLaw("tangential", cost.tangential);
-  if (list.wants("tension")) list.addLaw("tension", {"allow", "cut"});
-  if (kind == CostKind::collision) return std::move(list.settings);
-  list.addSampling();
-  list.addScales();
-  if (list.wants("effects")) list.addEffects();
-  return std::move(list.settings);
+  SettingsSoFar settings{setup, engine, can, caseWith, steps};
+  settings.add("time_step", "the case's own", "");
+  for (const auto& [name, add] : settingsOfKnobs) {
+    const std::vector<CostKind>& kinds = findCostKnob(name)->kinds;
+    if (std::ranges::find(cost.knobs, name) != cost.knobs.end() &&
+        std::ranges::find(kinds, kind) != kinds.end())
+      add(settings);
+  }
+  return std::move(settings.list);
 }
 
 }  // namespace crossgrain::inline runs

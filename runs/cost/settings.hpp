@@ -7,7 +7,7 @@
 #include "adapters/engine.hpp"
 #include "adapters/registry.hpp"
 #include "cases/case.hpp"
-#include "runs/cost/point.hpp"
+#include "results/cost_point.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -17,6 +17,11 @@ struct CostSetting {
   std::string fragment;       ///< TOML; empty: the case as it is
   Case setup;                 ///< what the loader makes of case and fragment
   std::string refusal;        ///< why the engine has no such setting; empty if it has
+
+  /// Of another integrator which; empty: the one the engine has by itself.
+  std::string integrator() const { return schemeOf(knob, setting).value_or(""); }
+  /// Whether it samples the runs of the case as it is differently, and needs none of its own.
+  bool isSampling() const;
 };
 
 /// The case with a fragment merged into it, as the loader reads it. @throws BadInput
@@ -30,21 +35,17 @@ std::string stepFragment(const Case& setup, const std::string& engine, const Cap
 /// t_c of two small disks, which steps are counted in [s]. @throws BadInput for a law without one
 double costContactTime(const Case& setup);
 
-/// Which error a setting is measured for.
-enum class CostKind { collision, trajectory, averages };
-std::string toString(CostKind kind);
-
 /// Snapshots per rotation where only every so many-th is taken: a whole number, at least one.
 int snapshotsPerRotation(const Case& setup, double every);
 
 /// The step that an engine will take [s].
 double engineStep(const Case& setup, const std::string& engine, const Capabilities& can);
 
-/// Of the knob "integrator" which; empty of others: the one the engine has by itself.
-std::string integratorOf(const CostSetting& setting);
-
 /// A point of that setting without any numbers but dt and the steps in t_c of the setting's case.
 CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt);
+
+/// What was done per unit of a point's time; 0 is not known.
+void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations);
 
 /// Every setting of [cost] that matters to that kind of error, the case as it is first. Settings
 /// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that

@@ -9,12 +9,9 @@
 #include "cases/time_step.hpp"
 #include "runs/common/advance.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/records.hpp"
 #include "runs/cost/limits.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 namespace {
 
@@ -52,34 +49,13 @@ Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
   return track;
 }
 
-json toJson(const ChaosStudy& study) {
-  json entry = {{"growth", json::array()},
-                {"exponent_per_s", toJson(study.growth.exponent)},
-                {"exponent_stderr", toJson(study.growth.standardError)},
-                {"window_s", study.window.length},
-                {"why", study.window.why}};
-  for (const Separation& at : study.separations)
-    entry["growth"].push_back({{"t_s", at.time}, {"separation", at.value}});
-  return entry;
-}
-
-ChaosStudy chaosStudyFromJson(const json& entry) {
-  ChaosStudy study{
-      {},
-      {optionalNumber(entry.at("exponent_per_s")), optionalNumber(entry.at("exponent_stderr"))},
-      {entry.at("window_s"), entry.at("why")}};
-  for (const json& at : entry.at("growth"))
-    study.separations.push_back({at.at("t_s"), at.at("separation")});
-  return study;
-}
-
 ChaosStudy studyChaos(Engine& engine, const EngineEntry& entry, const Case& setup, const Case& fine,
                       const Case& coarse, const Packing& packing) {
-  constexpr int looks = 100;
+  constexpr int samples = 100;
   const Cost& cost = setup.cost;
   const double diameter = diameterOf(setup);
   std::vector<double> times;
-  for (int k = 1; k <= looks; ++k) times.push_back(cost.growthTime * k / looks);
+  for (int k = 1; k <= samples; ++k) times.push_back(cost.growthTime * k / samples);
   const Scene scene = sceneOf(setup, packing);
   const Track one = followPacking(engine, entry, setup, scene, times);
   const Track other =
@@ -126,8 +102,7 @@ std::vector<CostPoint> measureTrajectory(Engine& engine, const EngineEntry& entr
   CostPoint point = pointOf(entry.name, setting, CostKind::trajectory, track.dt);
   point.wallSeconds = track.wallSeconds;
   point.cpuSeconds = track.cpuSeconds;
-  point.steps = track.steps;
-  point.contactEvaluations = track.contactEvaluations;
+  countWork(point, track.steps, track.contactEvaluations);
   std::vector<CostPoint> points;
   const auto add = [&](const std::string& measure, const TrajectoryReference& reference) {
     point.measure = measure;

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <map>
-#include <nlohmann/json.hpp>
-#include <string>
+#include <cstdint>
 #include <vector>
 
 #include "cases/packing.hpp"
 #include "runs/cost/growth.hpp"
-#include "runs/cost/point.hpp"
 #include "runs/cost/settings.hpp"
 
 namespace crossgrain::inline runs {
@@ -20,7 +17,8 @@ struct Track {
   std::uint64_t steps = 0, contactEvaluations = 0;
 };
 
-/// Runs one packing, from springs dropped, and looks at the times given. The case says the step.
+/// Runs one packing, from springs dropped, and samples it at the times given. The case says the
+/// step.
 /// @throws EngineFailure, UnsupportedScene, BadInput
 Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene,
                     const std::vector<double>& times);
@@ -30,15 +28,6 @@ struct TrajectoryReference {
   std::vector<Vec2> positions;  ///< at the window's end [m]
   double error = 0.0;           ///< distance to the same at twice the step [d]
 };
-
-/// How a packing's chaos was measured, and the window that follows: "trajectory" of results.json.
-struct ChaosStudy {
-  std::vector<Separation> separations;
-  Growth growth;
-  Window window;
-};
-nlohmann::json toJson(const ChaosStudy& study);
-ChaosStudy chaosStudyFromJson(const nlohmann::json& entry);
 
 /// Separation of a run from one whose positions are perturbed, at the case's own step, and how long
 /// a reference of `reference` steps per t_c can be trusted.

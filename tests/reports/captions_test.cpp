@@ -8,6 +8,7 @@
 #include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/cost/panels.hpp"
+#include "reports/cost/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -66,7 +67,7 @@ TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
 
 /// What a cost figure's caption names against what its panels hold.
 TEST(Captions, OfCostNameMarksThatAreThere) {
-  Json results = sample::costResults();
+  const CostResults results = sample::costResults();
   const auto check = [](const std::vector<Figure>& figures) {
     for (const Figure& figure : figures) {
       if (!figure.name.starts_with("cost_")) continue;
@@ -81,43 +82,41 @@ TEST(Captions, OfCostNameMarksThatAreThere) {
     }
   };
   check(costFigures(results));
-  Json bare = results;  // no failure, no front, nothing uncertain
-  bare["fronts"] = Json::array();
-  Json points = Json::array();
-  for (Json point : results["points"]) {
-    if (point["status"] != "ran") continue;
-    point["statistical"] = point["reference_error"] = nullptr;
-    points.push_back(point);
+  CostResults bare = results;  // no failure, no front, nothing uncertain
+  bare.fronts.clear();
+  std::erase_if(bare.points, [](const CostPoint& point) { return !point.ran(); });
+  for (CostPoint& point : bare.points) {
+    point.statistical.reset();
+    point.referenceError.reset();
   }
-  for (Json& order : bare["orders"]) order["used"] = order["left_out"] = Json::array();
-  bare["points"] = points;
+  for (OrderFit& fit : bare.orders) {
+    fit.used.clear();
+    fit.leftOut.clear();
+  }
   check(costFigures(bare));
 }
 
 TEST(Captions, OfAGreyBandThatLiesBelowTheAxisSayNothing) {
-  CostRow row;
-  row.kind = "collision";
-  row.status = "ran";
-  row.error = 0.1;
-  row.reference = 1e-9;
-  const CostAxis axis{[](const CostRow&) { return std::optional(1.0); }, "x"};
-  EXPECT_FALSE(errorPanel({row}, "psi_f", axis).shadedTo);
-  row.reference = 0.09;
-  EXPECT_EQ(errorPanel({row}, "psi_f", axis).shadedTo, 0.09);
+  CostPoint point;
+  point.error = 0.1;
+  point.referenceError = 1e-9;
+  const CostAxis axis{[](const CostPoint&) { return std::optional(1.0); }, "x"};
+  EXPECT_FALSE(errorPanel({point}, "psi_f", axis).shadedTo);
+  point.referenceError = 0.09;
+  EXPECT_EQ(errorPanel({point}, "psi_f", axis).shadedTo, 0.09);
 }
 
 /// Averages over a single packing say nothing: they are neither on a front nor drawn.
-TEST(CostRows, AveragesWithoutAStatisticalErrorCountNowhere) {
-  CostRow row;
-  row.kind = "averages";
-  row.status = "ran";
-  row.error = 0.1;
-  EXPECT_FALSE(row.counted());
-  row.statistical = 0.01;
-  EXPECT_EQ(row.counted(), 0.1);
-  row.kind = "collision";
-  row.statistical.reset();
-  EXPECT_EQ(row.counted(), 0.1);
+TEST(CostPoints, AveragesWithoutAStatisticalErrorCountNowhere) {
+  CostPoint point;
+  point.kind = CostKind::averages;
+  point.error = 0.1;
+  EXPECT_FALSE(countedError(point));
+  point.statistical = 0.01;
+  EXPECT_EQ(countedError(point), 0.1);
+  point.kind = CostKind::collision;
+  point.statistical.reset();
+  EXPECT_EQ(countedError(point), 0.1);
 }
 
 /// A variant whose energy is known part by part, and one of rigid disks.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "reports/common/csv.hpp"
-#include "reports/common/figures.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/cost/tables.hpp"
+#include "reports/cost/words.hpp"
 #include "reports/report.hpp"
+#include "results/schema.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -18,36 +19,34 @@ bool has(const std::string& page, const std::string& words) {
 }
 
 /// One kind, one measure, one engine: 10 % in 1 s, 1 % in 10 s, a failure; analysed by hand.
-Json byHand() {
-  const auto point = [](const std::string& setting, double dt, double error, double wall) {
-    return Json{{"engine", "a"},
-                {"knob", "time_step"},
-                {"setting", setting},
-                {"fragment", "[run]\ndt = 1\n"},
-                {"error_kind", "collision"},
-                {"measure", "psi_f"},
-                {"dt_s", dt},
-                {"steps_per_contact", 1.0 / dt},
-                {"error", error},
-                {"wall_s", wall},
-                {"cpu_s", wall},
-                {"steps", 100},
-                {"contact_evaluations", 200},
-                {"status", "ran"},
-                {"reason", ""}};
+CostResults byHand() {
+  const auto of = [](const std::string& setting, double dt, double error, double wall) {
+    CostPoint point;
+    point.engine = "a";
+    point.knob = "time_step";
+    point.setting = setting;
+    point.fragment = "[run]\ndt = 1\n";
+    point.measure = "psi_f";
+    point.dt = dt;
+    point.stepsPerContact = 1.0 / dt;
+    point.error = error;
+    point.wallSeconds = point.cpuSeconds = wall;
+    point.steps = 100;
+    point.contactEvaluations = 200;
+    return point;
   };
-  Json results = {{"schema", "crossgrain-results-1"}, {"kind", "cost"}};
-  results["engines"] = {{{"name", "a"}, {"status", "ran"}, {"mirrors", ""}}};
-  results["points"] = {point("t_c/10", 0.1, 0.1, 1.0), point("t_c/100", 0.01, 0.01, 10.0),
-                       point("t_c/1", 1.0, 0.0, 0.1)};
-  for (const auto& [key, value] :
-       {std::pair("error", Json()), {"status", Json("failed")}, {"reason", Json("NaN, at 3")}})
-    results["points"][2][key] = value;
-  Json slow = point("float, slow", 0.01, 0.01, 20.0);
-  slow["knob"] = "precision";
-  results["points"].push_back(slow);
-  results["fronts"] = {
-      {{"error_kind", "collision"}, {"measure", "psi_f"}, {"engine", ""}, {"points", {0, 1}}}};
+  CostResults results;
+  results.head.schema = schemaVersion;
+  results.head.kind = kindCost;
+  results.engines = {{"a", "", "", "", EngineStatus::ran, ""}};
+  results.points = {of("t_c/10", 0.1, 0.1, 1.0), of("t_c/100", 0.01, 0.01, 10.0),
+                    of("t_c/1", 1.0, 0.0, 0.1), of("float, slow", 0.01, 0.01, 20.0)};
+  CostPoint& failed = results.points[2];
+  failed.error.reset();
+  failed.status = CostStatus::failed;
+  failed.reason = "NaN, at 3";
+  results.points[3].knob = "precision";
+  results.fronts = {{CostKind::collision, "psi_f", "", {0, 1}, {}}};
   return results;
 }
 
@@ -63,8 +62,7 @@ TEST(CostCsv, HasEveryPointAlsoThoseThatFailed) {
 }
 
 TEST(CostCsv, OfNothingIsItsHead) {
-  const Json empty = {{"schema", "crossgrain-results-1"}, {"kind", "cost"}};
-  EXPECT_EQ(std::ranges::count(costCsv(empty), '\n'), 1);
+  EXPECT_EQ(std::ranges::count(costCsv({}), '\n'), 1);
 }
 
 const Curve* curveOf(const Panel& panel, int pointType, Draw draw) {
@@ -98,8 +96,8 @@ TEST(CostFigures, JoinStepsNumberOtherSettingsAndCrossFailuresAtTheUpperEdge) {
 }
 
 TEST(CostFigures, DrawWhatMayBeChanceAtItsUpperBound) {
-  Json results = byHand();
-  results["points"][1]["reference_error"] = 0.03;
+  CostResults results = byHand();
+  results.points[1].referenceError = 0.03;
   const auto figures = costFigures(results);
   const Panel& panel = figures[0].panels[0];
   EXPECT_EQ(panel.shadedTo, 0.03);
@@ -110,11 +108,11 @@ TEST(CostFigures, DrawWhatMayBeChanceAtItsUpperBound) {
 }
 
 TEST(CostFigures, OfNothingAreNone) {
-  EXPECT_TRUE(costFigures({{"kind", "cost"}}).empty());
+  EXPECT_TRUE(costFigures({}).empty());
 }
 
 TEST(CostTables, HoldAKnobAgainstTheSameStep) {
-  const Json results = byHand();
+  const CostResults results = byHand();
   const Json knobs = knobGroups(results, costEngines(results));
   ASSERT_EQ(knobs.size(), 1u);
   const Json& row = knobs[0]["rows"][0];
@@ -125,20 +123,20 @@ TEST(CostTables, HoldAKnobAgainstTheSameStep) {
 }
 
 TEST(CostTables, SayWhatAnErrorIs) {
-  EXPECT_EQ(shareText(0.0123), "1.2 %");
-  EXPECT_EQ(shareText(2.13e-7), "2.1×10⁻⁷");
-  EXPECT_EQ(shareText(9.5), "950 %");
-  EXPECT_EQ(shareText(0.0), "0");
-  EXPECT_EQ(shareText({}), "–");
-  EXPECT_EQ(wantText(0.001), "0.1 %");
-  EXPECT_EQ(wantText(1e-6), "10⁻⁶");
+  EXPECT_EQ(percentText(0.0123), "1.2 %");
+  EXPECT_EQ(percentText(2.13e-7), "2.1×10⁻⁷");
+  EXPECT_EQ(percentText(9.5), "950 %");
+  EXPECT_EQ(percentText(0.0), "0");
+  EXPECT_EQ(percentText({}), "–");
+  EXPECT_EQ(targetText(0.001), "0.1 %");
+  EXPECT_EQ(targetText(1e-6), "10⁻⁶");
 }
 
 class CostPage : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    writeReport(sample::costResults(), folder_->path());
+    writeReport(toJson(sample::costResults()), folder_->path());
     page_ = new std::string(readFile(folder_->path() / "report.html").value());
   }
   static void TearDownTestSuite() {
@@ -171,19 +169,24 @@ TEST_F(CostPage, NotMeasuredIsNeitherUndecidedNorNotReached) {
 
 /// Under a budget that left most out, no engine is said not to reach anything.
 TEST(CostPageOf, ABudgetThatLeftOutFinerStepsSaysSo) {
-  Json results = byHand();
-  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not measured"}},
-                       {{"engine", "b"}, {"want", 1e-6}, {"verdict", "undecided"}}};
+  const auto on = [](const std::string& engine, CostVerdict verdict) {
+    Advice advice;
+    advice.engine = engine;
+    advice.target = 1e-6;
+    advice.verdict = verdict;
+    return advice;
+  };
+  CostResults results = byHand();
+  results.advice = {on("a", CostVerdict::notMeasured), on("b", CostVerdict::undecided)};
   EXPECT_EQ(
-      wantInWords(results, 1e-6),
+      targetInWords(results, 1e-6),
       "10⁻⁶: of 2 engines, none is shown to reach it; of 1 it is undecided, of 1 not measured "
       "far enough to tell.");
-  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not reached"}}};
-  EXPECT_EQ(wantInWords(results, 1e-6), "10⁻⁶: no engine reaches it with any setting measured.");
-  results["advice"] = {{{"engine", "a"}, {"want", 1e-6}, {"verdict", "not reached"}},
-                       {{"engine", "b"}, {"want", 1e-6}, {"verdict", "not measured"}}};
+  results.advice = {on("a", CostVerdict::notReached)};
+  EXPECT_EQ(targetInWords(results, 1e-6), "10⁻⁶: no engine reaches it with any setting measured.");
+  results.advice = {on("a", CostVerdict::notReached), on("b", CostVerdict::notMeasured)};
   EXPECT_EQ(
-      wantInWords(results, 1e-6),
+      targetInWords(results, 1e-6),
       "10⁻⁶: of 2 engines, none is shown to reach it; of 1 not measured far enough to tell, 1 "
       "does not reach it with any setting measured.");
 }

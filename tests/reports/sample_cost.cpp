@@ -19,19 +19,20 @@ struct Engine {
 };
 
 struct Measure {
-  std::string kind, name;
+  CostKind kind;
+  std::string name;
   double scale, statistical, reference;  ///< of the engine's error; 0: none
   double work;                           ///< simulated time, in t_c
 };
 
 const std::vector<Measure>& measures() {
   static const std::vector<Measure> all = {
-      {"collision", "psi_f", 1.0, 0.0, 0.0, 40.0},
-      {"collision", "e_n", 0.4, 0.0, 0.0, 40.0},
-      {"trajectory", "position_rms_own", 0.02, 0.0, 2e-8, 2e3},
-      {"averages", "azimuthal_velocity", 0.5, 0.004, 0.001, 3e4},
-      {"averages", "stress_rr", 2.0, 0.03, 0.001, 3e4},
-      {"averages", "shear_band_width", 0.3, 0.02, 0.001, 3e4},
+      {CostKind::collision, "psi_f", 1.0, 0.0, 0.0, 40.0},
+      {CostKind::collision, "e_n", 0.4, 0.0, 0.0, 40.0},
+      {CostKind::trajectory, "position_rms_own", 0.02, 0.0, 2e-8, 2e3},
+      {CostKind::averages, "azimuthal_velocity", 0.5, 0.004, 0.001, 3e4},
+      {CostKind::averages, "stress_rr", 2.0, 0.03, 0.001, 3e4},
+      {CostKind::averages, "shear_band_width", 0.3, 0.02, 0.001, 3e4},
   };
   return all;
 }
@@ -42,7 +43,7 @@ CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerC
   point.knob = "time_step";
   point.setting = fmt::format("t_c/{:g}", stepsPerContact);
   point.fragment = fmt::format("[run]\nsteps_per_contact = {:g}\n", stepsPerContact);
-  point.errorKind = measure.kind;
+  point.kind = measure.kind;
   point.measure = measure.name;
   point.dt = contactTime / stepsPerContact;
   point.stepsPerContact = stepsPerContact;
@@ -58,14 +59,15 @@ CostPoint pointOf(const Engine& engine, const Measure& measure, double stepsPerC
         std::max(0.0, *point.error * *point.error - measure.statistical * measure.statistical));
   }
   if (measure.reference > 0.0) point.referenceError = measure.reference;
-  point.steps = static_cast<std::uint64_t>(measure.work * stepsPerContact);
-  point.contactEvaluations = 400 * point.steps;
-  point.wallSeconds = engine.cost * static_cast<double>(point.steps);
+  const auto steps = static_cast<std::uint64_t>(measure.work * stepsPerContact);
+  point.steps = steps;
+  point.contactEvaluations = 400 * steps;
+  point.wallSeconds = engine.cost * static_cast<double>(steps);
   point.cpuSeconds = 0.99 * *point.wallSeconds;
   return point;
 }
 
-CostPoint without(CostPoint point, const std::string& status, const std::string& reason) {
+CostPoint without(CostPoint point, CostStatus status, const std::string& reason) {
   point.error.reset();
   point.statistical.reset();
   point.systematic.reset();
@@ -89,11 +91,11 @@ std::vector<CostPoint> pointsOf(const Engine& engine) {
   for (const Measure& measure : measures()) {
     for (const double steps : {400.0, 200.0, 100.0, 50.0, 25.0, 10.0, 5.0}) {
       CostPoint point = pointOf(engine, measure, steps);
-      if (engine.name == "yade" && measure.kind == "averages" && steps > 100.0)
-        point = without(point, "undecided", "would take about 140 s, budget 60 s");
+      if (engine.name == "yade" && measure.kind == CostKind::averages && steps > 100.0)
+        point = without(point, CostStatus::notMeasured, "would take about 140 s, budget 60 s");
       points.push_back(point);
     }
-    points.push_back(without(pointOf(engine, measure, 1.2), "failed",
+    points.push_back(without(pointOf(engine, measure, 1.2), CostStatus::failed,
                              "a disk left the cell at step 37; " + std::string(awkward)));
   }
   return points;
@@ -101,11 +103,12 @@ std::vector<CostPoint> pointsOf(const Engine& engine) {
 
 }  // namespace
 
-Json costResults() {
+CostResults costResults() {
   const std::vector<Engine> engines = {{"grain", 6.0, 2.0, 0.0, 5e-6},
                                        {"yade", 6.0, 1.0, 0.02, 8e-5},
                                        {"box2d-penalty", 9.0, 1.0, 1e-6, 4e-5}};
-  std::vector<CostPoint> points;
+  CostResults results = costFromJson(head("cost", "quick"));
+  std::vector<CostPoint>& points = results.points;
   for (const Engine& engine : engines)
     for (const CostPoint& point : pointsOf(engine)) points.push_back(point);
   for (const Measure& measure : measures()) {
@@ -118,34 +121,22 @@ Json costResults() {
                                "integrator", fmt::format("semi_implicit_euler, t_c/{:g}", steps),
                                1.0, 0.98));
   }
-  Json results = head("cost", "quick");
-  results["notes"] = Json::array();
-  results["budget_s"] = 720.0;
-  results["budget_for_the_rest_s"] = 1396.0;
-  results["engines"] = {engine("grain", "the in-house engine"), engine("yade", "YADE"),
-                        engine("box2d-penalty", "Box2D"),
-                        engine("box2d-impulse", "Box2D", "", "refused", awkward)};
-  for (const CostPoint& point : points) results["points"].push_back(toJson(point));
-  results["references"] = {{{"error_kind", "collision"},
-                            {"engine", "oracle"},
-                            {"setting", "10⁻¹²"},
-                            {"error", 1e-11},
-                            {"note", "planar two-body problem"}},
-                           {{"error_kind", "averages"},
-                            {"engine", "grain"},
-                            {"setting", "t_c/400"},
-                            {"error", 0.001},
-                            {"note", awkward}}};
+  results.notes.clear();
+  results.budget = 720.0;
+  results.budgetForTheRest = 1396.0;
+  results.engines = {{"grain", "the in-house engine", "1.0", "", EngineStatus::ran, ""},
+                     {"yade", "YADE", "1.0", "", EngineStatus::ran, ""},
+                     {"box2d-penalty", "Box2D", "1.0", "", EngineStatus::ran, ""},
+                     {"box2d-impulse", "Box2D", "1.0", "", EngineStatus::refused, awkward}};
+  results.references = {{CostKind::collision, "oracle", "10⁻¹²", 1e-11, "planar two-body problem"},
+                        {CostKind::averages, "grain", "t_c/400", 0.001, awkward}};
+  ChaosStudy& trajectory = results.trajectory.emplace();
   for (int k = 0; k <= 20; ++k)
-    results["trajectory"]["growth"].push_back(
-        {{"t_s", 0.05 * k}, {"separation", 1e-10 * std::exp(9.0 * 0.05 * k)}});
-  results["trajectory"].update({{"exponent_per_s", 9.0},
-                                {"exponent_stderr", 0.2},
-                                {"window_s", 0.8},
-                                {"why", "the reference's error grows to 10⁻³ d"}});
-  results["startup"] = {{{"engine", "grain"}, {"start_s", 0.004}, {"load_s", 0.001}},
-                        {{"engine", "yade"}, {"start_s", 1.4}, {"load_s", 0.3}}};
-  results["theory"] = {{"grain", 2.0}, {"grain semi_implicit_euler", 2.0}, {"yade", 1.0}};
+    trajectory.separations.push_back({0.05 * k, 1e-10 * std::exp(9.0 * 0.05 * k)});
+  trajectory.growth = {9.0, 0.2};
+  trajectory.window = {0.8, "the reference's error grows to 10⁻³ d"};
+  results.startup = {{"grain", 0.004, 0.001}, {"yade", 1.4, 0.3}};
+  results.theory = {{"grain", 2}, {"grain semi_implicit_euler", 2}, {"yade", 1}};
   addCostAnalysis(results);
   return results;
 }

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/cost.hpp"
+
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
 namespace crossgrain::sample {
@@ -21,7 +23,7 @@ nlohmann::json effectsResults(int packings);
 nlohmann::json stabilityResults();
 /// Three engines of known order and cost, a scheme that claims an order it does not have, failures
 /// past the stability limit, points that the budget did not allow, one engine that refused.
-nlohmann::json costResults();
+CostResults costResults();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

@@ -11,16 +11,17 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
-json run(const std::vector<double>& stress, double slip) {
-  return {{"views", {{"slicing", {{"stress_rr", stress}, {"wall_slip", {slip}}}}}}};
+AveragedPacking run(const std::vector<std::optional<double>>& stress, double slip) {
+  AveragedPacking run;
+  run.samplings["slicing"] = {{"stress_rr", stress}, {"wall_slip", {slip}}};
+  return run;
 }
 
 TEST(CostAverages, TheErrorIsSplitIntoWhatPackingsScatterAndWhatIsLeft) {
   // Differences in ring 1: 1, 3 (mean 2, error 1); in ring 2: 0, 0. Scale: the largest mean, 20.
-  const std::vector<json> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
-  const std::vector<json> runs = {run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)};
+  const std::vector<AveragedPacking> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
+  const std::vector<AveragedPacking> runs = {run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)};
   const auto found = weakError(runs, "slicing", reference, "slicing", "stress_rr");
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->error, std::sqrt(4.0 / 2.0) / 20.0, 1e-12);
@@ -41,7 +42,8 @@ TEST(CostAverages, OnePackingHasNoStatisticalPartAndNothingHasNoError) {
   EXPECT_NEAR(one->error, 1.0, 1e-12);
   EXPECT_FALSE(one->statistical);
   EXPECT_FALSE(one->systematic);
-  EXPECT_FALSE(weakError({json()}, "slicing", {run({1.0}, 0.1)}, "slicing", "stress_rr"));
+  EXPECT_FALSE(
+      weakError({AveragedPacking{}}, "slicing", {run({1.0}, 0.1)}, "slicing", "stress_rr"));
   EXPECT_FALSE(weakError({run({1.0}, 0.1)}, "centre", {run({1.0}, 0.1)}, "slicing", "stress_rr"));
 }
 
@@ -53,20 +55,20 @@ TEST(CostAverages, ScatterThatExplainsTheDifferenceLeavesNothing) {
   EXPECT_EQ(*found->systematic, 0.0);
 }
 
-TEST(CostAverages, EverySettingThatIsAnotherLookHasItsView) {
+TEST(CostAverages, EverySettingThatIsAnotherSamplingIsTaken) {
   Case setup = test::costCase();
-  setup.cost.snapshots = {3, 4, 64, 100'000};  // some of which do not divide 640
+  setup.cost.numbers["snapshots"] = {3, 4, 64, 100'000};  // some of which do not divide 640
   std::vector<std::string> names;
-  for (const View& view : allViews(setup)) names.push_back(nameOf(view));
-  int looks = 0;
+  for (const Sampling& sampling : allSamplings(setup)) names.push_back(nameOf(sampling));
+  int samplings = 0;
   for (const CostSetting& setting : costSettings(setup, CostKind::averages, "grain",
                                                  makeGrain()->capabilities(), test::costCaseWith)) {
-    if (setting.knob != "method" && setting.knob != "snapshots") continue;
-    EXPECT_NE(std::ranges::find(names, nameOf(viewOf(setup, setting))), names.end())
+    if (!setting.isSampling()) continue;
+    EXPECT_NE(std::ranges::find(names, nameOf(samplingOf(setup, setting))), names.end())
         << setting.setting;
-    ++looks;
+    ++samplings;
   }
-  EXPECT_EQ(looks, 5);
+  EXPECT_EQ(samplings, 5);
 }
 
 }  // namespace

@@ -31,14 +31,14 @@ TEST(CostCollision, APointHasErrorTimeAndWork) {
   EXPECT_EQ(points[0].measure, "psi_f");
   EXPECT_EQ(points[1].measure, "e_n");
   for (const CostPoint& point : points) {
-    EXPECT_EQ(point.status, "ran");
+    EXPECT_EQ(point.status, CostStatus::ran);
     EXPECT_NEAR(*point.stepsPerContact, 50.0, 1e-9);
     EXPECT_GT(*point.error, 0.0);
     EXPECT_LT(*point.error, 0.05);
     EXPECT_GT(*point.wallSeconds, 0.0);
     // 9 pairs; a sweep lasts 2.5 t_c and 21 steps.
     EXPECT_EQ(point.steps, 146u);
-    EXPECT_GT(point.contactEvaluations, 9u * 45u);
+    EXPECT_GT(*point.contactEvaluations, 9u * 45u);
   }
 }
 
@@ -55,7 +55,7 @@ TEST(CostCollision, ErrorsOfTheThesisSchemeFallInProportionToTheStep) {
 TEST(CostCollision, PastTheStabilityLimitItFailsAndSaysSo) {
   // dt = t_c/1.2, where 2/ω is about t_c/1.6
   for (const CostPoint& point : pointsOf("time_step", "t_c/1.2")) {
-    EXPECT_EQ(point.status, "failed");
+    EXPECT_EQ(point.status, CostStatus::failed);
     EXPECT_TRUE(point.reason.starts_with(beyondLimit)) << point.reason;
     EXPECT_FALSE(point.error);
   }

@@ -24,24 +24,24 @@ TEST(CostPlan, TakesCollisionsFirstThenTheCaseAsItIsThenTheCheapest) {
   fitIntoBudget(points, {0.0}, 1000.0);
   EXPECT_EQ(points[0].kind, CostKind::collision);
   EXPECT_EQ(points[1].setting, 0u);
-  for (const PlannedPoint& point : points) EXPECT_EQ(point.undecided, "");
+  for (const PlannedPoint& point : points) EXPECT_EQ(point.notMeasured, "");
 }
 
-TEST(CostPlan, WhatDoesNotFitIsUndecidedAndSaysWhatItWouldTake) {
+TEST(CostPlan, WhatDoesNotFitIsNotMeasuredAndSaysWhatItWouldTake) {
   auto points = threePoints();
   const auto shares = fitIntoBudget(points, {2.0}, 20.0);
   EXPECT_EQ(shares, (std::vector<double>{20.0}));
-  EXPECT_EQ(points[0].undecided, "");  // 2 + 10 of 20
-  EXPECT_EQ(points[1].undecided,
+  EXPECT_EQ(points[0].notMeasured, "");  // 2 + 10 of 20
+  EXPECT_EQ(points[1].notMeasured,
             "would take about 30 s, 8 s are left of the engine's share of 20 s");
-  EXPECT_EQ(points[2].undecided, "");  // 5 of the 8 left
+  EXPECT_EQ(points[2].notMeasured, "");  // 5 of the 8 left
 }
 
 TEST(CostPlan, AFinishedPointCostsNothing) {
   auto points = threePoints();
   for (PlannedPoint& point : points) point.seconds = 0.0;
   fitIntoBudget(points, {0.0}, 0.0);
-  for (const PlannedPoint& point : points) EXPECT_EQ(point.undecided, "");
+  for (const PlannedPoint& point : points) EXPECT_EQ(point.notMeasured, "");
 }
 
 }  // namespace

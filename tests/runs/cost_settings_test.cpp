@@ -7,7 +7,9 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
+#include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
+#include "cases/keys.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "support/bad_input.hpp"
@@ -34,11 +36,32 @@ Capabilities grainCan() {
 }
 
 TEST(CostSettings, TheFirstIsTheCaseAsItIs) {
-  for (const CostKind kind : {CostKind::collision, CostKind::trajectory, CostKind::averages}) {
+  for (const CostKind kind : costKinds) {
     const auto settings = settingsOf(kind, test::costCase(), grainCan());
     EXPECT_EQ(settings.front().fragment, "");
     EXPECT_EQ(settings.front().setup.resolvedToml, test::costCase().resolvedToml);
   }
+}
+
+/// The table of knobs and what their settings are go together.
+TEST(CostSettings, EveryKnobHasSettingsInTheKindsOfErrorItMayChange) {
+  Case setup = test::costCase();
+  for (const CostKnob& knob : costKnobs()) {
+    setup.cost.knobs = {std::string(knob.name)};
+    for (const CostKind kind : costKinds) {
+      const bool may = std::ranges::find(knob.kinds, kind) != knob.kinds.end();
+      EXPECT_EQ(settingsOf(kind, setup, grainCan()).size() > 1, may)
+          << knob.name << ", " << toString(kind);
+    }
+  }
+}
+
+TEST(CostSettings, TheTableOfKeysNamesEveryKnob) {
+  const auto row = std::ranges::find_if(
+      caseKeys(), [](const CaseKey& key) { return key.section == "cost" && key.key == "knobs"; });
+  ASSERT_NE(row, caseKeys().end());
+  for (const CostKnob& knob : costKnobs())
+    EXPECT_NE(row->meaning.find(fmt::format("\"{}\"", knob.name)), std::string::npos) << knob.name;
 }
 
 TEST(CostSettings, AFragmentReadByTheLoaderGivesTheSetting) {

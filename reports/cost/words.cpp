@@ -1,0 +1,123 @@
+#include "reports/cost/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cases/cost_knobs.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/effects/legs.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+struct MeasureName {
+  std::string_view name, words, html, enhanced;
+};
+
+constexpr std::array measureNames = {
+    MeasureName{"psi_f", "Ψ_f", "Ψ<sub>f</sub>", "Ψ_f"},
+    MeasureName{"e_n", "e_n", "e<sub>n</sub>", "e_n"},
+    MeasureName{"azimuthal_velocity", "azimuthal velocity", "azimuthal velocity v<sub>φ</sub>",
+                "azimuthal velocity v_φ"},
+    MeasureName{"volume_fraction", "volume fraction", "volume fraction ν", "volume fraction ν"},
+    MeasureName{"stress_rr", "radial stress", "radial stress σ<sub>rr</sub>",
+                "radial stress σ_{rr}"},
+};
+
+const MeasureName* nameOf(const std::string& measure) {
+  const auto found = std::ranges::find(measureNames, measure, &MeasureName::name);
+  return found == measureNames.end() ? nullptr : &*found;
+}
+
+/// Whose reference positions are held against; empty of other measures.
+std::string againstWhom(const std::string& measure) {
+  constexpr std::string_view positions = "position_rms_";
+  if (!measure.starts_with(positions)) return {};
+  const std::string whom = measure.substr(positions.size());
+  return whom == "own" ? "itself" : whom;
+}
+
+/// What all three ways of telling an unknown measure share.
+std::string plainWords(const std::string& measure) {
+  const std::string whom = againstWhom(measure);
+  return whom.empty() ? spaced(measure) : "positions, against " + spaced(whom);
+}
+
+}  // namespace
+
+std::string settingWords(const std::string& knob, const std::string& setting) {
+  constexpr std::string_view effect = "effect:";
+  if (speaksForItself(knob)) return setting;
+  if (knob.starts_with(effect)) return effectLabel(knob.substr(effect.size())) + " " + setting;
+  return setting.starts_with(knob) ? spaced(knob) + setting.substr(knob.size())
+                                   : spaced(knob) + " " + setting;
+}
+
+std::string settingWords(const CostPoint& point) {
+  return settingWords(point.knob, point.setting);
+}
+
+std::string settingWords(const Advice& advice) {
+  return settingWords(advice.knob, advice.setting);
+}
+
+std::string measureHtml(const std::string& measure) {
+  const MeasureName* name = nameOf(measure);
+  if (name) return std::string(name->html);
+  return againstWhom(measure).empty() ? fieldLabel(measure) : mathHtml(plainWords(measure));
+}
+
+std::string measureEnhanced(const std::string& measure) {
+  const MeasureName* name = nameOf(measure);
+  return name ? std::string(name->enhanced) : plainWords(measure);
+}
+
+std::string measureWords(const std::string& measure) {
+  const MeasureName* name = nameOf(measure);
+  return name ? std::string(name->words) : plainWords(measure);
+}
+
+std::string timeUnit(CostKind kind) {
+  constexpr std::array units = {"one sweep of collisions", "the window", "one rotation"};
+  return units[static_cast<std::size_t>(kind)];
+}
+
+std::string statusText(CostStatus status) {
+  return status == CostStatus::notMeasured ? "not measured" : toString(status);
+}
+
+std::string percentText(std::optional<double> fraction) {
+  if (!fraction) return absentText;
+  if (*fraction == 0.0) return "0";
+  constexpr double least = 1e-5;  // as a percentage
+  if (*fraction < least) return readableSetting(std::stod(fmt::format("{:.1e}", *fraction)));
+  const double percent = 100.0 * *fraction;
+  return (percent < 99.5 ? fmt::format("{:.2g}", percent) : readable(percent)) + " %";
+}
+
+std::string errorText(const CostPoint& point) {
+  if (!point.ran()) return statusText(point.status);
+  const std::string error = percentText(point.error);
+  if (point.error && measuredError(point)->saysNothing())
+    return error + ", of one packing: no statistical error";
+  return error + (point.statistical ? " ± " + percentText(point.statistical) : "");
+}
+
+std::string targetText(double target) {
+  if (target >= 1e-4) return fmt::format("{:g} %", 100.0 * target);
+  const std::string power = readableSetting(target);
+  return power.starts_with("1×") ? power.substr(std::string("1×").size()) : power;
+}
+
+std::string costText(const Advice& advice) {
+  if (!advice.wallSeconds) return "time not known";
+  const auto kind = advice.costKind();
+  return fmt::format("{} for {}", readableDuration(advice.wallSeconds),
+                     kind ? timeUnit(*kind) : "one run");
+}
+
+}  // namespace crossgrain::reports

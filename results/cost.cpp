@@ -1,0 +1,42 @@
+#include "results/cost.hpp"
+
+#include "results/cost_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/head_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, CostResults& results) {
+  fields(io, results.head);
+  io("elapsed_s", results.elapsed);
+  io("effects", results.effects);
+  io("notes", results.notes);
+  io("engines", results.engines);
+  io("cell", results.cell);
+  io("averaging", results.averaging);
+  io("rings", results.rings);
+  io("packings", results.packings);
+  io("budget_s", results.budget);
+  io("budget_for_the_rest_s", results.budgetForTheRest);
+  io("points", results.points);
+  io("references", results.references);
+  io.present("trajectory", results.trajectory);
+  io("averages", results.averages);
+  io("startup", results.startup);
+  io("theory", results.theory);
+  io("engine_failures", results.engineFailures);
+  io("orders", results.orders);
+  io("fronts", results.fronts);
+  io("cheapest", results.cheapest);
+  io("advice", results.advice);
+}
+
+Json toJson(const CostResults& results) {
+  return jsonOf(results);
+}
+
+CostResults costFromJson(const Json& json) {
+  return readAs<CostResults>(json);
+}
+
+}  // namespace crossgrain::inline results

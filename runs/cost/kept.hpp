@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "results/cost_fields.hpp"
+#include "runs/common/run_store.hpp"
+#include "runs/cost/trajectory.hpp"
+
+/// What a study of cost keeps in its store while it is under way, as structs.
+namespace crossgrain::inline results {
+
+template <>
+inline Json jsonOf(const Vec2& at) {
+  return jsonOf(std::array{at.x(), at.y()});
+}
+template <>
+inline void readFrom(const Json& json, Vec2& at) {
+  const auto pair = readAs<std::array<double, 2>>(json);
+  at = {pair[0], pair[1]};
+}
+
+}  // namespace crossgrain::inline results
+
+namespace crossgrain::inline runs {
+
+/// A point that was seen to fail past its limit.
+struct KeptFailure {
+  std::string reason;
+};
+void fields(auto& io, KeptFailure& failure) {
+  io("reason", failure.reason);
+}
+
+void fields(auto& io, TrajectoryReference& reference) {
+  io("error", reference.error);
+  io("positions", reference.positions);
+}
+
+/// @throws FieldError, and as RunStore::find()
+template <class Run>
+std::optional<Run> findAs(const RunStore& store, const std::string& name, const CaseKeys& key) {
+  const auto kept = store.find(name, key);
+  return kept ? std::optional(readAs<Run>(*kept)) : std::nullopt;
+}
+
+/// What the store has by that name, else what `make` makes, which is then kept.
+template <class Make>
+auto keptOr(const RunStore& store, const std::string& name, const CaseKeys& key, Make make) {
+  using Run = decltype(make());
+  if (auto kept = findAs<Run>(store, name, key)) return std::move(*kept);
+  Run made = make();
+  store.keep(name, key, jsonOf(made));
+  return made;
+}
+
+}  // namespace crossgrain::inline runs
