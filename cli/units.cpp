@@ -33,8 +33,8 @@ double secondsOf(const std::string& budget) {
                         "90s, 10m or 1h");
 }
 
-double fractionOf(const std::string& want) {
-  return numberWithUnit("--want", want, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
+double fractionOf(const std::string& target) {
+  return numberWithUnit("--want", target, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
 }
 
 }  // namespace crossgrain::inline cli

@@ -8,6 +8,6 @@ namespace crossgrain::inline cli {
 double secondsOf(const std::string& budget);
 
 /// The value of --want, "1%" or "1e-3", as a share: 0.01, 0.001. @throws BadInput
-double shareOf(const std::string& want);
+double fractionOf(const std::string& target);
 
 }  // namespace crossgrain::inline cli
