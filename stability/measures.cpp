@@ -325,10 +325,12 @@ constexpr std::array measures = {
     StabilityMeasure{"energy_gain", "of the energy",
                      "kinetic, elastic and potential energy above that of the start, without the "
                      "work of moving walls",
-                     energyGain},
-    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift},
+                     energyGain, StabilityProtocol::oneRun, true},
+    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift,
+                     StabilityProtocol::oneRun, true},
     StabilityMeasure{"ledger_residual", "of the energy",
-                     "what no term of the engine's own energy ledger accounts for", ledgerResidual},
+                     "what no term of the engine's own energy ledger accounts for", ledgerResidual,
+                     StabilityProtocol::oneRun, true},
     StabilityMeasure{"momentum_drift", "of Σ m|v|",
                      "change of the disks' momentum beyond gravity's, in a scene without walls",
                      momentumDrift},
@@ -344,7 +346,8 @@ constexpr std::array measures = {
     StabilityMeasure{"pile_angle_change", "degrees", "of the slope of a pile at rest",
                      pileAngleChange},
     StabilityMeasure{"copies_differ", "diameters",
-                     "farthest a disk is from its place in the first variant of the case"},
+                     "farthest a disk is from its place in the first variant of the case", nullptr,
+                     StabilityProtocol::againstOriginal},
     StabilityMeasure{"tunnelled", "disks", "disks that went through another or a wall", tunnelled},
     StabilityMeasure{"escaped", "disks", "disks outside the walls at once", escaped},
     StabilityMeasure{"restitution_error", "-", "distance of e_n from the oracle's",
@@ -355,10 +358,13 @@ constexpr std::array measures = {
                      "farthest a disk moves from one cycle of an oscillating wall to the next",
                      ratchet},
     StabilityMeasure{"step_limit", "-",
-                     "1 − the largest stable time step by that of theory, 2/ω_max of the contacts"},
+                     "1 − the largest stable time step by that of theory, 2/ω_max of the contacts",
+                     nullptr, StabilityProtocol::stepLimit},
     StabilityMeasure{"restart_differs", "diameters",
-                     "between a run and one taken up from a checkpoint at its middle"},
-    StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused"}};
+                     "between a run and one taken up from a checkpoint at its middle", nullptr,
+                     StabilityProtocol::restart},
+    StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused",
+                     nullptr, StabilityProtocol::acceptance}};
 
 }  // namespace
 

@@ -55,10 +55,6 @@ std::string agreementCsv(const Json& results);
 /// One row per field and ring; a leg that has none is one row with its status.
 std::string effectsCsv(const Json& results);
 
-/// engine,case,verdict,measure,value,limit,unit,step,reason, then degraded_limit,variant,time_s
-/// One row per engine, case and variant; step and time are those at which the limit was passed
-/// first, or an engine that failed was seen last.
-std::string stabilityCsv(const Json& results);
 /// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
 /// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front
 /// One row per point, those that did not run too; on_front is of the front over all engines.

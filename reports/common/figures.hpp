@@ -30,10 +30,6 @@ std::vector<Figure> costFigures(const Json& results);
 /// Plots of fields against ring width: rev_FIELD.
 std::vector<Figure> revFigures(const Json& results);
 
-/// Plots of hard cases: stability_map, the verdicts of all; stability_CASE, the figure of a case
-/// over time where an engine did not keep to its limit.
-std::vector<Figure> stabilityFigures(const Json& results);
-
 /// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
 using IsFaint = std::function<bool(const EngineResults&, const std::string& field)>;
 

@@ -24,7 +24,6 @@ std::string averagePage(const Json& results, const Illustrations& shown);
 std::string comparePage(const Json& results, const Illustrations& shown);
 std::string collidePage(const Json& results, const Illustrations& shown);
 std::string effectsPage(const Json& results, const Illustrations& shown);
-std::string stabilityPage(const Json& results, const Illustrations& shown);
 std::string costPage(const Json& results, const Illustrations& shown);
 std::string revPage(const Json& results, const Illustrations& shown);
 

@@ -8,6 +8,7 @@
 #include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/cost/panels.hpp"
+#include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"

@@ -1,7 +1,9 @@
-#include "reports/junit.hpp"
+#include "reports/common/junit.hpp"
 
 #include <gtest/gtest.h>
 
+#include "reports/collide/report.hpp"
+#include "reports/stability/report.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -37,19 +39,33 @@ TEST(JUnit, WhatXmlCannotHoldIsReplaced) {
   EXPECT_NE(xml.find("name=\"?[31m\xEF\xBF\xBD&#10;\""), std::string::npos) << xml;
 }
 
-Json hardResults(Json run) {
-  run.update({{"engine", "grain"}, {"case", "pile"}, {"variant", "slow"}, {"measure", "drift"}});
-  return {{"cases", {{{"case", "pile"}, {"variant", "slow"}, {"why", "a pile rests"}}}},
-          {"runs", {run}}};
+StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,
+                             const std::string& reason) {
+  StabilityRun run;
+  run.engine = "grain";
+  run.name = "pile";
+  run.variant = "slow";
+  run.measure = "drift";
+  run.status = status;
+  run.verdict = verdict;
+  run.limit = 0.1;
+  run.unit = "d";
+  run.reason = reason;
+  HardCase pile;
+  pile.name = "pile";
+  pile.variant = "slow";
+  pile.why = "a pile rests";
+  StabilityResults results;
+  results.cases = {pile};
+  results.runs = {run};
+  return results;
 }
 
 TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
-  const std::string xml = stabilityJunit(hardResults({{"status", "finished"},
-                                                      {"verdict", "unstable"},
-                                                      {"value", 0.25},
-                                                      {"limit", 0.1},
-                                                      {"unit", "d"},
-                                                      {"reason", "it slides"}}));
+  StabilityResults results =
+      hardResults(HardRunStatus::finished, StabilityVerdict::unstable, "it slides");
+  results.runs.front().value = 0.25;
+  const std::string xml = stabilityJunit(results);
   EXPECT_NE(xml.find("classname=\"pile slow\" name=\"grain: drift\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("<failure message=\"unstable: 0.25 d against a limit of 0.1 (a pile rests); "
                      "it slides\"/>"),
@@ -58,14 +74,12 @@ TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
 }
 
 TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(stabilityJunit(hardResults({{"status", "failed"},
-                                        {"verdict", "unstable"},
-                                        {"reason", "failed: signal 11"}}))
+  EXPECT_NE(stabilityJunit(
+                hardResults(HardRunStatus::failed, StabilityVerdict::unstable, "failed: signal 11"))
                 .find("<error message=\"failed: signal 11\"/>"),
             std::string::npos);
   EXPECT_NE(stabilityJunit(
-                hardResults(
-                    {{"status", "refused"}, {"verdict", "refused"}, {"reason", "has no springs"}}))
+                hardResults(HardRunStatus::refused, StabilityVerdict::refused, "has no springs"))
                 .find("<skipped message=\"has no springs\"/>"),
             std::string::npos);
 }

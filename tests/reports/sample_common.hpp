@@ -6,6 +6,9 @@
 #include <random>
 #include <string>
 
+#include "results/engine_row.hpp"
+#include "results/schema.hpp"
+
 /// Pieces that both samples use.
 namespace crossgrain::sample {
 
@@ -26,6 +29,12 @@ inline Json engine(const std::string& name, const std::string& summary,
                    const std::string& reason = "") {
   return {{"name", name},       {"summary", summary}, {"version", "1.0"},
           {"mirrors", mirrors}, {"status", status},   {"reason", reason}};
+}
+
+inline EngineRow engineRow(const std::string& name, const std::string& summary,
+                           const std::string& mirrors = "", EngineStatus status = EngineStatus::ran,
+                           const std::string& reason = "") {
+  return {name, summary, "1.0", mirrors, status, reason};
 }
 
 inline Json realised(const std::string& name, double dt) {

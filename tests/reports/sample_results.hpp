@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/stability.hpp"
+
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
 namespace crossgrain::sample {
@@ -18,7 +20,8 @@ nlohmann::json collideResults();
 nlohmann::json effectsResults(int packings);
 
 /// Two hard cases on two engines: every verdict once.
-nlohmann::json stabilityResults();
+StabilityResults stabilityResults();
+
 /// Three engines of known order and cost, a scheme that claims an order it does not have, failures
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 nlohmann::json costResults();
