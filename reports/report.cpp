@@ -38,6 +38,12 @@ std::vector<Picture> noPictures(const Results&) {
   return {};
 }
 
+const Kind<CollideResults> collideKind = {
+    {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
+    collideFigures,
+    noPictures,
+    collidePage};
+
 const Kind<StabilityResults> stabilityKind = {
     {{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
     stabilityFigures,
@@ -46,11 +52,6 @@ const Kind<StabilityResults> stabilityKind = {
 
 Kind<Json> kindOf(const Json& results) {
   const std::string kind = text(results, "kind");
-  if (kind == kindCollide)
-    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
-            collideFigures,
-            noPictures<Json>,
-            collidePage};
   if (kind == kindEffects)
     return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures<Json>, effectsPage};
   if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures<Json>, costPage};
@@ -113,6 +114,10 @@ void write(const Kind<Results>& kind, const Results& results, const Json& docume
 
 }  // namespace
 
+void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
+  write(collideKind, results, toJson(results), dir);
+}
+
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
   write(stabilityKind, results, toJson(results), dir);
 }
@@ -120,6 +125,7 @@ void writeReport(const StabilityResults& results, const std::filesystem::path& d
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
   checkSchema(results, "results");
   const std::string kind = text(results, "kind");
+  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
   write(kindOf(results), results, results, dir);
 } catch (const FieldError& error) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "results/collision.hpp"
 #include "results/stability.hpp"
 
 namespace crossgrain {
@@ -17,6 +18,7 @@ namespace crossgrain {
 /// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
 ///         BadInput for JSON that is no such document
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
+void writeReport(const CollideResults& results, const std::filesystem::path& dir);
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
 
 /// Reads dir/results.json back, to rebuild its report.

@@ -132,7 +132,9 @@ template <typename List>
 void readElements(const Json& json, List& list) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     try {
-      readFrom(json[k], list[k]);
+      typename List::value_type element{};  // those of vector<bool> have no address
+      readFrom(json[k], element);
+      list[k] = std::move(element);
     } catch (const FieldError& error) {
       throw FieldError(path(fmt::to_string(k), error));
     }

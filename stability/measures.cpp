@@ -227,13 +227,13 @@ Curve pileAngleChange(const Recording& run) {
   });
 }
 
-/// Whether two bodies went through each other between two looks: their centres changed sides, and
+/// Whether two bodies went through each other between two samples: their centres changed sides, and
 /// the straight way between passes deep inside.
 bool crossed(const Vec2& before, const Vec2& after, double reach) {
   if (before.dot(after) >= 0.0) return false;
   const Vec2 way = after - before;
-  const double share = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
-  return (before + share * way).norm() < 0.5 * reach;
+  const double fraction = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (before + fraction * way).norm() < 0.5 * reach;
 }
 
 void addBehindPlanes(const Recording& run, const Snapshot& now, std::set<std::size_t>& found) {
@@ -312,12 +312,12 @@ Curve ratchet(const Recording& run) {
       bodies, [](const WallBody& body) { return body.motion.kind == Motion::Kind::oscillating; });
   if (wall == bodies.end() || run.snapshots.size() < 2) return {};
   const double cycle = 2.0 * std::numbers::pi / wall->motion.frequency;
-  const auto looks = static_cast<std::size_t>(
+  const auto samples = static_cast<std::size_t>(
       std::llround(cycle / (endOf(run) / static_cast<double>(run.snapshots.size() - 1))));
   Curve curve(run.snapshots.size(), 0.0);
-  for (std::size_t k = looks; k < curve.size(); ++k)
-    if (atRest(run, run.snapshots[k - looks]))
-      curve[k] = farthest(run.scene, run.snapshots[k - looks], run.snapshots[k]);
+  for (std::size_t k = samples; k < curve.size(); ++k)
+    if (atRest(run, run.snapshots[k - samples]))
+      curve[k] = farthest(run.scene, run.snapshots[k - samples], run.snapshots[k]);
   return curve;
 }
 

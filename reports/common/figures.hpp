@@ -16,9 +16,6 @@ namespace crossgrain::reports {
 /// distribution_contacts.
 std::vector<Figure> compareFigures(const Json& results);
 
-/// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
-std::vector<Figure> collideFigures(const Json& results);
-
 /// Every plot of a study of effects, for each engine k = 1, 2, …: effects_k_cost, what each costs
 /// and changes; effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const Json& results);

@@ -6,12 +6,9 @@
 #include <cmath>
 
 #include "cases/time_step.hpp"
-#include "runs/common/records.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 Case collisionOf(const Case& setup) {
   Case pair = setup;
@@ -74,15 +71,15 @@ SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pa
 }
 
 /// Why a sweep says nothing about the case, empty if it does.
-std::string failureOf(const json& sweep, const Case& pair, double dt) {
+std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) {
   const double share = dt / stabilityLimit(pair);
   const std::string limit =
       share > 1.0 ? fmt::format("beyond its stability limit (dt = {:.3g} · 2/ω): ", share) : "";
-  if (sweep["status"] != "finished") return limit + sweep["reason"].get<std::string>();
+  if (sweep.status != SweepStatus::finished) return limit + sweep.reason;
   double largest = 0.0;
-  if (const auto found = sweep["points"].find("e_n"); found != sweep["points"].end())
-    for (const json& en : *found)
-      if (en.is_number()) largest = std::max(largest, std::abs(en.get<double>()));
+  for (std::size_t k = 0; k < sweep.points.size(); ++k)
+    if (const auto en = sweep.points.at(QuantityId::en, k))
+      largest = std::max(largest, std::abs(*en));
   if (largest > 1.0)
     return fmt::format("{}pairs part {:.3g} times as fast as they met",
                        limit.empty() ? "beyond its stability limit: " : limit, largest);
@@ -90,12 +87,12 @@ std::string failureOf(const json& sweep, const Case& pair, double dt) {
 }
 
 /// √(mean of squares) of a score over sweeps; absent where one has none.
-std::optional<double> rmsOf(const std::vector<json>& sweeps, const char* measure) {
+std::optional<double> rmsOf(const std::vector<CollisionCurve>& sweeps, QuantityId measure) {
   double squares = 0.0;
-  for (const json& sweep : sweeps) {
-    if (!sweep["score"].contains(measure)) return std::nullopt;
-    const double rms = sweep["score"][measure]["rms"];
-    squares += rms * rms;
+  for (const CollisionCurve& sweep : sweeps) {
+    const auto& score = sweep.score.of[measure];
+    if (!score) return std::nullopt;
+    squares += score->rms * score->rms;
   }
   return std::sqrt(squares / static_cast<double>(sweeps.size()));
 }
@@ -107,27 +104,27 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
                                         const CollisionReference& reference) {
   Case pair = collisionOf(setting.setup);
   const double dt = timeStep(setting.setup);
-  std::vector<json> sweeps;
+  std::vector<CollisionCurve> sweeps;
   for (int k = 0; k < collisionPhases; ++k) {
     pair.collision.startPhase = (k + 0.5) / collisionPhases;
     sweeps.push_back(
-        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*look=*/false));
+        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*watch=*/false));
   }
-  const json& sweep = sweeps.front();
-  CostPoint point = pointOf(entry.name, setting, CostKind::collision, sweep["dt"]);
-  point.steps = sweep["stats"]["steps"];
-  point.contactEvaluations = sweep["stats"]["contact_evaluations"];
-  for (const json& each : sweeps)
+  const CollisionCurve& sweep = sweeps.front();
+  CostPoint point = pointOf(entry.name, setting, CostKind::collision, sweep.dt);
+  point.steps = sweep.stats->steps;
+  point.contactEvaluations = sweep.stats->contactEvaluations;
+  for (const CollisionCurve& each : sweeps)
     if (point.reason.empty()) point.reason = failureOf(each, pair, point.dt);
   if (!point.reason.empty()) point.status = "failed";
   const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
-                                       std::max(sweep["stats"]["wall_s"].get<double>(), 1e-6));
+                                       std::max(sweep.stats->wallSeconds, 1e-6));
   point.wallSeconds = time.wall;
   point.cpuSeconds = time.cpu;
 
   std::vector<CostPoint> points;
-  for (const char* const measure : {"psi_f", "e_n"}) {
-    point.measure = measure;
+  for (const QuantityId measure : {QuantityId::psiF, QuantityId::en}) {
+    point.measure = collisionQuantity(measure).name;
     point.error = point.status == "ran" ? rmsOf(sweeps, measure) : std::nullopt;
     points.push_back(point);
   }

@@ -84,22 +84,40 @@ TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
             std::string::npos);
 }
 
-/// Of an array: braces around one curve would be that curve itself.
-Json sweeps(const Json::array_t& curves) {
-  return {{"variants", {{{"case", "pair"}, {"variant", "cut"}, {"curves", curves}}}}};
+CollideResults sweeps(std::vector<CollisionCurve> curves) {
+  CollisionVariant variant;
+  variant.name = "pair";
+  variant.variant = "cut";
+  variant.curves = std::move(curves);
+  CollideResults results;
+  results.variants = {std::move(variant)};
+  return results;
 }
 
-Json curve(const char* status, const Json& psi) {
-  Json score = {{"max_error", 0.5}, {"limit", 0.1}, {"verdict", "held"}};
-  if (!psi.is_null()) score["psi_f"] = psi;
-  return {{"engine", "grain"},   {"dt", 2e-5},     {"status", status},
-          {"reason", "because"}, {"score", score}, {"stats", {{"wall_s", 0.25}}}};
+CollisionCurve curve(SweepStatus status, const std::optional<QuantityScore>& psi) {
+  CollisionCurve curve;
+  curve.engine = "grain";
+  curve.dt = 2e-5;
+  curve.status = status;
+  curve.reason = "because";
+  curve.score.verdict = CurveVerdict::held;
+  curve.score.of[QuantityId::psiF] = psi;
+  curve.stats.emplace().wallSeconds = 0.25;
+  return curve;
+}
+
+QuantityScore scoreOf(double max, const char* why = nullptr) {
+  QuantityScore score;
+  score.max = max;
+  score.limit = 0.1;
+  score.held = max <= 0.1;
+  if (why) score.why = why;
+  return score;
 }
 
 TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
-  const Json beyond = {
-      {"max", 0.5}, {"unit_is", "range"}, {"limit", 0.1}, {"held", false}, {"why", "the scheme"}};
-  const std::string xml = collideJunit(sweeps(Json::array({curve("finished", beyond)})));
+  const std::string xml =
+      collideJunit(sweeps({curve(SweepStatus::finished, scoreOf(0.5, "the scheme"))}));
   EXPECT_NE(xml.find("<testcase classname=\"pair cut\" name=\"grain, dt 2e-05 s: psi_f\" "
                      "time=\"0.250\"><failure message=\"largest error 0.5 of the range against a "
                      "limit of 0.1 (the scheme)\"/></testcase>"),
@@ -109,26 +127,33 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
 }
 
 TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
-  const Json held = {{"max", 0.05}, {"unit_is", "range"}, {"limit", 0.1}, {"held", true}};
+  const QuantityScore held = scoreOf(0.05);
   // Of two sweeps only the first shows the quantity.
-  const std::string missing =
-      collideJunit(sweeps(Json::array({curve("finished", held), curve("finished", nullptr)})));
+  const std::string missing = collideJunit(
+      sweeps({curve(SweepStatus::finished, held), curve(SweepStatus::finished, std::nullopt)}));
   EXPECT_NE(missing.find("<skipped message=\"not measured"), std::string::npos) << missing;
-  const std::string none = collideJunit(sweeps(Json::array({curve("finished", nullptr)})));
+  const std::string none = collideJunit(sweeps({curve(SweepStatus::finished, std::nullopt)}));
   EXPECT_NE(none.find("<skipped message=\"not judged"), std::string::npos) << none;
-  const std::string apart = collideJunit(sweeps(Json::array({curve("incomplete", held)})));
+  const std::string apart = collideJunit(sweeps({curve(SweepStatus::incomplete, held)}));
   EXPECT_NE(apart.find("all pairs part\" time=\"0.000\"><failure message=\"because\"/>"),
             std::string::npos)
       << apart;
 }
 
 TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(collideJunit(sweeps(Json::array({curve("failed", nullptr)})))
+  EXPECT_NE(collideJunit(sweeps({curve(SweepStatus::failed, std::nullopt)}))
                 .find("<error message=\"because\"/>"),
             std::string::npos);
-  EXPECT_NE(collideJunit(sweeps(Json::array({curve("refused", nullptr)})))
+  EXPECT_NE(collideJunit(sweeps({curve(SweepStatus::refused, std::nullopt)}))
                 .find("<skipped message=\"because\"/>"),
             std::string::npos);
+}
+
+TEST(CollideJunit, QuantitiesAreInTheOrderOfTheirNames) {
+  CollisionCurve both = curve(SweepStatus::finished, scoreOf(0.05));
+  both.score.of[QuantityId::en] = both.score.of[QuantityId::psiF];
+  const std::string xml = collideJunit(sweeps({both}));
+  EXPECT_LT(xml.find(": e_n\""), xml.find(": psi_f\"")) << xml;
 }
 
 TEST(Junit, OfEverythingThatTheReportsShow) {

@@ -6,7 +6,9 @@
 #include <random>
 #include <string>
 
+#include "adapters/worker/json.hpp"
 #include "results/engine_row.hpp"
+#include "results/head_fields.hpp"
 #include "results/schema.hpp"
 
 /// Pieces that both samples use.
@@ -87,6 +89,10 @@ inline Json head(const std::string& kind, const std::string& caseName) {
            {"normal_damping", "friction", "tangential_spring", "rotation", "bottom_friction",
             "moving_walls"}},
           {"notes", Json::array({"Bottom friction is left out by two engines."})}};
+}
+
+inline ResultsHead resultsHead(const std::string& kind, const std::string& caseName) {
+  return readAs<ResultsHead>(head(kind, caseName));
 }
 
 }  // namespace crossgrain::sample

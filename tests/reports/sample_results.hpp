@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/collision.hpp"
 #include "results/stability.hpp"
 
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
@@ -13,7 +14,7 @@ namespace crossgrain::sample {
 nlohmann::json compareResults(int packings, int disks);
 
 /// Two laws, several time steps, a sweep without points.
-nlohmann::json collideResults();
+CollideResults collideResults();
 
 /// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
 /// and which refuses a third switch.
