@@ -9,6 +9,7 @@
 #include <set>
 
 #include "cases/loader_document.hpp"
+#include "stability/measures.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 
@@ -71,7 +72,8 @@ bool fits(const Case& setup, const std::string& pattern) {
 }
 
 bool isHeldAgainstFirst(const Case& setup) {
-  return setup.stability && setup.stability->measure == "copies_differ";
+  return setup.stability &&
+         stabilityMeasure(setup.stability->measure).protocol == StabilityProtocol::againstOriginal;
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup) {
 
 std::map<std::string, Margin> readCollisionMargins(Reader in) {
   std::vector<Judged> quantities;
-  for (const CollisionQuantity& quantity : collisionQuantities())
+  for (const CollisionQuantity& quantity : scoredQuantities())
     quantities.push_back({std::string(quantity.name), ""});
   return readAll(std::move(in), quantities, nullptr);
 }

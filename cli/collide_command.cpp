@@ -17,7 +17,6 @@
 namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -27,17 +26,16 @@ int collideCases(const std::vector<Case>& variants, const std::optional<fs::path
   const fs::path& out = line.run.out;
   RunStore store(line.run, "collide", keysOfEach(variants));
   if (line.run.dryRun) return told(collidePlan(variants, line.run, store));
-  json results = collideEngines(variants, line.run, store);
-  if (folder) describeFolder(results, *folder, variants);
+  CollideResults results = collideEngines(variants, line.run, store);
+  if (folder) results.head.setup = headOfFolder(*folder, variants);
   writeReport(results, out);
 
   std::map<std::string, std::string> reasons;
   std::map<std::string, int> refused;
-  for (const json& variant : results["variants"])
-    for (const json& curve : variant["curves"]) {
-      const std::string engine = curve["engine"];
-      if (curve["status"] == "failed") reasons.emplace(engine, curve["reason"]);
-      refused[engine] += curve["status"] == "refused";
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves) {
+      if (curve.status == SweepStatus::failed) reasons.emplace(curve.engine, curve.reason);
+      refused[curve.engine] += curve.status == SweepStatus::refused;
     }
   for (const auto& [engine, reason] : reasons) fmt::print(stderr, "crossgrain: {}\n", reason);
   for (const auto& [engine, count] : refused)

@@ -71,7 +71,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
   const CaseWith with = [&](const std::string& fragment) { return caseWith(line, fragment); };
   if (line.run.dryRun) return told(costPlan(setup, with, request, store));
   const CostResults results = measureCost(setup, with, request, store);
-  writeReport(toJson(results), line.run.out);
+  writeReport(results, line.run.out);
 
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());

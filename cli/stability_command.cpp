@@ -9,6 +9,7 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
+#include "results/json_fields.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/stability/stability.hpp"
@@ -17,32 +18,27 @@
 namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
-void printVerdict(const json& row) {
-  const std::string variant = row["variant"], reason = row["reason"];
+void printVerdict(const StabilityRun& run) {
   std::string figure;
-  if (row["value"].is_number())
-    figure = fmt::format("{} {:.3g} {}, limit {:.3g}", row["measure"].get<std::string>(),
-                         row["value"].get<double>(), row["unit"].get<std::string>(),
-                         row["limit"].get<double>());
-  if (row["step"].is_number()) figure += fmt::format(", step {}", row["step"].get<long long>());
-  fmt::print("{:<9} {:<16} {}{}{}: {}{}{}\n", row["verdict"].get<std::string>(),
-             row["engine"].get<std::string>(), row["case"].get<std::string>(),
-             variant.empty() ? "" : " ", variant, figure,
-             figure.empty() || reason.empty() ? "" : "; ", reason);
+  if (run.value)
+    figure =
+        fmt::format("{} {:.3g} {}, limit {:.3g}", run.measure, *run.value, run.unit, run.limit);
+  if (run.step) figure += fmt::format(", step {}", *run.step);
+  fmt::print("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict), run.engine, run.name,
+             run.variant.empty() ? "" : " ", run.variant, figure,
+             figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
 }
 
 /// One line for each engine and reason: nobody reads forty of them.
-void printRefusals(const json& rows) {
+void printRefusals(const std::vector<StabilityRun>& runs) {
   std::map<std::pair<std::string, std::string>, int> count;
-  for (const json& row : rows)
-    if (row["verdict"] == "refused")
-      ++count[{row["engine"].get<std::string>(), row["reason"].get<std::string>()}];
-  for (const auto& [what, runs] : count)
-    fmt::print("refused   {:<16} {} run{}: {}\n", what.first, runs, runs == 1 ? "" : "s",
+  for (const StabilityRun& run : runs)
+    if (run.verdict == StabilityVerdict::refused) ++count[{run.engine, run.reason}];
+  for (const auto& [what, times] : count)
+    fmt::print("refused   {:<16} {} run{}: {}\n", what.first, times, times == 1 ? "" : "s",
                what.second);
 }
 
@@ -54,27 +50,28 @@ int stability(const CommandLine& line, SuitePart part) {
   RunStore store(line.run, "stability", keysOfEach(cases));
   const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
   if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store));
-  const json results = testStability(cases, engines, line.run, store);
+  const StabilityResults results = testStability(cases, engines, line.run, store);
   writeReport(results, line.run.out);
 
-  const auto count = [&](const char* verdict) {
-    return std::ranges::count_if(results["runs"],
-                                 [&](const json& row) { return row["verdict"] == verdict; });
+  const std::vector<StabilityRun>& runs = results.runs;
+  const auto count = [&](StabilityVerdict verdict) {
+    return std::ranges::count(runs, verdict, &StabilityRun::verdict);
   };
-  const auto unstable = count("unstable");
+  const auto unstable = count(StabilityVerdict::unstable);
+  const auto refused = count(StabilityVerdict::refused);
   if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
   } else {
-    for (const json& row : results["runs"])
-      if (row["verdict"] != "stable" && row["verdict"] != "refused") printVerdict(row);
-    printRefusals(results["runs"]);
-    fmt::print("{} stable, {} degraded, {} unstable, {} refused\nreport: {}\n", count("stable"),
-               count("degraded"), unstable, count("refused"),
-               (line.run.out / "report.html").string());
+    for (const StabilityRun& run : runs)
+      if (run.verdict > StabilityVerdict::stable) printVerdict(run);
+    printRefusals(runs);
+    fmt::print("{} stable, {} degraded, {} unstable, {} refused\nreport: {}\n",
+               count(StabilityVerdict::stable), count(StabilityVerdict::degraded), unstable,
+               refused, (line.run.out / "report.html").string());
   }
-  if (count("refused") == static_cast<std::ptrdiff_t>(results["runs"].size()))
-    return nothingWasJudged(line, fmt::format("all runs were refused, the first because it {}",
-                                              results["runs"][0]["reason"].get<std::string>()));
+  if (refused == std::ssize(runs))
+    return nothingWasJudged(
+        line, fmt::format("all runs were refused, the first because it {}", runs.front().reason));
   return unstable > 0 ? exitFellShort : exitHeld;
 }
 

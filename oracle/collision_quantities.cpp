@@ -7,59 +7,100 @@ namespace crossgrain::inline oracle {
 namespace {
 
 using Outcome = CollisionOutcome;
-using Pair = CollidingPair;
-
-std::optional<double> share(std::optional<double> energy, const Outcome& outcome) {
-  if (!energy || !(outcome.end.energyBefore > 0.0)) return std::nullopt;
-  return *energy / outcome.end.energyBefore;
-}
 
 template <double EnergySplit::*part>
-std::optional<double> partLost(const Outcome& outcome, const Pair&, double) {
+std::optional<double> partLost(const Outcome& outcome) {
   const auto& lost = outcome.end.lost;
-  return share(lost ? std::optional((*lost).*part) : std::nullopt, outcome);
+  return lost ? std::optional((*lost).*part) : std::nullopt;
 }
 
 template <double ForceWork::*part>
-std::optional<double> workOf(const Outcome& outcome, const Pair&, double) {
-  return share(outcome.work ? std::optional((*outcome.work).*part) : std::nullopt, outcome);
+std::optional<double> workOf(const Outcome& outcome) {
+  return outcome.work ? std::optional((*outcome.work).*part) : std::nullopt;
 }
 
 template <auto member>
-std::optional<double> own(const Outcome& outcome, const Pair&, double) {
+std::optional<double> own(const Outcome& outcome) {
   return outcome.end.*member;
 }
 
 template <int side>
-std::optional<double> spin(const Outcome& outcome, const Pair& pair, double vn) {
-  return pair.radius[side] * outcome.end.spin[side] / vn;
+std::optional<double> spin(const Outcome& outcome) {
+  return outcome.end.spin[side];
 }
 
-std::optional<double> energyLost(const Outcome& outcome, const Pair&, double) {
-  return share(outcome.end.energyBefore - outcome.end.energyAfter, outcome);
+std::optional<double> energyLost(const Outcome& outcome) {
+  return outcome.end.energyBefore - outcome.end.energyAfter;
 }
 
-constexpr std::array quantities = {
-    CollisionQuantity{"psi_f", own<&CollisionEnd::psi>},
-    CollisionQuantity{"e_n", own<&CollisionEnd::en>},
-    CollisionQuantity{"beta", own<&CollisionEnd::beta>},
-    CollisionQuantity{"e_t", own<&CollisionEnd::et>},
-    CollisionQuantity{"centre_psi_f", own<&CollisionEnd::centrePsi>},
-    CollisionQuantity{"rebound_angle", own<&CollisionEnd::reboundAngle>},
-    CollisionQuantity{"spin_i", spin<0>},
-    CollisionQuantity{"spin_j", spin<1>},
-    CollisionQuantity{"duration", own<&CollisionEnd::duration>},
-    CollisionQuantity{"max_overlap", own<&CollisionEnd::maxOverlap>},
-    CollisionQuantity{"energy_lost", energyLost, true},
-    CollisionQuantity{"lost_normal_damping", workOf<&ForceWork::normal>, true},
-    CollisionQuantity{"lost_tangential", workOf<&ForceWork::tangential>, true},
-    CollisionQuantity{"lost_tangential_damping", partLost<&EnergySplit::tangentialDamping>, true},
-    CollisionQuantity{"lost_stiffening", partLost<&EnergySplit::stiffening>, true},
-    CollisionQuantity{"lost_sliding", partLost<&EnergySplit::sliding>, true},
-    CollisionQuantity{"lost_stored", partLost<&EnergySplit::stored>, true},
-};
+using Id = QuantityId;
+using Scored = CollisionQuantity::Scored;
+using InFiles = CollisionQuantity::InFiles;
+using End = CollisionEnd;
+using Split = EnergySplit;
+constexpr auto asItIs = Scored::asItIs;
+constexpr auto fraction = Scored::energyFraction;
+
+constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
+    {Id::psiF, "psi_f", "Ψ_f", "", 0, own<&End::psi>, asItIs, InFiles::exact},
+    {Id::en, "e_n", "e_n", "", 0, own<&End::en>, asItIs, InFiles::exact},
+    {Id::beta, "beta", "β", "", 1, own<&End::beta>},
+    {Id::et, "e_t", "e_t", "", 3, own<&End::et>},
+    {Id::centrePsiF, "centre_psi_f", "centres' v_t", "", 2, own<&End::centrePsi>},
+    {Id::reboundAngle, "rebound_angle", "angle", "rad", 4, own<&End::reboundAngle>},
+    {Id::spinI, "spin_i", "ω_i", "rad/s", 5, spin<0>, Scored::surfaceSpeedI},
+    {Id::spinJ, "spin_j", "ω_j", "rad/s", 6, spin<1>, Scored::surfaceSpeedJ},
+    {Id::duration, "duration", "duration", "s", 7, own<&End::duration>},
+    {Id::maxOverlap, "max_overlap", "overlap", "m", 8, own<&End::maxOverlap>},
+    {Id::energyLost, "energy_lost", "energy lost", "J", 0, energyLost, fraction, InFiles::no},
+    {Id::lostNormalDamping, "lost_normal_damping", "normal", "J", 11, workOf<&ForceWork::normal>,
+     fraction},
+    {Id::lostTangential, "lost_tangential", "tangential", "J", 15, workOf<&ForceWork::tangential>,
+     fraction},
+    {Id::lostTangentialDamping, "lost_tangential_damping", "sticking", "J", 12,
+     partLost<&Split::tangentialDamping>, fraction},
+    {Id::lostStiffening, "lost_stiffening", "stiffening", "J", 16, partLost<&Split::stiffening>,
+     fraction},
+    {Id::lostSliding, "lost_sliding", "sliding", "J", 13, partLost<&Split::sliding>, fraction},
+    {Id::lostStored, "lost_stored", "stored", "J", 14, partLost<&Split::stored>, fraction},
+    {Id::energyBefore, "energy_before", "energy before", "J", 9, own<&End::energyBefore>,
+     Scored::never},
+    {Id::energyAfter, "energy_after", "energy after", "J", 10, own<&End::energyAfter>,
+     Scored::never},
+}};
+
+constexpr bool areInOrder() {
+  for (std::size_t k = 0; k < quantities.size(); ++k)
+    if (quantities[k].id != static_cast<QuantityId>(k)) return false;
+  return true;
+}
+static_assert(areInOrder());
+
+constexpr std::size_t scoredCount = static_cast<std::size_t>(QuantityId::energyBefore);
+static_assert(quantities[scoredCount - 1].scored != Scored::never &&
+              quantities[scoredCount].scored == Scored::never);
 
 }  // namespace
+
+std::optional<double> CollisionQuantity::scoredValue(const CollisionOutcome& outcome,
+                                                     const CollidingPair& pair, double vn) const {
+  const auto itself = value(outcome);
+  if (!itself) return std::nullopt;
+  switch (scored) {
+    case Scored::asItIs:
+      return itself;
+    case Scored::surfaceSpeedI:
+      return pair.radius[0] * *itself / vn;
+    case Scored::surfaceSpeedJ:
+      return pair.radius[1] * *itself / vn;
+    case Scored::energyFraction:
+      if (outcome.end.energyBefore > 0.0) return *itself / outcome.end.energyBefore;
+      break;
+    case Scored::never:
+      break;
+  }
+  return std::nullopt;
+}
 
 CollisionOutcome outcomeOf(const CollisionEnd& end) {
   CollisionOutcome outcome{end, std::nullopt};
@@ -71,6 +112,14 @@ CollisionOutcome outcomeOf(const CollisionEnd& end) {
 
 std::span<const CollisionQuantity> collisionQuantities() {
   return quantities;
+}
+
+std::span<const CollisionQuantity> scoredQuantities() {
+  return collisionQuantities().first(scoredCount);
+}
+
+const CollisionQuantity& collisionQuantity(QuantityId id) {
+  return quantities[static_cast<std::size_t>(id)];
 }
 
 }  // namespace crossgrain::inline oracle

@@ -24,17 +24,62 @@ struct CollisionOutcome {
 /// contact is what it stores in the end.
 CollisionOutcome outcomeOf(const CollisionEnd& end);
 
-/// One of the numbers that a sweep is scored in.
-struct CollisionQuantity {
-  std::string_view name;  ///< as in [collision.margins] and results.json's "score"
-  /// psi_f, e_n, beta, e_t, centre_psi_f [-]; rebound_angle [rad]; spin_i, spin_j: a ω/v_n [-];
-  /// duration [s]; max_overlap [m]; energy_lost and its parts lost_…: in units of the energy
-  /// before [-]. Absent where the collision has none.
-  std::optional<double> (*value)(const CollisionOutcome&, const CollidingPair&, double vn);
-  bool isShare = false;  ///< of the energy before: errors need no other unit
+/// The numbers that a collision has, places in collisionQuantities().
+enum class QuantityId {
+  psiF,
+  en,
+  beta,
+  et,
+  centrePsiF,
+  reboundAngle,
+  spinI,
+  spinJ,
+  duration,
+  maxOverlap,
+  energyLost,
+  lostNormalDamping,
+  lostTangential,
+  lostTangentialDamping,
+  lostStiffening,
+  lostSliding,
+  lostStored,
+  energyBefore,
+  energyAfter
 };
 
-/// All of them; the two that every sweep has, psi_f and e_n, first.
+/// One of them: what every table and file of collisions takes its names and columns from.
+struct CollisionQuantity {
+  enum class Scored { asItIs, surfaceSpeedI, surfaceSpeedJ, energyFraction, never };
+  enum class InFiles { exact, nineDigits, no };
+
+  QuantityId id;
+  std::string_view name;   ///< as in [collision.margins] and results.json
+  std::string_view label;  ///< short, as people write it; _ before what is below the line
+  std::string_view unit;   ///< of `value`; empty: -
+  int csvPlace;            ///< among the further columns of collisions.csv; 0: none of these
+  /// Absent where the collision has none. [unit]
+  std::optional<double> (*value)(const CollisionOutcome&);
+  /// What its errors are of: itself; a ω/v_n of disk i or j [-]; it in units of the energy before.
+  Scored scored = Scored::asItIs;
+  /// Nine digits are what the oracle's and the engines' errors leave of a number, and half the
+  /// file. Not: it follows from others.
+  InFiles inFiles = InFiles::nineDigits;
+
+  /// As `scored` says; absent where the collision has none.
+  /// @param vn  speed of approach [m/s]
+  std::optional<double> scoredValue(const CollisionOutcome& outcome, const CollidingPair& pair,
+                                    double vn) const;
+};
+
+/// All of them, by QuantityId; the two that every sweep has, psi_f and e_n, first.
 std::span<const CollisionQuantity> collisionQuantities();
+
+/// Those that a sweep is scored in.
+std::span<const CollisionQuantity> scoredQuantities();
+
+const CollisionQuantity& collisionQuantity(QuantityId id);
+
+/// How many there are.
+inline constexpr std::size_t quantityCount = static_cast<std::size_t>(QuantityId::energyAfter) + 1;
 
 }  // namespace crossgrain::inline oracle

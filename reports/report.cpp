@@ -1,10 +1,11 @@
 #include "reports/report.hpp"
 
-#include <functional>
-#include <memory>
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 
+#include "reports/collide/report.hpp"
 #include "reports/common/csv.hpp"
 #include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
@@ -12,8 +13,10 @@
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/junit.hpp"
+#include "reports/stability/report.hpp"
+#include "results/json_fields.hpp"
 #include "results/schema.hpp"
+#include "support/bad_input.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain {
@@ -23,40 +26,37 @@ namespace {
 using namespace reports;
 
 /// What a kind of results is written as.
+template <typename Results>
 struct Kind {
-  std::vector<std::pair<const char*, std::function<std::string(const Json&)>>> tables;
-  std::function<std::vector<Figure>(const Json&)> figures;
-  std::function<std::vector<Picture>(const Json&)> pictures;
-  std::function<std::string(const Json&, const Illustrations&)> page;
+  std::vector<std::pair<const char*, std::string (*)(const Results&)>> tables;
+  std::vector<Figure> (*figures)(const Results&);
+  std::vector<Picture> (*pictures)(const Results&);
+  std::string (*page)(const Results&, const Illustrations&);
 };
 
-std::vector<Picture> noPictures(const Json&) {
+template <typename Results>
+std::vector<Picture> noPictures(const Results&) {
   return {};
 }
 
-Kind costKind(const Json& json) {
-  const auto results = std::make_shared<const CostResults>(costFromJson(json));
-  return {{{"cost.csv", [=](const Json&) { return costCsv(*results); }}},
-          [=](const Json&) { return costFigures(*results); },
-          noPictures,
-          [=](const Json&, const Illustrations& shown) { return costPage(*results, shown); }};
-}
+const Kind<CollideResults> collideKind = {
+    {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
+    collideFigures,
+    noPictures,
+    collidePage};
 
-Kind kindOf(const Json& results) {
+const Kind<StabilityResults> stabilityKind = {
+    {{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
+    stabilityFigures,
+    stabilityPictures,
+    stabilityPage};
+
+const Kind<CostResults> costKind = {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
+
+Kind<Json> kindOf(const Json& results) {
   const std::string kind = text(results, "kind");
-  if (kind == kindCollide)
-    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
-            collideFigures,
-            noPictures,
-            collidePage};
   if (kind == kindEffects)
-    return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
-  if (kind == kindStability)
-    return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
-            stabilityFigures,
-            stabilityPictures,
-            stabilityPage};
-  if (kind == kindCost) return costKind(results);
+    return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures<Json>, effectsPage};
   if (kind == kindAverage)
     return {{{"profiles.csv", profilesCsv},
              {"series.csv", seriesCsv},
@@ -64,12 +64,12 @@ Kind kindOf(const Json& results) {
              {"steadiness.csv", steadinessCsv},
              {"distributions.csv", distributionsCsv}},
             compareFigures,
-            noPictures,
+            noPictures<Json>,
             averagePage};
   if (kind == kindRev)
     return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
             revFigures,
-            noPictures,
+            noPictures<Json>,
             revPage};
   return {{{"profiles.csv", profilesCsv},
            {"series.csv", seriesCsv},
@@ -96,13 +96,12 @@ std::optional<std::string> draw(const std::vector<Figure>& figures,
   return std::nullopt;
 }
 
-}  // namespace
-
-void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {
-  checkSchema(results, "results");
+/// @param document  results.json
+template <typename Results>
+void write(const Kind<Results>& kind, const Results& results, const Json& document,
+           const std::filesystem::path& dir) {
   makeDirectory(dir);
-  writeFile(dir / "results.json", toText(results));
-  const Kind kind = kindOf(results);
+  writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
 
   const auto plots = dir / "plots";
@@ -113,6 +112,31 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
 
   writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
   if (missing) throw std::runtime_error(*missing);
+}
+
+}  // namespace
+
+void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
+  write(collideKind, results, toJson(results), dir);
+}
+
+void writeReport(const CostResults& results, const std::filesystem::path& dir) {
+  write(costKind, results, toJson(results), dir);
+}
+
+void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
+  write(stabilityKind, results, toJson(results), dir);
+}
+
+void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
+  checkSchema(results, "results");
+  const std::string kind = text(results, "kind");
+  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
+  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
+  if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
+  write(kindOf(results), results, results, dir);
+} catch (const FieldError& error) {
+  throw BadInput(fmt::format("{}: {}", (dir / "results.json").string(), error.what()));
 }
 
 nlohmann::json readResults(const std::filesystem::path& dir) {

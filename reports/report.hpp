@@ -3,6 +3,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "results/collision.hpp"
+#include "results/cost.hpp"
+#include "results/stability.hpp"
+
 namespace crossgrain {
 
 /// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
@@ -12,8 +16,12 @@ namespace crossgrain {
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are
 /// still written before the error is thrown.
-/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
+/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
+///         BadInput for JSON that is no such document
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
+void writeReport(const CollideResults& results, const std::filesystem::path& dir);
+void writeReport(const CostResults& results, const std::filesystem::path& dir);
+void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

@@ -51,6 +51,12 @@ concept Enumerated = std::is_enum_v<T> && requires(T value) {
   namesOf(value);
 };
 
+/// As it is written.
+template <Enumerated T>
+constexpr std::string_view nameOf(T value) {
+  return namesOf(value)[static_cast<std::size_t>(value)];
+}
+
 template <typename T>
 Json jsonOf(const T& value);
 template <typename T>
@@ -126,7 +132,9 @@ template <typename List>
 void readElements(const Json& json, List& list) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     try {
-      readFrom(json[k], list[k]);
+      typename List::value_type element{};  // those of vector<bool> have no address
+      readFrom(json[k], element);
+      list[k] = std::move(element);
     } catch (const FieldError& error) {
       throw FieldError(path(fmt::to_string(k), error));
     }
@@ -143,7 +151,7 @@ Json jsonOf(const T& value) {
                 std::is_convertible_v<T, std::string_view>) {
     return Json(value);
   } else if constexpr (Enumerated<T>) {
-    return Json(std::string(namesOf(value)[static_cast<std::size_t>(value)]));
+    return Json(std::string(nameOf(value)));
   } else if constexpr (detail::IsOptional<T>::value) {
     return value ? jsonOf(*value) : Json(nullptr);
   } else if constexpr (detail::IsVector<T>::value || detail::IsArray<T>::value) {

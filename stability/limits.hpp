@@ -11,8 +11,8 @@ struct Stability {
   double limit = 0.0;     ///< up to here: stable
   double degraded = 0.0;  ///< up to here: degraded; beyond: unstable
   std::string why;        ///< of the limits
-  int samples = 200;      ///< looks at the run, evenly spread
-  double settle = 0.0;    ///< share of the run before measures of rest begin, [0, 1)
+  int samples = 200;      ///< of the run, evenly spread
+  double settle = 0.0;    ///< fraction of the run before measures of rest begin, [0, 1)
   bool quick = false;     ///< part of a quick suite
   bool longRun = false;   ///< only on request
 };

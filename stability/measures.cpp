@@ -227,13 +227,13 @@ Curve pileAngleChange(const Recording& run) {
   });
 }
 
-/// Whether two bodies went through each other between two looks: their centres changed sides, and
+/// Whether two bodies went through each other between two samples: their centres changed sides, and
 /// the straight way between passes deep inside.
 bool crossed(const Vec2& before, const Vec2& after, double reach) {
   if (before.dot(after) >= 0.0) return false;
   const Vec2 way = after - before;
-  const double share = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
-  return (before + share * way).norm() < 0.5 * reach;
+  const double fraction = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (before + fraction * way).norm() < 0.5 * reach;
 }
 
 void addBehindPlanes(const Recording& run, const Snapshot& now, std::set<std::size_t>& found) {
@@ -312,12 +312,12 @@ Curve ratchet(const Recording& run) {
       bodies, [](const WallBody& body) { return body.motion.kind == Motion::Kind::oscillating; });
   if (wall == bodies.end() || run.snapshots.size() < 2) return {};
   const double cycle = 2.0 * std::numbers::pi / wall->motion.frequency;
-  const auto looks = static_cast<std::size_t>(
+  const auto samples = static_cast<std::size_t>(
       std::llround(cycle / (endOf(run) / static_cast<double>(run.snapshots.size() - 1))));
   Curve curve(run.snapshots.size(), 0.0);
-  for (std::size_t k = looks; k < curve.size(); ++k)
-    if (atRest(run, run.snapshots[k - looks]))
-      curve[k] = farthest(run.scene, run.snapshots[k - looks], run.snapshots[k]);
+  for (std::size_t k = samples; k < curve.size(); ++k)
+    if (atRest(run, run.snapshots[k - samples]))
+      curve[k] = farthest(run.scene, run.snapshots[k - samples], run.snapshots[k]);
   return curve;
 }
 
@@ -325,10 +325,12 @@ constexpr std::array measures = {
     StabilityMeasure{"energy_gain", "of the energy",
                      "kinetic, elastic and potential energy above that of the start, without the "
                      "work of moving walls",
-                     energyGain},
-    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift},
+                     energyGain, StabilityProtocol::oneRun, true},
+    StabilityMeasure{"energy_drift", "of the energy", "the same, gained or lost", energyDrift,
+                     StabilityProtocol::oneRun, true},
     StabilityMeasure{"ledger_residual", "of the energy",
-                     "what no term of the engine's own energy ledger accounts for", ledgerResidual},
+                     "what no term of the engine's own energy ledger accounts for", ledgerResidual,
+                     StabilityProtocol::oneRun, true},
     StabilityMeasure{"momentum_drift", "of Σ m|v|",
                      "change of the disks' momentum beyond gravity's, in a scene without walls",
                      momentumDrift},
@@ -344,7 +346,8 @@ constexpr std::array measures = {
     StabilityMeasure{"pile_angle_change", "degrees", "of the slope of a pile at rest",
                      pileAngleChange},
     StabilityMeasure{"copies_differ", "diameters",
-                     "farthest a disk is from its place in the first variant of the case"},
+                     "farthest a disk is from its place in the first variant of the case", nullptr,
+                     StabilityProtocol::againstOriginal},
     StabilityMeasure{"tunnelled", "disks", "disks that went through another or a wall", tunnelled},
     StabilityMeasure{"escaped", "disks", "disks outside the walls at once", escaped},
     StabilityMeasure{"restitution_error", "-", "distance of e_n from the oracle's",
@@ -355,10 +358,13 @@ constexpr std::array measures = {
                      "farthest a disk moves from one cycle of an oscillating wall to the next",
                      ratchet},
     StabilityMeasure{"step_limit", "-",
-                     "1 − the largest stable time step by that of theory, 2/ω_max of the contacts"},
+                     "1 − the largest stable time step by that of theory, 2/ω_max of the contacts",
+                     nullptr, StabilityProtocol::stepLimit},
     StabilityMeasure{"restart_differs", "diameters",
-                     "between a run and one taken up from a checkpoint at its middle"},
-    StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused"}};
+                     "between a run and one taken up from a checkpoint at its middle", nullptr,
+                     StabilityProtocol::restart},
+    StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused",
+                     nullptr, StabilityProtocol::acceptance}};
 
 }  // namespace
 

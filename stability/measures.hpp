@@ -8,14 +8,25 @@
 
 namespace crossgrain::inline stability {
 
+/// What an engine has to do for a measure.
+enum class StabilityProtocol {
+  oneRun,
+  againstOriginal,  ///< a run of the case's first variant, then one of its own: copiesDiffer()
+  restart,          ///< a run, and one taken up from its middle: largestDistance()
+  stepLimit,        ///< many runs, until the largest stable step is known: theoreticalStepLimit()
+  acceptance        ///< one that it has to refuse
+};
+
 /// One figure that a hard case may be judged by. All are ≥ 0, and 0 is best.
 struct StabilityMeasure {
   std::string_view name;  ///< as in [stability] measure
   std::string_view unit;
   std::string_view what;  ///< one clause
-  /// What it is at each snapshot of a run, in its unit: the case's figure is the largest. Empty:
-  /// the engine does not show what it takes. Null: not of one run, see the functions below.
+  /// Of one run: what it is at each snapshot, in its unit; the case's figure is the largest. Empty:
+  /// the engine does not show what it takes. Null with another protocol.
   std::vector<double> (*curve)(const Recording&) = nullptr;
+  StabilityProtocol protocol = StabilityProtocol::oneRun;
+  bool takesLedger = false;  ///< engines that can account for their energy have to
 };
 
 /// All of them, in the order of the documentation.
@@ -24,17 +35,17 @@ std::span<const StabilityMeasure> stabilityMeasures();
 /// @throws std::out_of_range
 const StabilityMeasure& stabilityMeasure(std::string_view name);
 
-/// copies_differ: the largest distance between a disk of the copy, taken back to where it would be
-/// without being mirrored, turned, shifted and boosted, and the same disk of the original
-/// [diameters], at each instant that both have.
+/// StabilityProtocol::againstOriginal: the largest distance between a disk of the copy, taken back
+/// to where it would be without being mirrored, turned, shifted and boosted, and the same disk of
+/// the original [diameters], at each instant that both have.
 std::vector<double> copiesDiffer(const Recording& original, const Recording& copy);
 
-/// restart_differs: the largest distance between two runs of the same scene [diameters].
+/// StabilityProtocol::restart: the largest distance between two runs of the same scene [diameters].
 double largestDistance(const Scene& scene, const Snapshot& one, const Snapshot& other);
 
-/// step_limit: the largest time step of an explicit scheme of second order, 2/ω with ω² the largest
-/// eigenvalue of M⁻¹K, K the stiffness of the start's contacts, normal springs alone [s]
-/// (Belytschko, Liu and Moran 2000, section 6.6).
+/// StabilityProtocol::stepLimit: the largest time step of an explicit scheme of second order, 2/ω
+/// with ω² the largest eigenvalue of M⁻¹K, K the stiffness of the start's contacts, normal springs
+/// alone [s] (Belytschko, Liu and Moran 2000, section 6.6).
 double theoreticalStepLimit(const Scene& scene);
 
 /// Its estimate from the coordination number, dt = 2 √(m/(2 k_n z_max)) with z_max the most

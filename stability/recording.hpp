@@ -15,7 +15,7 @@ struct Recording {
   Realised realised;
   std::vector<Snapshot> snapshots;  ///< in the order of time, the first at t = 0
   std::string failure;              ///< why the engine did not get to the end; empty if it did
-  double settle = 0.0;              ///< share of the run before it should be at rest, [0, 1)
+  double settle = 0.0;              ///< fraction of the run before it should be at rest, [0, 1)
   Placement placement;              ///< of the scene, against the original it is a copy of
   /// Where the scene is nothing but collisions side by side, what they start from, in its order.
   std::vector<CollisionStart> collisions = {};

@@ -5,9 +5,9 @@
 
 namespace crossgrain::inline stability {
 
-StabilityVerdict stabilityVerdict(const Stability& limits, const std::vector<double>& curve) {
+StabilityJudgement judgeStability(const Stability& limits, const std::vector<double>& curve) {
   constexpr double most = std::numeric_limits<double>::max();
-  StabilityVerdict found;
+  StabilityJudgement found;
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const double value = std::isfinite(curve[k]) ? curve[k] : most;
     if (value > limits.limit && !found.passed) found.passed = k;
@@ -15,9 +15,9 @@ StabilityVerdict stabilityVerdict(const Stability& limits, const std::vector<dou
     found.value = value;
     found.worst = k;
   }
-  found.verdict = found.value <= limits.limit      ? "stable"
-                  : found.value <= limits.degraded ? "degraded"
-                                                   : "unstable";
+  found.verdict = found.value <= limits.limit      ? StabilityVerdict::stable
+                  : found.value <= limits.degraded ? StabilityVerdict::degraded
+                                                   : StabilityVerdict::unstable;
   return found;
 }
 

@@ -14,41 +14,44 @@ namespace {
 /// A part of the energy lost as it is drawn and told: the first is all of it, the others, but for
 /// the last, add up to it.
 struct Part {
-  const char *member, *colour;
+  QuantityId quantity;
+  const char* colour;
   int mark;  ///< gnuplot's number
   const char* words;
 };
 constexpr Part parts[] = {
-    {"energy_lost", "#222222", 2, "all that was lost (black, crosses)"},
-    {"lost_normal_damping", "#0072b2", 6, "to the normal force (blue, circles)"},
-    {"lost_tangential_damping", "#009e73", 4,
+    {QuantityId::energyLost, "#222222", 2, "all that was lost (black, crosses)"},
+    {QuantityId::lostNormalDamping, "#0072b2", 6, "to the normal force (blue, circles)"},
+    {QuantityId::lostTangentialDamping, "#009e73", 4,
      "to the tangential dashpot while the contact sticks (green, squares)"},
-    {"lost_stiffening", "#cc79a7", 10,
+    {QuantityId::lostStiffening, "#cc79a7", 10,
      "to the tangential spring's stiffness, which follows the overlap, below 0 gained (pink, "
      "triangles pointing down)"},
-    {"lost_sliding", "#d55e00", 8, "to sliding (orange, triangles)"},
-    {"lost_stored", "#777777", 12, "left in the tangential spring at separation (grey, diamonds)"},
-    {"lost_tangential", "#56b4e9", 14,
+    {QuantityId::lostSliding, "#d55e00", 8, "to sliding (orange, triangles)"},
+    {QuantityId::lostStored, "#777777", 12,
+     "left in the tangential spring at separation (grey, diamonds)"},
+    {QuantityId::lostTangential, "#56b4e9", 14,
      "to the tangential force in all, of engines that do not tell its parts (pale blue, "
      "pentagons)"}};
 
 /// In units of J; of the whole what is left after, of all tangential parts only where they are not
 /// told.
-std::optional<double> partAt(const Json& table, const Part& part, std::size_t k) {
-  const std::string_view name = part.member;
-  if (name == "energy_lost") {
-    const auto before = at(table, "energy_before", k), after = at(table, "energy_after", k);
+std::optional<double> partAt(const CollisionTable& table, QuantityId part, std::size_t k) {
+  if (part == QuantityId::energyLost) {
+    const auto before = table.at(QuantityId::energyBefore, k),
+               after = table.at(QuantityId::energyAfter, k);
     return before && after ? std::optional(*before - *after) : std::nullopt;
   }
-  if (name == "lost_tangential" && at(table, "lost_sliding", k)) return std::nullopt;
-  return at(table, part.member, k);
+  if (part == QuantityId::lostTangential && table.at(QuantityId::lostSliding, k))
+    return std::nullopt;
+  return table.at(part, k);
 }
 
 /// A part of the energy lost in units of the energy before.
-std::vector<Point> sharesOf(const Json& table, const Part& part, std::size_t stride) {
+std::vector<Point> fractionsOf(const CollisionTable& table, QuantityId part, std::size_t stride) {
   std::vector<Point> points;
-  for (std::size_t k = 0; k < rowCount(table); k += stride) {
-    const auto psi = at(table, "psi_i", k), before = at(table, "energy_before", k),
+  for (std::size_t k = 0; k < table.size(); k += stride) {
+    const auto psi = numberAt(table.psi, k), before = table.at(QuantityId::energyBefore, k),
                value = partAt(table, part, k);
     if (psi && before && value && *before > 0.0) points.push_back({*psi, *value / *before, {}});
   }
@@ -56,22 +59,22 @@ std::vector<Point> sharesOf(const Json& table, const Part& part, std::size_t str
 }
 
 /// Lines are the oracle's parts, marks the engines': colours are parts here, not engines.
-Panel energyPanel(const Json& variant, const Styles& styles) {
+Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "energy lost / before");
   for (const auto& part : parts) {
     std::vector<Curve> curves = {{"",
                                   {part.colour, 0, false},
                                   Draw::lines,
-                                  sharesOf(member(variant, "oracle"), part, 1),
+                                  fractionsOf(variant.oracle, part.quantity, 1),
                                   2.0}};
     for (const auto& [engine, style] : styles) {
-      const Json* curve = coarsestCurve(variant, engine);
+      const CollisionCurve* curve = coarsestCurve(variant, engine);
       if (!curve || style.dashed) continue;  // a mirror's marks lie on its peer's
-      const Json& table = member(*curve, "points");
+      const CollisionTable& table = curve->points;
       curves.push_back({"",
                         {part.colour, part.mark, false},
                         Draw::points,
-                        sharesOf(table, part, (rowCount(table) + 6) / 7),
+                        fractionsOf(table, part.quantity, (table.size() + 6) / 7),
                         1.0});
     }
     const auto visible = [](const Point& point) { return std::abs(point.y) > 1e-6; };
@@ -107,7 +110,7 @@ Figure energyFigure(const CaseGroup& group, const Styles& styles, const std::str
   Figure figure;
   figure.name = name;
   figure.title = "Where the energy of a collision went";
-  for (const Json* variant : group.variants) {
+  for (const CollisionVariant* variant : group.variants) {
     Panel panel = energyPanel(*variant, styles);
     if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
   }

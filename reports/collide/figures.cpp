@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/common/figures.hpp"
+#include "reports/collide/report.hpp"
+#include "reports/common/engines.hpp"
+#include "reports/common/numbers.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
 const LineStyle asymptoteStyle{"#999999", 0, true};
-const LineStyle limitlessStyle{"#cc3311", 4, false};  ///< open squares
+const LineStyle noLimitStyle{"#cc3311", 4, false};  ///< open squares
 
 bool draws(const Figure& figure, const LineStyle& style) {
   return std::ranges::any_of(figure.panels, [&](const Panel& panel) {
@@ -22,32 +24,38 @@ bool draws(const Figure& figure, const LineStyle& style) {
   });
 }
 
-/// Points of a column; `stride` 1: all of them.
-std::vector<Point> pointsOf(const Json& table, const char* column, std::size_t stride) {
+/// Ψ_f over Ψ_i; `stride` 1: all points.
+std::vector<Point> pointsOf(const CollisionTable& table, std::size_t stride) {
   std::vector<Point> points;
-  for (std::size_t k = 0; k < rowCount(table); k += stride) {
-    const auto x = at(table, "psi_i", k), y = at(table, column, k);
+  for (std::size_t k = 0; k < table.size(); k += stride) {
+    const auto x = numberAt(table.psi, k), y = table.at(QuantityId::psiF, k);
     if (x && y) points.push_back({*x, *y, {}});
   }
   return points;
 }
 
-double largestPsi(const Json& variant) {
+/// A curve of marks has at most about 14.
+std::size_t markStride(const CollisionTable& table) {
+  return std::max<std::size_t>(1, (table.size() + 13) / 14);
+}
+
+double largestPsi(const CollisionVariant& variant) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < rowCount(member(variant, "oracle")); ++k)
-    largest = std::max(largest, at(member(variant, "oracle"), "psi_i", k).value_or(0.0));
-  for (const Json& curve : list(variant, "curves"))
-    for (std::size_t k = 0; k < rowCount(member(curve, "points")); ++k)
-      largest = std::max(largest, at(member(curve, "points"), "psi_i", k).value_or(0.0));
+  const auto take = [&](const CollisionTable& table) {
+    for (const double psi : table.psi)
+      if (std::isfinite(psi)) largest = std::max(largest, psi);
+  };
+  take(variant.oracle);
+  for (const CollisionCurve& curve : variant.curves) take(curve.points);
   return largest > 0.0 ? largest : 1.0;
 }
 
 /// Sticking Ψ_f = −e_t0 Ψ_i up to where it meets sliding Ψ_f = Ψ_i − K(1+e)µ (Luding 1998), and
 /// sliding beyond zero.
-std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
+std::vector<Curve> asymptotes(const CollisionVariant& variant, double lastPsi) {
   std::vector<Curve> curves;
-  const auto constant = number(variant, "sliding_constant");
-  const auto restitution = number(member(variant, "sticking"), "e_t0");
+  const auto constant = finite(variant.slidingConstant);
+  const auto restitution = finite(variant.sticking.et0);
   const double meeting = constant ? *constant / (1.0 + restitution.value_or(0.0)) : lastPsi;
   if (restitution) {
     const double end = std::min(meeting, lastPsi);
@@ -67,44 +75,41 @@ std::vector<Curve> asymptotes(const Json& variant, double lastPsi) {
 }
 
 /// Points of the sweep at which the law has no limit of small time steps, on the oracle's line.
-Curve limitless(const Json& variant) {
-  Curve marks{"", limitlessStyle, Draw::points, {}, 1.5};
-  for (const Json& point : list(variant, "no_limit"))
-    if (const auto psi = number(point, "psi_i"), found = number(point, "psi_f"); psi && found)
-      marks.points.push_back({*psi, *found, {}});
+Curve noLimitMarks(const CollisionVariant& variant) {
+  Curve marks{"", noLimitStyle, Draw::points, {}, 1.5};
+  for (const NoLimitPoint& point : variant.noLimit)
+    if (std::isfinite(point.psi) && std::isfinite(point.psiAfter))
+      marks.points.push_back({point.psi, point.psiAfter, {}});
   return marks;
 }
 
 /// Figure 4.3 of Lätzel (2003): each engine at the largest of its time steps.
-Panel sweepPanel(const Json& variant, const Styles& styles) {
+Panel sweepPanel(const CollisionVariant& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "Ψ_{f}");
   panel.level = 0.0;
   panel.curves = asymptotes(variant, panel.xRange->high);
-  if (auto line = pointsOf(member(variant, "oracle"), "psi_f", 1); !line.empty())
+  if (auto line = pointsOf(variant.oracle, 1); !line.empty())
     panel.curves.push_back({"", oracleStyle, Draw::lines, std::move(line), 3.0});
   for (const auto& [engine, style] : styles)
-    if (const Json* curve = coarsestCurve(variant, engine)) {
-      const Json& table = member(*curve, "points");
+    if (const CollisionCurve* curve = coarsestCurve(variant, engine))
       panel.curves.push_back(
-          {"", style, Draw::points, pointsOf(table, "psi_f", markStride(table)), 1.0});
-    }
-  panel.curves.push_back(limitless(variant));
+          {"", style, Draw::points, pointsOf(curve->points, markStride(curve->points)), 1.0});
+  panel.curves.push_back(noLimitMarks(variant));
   return panel;
 }
 
 /// |Ψ_f − Ψ_f,oracle| of each engine at the largest of its time steps.
-Panel errorPanel(const Json& variant, const Styles& styles) {
+Panel errorPanel(const CollisionVariant& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "|Ψ_{f} − oracle|");
   panel.logY = true;
-  const Json& reference = member(variant, "reference");
   for (const auto& [engine, style] : styles) {
-    const Json* curve = coarsestCurve(variant, engine);
+    const CollisionCurve* curve = coarsestCurve(variant, engine);
     if (!curve) continue;
-    const Json& table = member(*curve, "points");
+    const CollisionTable& table = curve->points;
     std::vector<Point> points;
-    for (std::size_t k = 0; k < rowCount(table); ++k) {
-      const auto psi = at(table, "psi_i", k), found = at(table, "psi_f", k),
-                 expected = at(reference, "psi_f", k);
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      const auto psi = numberAt(table.psi, k), found = table.at(QuantityId::psiF, k),
+                 expected = variant.reference.at(QuantityId::psiF, k);
       if (psi && found && expected) points.push_back({*psi, std::abs(*found - *expected), {}});
     }
     std::ranges::sort(points, {}, &Point::x);
@@ -114,7 +119,7 @@ Panel errorPanel(const Json& variant, const Styles& styles) {
 }
 
 /// Keeps the place of a panel that there is nothing to draw in.
-Panel emptyPanel(const Json& variant, const char* why) {
+Panel emptyPanel(const CollisionVariant& variant, const char* why) {
   Panel panel = panelOver(variant, why);
   panel.yRange = Range{0.0, 1.0};
   panel.curves.push_back({"", oracleStyle, Draw::lines, {{0.0, 0.0, {}}}, 1.0});
@@ -125,7 +130,7 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
   Figure figure;
   figure.name = name;
   figure.title = "Tangential velocity after a collision against before, and its error";
-  for (const Json* variant : group.variants) {
+  for (const CollisionVariant* variant : group.variants) {
     Panel sweep = sweepPanel(*variant, styles);
     if (!hasPoints(sweep)) continue;
     figure.panels.push_back(std::move(sweep));
@@ -139,7 +144,7 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
   if (draws(figure, oracleStyle)) figure.caption += " Grey: the oracle.";
   if (draws(figure, asymptoteStyle))
     figure.caption += " Dashed grey: hard disks, sticking and sliding, as far as the law has them.";
-  if (draws(figure, limitlessStyle))
+  if (draws(figure, noLimitStyle))
     figure.caption +=
         " Red squares: the law has no limit of small time steps there, nothing is judged.";
   arrange(figure, 4, group.variants.size());
@@ -148,18 +153,14 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
 
 }  // namespace
 
-Panel panelOver(const Json& variant, const char* yLabel) {
+Panel panelOver(const CollisionVariant& variant, const char* yLabel) {
   Panel panel;
-  panel.name = text(variant, "variant");
+  panel.name = variant.variant;
   panel.xLabel = "Ψ_{i}";
   panel.yLabel = yLabel;
   panel.key = Key::none;
   panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};
   return panel;
-}
-
-std::size_t markStride(const Json& table) {
-  return std::max<std::size_t>(1, (rowCount(table) + 13) / 14);
 }
 
 void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
@@ -176,14 +177,13 @@ void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
   figure.panelHeight = variants == 1 ? 320 : 235;
 }
 
-std::vector<Figure> collideFigures(const Json& results) {
-  const std::vector<LineStyle> order = engineStyles(results);
+std::vector<Figure> collideFigures(const CollideResults& results) {
+  const std::vector<LineStyle> order = engineStyles(results.engines);
   Styles styles;
-  for (std::size_t k = 0; k < order.size(); ++k)
-    styles[text(list(results, "engines")[k], "name")] = order[k];
-  for (const Json& variant : list(results, "variants"))
-    for (const Json& curve : list(variant, "curves"))
-      styles.try_emplace(text(curve, "engine"), engineStyle(styles.size()));
+  for (std::size_t k = 0; k < order.size(); ++k) styles[results.engines[k].name] = order[k];
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      styles.try_emplace(curve.engine, engineStyle(styles.size()));
 
   std::vector<Figure> figures;
   std::size_t index = 0;

@@ -14,10 +14,7 @@ using Styles = std::map<std::string, LineStyle>;  ///< by engine
 inline const LineStyle oracleStyle{"#999999", 0, false};
 
 /// An axis over Ψ_i for a variant, with its name above.
-Panel panelOver(const Json& variant, const char* yLabel);
-
-/// Every `stride`-th row's share in the plot: a curve of marks has at most about 14.
-std::size_t markStride(const Json& table);
+Panel panelOver(const CollisionVariant& variant, const char* yLabel);
 
 /// Where the energy of a case's collisions went: the oracle's account and every engine's at the
 /// largest of its time steps. @param name  of the figure's files

@@ -2,12 +2,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <deque>
 #include <map>
 
+#include "reports/collide/report.hpp"
 #include "reports/collide/scores.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
+#include "results/engine_fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -16,16 +19,14 @@ namespace {
 /// HTML: "Law: normal linear, tangential spring dashpot, …" of what all variants share.
 std::string lawOf(const CaseGroup& group) {
   std::vector<std::string> shared;
-  for (const auto& [option, value] : member(*group.variants.front(), "law").items()) {
-    const bool same =
-        std::ranges::all_of(group.variants, [&, &option = option, &value = value](const Json* v) {
-          return member(member(*v, "law"), option) == value;
+  for (const auto& [option, value] : group.variants.front()->law) {
+    const bool same = std::ranges::all_of(
+        group.variants, [&, &option = option, &value = value](const CollisionVariant* variant) {
+          const auto found = variant->law.find(option);
+          return found != variant->law.end() && found->second == value;
         });
     if (!same) continue;
-    if (value.is_string())
-      shared.push_back(spaced(option) + " " + spaced(value.get<std::string>()));
-    else if (const auto constant = number(value))
-      shared.push_back(spaced(option) + " " + readableSetting(constant));
+    if (auto words = lawWords(option, value)) shared.push_back(std::move(*words));
   }
   return mathHtml(fmt::format("Law of all variants: {}.", fmt::join(shared, ", ")));
 }
@@ -33,28 +34,28 @@ std::string lawOf(const CaseGroup& group) {
 /// Empty, or which points were not judged because the law has no limit of small time steps there.
 std::string limitsOf(const CaseGroup& group) {
   std::vector<std::string> places;
-  for (const Json* variant : group.variants) {
+  for (const CollisionVariant* variant : group.variants) {
     std::vector<std::pair<std::string, std::vector<std::string>>> byReason;
-    for (const Json& point : list(*variant, "no_limit")) {
-      const std::string reason = text(point, "reason");
-      auto found = std::ranges::find(byReason, reason, [](const auto& one) { return one.first; });
-      if (found == byReason.end()) found = byReason.insert(found, {reason, {}});
-      const std::string psi = readableSetting(number(point, "psi_i"));
+    for (const NoLimitPoint& point : variant->noLimit) {
+      auto found =
+          std::ranges::find(byReason, point.reason, [](const auto& one) { return one.first; });
+      if (found == byReason.end()) found = byReason.insert(found, {point.reason, {}});
+      const std::string psi = readableSetting(finite(point.psi));
       if (std::ranges::find(found->second, psi) == found->second.end())
         found->second.push_back(psi);
     }
     for (const auto& [reason, psi] : byReason)
       places.push_back(
-          fmt::format("{}, Ψ_i = {}: {}", text(*variant, "variant"), fmt::join(psi, ", "), reason));
-    if (const std::string reason = text(*variant, "oracle_reason"); !reason.empty())
-      places.push_back(text(*variant, "variant") + ": " + reason);
+          fmt::format("{}, Ψ_i = {}: {}", variant->variant, fmt::join(psi, ", "), reason));
+    if (!variant->oracleReason.empty())
+      places.push_back(variant->variant + ": " + variant->oracleReason);
   }
   if (places.empty()) return {};
   return mathHtml(fmt::format("Not judged: {}.", fmt::join(places, "; ")));
 }
 
-Json caseViews(const Json& results, const std::vector<CaseGroup>& groups,
-               const std::vector<EngineResults>& engines, const Illustrations& shown) {
+Json caseViews(const CollideResults& results, const std::vector<CaseGroup>& groups,
+               const Illustrations& shown) {
   Json views = Json::array();
   for (const CaseGroup& group : groups) {
     const std::string figure = fmt::format("collision_{}", views.size() + 1);
@@ -65,14 +66,14 @@ Json caseViews(const Json& results, const std::vector<CaseGroup>& groups,
       else if (text(view, "file") == figure + "_energy")
         energies.push_back(std::move(view));
     }
-    Json mirrors = mirrorRows(group, engines);
+    Json mirrors = mirrorRows(group, results.engines);
     views.push_back({{"id", fmt::format("case_{}", views.size() + 1)},
                      {"name", group.name},
                      {"law", lawOf(group)},
                      {"limits", limitsOf(group)},
                      {"curves", std::move(curves)},
                      {"energies", std::move(energies)},
-                     {"variants", variantRows(results, group, engines)},
+                     {"variants", variantRows(results, group)},
                      {"hasMirrors", !mirrors.empty()},
                      {"mirrors", std::move(mirrors)},
                      {"heads", scoreHeads(group)},
@@ -81,19 +82,27 @@ Json caseViews(const Json& results, const std::vector<CaseGroup>& groups,
   return views;
 }
 
-Json engineRows(const std::vector<EngineResults>& engines) {
-  Json rows = columnsView(engines);
+Json engineRows(const std::vector<EngineRow>& engines) {
+  const std::vector<LineStyle> styles = engineStyles(engines);
+  Json rows = Json::array();
   for (std::size_t k = 0; k < engines.size(); ++k)
-    for (const char* key : {"version", "status", "mirrors", "summary", "reason"})
-      rows[k][key] = text(*engines[k].entry, key);
+    rows.push_back({{"name", engines[k].name},
+                    {"colour", styles[k].colour},
+                    {"dashed", styles[k].dashed},
+                    {"version", engines[k].version},
+                    {"status", nameOf(engines[k].status)},
+                    {"mirrors", engines[k].mirrors},
+                    {"summary", engines[k].summary},
+                    {"reason", engines[k].reason}});
   return rows;
 }
 
-void addSummary(Json& view, const Json& results, const std::vector<EngineResults>& engines) {
-  std::map<std::string, std::map<std::string, std::size_t>> counts;
-  for (const Json& variant : list(results, "variants"))
-    for (const Json& curve : list(variant, "curves"))
-      ++counts[text(curve, "engine")][verdictOf(curve)];
+void addSummary(Json& view, const CollideResults& results) {
+  using Counts = std::map<std::string_view, int>;  // by the outcomes' names
+  std::map<std::string, Counts> counts;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      ++counts[curve.engine][nameOf(outcomeOf(curve))];
   const CollideCount all = countOf(results);
   const auto judged = static_cast<std::size_t>(all.judged());
   if (judged == 0)
@@ -104,37 +113,40 @@ void addSummary(Json& view, const Json& results, const std::vector<EngineResults
                     counted(judged, "judged sweep"), judged == 1 ? "its" : "their",
                     all.notJudged == 0 ? "" : fmt::format("; {} not judged", all.notJudged));
   view["sentences"] = Json::array();
-  for (const EngineResults& engine : engines) {
+  for (const EngineRow& engine : results.engines) {
     if (!engine.mirrors.empty()) continue;
     std::vector<std::string> words;
-    for (const auto& [verdict, count] : counts[engine.name])
-      words.push_back(fmt::format("{} {}", count, verdict));
-    const std::string reason = text(*engine.entry, "reason");
-    view["sentences"].push_back(
-        fmt::format("{}: {}{}", engine.name,
-                    words.empty() ? engine.status : fmt::format("{}", fmt::join(words, ", ")),
-                    reason.empty() ? "." : ": " + reason));
+    for (const auto& [outcome, count] : counts[engine.name])
+      words.push_back(fmt::format("{} {}", count, outcome));
+    if (words.empty()) words.emplace_back(nameOf(engine.status));
+    view["sentences"].push_back(fmt::format("{}: {}{}", engine.name, fmt::join(words, ", "),
+                                            engine.reason.empty() ? "." : ": " + engine.reason));
   }
+}
+
+/// What engines made of each variant's scenes.
+void addRealised(Json& view, const CollideResults& results) {
+  std::deque<Json> kept;
+  std::vector<RealisedOf> realised;
+  for (const CollisionVariant& variant : results.variants) {
+    const Json& effects = kept.emplace_back(jsonOf(variant.effects));
+    for (const CollisionCurve& curve : variant.curves)
+      if (curve.realised)
+        realised.push_back({curve.engine, &kept.emplace_back(jsonOf(*curve.realised)), &effects});
+  }
+  addDetails(view, realised);
 }
 
 }  // namespace
 
-std::string collidePage(const Json& results, const Illustrations& shown) {
-  const std::vector<EngineResults> engines = engineResults(results);
-  std::vector<RealisedOf> realised;
-  for (const Json& variant : list(results, "variants"))
-    for (const Json& curve : list(variant, "curves"))
-      if (member(curve, "realised").is_object())
-        realised.push_back(
-            {text(curve, "engine"), &member(curve, "realised"), &member(variant, "effects")});
-
+std::string collidePage(const CollideResults& results, const Illustrations& shown) {
   const std::vector<CaseGroup> groups = casesOf(results);
-  Json view = commonView(results, shown);
-  addSummary(view, results, engines);
-  view["engines"] = engineRows(engines);
-  view["matrix"] = matrixRows(groups, engines);
-  view["cases"] = caseViews(results, groups, engines, shown);
-  addDetails(view, realised);
+  Json view = commonView(results.head, results.elapsed, {}, shown);
+  addSummary(view, results);
+  view["engines"] = engineRows(results.engines);
+  view["matrix"] = matrixRows(groups, results.engines);
+  view["cases"] = caseViews(results, groups, shown);
+  addRealised(view, results);
   view["files"] = "Beside this page: results.json (everything) and collisions.csv.";
   return render("report_collide.html", view);
 }

@@ -9,6 +9,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -16,7 +17,7 @@ namespace {
 
 /// Two digits are enough of an error.
 std::string shortly(std::optional<double> value) {
-  if (!value) return absentText;
+  if (!finite(value)) return absentText;
   return readableSetting(std::strtod(fmt::format("{:.2g}", *value).c_str(), nullptr));
 }
 
@@ -40,24 +41,24 @@ std::string clauseOf(const std::string& refusal) {
   return rest.substr(0, rest.find("; "));
 }
 
-Tally tallyOf(const std::vector<const Json*>& variants, const std::string& engine) {
+Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine) {
   Tally tally;
-  for (const Json* variant : variants)
-    for (const Json* curve : curvesOf(*variant, engine)) {
-      const std::string verdict = verdictOf(*curve);
-      tally.held += verdict == "held";
-      tally.judged += verdict == "held" || verdict == "fell short";
-      tally.refused += verdict == "refused";
-      tally.failed += verdict == "failed";
-      const std::string reason = text(*curve, "reason");
-      if (verdict == "refused" && tally.refusal.empty()) tally.refusal = clauseOf(reason);
-      if (verdict != "refused" && tally.reason.empty()) tally.reason = reason;
-      for (const QuantityLabel& quantity : quantityLabels()) {
-        const Json& score = member(member(*curve, "score"), quantity.name);
-        const auto error = number(score, "max"), limit = number(score, "limit");
-        if (!error || !limit || *error <= *limit * std::max(tally.worst, 1.0)) continue;
-        tally.worst = *error / *limit;
-        tally.worstName = quantity.symbol;
+  for (const CollisionVariant* variant : variants)
+    for (const CollisionCurve* curve : curvesOf(*variant, engine)) {
+      const SweepOutcome outcome = outcomeOf(*curve);
+      const bool refused = outcome == SweepOutcome::refused;
+      tally.held += outcome == SweepOutcome::held;
+      tally.judged += outcome == SweepOutcome::held || outcome == SweepOutcome::fellShort;
+      tally.refused += refused;
+      tally.failed += outcome == SweepOutcome::failed;
+      if (refused && tally.refusal.empty()) tally.refusal = clauseOf(curve->reason);
+      if (!refused && tally.reason.empty()) tally.reason = curve->reason;
+      for (const CollisionQuantity& quantity : scoredQuantities()) {
+        const auto& score = curve->score.of[quantity.id];
+        if (!score || !score->limit || score->max <= *score->limit * std::max(tally.worst, 1.0))
+          continue;
+        tally.worst = score->max / *score->limit;
+        tally.worstName = quantity.label;
       }
     }
   return tally;
@@ -72,34 +73,34 @@ std::string headline(const Tally& tally) {
   return tally.refused > 0 ? "– refused" : absentText;
 }
 
-std::string orderOf(const Json& results, const Json& variant, const std::string& engine,
-                    const char* quantity) {
-  for (const Json& order : list(results, "orders")) {
-    const bool own = text(order, "variant") == text(variant, "variant") &&
-                     text(order, "case") == text(variant, "case") &&
-                     text(order, "engine") == engine;
+std::string orderOf(const CollideResults& results, const CollisionVariant& variant,
+                    const std::string& engine, QuantityId quantity) {
+  for (const ConvergenceOrder& order : results.orders) {
+    const bool own =
+        order.variant == variant.variant && order.name == variant.name && order.engine == engine;
     if (!own) continue;
-    const Json& fit = member(member(order, "quantities"), quantity);
-    const auto slope = number(fit, "order"), error = number(fit, "stderr");
-    if (!slope) break;
+    const auto& fit = order.of[quantity];
+    if (!fit) break;
     // Errors of orders below a hundredth say nothing: the scheme's next term is larger.
-    const double hundredths = std::round(*slope * 100.0) / 100.0 + 0.0;  // no −0.00
+    const double hundredths = std::round(fit->order * 100.0) / 100.0 + 0.0;  // no −0.00
     return fmt::format("{}{:.2f}{}", hundredths < 0.0 ? "−" : "", std::abs(hundredths),
-                       error ? fmt::format("\u00a0±\u00a0{:.2f}", std::max(*error, 0.01)) : "");
+                       fit->standardError
+                           ? fmt::format("\u00a0±\u00a0{:.2f}", std::max(*fit->standardError, 0.01))
+                           : "");
   }
   return absentText;
 }
 
-Json variantCell(const Json& results, const Json& variant, const std::string& engine) {
+Json variantCell(const CollideResults& results, const CollisionVariant& variant,
+                 const std::string& engine) {
   const Tally tally = tallyOf({&variant}, engine);
   Json lines = Json::array();
-  const Json* curve = coarsestCurve(variant, engine);
-  for (const char* quantity : {"psi_f", "e_n"}) {
-    if (!curve) break;
-    const auto error = number(member(member(*curve, "score"), quantity), "max");
-    if (!error) continue;
+  const CollisionCurve* curve = coarsestCurve(variant, engine);
+  for (const QuantityId quantity : {QuantityId::psiF, QuantityId::en}) {
+    if (!curve || !curve->score.of[quantity]) continue;
     const std::string order = orderOf(results, variant, engine, quantity);
-    lines.push_back(mathHtml(quantity == std::string("psi_f") ? "Ψ_f " : "e_n ") + shortly(error) +
+    lines.push_back(mathHtml(std::string(collisionQuantity(quantity).label) + " ") +
+                    shortly(curve->score.of[quantity]->max) +
                     (order == absentText ? "" : ", order " + order));
   }
   if (!tally.refusal.empty()) lines.push_back(mathHtml(tally.refusal));
@@ -110,78 +111,97 @@ Json variantCell(const Json& results, const Json& variant, const std::string& en
 /// The law's members that variants of the case differ in, or that only some have.
 std::vector<std::string> changing(const CaseGroup& group) {
   std::vector<std::string> names;
-  for (const Json* variant : group.variants)
-    for (const auto& [name, value] : member(*variant, "law").items())
+  for (const CollisionVariant* variant : group.variants)
+    for (const auto& [name, value] : variant->law) {
+      const auto differs = [&, &name = name, &value = value](const CollisionVariant* other) {
+        const auto found = other->law.find(name);
+        return found == other->law.end() || found->second != value;
+      };
       if (std::ranges::find(names, name) == names.end() &&
-          std::ranges::any_of(group.variants, [&, &name = name, &value = value](const Json* v) {
-            return member(member(*v, "law"), name) != value;
-          }))
+          std::ranges::any_of(group.variants, differs))
         names.push_back(name);
+    }
   return names;
 }
 
-std::string lawWords(const Json& law, const std::vector<std::string>& names) {
+std::string ownLaw(const CollisionVariant& variant, const std::vector<std::string>& names) {
   std::vector<std::string> words;
-  for (const std::string& name : names) {
-    const Json& value = member(law, name);
-    if (value.is_null()) continue;
-    words.push_back(
-        spaced(name) + " " +
-        (value.is_string() ? spaced(value.get<std::string>()) : readableSetting(number(value))));
-  }
+  for (const std::string& name : names)
+    if (const auto found = variant.law.find(name); found != variant.law.end())
+      words.push_back(lawWords(name, found->second).value_or(spaced(name) + " " + absentText));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// Largest distance of two curves at the same places.
-std::optional<double> distance(const Json* a, const Json* b, const char* column) {
+std::optional<double> distance(const CollisionCurve* a, const CollisionCurve* b,
+                               QuantityId quantity) {
   if (!a || !b) return std::nullopt;
-  const Json &first = member(*a, "points"), &second = member(*b, "points");
   std::optional<double> largest;
-  for (std::size_t k = 0; k < std::min(rowCount(first), rowCount(second)); ++k) {
-    const auto x = at(first, column, k), y = at(second, column, k);
+  for (std::size_t k = 0; k < std::min(a->points.size(), b->points.size()); ++k) {
+    const auto x = a->points.at(quantity, k), y = b->points.at(quantity, k);
     if (x && y) largest = std::max(largest.value_or(0.0), std::abs(*x - *y));
   }
   return largest;
 }
 
-std::string deviationWords(const Json& curve) {
+std::string deviationWords(const CollisionCurve& curve) {
   std::vector<std::string> words;
-  for (const Json& deviation : list(member(curve, "realised"), "deviations"))
-    if (std::string name = spaced(text(deviation, "name"));
-        std::ranges::find(words, name) == words.end())
-      words.push_back(std::move(name));
+  if (curve.realised)
+    for (const Deviation& deviation : curve.realised->deviations)
+      if (std::string name = spaced(deviation.name); std::ranges::find(words, name) == words.end())
+        words.push_back(std::move(name));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string dtOf(const Json* curve) {
-  return readableSetting(curve ? number(*curve, "dt") : std::nullopt);
+std::string dtOf(const CollisionCurve* curve) {
+  return readableSetting(curve ? finite(curve->dt) : std::nullopt);
 }
 
-bool scored(const CaseGroup& group, std::string_view quantity) {
-  return std::ranges::any_of(group.variants, [&](const Json* variant) {
-    return std::ranges::any_of(list(*variant, "curves"), [&](const Json& curve) {
-      return member(member(curve, "score"), quantity).is_object();
-    });
-  });
+/// The quantities that any curve of the case has a score in.
+std::vector<const CollisionQuantity*> scoredIn(const CaseGroup& group) {
+  std::vector<const CollisionQuantity*> scored;
+  for (const CollisionQuantity& quantity : scoredQuantities())
+    if (std::ranges::any_of(group.variants, [&](const CollisionVariant* variant) {
+          return std::ranges::any_of(variant->curves, [&](const CollisionCurve& curve) {
+            return curve.score.of[quantity.id].has_value();
+          });
+        }))
+      scored.push_back(&quantity);
+  return scored;
 }
 
-Json scoreCell(const Json& score) {
-  const Json& held = member(score, "held");
-  const std::string mark = held == Json(true) ? "✓ " : held == Json(false) ? "✗ " : "";
-  return {{"class", held == Json(true)    ? "agree"
-                    : held == Json(false) ? "disagree"
-                                          : ""},
-          {"text", mark + shortly(number(score, "max"))},
-          {"rms", score.is_null() ? "" : shortly(number(score, "rms"))}};
+Json scoreCell(const std::optional<QuantityScore>& score) {
+  if (!score) return {{"class", ""}, {"text", absentText}, {"rms", ""}};
+  const bool judged = score->held.has_value(), held = score->held.value_or(false);
+  return {{"class", !judged ? ""
+                    : held  ? "agree"
+                            : "disagree"},
+          {"text", (!judged ? ""
+                    : held  ? "✓ "
+                            : "✗ ") +
+                       shortly(score->max)},
+          {"rms", shortly(score->rms)}};
+}
+
+/// Class and mark.
+std::pair<const char*, const char*> styleOf(SweepOutcome outcome) {
+  switch (outcome) {
+    case SweepOutcome::held:
+      return {"agree", "✓"};
+    case SweepOutcome::fellShort:
+      return {"disagree", "✗"};
+    default:
+      return {"undecided", "–"};
+  }
 }
 
 }  // namespace
 
-Json matrixRows(const std::vector<CaseGroup>& groups, const std::vector<EngineResults>& engines) {
+Json matrixRows(const std::vector<CaseGroup>& groups, const std::vector<EngineRow>& engines) {
   Json rows = Json::array();
   for (const CaseGroup& group : groups) {
     Json cells = Json::array();
-    for (const EngineResults& engine : engines) {
+    for (const EngineRow& engine : engines) {
       const Tally tally = tallyOf(group.variants, engine.name);
       Json lines = Json::array();
       if (tally.worst > 1.0)
@@ -202,39 +222,40 @@ Json matrixRows(const std::vector<CaseGroup>& groups, const std::vector<EngineRe
   return rows;
 }
 
-Json variantRows(const Json& results, const CaseGroup& group,
-                 const std::vector<EngineResults>& engines) {
+Json variantRows(const CollideResults& results, const CaseGroup& group) {
   const std::vector<std::string> names = changing(group);
   Json rows = Json::array();
-  for (const Json* variant : group.variants) {
+  for (const CollisionVariant* variant : group.variants) {
     Json cells = Json::array();
-    for (const EngineResults& engine : engines)
+    for (const EngineRow& engine : results.engines)
       cells.push_back(variantCell(results, *variant, engine.name));
-    rows.push_back({{"name", text(*variant, "variant")},
-                    {"law", lawWords(member(*variant, "law"), names)},
+    rows.push_back({{"name", variant->variant},
+                    {"law", ownLaw(*variant, names)},
                     {"cells", std::move(cells)}});
   }
   return rows;
 }
 
-Json mirrorRows(const CaseGroup& group, const std::vector<EngineResults>& engines) {
+Json mirrorRows(const CaseGroup& group, const std::vector<EngineRow>& engines) {
+  using enum QuantityId;
   Json rows = Json::array();
-  for (const EngineResults& mirror : engines) {
+  for (const EngineRow& mirror : engines) {
     if (mirror.mirrors.empty()) continue;
     const std::string& first = engines.front().name;
-    for (const Json* variant : group.variants) {
-      const Json *ours = first == mirror.mirrors ? nullptr : coarsestCurve(*variant, first),
-                 *mirrored = coarsestCurve(*variant, mirror.name),
-                 *peer = coarsestCurve(*variant, mirror.mirrors);
+    for (const CollisionVariant* variant : group.variants) {
+      const CollisionCurve *ours =
+                               first == mirror.mirrors ? nullptr : coarsestCurve(*variant, first),
+                           *mirrored = coarsestCurve(*variant, mirror.name),
+                           *peer = coarsestCurve(*variant, mirror.mirrors);
       if (!mirrored || !peer) continue;
       rows.push_back(
-          {{"variant", text(*variant, "variant")},
+          {{"variant", variant->variant},
            {"mirror", mirror.name},
            {"peer", mirror.mirrors},
            {"differs", deviationWords(*peer)},
            {"cells",
-            {shortly(distance(ours, mirrored, "psi_f")), shortly(distance(ours, mirrored, "e_n")),
-             shortly(distance(mirrored, peer, "psi_f")), shortly(distance(mirrored, peer, "e_n")),
+            {shortly(distance(ours, mirrored, psiF)), shortly(distance(ours, mirrored, en)),
+             shortly(distance(mirrored, peer, psiF)), shortly(distance(mirrored, peer, en)),
              (!ours || dtOf(ours) == dtOf(mirrored)) && dtOf(mirrored) == dtOf(peer)
                  ? dtOf(peer)
                  : fmt::format("{} | {} | {}", dtOf(ours), dtOf(mirrored), dtOf(peer))}}});
@@ -245,32 +266,28 @@ Json mirrorRows(const CaseGroup& group, const std::vector<EngineResults>& engine
 
 Json scoreHeads(const CaseGroup& group) {
   Json heads = Json::array();
-  for (const QuantityLabel& quantity : quantityLabels())
-    if (scored(group, quantity.name)) heads.push_back(mathHtml(quantity.symbol));
+  for (const CollisionQuantity* quantity : scoredIn(group))
+    heads.push_back(mathHtml(std::string(quantity->label)));
   return heads;
 }
 
 Json scoreRows(const CaseGroup& group) {
+  const auto scored = scoredIn(group);
   Json rows = Json::array();
-  for (const Json* variant : group.variants)
-    for (const Json& curve : list(*variant, "curves")) {
-      const std::string verdict = verdictOf(curve);
+  for (const CollisionVariant* variant : group.variants)
+    for (const CollisionCurve& curve : variant->curves) {
       Json cells = Json::array();
-      if (rowCount(member(curve, "points")) > 0)
-        for (const QuantityLabel& quantity : quantityLabels())
-          if (scored(group, quantity.name))
-            cells.push_back(scoreCell(member(member(curve, "score"), quantity.name)));
-      rows.push_back({{"variant", text(*variant, "variant")},
-                      {"engine", text(curve, "engine")},
-                      {"dt", readableSetting(number(curve, "dt"))},
-                      {"verdict", (verdict == "held"         ? "✓ "
-                                   : verdict == "fell short" ? "✗ "
-                                                             : "– ") +
-                                      verdict},
-                      {"class", verdict == "held"         ? "agree"
-                                : verdict == "fell short" ? "disagree"
-                                                          : "undecided"},
-                      {"reason", cells.empty() ? text(curve, "reason") : ""},
+      if (curve.points.size() > 0)
+        for (const CollisionQuantity* quantity : scored)
+          cells.push_back(scoreCell(curve.score.of[quantity->id]));
+      const SweepOutcome outcome = outcomeOf(curve);
+      const auto [cssClass, mark] = styleOf(outcome);
+      rows.push_back({{"variant", variant->variant},
+                      {"engine", curve.engine},
+                      {"dt", dtOf(&curve)},
+                      {"verdict", fmt::format("{} {}", mark, nameOf(outcome))},
+                      {"class", cssClass},
+                      {"reason", cells.empty() ? curve.reason : ""},
                       {"cells", std::move(cells)}});
     }
   return rows;

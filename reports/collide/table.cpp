@@ -1,25 +1,20 @@
 #include "reports/collide/table.hpp"
 
 #include <algorithm>
+#include <functional>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
 
 namespace crossgrain::reports {
 
-std::size_t rowCount(const Json& table) {
-  return list(table, "psi_i").size();
+std::string caseOf(const CollideResults& results, const CollisionVariant& variant) {
+  return variant.name.empty() ? results.head.setup.name : variant.name;
 }
 
-std::optional<double> at(const Json& table, std::string_view column, std::size_t row) {
-  return number(element(list(table, column), row));
-}
-
-std::string caseOf(const Json& results, const Json& variant) {
-  const std::string own = text(variant, "case");
-  return own.empty() ? text(member(results, "case"), "name") : own;
-}
-
-std::vector<CaseGroup> casesOf(const Json& results) {
+std::vector<CaseGroup> casesOf(const CollideResults& results) {
   std::vector<CaseGroup> groups;
-  for (const Json& variant : list(results, "variants")) {
+  for (const CollisionVariant& variant : results.variants) {
     const std::string name = caseOf(results, variant);
     auto group = std::ranges::find(groups, name, &CaseGroup::name);
     if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
@@ -28,77 +23,78 @@ std::vector<CaseGroup> casesOf(const Json& results) {
   return groups;
 }
 
-std::vector<const Json*> curvesOf(const Json& variant, const std::string& engine) {
-  std::vector<const Json*> curves;
-  for (const Json& curve : list(variant, "curves"))
-    if (text(curve, "engine") == engine) curves.push_back(&curve);
-  std::ranges::stable_sort(curves, std::ranges::greater{},
-                           [](const Json* curve) { return number(*curve, "dt").value_or(0.0); });
+std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
+                                            const std::string& engine) {
+  std::vector<const CollisionCurve*> curves;
+  for (const CollisionCurve& curve : variant.curves)
+    if (curve.engine == engine) curves.push_back(&curve);
+  std::ranges::stable_sort(curves, std::ranges::greater{}, [](const CollisionCurve* curve) {
+    return finite(curve->dt).value_or(0.0);
+  });
   return curves;
 }
 
-const Json* coarsestCurve(const Json& variant, const std::string& engine) {
-  for (const Json* curve : curvesOf(variant, engine))
-    if (rowCount(member(*curve, "points")) > 0) return curve;
+const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::string& engine) {
+  for (const CollisionCurve* curve : curvesOf(variant, engine))
+    if (curve->points.size() > 0) return curve;
   return nullptr;
 }
 
-std::string verdictOf(const Json& curve) {
-  const std::string status = text(curve, "status");
-  const std::string verdict = text(member(curve, "score"), "verdict");
-  return verdict.empty() || status == "refused" || status == "failed" ? status : verdict;
+SweepOutcome outcomeOf(const CollisionCurve& curve) {
+  if (curve.status == SweepStatus::refused) return SweepOutcome::refused;
+  if (curve.status == SweepStatus::failed) return SweepOutcome::failed;
+  switch (curve.score.verdict) {
+    case CurveVerdict::held:
+      return SweepOutcome::held;
+    case CurveVerdict::fellShort:
+      return SweepOutcome::fellShort;
+    case CurveVerdict::notJudged:
+      break;
+  }
+  return SweepOutcome::notJudged;
 }
 
-CollideCount countOf(const Json& results) {
+CollideCount countOf(const CollideResults& results) {
   CollideCount count;
-  for (const Json& variant : list(results, "variants"))
-    for (const Json& curve : list(variant, "curves")) {
-      const std::string verdict = verdictOf(curve);
-      count.held += verdict == "held";
-      count.fellShort += verdict == "fell short";
-      count.notJudged += verdict == "not judged";
-      count.refused += verdict == "refused";
-      count.failed += verdict == "failed";
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves) {
+      const SweepOutcome outcome = outcomeOf(curve);
+      count.held += outcome == SweepOutcome::held;
+      count.fellShort += outcome == SweepOutcome::fellShort;
+      count.notJudged += outcome == SweepOutcome::notJudged;
+      count.refused += outcome == SweepOutcome::refused;
+      count.failed += outcome == SweepOutcome::failed;
     }
   return count;
 }
 
-std::string nothingJudged(const Json& results) {
+std::string nothingJudged(const CollideResults& results) {
   if (countOf(results).judged() > 0) return {};
-  bool measured = false, limitless = false;
+  bool measured = false, noLimit = false;
   std::string noOracle;
-  for (const Json& variant : list(results, "variants")) {
-    if (noOracle.empty()) noOracle = text(variant, "oracle_reason");
-    limitless = limitless || !list(variant, "no_limit").empty();
-    for (const Json& curve : list(variant, "curves"))
-      for (const QuantityLabel& quantity : quantityLabels())
-        measured = measured || number(member(member(curve, "score"), quantity.name), "max");
+  for (const CollisionVariant& variant : results.variants) {
+    if (noOracle.empty()) noOracle = variant.oracleReason;
+    noLimit = noLimit || !variant.noLimit.empty();
+    for (const CollisionCurve& curve : variant.curves)
+      for (const CollisionQuantity& quantity : scoredQuantities())
+        measured = measured || curve.score.of[quantity.id];
   }
   if (measured) return "the case has no [collision.margins] for what was measured";
   if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
-  if (limitless) return "the law has no limit of small time steps at any point of the sweep";
+  if (noLimit) return "the law has no limit of small time steps at any point of the sweep";
   return "no engine has an outcome to judge";
 }
 
-const std::vector<QuantityLabel>& quantityLabels() {
-  static const std::vector<QuantityLabel> labels = {{"psi_f", "Ψ_f"},
-                                                    {"e_n", "e_n"},
-                                                    {"beta", "β"},
-                                                    {"e_t", "e_t"},
-                                                    {"centre_psi_f", "centres' v_t"},
-                                                    {"rebound_angle", "angle"},
-                                                    {"spin_i", "ω_i"},
-                                                    {"spin_j", "ω_j"},
-                                                    {"duration", "duration"},
-                                                    {"max_overlap", "overlap"},
-                                                    {"energy_lost", "energy lost"},
-                                                    {"lost_normal_damping", "normal"},
-                                                    {"lost_tangential", "tangential"},
-                                                    {"lost_tangential_damping", "sticking"},
-                                                    {"lost_stiffening", "stiffening"},
-                                                    {"lost_sliding", "sliding"},
-                                                    {"lost_stored", "stored"}};
-  return labels;
+std::optional<double> numberAt(const std::vector<double>& list, std::size_t place) {
+  return place < list.size() ? finite(list[place]) : std::nullopt;
+}
+
+std::optional<std::string> lawWords(const std::string& option, const LawValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value))
+    return spaced(option) + " " + spaced(*word);
+  const auto constant = finite(std::get<double>(value));
+  if (!constant) return std::nullopt;
+  return spaced(option) + " " + readableSetting(constant);
 }
 
 }  // namespace crossgrain::reports

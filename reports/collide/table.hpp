@@ -1,54 +1,54 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "results/collision.hpp"
 
 /// Looking into the results of collisions.
 namespace crossgrain::reports {
 
-/// Rows of a table of columns {name: [one value per row]}.
-std::size_t rowCount(const Json& table);
-
-/// Absent where the column or the value is.
-std::optional<double> at(const Json& table, std::string_view column, std::size_t row);
-
 /// The variants of one case, in the results' order.
 struct CaseGroup {
   std::string name;
-  std::vector<const Json*> variants;
+  std::vector<const CollisionVariant*> variants;
 };
-std::vector<CaseGroup> casesOf(const Json& results);
+std::vector<CaseGroup> casesOf(const CollideResults& results);
 
 /// A variant's own case where the results hold several.
-std::string caseOf(const Json& results, const Json& variant);
+std::string caseOf(const CollideResults& results, const CollisionVariant& variant);
 
 /// An engine's curve of the largest time step that has points; null without one.
-const Json* coarsestCurve(const Json& variant, const std::string& engine);
+const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::string& engine);
 
 /// An engine's curves of a variant, by descending time step.
-std::vector<const Json*> curvesOf(const Json& variant, const std::string& engine);
+std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
+                                            const std::string& engine);
 
-/// "held" | "fell short" | "not judged", else the status.
-std::string verdictOf(const Json& curve);
+/// How a sweep came out.
+enum class SweepOutcome { held, fellShort, notJudged, refused, failed };
+constexpr auto namesOf(SweepOutcome) {
+  return std::array<std::string_view, 5>{"held", "fell short", "not judged", "refused", "failed"};
+}
+SweepOutcome outcomeOf(const CollisionCurve& curve);
 
 /// How the sweeps of all engines came out.
 struct CollideCount {
   int held = 0, fellShort = 0, notJudged = 0, refused = 0, failed = 0;
   int judged() const { return held + fellShort; }
 };
-CollideCount countOf(const Json& results);
+CollideCount countOf(const CollideResults& results);
 
 /// Why no sweep was judged, in a clause; empty if one was. Nothing judged is no success.
-std::string nothingJudged(const Json& results);
+std::string nothingJudged(const CollideResults& results);
 
-/// What can be scored, in the order of the tables.
-struct QuantityLabel {
-  std::string_view name, symbol;  ///< as in "score"; for mathHtml()
-};
-const std::vector<QuantityLabel>& quantityLabels();
+/// A number of a list; absent where it is beyond its end or not finite.
+std::optional<double> numberAt(const std::vector<double>& list, std::size_t place);
+
+/// "mu 0.44", "tension cut"; absent for a constant that is not finite.
+std::optional<std::string> lawWords(const std::string& option, const LawValue& value);
 
 }  // namespace crossgrain::reports

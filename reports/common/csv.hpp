@@ -9,11 +9,6 @@
 /// double; what is absent is an empty cell. Rings count from 1, at the wheel.
 namespace crossgrain::reports {
 
-/// engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status
-/// then further quantities, reason (reports/README.md). One row per collision; a sweep without any
-/// is one row with its status, its reason and no numbers.
-std::string collisionsCsv(const Json& results);
-
 /// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,
 /// from_rotation,to_rotation,prepared_rotations
 /// packing is an index, its stderr_kind "within_run", or "all", the mean over packings, "packings".
@@ -55,10 +50,6 @@ std::string agreementCsv(const Json& results);
 /// One row per field and ring; a leg that has none is one row with its status.
 std::string effectsCsv(const Json& results);
 
-/// engine,case,verdict,measure,value,limit,unit,step,reason, then degraded_limit,variant,time_s
-/// One row per engine, case and variant; step and time are those at which the limit was passed
-/// first, or an engine that failed was seen last.
-std::string stabilityCsv(const Json& results);
 /// engine,method,field,r_m,width_over_d,mean,stderr,unit
 std::string revCsv(const Json& results);
 

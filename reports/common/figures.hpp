@@ -16,19 +16,12 @@ namespace crossgrain::reports {
 /// distribution_contacts.
 std::vector<Figure> compareFigures(const Json& results);
 
-/// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
-std::vector<Figure> collideFigures(const Json& results);
-
 /// Every plot of a study of effects, for each engine k = 1, 2, …: effects_k_cost, what each costs
 /// and changes; effects_k_profile_FIELD, with and without.
 std::vector<Figure> effectFigures(const Json& results);
 
 /// Plots of fields against ring width: rev_FIELD.
 std::vector<Figure> revFigures(const Json& results);
-
-/// Plots of hard cases: stability_map, the verdicts of all; stability_CASE, the figure of a case
-/// over time where an engine did not keep to its limit.
-std::vector<Figure> stabilityFigures(const Json& results);
 
 /// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
 using IsFaint = std::function<bool(const EngineResults&, const std::string& field)>;

@@ -50,6 +50,10 @@ std::string fixed(double value, int decimals) {
 
 }  // namespace
 
+std::optional<double> finite(std::optional<double> value) {
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
 std::string readable(std::optional<double> value) {
   if (!value) return absentText;
   if (*value == 0.0) return "0";

@@ -8,6 +8,9 @@ namespace crossgrain::reports {
 
 inline constexpr const char* absentText = "–";
 
+/// Absent where it is not finite, too.
+std::optional<double> finite(std::optional<double> value);
+
 /// Three significant digits: 0.0123, 12.3, 12 346, 1.23×10⁻⁵.
 std::string readable(std::optional<double> value);
 

@@ -33,9 +33,6 @@ std::vector<Picture> comparePictures(const Json& results);
 /// @param width  of a full line, in radii of the largest disk
 Drawing forcesDrawing(const Json& picture, double widest, double width);
 
-/// Of hard cases: the worst moment of every run that is unstable, with its forces.
-std::vector<Picture> stabilityPictures(const Json& results);
-
 /// The normal force of the widest line [N]: 99 % of the picture's contacts lie below. Absent
 /// without contacts.
 std::optional<double> widestForce(const Json& picture);

@@ -4,31 +4,35 @@
 #include <cmath>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/figures.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
 /// One tile for each engine and case, in the colour of its worst verdict.
-Figure mapOf(const Json& results, const std::vector<EngineResults>& engines,
-             const std::vector<HardGroup>& groups) {
+Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& groups) {
+  const std::vector<EngineRow>& engines = results.engines;
   Panel panel;
   for (const HardGroup& group : groups) panel.rows.push_back(spaced(group.name));
-  for (const EngineResults& engine : engines) panel.columns.push_back(engine.name);
-  for (const VerdictLook& look : verdictLooks)
-    panel.curves.push_back(
-        {std::string(look.name), {std::string(look.colour), 5, false}, Draw::tiles, {}, 1.0});
+  for (const EngineRow& engine : engines) panel.columns.push_back(engine.name);
+  for (std::size_t rank = 0; rank < namesOf(StabilityVerdict{}).size(); ++rank) {
+    const auto verdict = static_cast<StabilityVerdict>(rank);
+    panel.curves.push_back({std::string(nameOf(verdict)),
+                            {std::string(styleOf(verdict).colour), 5, false},
+                            Draw::tiles,
+                            {},
+                            1.0});
+  }
   for (std::size_t e = 0; e < engines.size(); ++e)
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const Json& run = worstRun(results, engines[e].name, groups[g]);
-      if (run.is_null()) continue;
-      panel.curves[verdictRank(text(run, "verdict"))].points.push_back(
-          {static_cast<double>(e), static_cast<double>(g), {}});
-    }
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (const StabilityRun* run = worstRun(results, engines[e].name, groups[g]))
+        panel.curves[static_cast<std::size_t>(run->verdict)].points.push_back(
+            {static_cast<double>(e), static_cast<double>(g), {}});
   std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   Figure figure;
   figure.name = "stability_map";
@@ -42,50 +46,57 @@ Figure mapOf(const Json& results, const std::vector<EngineResults>& engines,
   return figure;
 }
 
-bool keptToLimit(const Json& run) {
-  return verdictRank(text(run, "verdict")) <= verdictRank("stable");
+bool keptToLimit(const StabilityRun& run) {
+  return run.verdict <= StabilityVerdict::stable;
 }
 
-Curve curveOf(const Json& run, const EngineResults& engine, bool logarithmic) {
-  Curve curve{engine.name, engine.style, Draw::lines, {}, 1.5};
-  const Json& track = member(run, "curve");
-  for (std::size_t k = 0; k < list(track, "t_s").size(); ++k) {
-    const auto t = number(list(track, "t_s")[k]), value = number(element(list(track, "value"), k));
-    if (t && value && (!logarithmic || *value > 0.0)) curve.points.push_back({*t, *value, {}});
-  }
+Curve curveOf(const StabilityRun& run, const LineStyle& style, bool logarithmic) {
+  Curve curve{run.engine, style, Draw::lines, {}, 1.5};
+  const auto& [time, value] = run.curve;
+  for (std::size_t k = 0; k < std::min(time.size(), value.size()); ++k)
+    if (std::isfinite(time[k]) && std::isfinite(value[k]) && (!logarithmic || value[k] > 0.0))
+      curve.points.push_back({time[k], value[k], {}});
   return curve;
 }
 
-/// The variant that somebody fared worst in, over time.
-std::optional<Figure> trackOf(const Json& results, const std::vector<EngineResults>& engines,
-                              const HardGroup& group, std::size_t index) {
-  const Json* shown = nullptr;
-  std::size_t worst = verdictRank("stable");
-  for (const Json* variant : group.variants)
-    for (const EngineResults& engine : engines) {
-      const Json& run = runOf(results, engine.name, *variant);
-      if (keptToLimit(run) || list(member(run, "curve"), "t_s").size() < 3) continue;
-      if (verdictRank(text(run, "verdict")) > worst) {
-        worst = verdictRank(text(run, "verdict"));
+/// The variant that somebody fared worst in, or null.
+const HardCase* worstVariant(const StabilityResults& results, const HardGroup& group) {
+  const HardCase* shown = nullptr;
+  StabilityVerdict worst = StabilityVerdict::stable;
+  for (const HardCase* variant : group.variants)
+    for (const EngineRow& engine : results.engines) {
+      const StabilityRun* run = runOf(results, engine.name, *variant);
+      if (!run || keptToLimit(*run) || run->curve.time.size() < 3) continue;
+      if (run->verdict > worst) {
+        worst = run->verdict;
         shown = variant;
       }
     }
+  return shown;
+}
+
+/// The variant that somebody fared worst in, over time.
+std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& group,
+                              std::size_t index) {
+  const HardCase* shown = worstVariant(results, group);
   if (!shown) return std::nullopt;
   Panel panel;
-  panel.name = text(*shown, "variant");
+  panel.name = shown->variant;
   panel.xLabel = "t [s]";
-  panel.yLabel = spaced(text(*shown, "measure"));
-  panel.level = number(*shown, "limit");
+  panel.yLabel = spaced(shown->measure);
+  panel.level = finite(shown->limit);
   panel.logY = panel.level.value_or(0.0) > 0.0;
-  for (const EngineResults& engine : engines)
-    panel.curves.push_back(curveOf(runOf(results, engine.name, *shown), engine, panel.logY));
+  const std::vector<LineStyle> styles = engineStyles(results.engines);
+  for (std::size_t e = 0; e < styles.size(); ++e)
+    if (const StabilityRun* run = runOf(results, results.engines[e].name, *shown))
+      panel.curves.push_back(curveOf(*run, styles[e], panel.logY));
   std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   if (panel.curves.empty()) return std::nullopt;
   Figure figure;
   figure.name = fmt::format("stability_{}", index);
-  figure.title = fmt::format("{} over time, {}", spaced(text(*shown, "measure")), group.name);
+  figure.title = fmt::format("{} over time, {}", spaced(shown->measure), group.name);
   figure.caption =
-      fmt::format("{} [{}] over time{}{}.", spaced(text(*shown, "measure")), text(*shown, "unit"),
+      fmt::format("{} [{}] over time{}{}.", spaced(shown->measure), shown->unit,
                   panel.name.empty() ? "" : ", variant " + panel.name,
                   panel.level ? "; the grey line is the limit, " + readable(panel.level) : "");
   figure.panels.push_back(std::move(panel));
@@ -96,15 +107,13 @@ std::optional<Figure> trackOf(const Json& results, const std::vector<EngineResul
 
 }  // namespace
 
-std::vector<Figure> stabilityFigures(const Json& results) {
-  const std::vector<EngineResults> engines = engineResults(results);
+std::vector<Figure> stabilityFigures(const StabilityResults& results) {
   const std::vector<HardGroup> groups = hardGroups(results);
   std::vector<Figure> figures;
-  if (groups.empty() || engines.empty()) return figures;
-  figures.push_back(mapOf(results, engines, groups));
+  if (groups.empty() || results.engines.empty()) return figures;
+  figures.push_back(mapOf(results, groups));
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (auto figure = trackOf(results, engines, groups[g], g + 1))
-      figures.push_back(std::move(*figure));
+    if (auto figure = trackOf(results, groups[g], g + 1)) figures.push_back(std::move(*figure));
   return figures;
 }
 

@@ -7,90 +7,84 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
+#include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-const VerdictLook& lookOf(const Json& run) {
-  return verdictLooks[verdictRank(text(run, "verdict"))];
-}
-
 /// The clause that says what is lacking, of "X cannot run FILE: CLAUSE; HINT".
-std::string shortReason(const Json& run) {
-  const std::string reason = text(run, "reason");
-  const auto clause = reason.find(".toml: ");
-  if (text(run, "verdict") != "refused" || clause == std::string::npos) return reason;
-  const std::string rest = reason.substr(clause + 7);
+std::string shortReason(const StabilityRun& run) {
+  const auto clause = run.reason.find(".toml: ");
+  if (run.verdict != StabilityVerdict::refused || clause == std::string::npos) return run.reason;
+  const std::string rest = run.reason.substr(clause + 7);
   return rest.substr(0, rest.find("; list "));
 }
 
-std::string valueOf(const Json& run) {
-  const auto value = number(run, "value");
-  if (!value) return {};
-  return *value > 1e300 ? "beyond numbers" : readable(value);
+std::string valueOf(const StabilityRun& run) {
+  if (!run.value) return {};
+  return *run.value > 1e300 ? "beyond numbers" : readable(run.value);
 }
 
 /// "3.2 × its limit", "step 120"
-Json cellOf(const Json& run) {
-  if (run.is_null()) return {{"text", absentText}, {"class", ""}, {"lines", Json::array()}};
+Json cellOf(const StabilityRun* run) {
+  if (!run) return {{"text", absentText}, {"class", ""}, {"lines", Json::array()}};
   Json lines = Json::array();
-  const VerdictLook& look = lookOf(run);
-  if (const std::string value = valueOf(run); !value.empty()) lines.push_back(value);
-  if (const auto step = number(run, "step"); step && look.name != "stable")
-    lines.push_back("from step " + readableCount(step));
-  if (!number(run, "value")) lines.push_back(mathHtml(shortReason(run)));
-  return {{"text", fmt::format("{} {}", look.mark, look.name)},
-          {"class", look.cssClass},
+  if (const std::string value = valueOf(*run); !value.empty()) lines.push_back(value);
+  if (run->step && run->verdict != StabilityVerdict::stable)
+    lines.push_back("from step " + readableCount(stepOf(*run)));
+  if (!run->value) lines.push_back(mathHtml(shortReason(*run)));
+  return {{"text", inWords(run->verdict)},
+          {"class", styleOf(run->verdict).cssClass},
           {"lines", std::move(lines)}};
 }
 
-Json cellsOf(const Json& results, const std::vector<EngineResults>& engines, const auto& runFor) {
+/// @param runFor  the run of an engine, or null
+Json cellsOf(const StabilityResults& results, const auto& runFor) {
   Json cells = Json::array();
-  for (const EngineResults& engine : engines) cells.push_back(cellOf(runFor(results, engine)));
+  for (const EngineRow& engine : results.engines) cells.push_back(cellOf(runFor(engine.name)));
   return cells;
 }
 
 /// Every verdict of an engine in a case at a glance: "3 of 4 stable".
-std::string tallyOf(const Json& results, const std::string& engine, const HardGroup& group) {
+std::string tallyOf(const StabilityResults& results, const std::string& engine,
+                    const HardGroup& group) {
   int stable = 0, judged = 0;
-  for (const Json* variant : group.variants) {
-    const Json& run = runOf(results, engine, *variant);
-    stable += text(run, "verdict") == "stable";
-    judged += verdictRank(text(run, "verdict")) > 0;
-  }
+  for (const HardCase* variant : group.variants)
+    if (const StabilityRun* run = runOf(results, engine, *variant)) {
+      stable += run->verdict == StabilityVerdict::stable;
+      judged += run->verdict != StabilityVerdict::refused;
+    }
   return judged > 1 ? fmt::format("{} of {} stable", stable, judged) : std::string();
 }
 
-Json matrixOf(const Json& results, const std::vector<HardGroup>& groups,
-              const std::vector<EngineResults>& engines) {
+Json matrixOf(const StabilityResults& results, const std::vector<HardGroup>& groups) {
   Json rows = Json::array();
   for (const HardGroup& group : groups) {
-    Json cells = cellsOf(results, engines, [&](const Json& all, const EngineResults& engine) {
-      return worstRun(all, engine.name, group);
-    });
-    for (std::size_t e = 0; e < engines.size(); ++e)
-      if (const std::string tally = tallyOf(results, engines[e].name, group); !tally.empty())
+    Json cells = cellsOf(
+        results, [&](const std::string& engine) { return worstRun(results, engine, group); });
+    for (std::size_t e = 0; e < results.engines.size(); ++e)
+      if (const std::string tally = tallyOf(results, results.engines[e].name, group);
+          !tally.empty())
         cells[e]["lines"].insert(cells[e]["lines"].begin(), tally);
     rows.push_back({{"id", fmt::format("case_{}", rows.size() + 1)},
                     {"name", spaced(group.name)},
-                    {"measure", spaced(text(*group.variants.front(), "measure"))},
+                    {"measure", spaced(group.variants.front()->measure)},
                     {"cells", std::move(cells)}});
   }
   return rows;
 }
 
-std::string unitOf(const Json& of) {
-  const std::string unit = text(of, "unit");
+std::string shownUnit(const std::string& unit) {
   return unit == "-" ? "" : unit;
 }
 
-std::string limitsOf(const Json& variant) {
-  const std::string unit = unitOf(variant);
-  return fmt::format("{}{}{}, degraded up to {}", readableSetting(number(variant, "limit")),
-                     unit.empty() ? "" : " ", unit,
-                     readableSetting(number(variant, "degraded_limit")));
+std::string limitsOf(const HardCase& variant) {
+  const std::string unit = shownUnit(variant.unit);
+  return fmt::format("{}{}{}, degraded up to {}", readableSetting(finite(variant.limit)),
+                     unit.empty() ? "" : " ", unit, readableSetting(finite(variant.degradedLimit)));
 }
 
 /// Their titles are "ENGINE: CASE" or "ENGINE: CASE, VARIANT".
@@ -103,22 +97,20 @@ Json pictureViewsOf(const Illustrations& shown, const std::string& name) {
   return views;
 }
 
-Json casesOf(const Json& results, const std::vector<HardGroup>& groups,
-             const std::vector<EngineResults>& engines, const Illustrations& shown) {
+Json casesOf(const StabilityResults& results, const std::vector<HardGroup>& groups,
+             const Illustrations& shown) {
   Json views = Json::array();
   for (const HardGroup& group : groups) {
-    const Json& first = *group.variants.front();
+    const HardCase& first = *group.variants.front();
     Json rows = Json::array();
-    for (const Json* variant : group.variants)
+    for (const HardCase* variant : group.variants)
       rows.push_back(
-          {{"name", text(*variant, "variant")},
-           {"otherMeasure", text(*variant, "measure") == text(first, "measure")
-                                ? ""
-                                : spaced(text(*variant, "measure"))},
-           {"limit", readableSetting(number(*variant, "limit"))},
-           {"degraded", readableSetting(number(*variant, "degraded_limit"))},
-           {"cells", cellsOf(results, engines, [&](const Json& all, const EngineResults& engine) {
-              return runOf(all, engine.name, *variant);
+          {{"name", variant->variant},
+           {"otherMeasure", variant->measure == first.measure ? "" : spaced(variant->measure)},
+           {"limit", readableSetting(finite(variant->limit))},
+           {"degraded", readableSetting(finite(variant->degradedLimit))},
+           {"cells", cellsOf(results, [&](const std::string& engine) {
+              return runOf(results, engine, *variant);
             })}});
     Json pictures = pictureViewsOf(shown, group.name);
     const std::size_t index = views.size() + 1;
@@ -128,14 +120,14 @@ Json casesOf(const Json& results, const std::vector<HardGroup>& groups,
         figures.push_back(std::move(view));
     views.push_back({{"id", fmt::format("case_{}", index)},
                      {"name", spaced(group.name)},
-                     {"tests", text(first, "tests")},
-                     {"measure", spaced(text(first, "measure"))},
-                     {"what", text(first, "what")},
-                     {"unit", unitOf(first)},
+                     {"tests", first.tests},
+                     {"measure", spaced(first.measure)},
+                     {"what", first.what},
+                     {"unit", shownUnit(first.unit)},
                      {"limits", limitsOf(first)},
-                     {"why", text(first, "why")},
-                     {"file", text(first, "file")},
-                     {"toml", text(first, "toml")},
+                     {"why", first.why},
+                     {"file", first.file},
+                     {"toml", first.toml},
                      {"variants", std::move(rows)},
                      {"hasPictures", !pictures.empty()},
                      {"pictures", std::move(pictures)},
@@ -145,18 +137,19 @@ Json casesOf(const Json& results, const std::vector<HardGroup>& groups,
   return views;
 }
 
-void addSummary(Json& view, const Json& results, const std::vector<EngineResults>& engines) {
-  std::map<std::string, std::map<std::string, int>> counts;
-  std::map<std::string, int> all;
-  for (const Json& run : list(results, "runs")) {
-    ++counts[text(run, "engine")][text(run, "verdict")];
-    ++all[text(run, "verdict")];
+void addSummary(Json& view, const StabilityResults& results) {
+  using Counts = std::map<std::string_view, int>;  // by the verdicts' names
+  std::map<std::string, Counts> counts;
+  Counts all;
+  for (const StabilityRun& run : results.runs) {
+    ++counts[run.engine][nameOf(run.verdict)];
+    ++all[nameOf(run.verdict)];
   }
   const int judged = all["stable"] + all["degraded"] + all["unstable"];
   view["lead"] =
       fmt::format("{} of {} runs of hard cases stayed within their limits.", all["stable"], judged);
   view["sentences"] = Json::array();
-  for (const EngineResults& engine : engines) {
+  for (const EngineRow& engine : results.engines) {
     std::vector<std::string> words;
     for (const auto& [verdict, count] : counts[engine.name])
       words.push_back(fmt::format("{} {}", count, verdict));
@@ -164,40 +157,46 @@ void addSummary(Json& view, const Json& results, const std::vector<EngineResults
   }
 }
 
-Json scoreRows(const Json& results) {
+Json engineRows(const std::vector<EngineRow>& engines) {
+  const std::vector<LineStyle> styles = engineStyles(engines);
   Json rows = Json::array();
-  for (const Json& run : list(results, "runs")) {
-    const VerdictLook& look = lookOf(run);
-    rows.push_back({{"engine", text(run, "engine")},
-                    {"case", spaced(text(run, "case"))},
-                    {"variant", text(run, "variant")},
-                    {"verdict", fmt::format("{} {}", look.mark, look.name)},
-                    {"class", look.cssClass},
-                    {"measure", spaced(text(run, "measure"))},
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    rows.push_back({{"name", engines[e].name},
+                    {"colour", styles[e].colour},
+                    {"dashed", styles[e].dashed},
+                    {"version", engines[e].version},
+                    {"summary", engines[e].summary}});
+  return rows;
+}
+
+Json scoreRows(const StabilityResults& results) {
+  Json rows = Json::array();
+  for (const StabilityRun& run : results.runs)
+    rows.push_back({{"engine", run.engine},
+                    {"case", spaced(run.name)},
+                    {"variant", run.variant},
+                    {"verdict", inWords(run.verdict)},
+                    {"class", styleOf(run.verdict).cssClass},
+                    {"measure", spaced(run.measure)},
                     {"value", valueOf(run)},
-                    {"limit", readableSetting(number(run, "limit"))},
-                    {"degraded", readableSetting(number(run, "degraded_limit"))},
-                    {"unit", unitOf(run)},
-                    {"step", number(run, "step") ? readableCount(number(run, "step")) : ""},
+                    {"limit", readableSetting(finite(run.limit))},
+                    {"degraded", readableSetting(finite(run.degradedLimit))},
+                    {"unit", shownUnit(run.unit)},
+                    {"step", run.step ? readableCount(stepOf(run)) : ""},
                     {"reason", shortReason(run)}});
-  }
   return rows;
 }
 
 }  // namespace
 
-std::string stabilityPage(const Json& results, const Illustrations& shown) {
-  const std::vector<EngineResults> engines = engineResults(results);
+std::string stabilityPage(const StabilityResults& results, const Illustrations& shown) {
   const std::vector<HardGroup> groups = hardGroups(results);
-  Json view = commonView(results, shown);
-  addSummary(view, results, engines);
-  view["engines"] = columnsView(engines);
-  for (std::size_t k = 0; k < engines.size(); ++k)
-    for (const char* key : {"version", "summary"})
-      view["engines"][k][key] = text(*engines[k].entry, key);
+  Json view = commonView(results.head, results.elapsed, {}, shown);
+  addSummary(view, results);
+  view["engines"] = engineRows(results.engines);
   view["map"] = figureViews(shown, "stability_map");
-  view["matrix"] = matrixOf(results, groups, engines);
-  view["cases"] = casesOf(results, groups, engines, shown);
+  view["matrix"] = matrixOf(results, groups);
+  view["cases"] = casesOf(results, groups, shown);
   view["scores"] = scoreRows(results);
   view["files"] = "Beside this page: results.json (everything) and stability.csv.";
   return render("report_stability.html", view);

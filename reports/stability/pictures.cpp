@@ -4,17 +4,17 @@
 #include <cmath>
 
 #include "reports/common/numbers.hpp"
-#include "reports/common/pictures.hpp"
-#include "reports/stability/table.hpp"
+#include "reports/stability/report.hpp"
+#include "results/stability_fields.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-double middleOf(const Json& values) {
+double middleOf(const std::vector<double>& values) {
   std::vector<double> sorted;
-  for (const Json& value : values)
-    if (const auto known = number(value)) sorted.push_back(*known);
+  for (const double value : values)
+    if (std::isfinite(value)) sorted.push_back(value);
   if (sorted.empty()) return 0.0;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
@@ -22,55 +22,53 @@ double middleOf(const Json& values) {
 }
 
 /// Drops disks far away from most, which would make of the rest a dot.
-void dropFarAway(Json& picture) {
+void dropFarAway(ScenePicture& picture) {
   constexpr double farAway = 60.0;  // radii of the largest
-  const double x0 = middleOf(list(picture, "x")), y0 = middleOf(list(picture, "y"));
+  const double x0 = middleOf(picture.x), y0 = middleOf(picture.y);
   double largest = 0.0;
-  for (const Json& radius : list(picture, "radius"))
-    largest = std::max(largest, number(radius).value_or(0.0));
-  const double reach =
-      largest * (farAway + 3.0 * std::sqrt(static_cast<double>(list(picture, "x").size())));
-  for (const auto& [keyX, keyY] : {std::pair("x", "y"), std::pair("wall_x", "wall_y")})
-    for (std::size_t k = 0; k < list(picture, keyX).size(); ++k) {
-      const auto x = number(picture[keyX][k]), y = number(picture[keyY][k]);
-      if (x && y && std::abs(*x - x0) < reach && std::abs(*y - y0) < reach) continue;
-      picture[keyX][k] = picture[keyY][k] = nullptr;
-    }
+  for (const double radius : picture.radius) largest = std::max(largest, radius);
+  const double reach = largest * (farAway + 3.0 * std::sqrt(static_cast<double>(picture.x.size())));
+  const auto drop = [&](std::vector<double>& x, std::vector<double>& y) {
+    y.resize(x.size(), NAN);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (!(std::abs(x[k] - x0) < reach && std::abs(y[k] - y0) < reach)) x[k] = y[k] = NAN;
+  };
+  drop(picture.x, picture.y);
+  drop(picture.wallX, picture.wallY);
 }
 
 /// Half way between the outermost of the disks.
-double centreOf(const Json& places) {
+double centreOf(const std::vector<double>& places) {
   double low = INFINITY, high = -INFINITY;
-  for (const Json& place : places)
-    if (const auto known = number(place)) {
-      low = std::min(low, *known);
-      high = std::max(high, *known);
+  for (const double place : places)
+    if (std::isfinite(place)) {
+      low = std::min(low, place);
+      high = std::max(high, place);
     }
   return low <= high ? 0.5 * (low + high) : 0.0;
 }
 
 /// The picture with the disks about the origin.
-Json centred(Json picture) {
+ScenePicture centred(ScenePicture picture) {
   dropFarAway(picture);
-  const double x0 = centreOf(list(picture, "x")), y0 = centreOf(list(picture, "y"));
-  for (const auto& [key, shift] :
-       {std::pair("x", x0), std::pair("y", y0), std::pair("wall_x", x0), std::pair("wall_y", y0)})
-    if (picture.contains(key))
-      for (Json& place : picture[key])
-        if (const auto known = number(place)) place = *known - shift;
-  if (picture.contains("planes"))
-    for (Json& plane : picture["planes"]) {
-      plane[0] = number(plane[0]).value_or(0.0) - x0;
-      plane[1] = number(plane[1]).value_or(0.0) - y0;
+  const double x0 = centreOf(picture.x), y0 = centreOf(picture.y);
+  for (auto* xs : {&picture.x, &picture.wallX})
+    for (double& x : *xs) x -= x0;
+  for (auto* ys : {&picture.y, &picture.wallY})
+    for (double& y : *ys) y -= y0;
+  if (picture.planes)
+    for (auto& [x, y, normalX, normalY] : *picture.planes) {
+      x -= x0;
+      y -= y0;
     }
   return picture;
 }
 
 /// Planes as lines through the whole window.
-void addPlanes(const Json& picture, Drawing& drawing) {
+void addPlanes(const ScenePicture& picture, Drawing& drawing) {
+  if (!picture.planes) return;
   StrokeGroup lines{"#555555", drawing.halfWidth / 100.0, {}};
-  for (const Json& plane : list(picture, "planes")) {
-    const double x = plane[0], y = plane[1], nx = plane[2], ny = plane[3];
+  for (const auto& [x, y, nx, ny] : *picture.planes) {
     const double away = x * nx + y * ny, half = 3.0 * drawing.halfWidth;
     const double footX = away * nx, footY = away * ny;
     if (std::abs(away) > drawing.halfWidth) continue;
@@ -80,19 +78,19 @@ void addPlanes(const Json& picture, Drawing& drawing) {
   if (!lines.strokes.empty()) drawing.groups.push_back(std::move(lines));
 }
 
-Picture pictureOf(const Json& run, std::size_t index) {
-  const Json picture = centred(member(run, "picture"));
+Picture pictureOf(const StabilityRun& run, std::size_t index) {
+  const ScenePicture shown = centred(*run.picture);
+  const Json picture = jsonOf(shown);
   const auto widest = widestForce(picture);
-  const std::string variant = text(run, "variant");
+  const std::string& variant = run.variant;
   Drawing drawing = forcesDrawing(picture, widest.value_or(1.0), 0.35);
   drawing.halfWidth *= 1.08;
-  addPlanes(picture, drawing);
+  addPlanes(shown, drawing);
   return {fmt::format("worst_{}", index),
-          text(run, "engine"),
-          fmt::format("{}: {}{}{}", text(run, "engine"), text(run, "case"),
-                      variant.empty() ? "" : ", ", variant),
-          fmt::format("{}{}{}at {} s{}", text(run, "case"), variant.empty() ? " " : ", " + variant,
-                      variant.empty() ? "" : " ", readable(number(picture, "time_s")),
+          run.engine,
+          fmt::format("{}: {}{}{}", run.engine, run.name, variant.empty() ? "" : ", ", variant),
+          fmt::format("{}{}{}at {} s{}", run.name, variant.empty() ? " " : ", " + variant,
+                      variant.empty() ? "" : " ", readable(finite(shown.time)),
                       widest ? fmt::format("; widest line: {} N", readable(widest)) : ""),
           Picture::Shows::worst,
           std::move(drawing)};
@@ -100,10 +98,10 @@ Picture pictureOf(const Json& run, std::size_t index) {
 
 }  // namespace
 
-std::vector<Picture> stabilityPictures(const Json& results) {
+std::vector<Picture> stabilityPictures(const StabilityResults& results) {
   std::vector<Picture> pictures;
-  for (const Json& run : list(results, "runs"))
-    if (text(run, "verdict") == "unstable" && member(run, "picture").is_object())
+  for (const StabilityRun& run : results.runs)
+    if (run.verdict == StabilityVerdict::unstable && run.picture)
       pictures.push_back(pictureOf(run, pictures.size() + 1));
   return pictures;
 }

@@ -1,40 +1,49 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "results/stability.hpp"
 
 /// Looking into the results of hard cases.
 namespace crossgrain::reports {
 
-/// A verdict and how it is shown everywhere.
-struct VerdictLook {
-  std::string_view name, mark, cssClass, colour;
+/// How a verdict is shown everywhere.
+struct VerdictStyle {
+  std::string_view mark, cssClass, colour;
 };
+constexpr VerdictStyle styleOf(StabilityVerdict verdict) {
+  constexpr std::array styles = {VerdictStyle{"–", "undecided", "#d5d9dd"},  // refused
+                                 VerdictStyle{"✓", "agree", "#8cc3e0"},
+                                 VerdictStyle{"~", "degraded", "#f0d264"},
+                                 VerdictStyle{"✗", "disagree", "#d55e00"}};
+  return styles[static_cast<std::size_t>(verdict)];
+}
 
-/// From best to worst; "refused" is none of them: nothing was judged.
-inline constexpr std::array verdictLooks = {VerdictLook{"refused", "–", "undecided", "#d5d9dd"},
-                                            VerdictLook{"stable", "✓", "agree", "#8cc3e0"},
-                                            VerdictLook{"degraded", "~", "degraded", "#f0d264"},
-                                            VerdictLook{"unstable", "✗", "disagree", "#d55e00"}};
-
-/// Its place in verdictLooks; unknown words are at the first.
-std::size_t verdictRank(std::string_view verdict);
+/// "✓ stable"
+std::string inWords(StabilityVerdict verdict);
 
 /// All variants of one hard case.
 struct HardGroup {
   std::string name;
-  std::vector<const Json*> variants;  ///< entries of results["cases"]
+  std::vector<const HardCase*> variants;  ///< of the results
 };
-std::vector<HardGroup> hardGroups(const Json& results);
+std::vector<HardGroup> hardGroups(const StabilityResults& results);
+
+/// As a number to be shown.
+inline std::optional<double> stepOf(const StabilityRun& run) {
+  return run.step ? std::optional(static_cast<double>(*run.step)) : std::nullopt;
+}
 
 /// The run of that engine on that variant, or null.
-const Json& runOf(const Json& results, const std::string& engine, const Json& variant);
+const StabilityRun* runOf(const StabilityResults& results, const std::string& engine,
+                          const HardCase& variant);
 
 /// Its worst run in a case, by verdict and then by value/limit; null without one.
-const Json& worstRun(const Json& results, const std::string& engine, const HardGroup& group);
+const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
+                             const HardGroup& group);
 
 }  // namespace crossgrain::reports

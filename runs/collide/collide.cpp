@@ -8,6 +8,8 @@
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "cases/time_step.hpp"
+#include "results/head_fields.hpp"
+#include "results/schema.hpp"
 #include "runs/collide/engine_sweeps.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/progress.hpp"
@@ -19,16 +21,14 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
 /// Options that matter to the law, and constants that it has.
-json lawJson(const ContactLaw& law) {
-  json options;
+std::map<std::string, LawValue> lawInWords(const ContactLaw& law) {
+  std::map<std::string, LawValue> options;
   for (const LawOption& option : lawOptions())
     if (mattersTo(law, option.name))
-      options[std::string(option.name)] = option.values[option.get(law)];
+      options[std::string(option.name)] = std::string(option.values[option.get(law)]);
   const PairCoefficients has = coefficientsOf(law);
   const std::pair<const char*, double> constants[] = {
       {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
@@ -41,7 +41,7 @@ json lawJson(const ContactLaw& law) {
 }
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
-json fineOracle(const Case& setup) {
+CollisionTable fineOracle(const Case& setup) {
   const auto& psi = setup.collision.psi;
   const auto parts = std::max<std::size_t>(1, 80 / psi.size());
   std::vector<CollisionStart> starts;
@@ -49,11 +49,11 @@ json fineOracle(const Case& setup) {
   for (std::size_t k = 0; k < psi.size(); ++k)
     for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
-      const double share = static_cast<double>(part) / static_cast<double>(parts);
-      one.collision.psi = {psi[k] + (next - psi[k]) * share};
+      const double fraction = static_cast<double>(part) / static_cast<double>(parts);
+      one.collision.psi = {psi[k] + (next - psi[k]) * fraction};
       starts.push_back(collisionStarts(one).front());
     }
-  return columnsOf(starts, outcomesOf(oracleCurve(setup, starts)));
+  return tableOf(starts, outcomesOf(oracleCurve(setup, starts)));
 }
 
 /// The engines of any of the cases, those named first. @throws BadInput
@@ -70,15 +70,15 @@ std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
 void throwIfAllRefused(const EngineSweeps& engine, std::size_t cases) {
   std::string reason;
   for (std::size_t k = 0; k < cases; ++k)
-    for (const json& curve : *engine.curves(k)) {
-      if (curve["status"] != "refused") return;
-      reason = curve["reason"];
+    for (const CollisionCurve& curve : *engine.curves(k)) {
+      if (curve.status != SweepStatus::refused) return;
+      reason = curve.reason;
     }
   throw UnsupportedScene(reason);
 }
 
-json effectsJson(const CollisionCase& sweep) {
-  json names = json::array();
+std::vector<std::string> effectNames(const CollisionCase& sweep) {
+  std::vector<std::string> names;
   for (const Effect effect :
        effectsOf(collisionScene(*sweep.setup, sweep.starts, sweep.steps.front())))
     names.push_back(toString(effect));
@@ -86,33 +86,49 @@ json effectsJson(const CollisionCase& sweep) {
 }
 
 /// Points that no engine is held against, and why.
-json noLimitJson(const CollisionCase& sweep) {
-  json points = json::array();
+std::vector<NoLimitPoint> noLimitPoints(const CollisionCase& sweep) {
+  std::vector<NoLimitPoint> points;
   for (std::size_t k = 0; k < sweep.starts.size(); ++k)
     if (const std::string reason = noLimitReason(*sweep.setup, sweep.starts, sweep.oracle, k);
         !reason.empty())
-      points.push_back({{"psi_i", sweep.starts[k].psi},
-                        {"v_n", sweep.starts[k].vn},
-                        {"psi_f", sweep.oracle.ends[k]->psi},
-                        {"reason", reason}});
+      points.push_back(
+          {sweep.starts[k].psi, sweep.starts[k].vn, sweep.oracle.ends[k]->psi, reason});
   return points;
 }
 
-json variantJson(const CollisionCase& sweep) {
+/// All but the engines' curves.
+CollisionVariant variantOf(const CollisionCase& sweep) {
   const Case& setup = *sweep.setup;
   const CollidingPair pair = collidingPair(setup);
-  return {{"case", setup.name},
-          {"variant", setup.variant.empty() ? setup.name : setup.variant},
-          {"law", lawJson(setup.law)},
-          {"effects", effectsJson(sweep)},
-          {"e_n_closed", toJson(closedRestitution(setup.law, pair.reducedMass()))},
-          {"sticking", {{"e_t0", setup.law.soft() ? json(nullptr) : json(setup.law.et0)}}},
-          {"sliding_constant", toJson(slidingConstant(setup.law, pair))},
-          {"oracle", fineOracle(setup)},
-          {"oracle_reason", sweep.oracle.reason},
-          {"reference", columnsOf(sweep.starts, referenceOf(sweep.oracle))},
-          {"no_limit", noLimitJson(sweep)},
-          {"curves", json::array()}};
+  CollisionVariant variant;
+  variant.name = setup.name;
+  variant.variant = setup.variant.empty() ? setup.name : setup.variant;
+  variant.law = lawInWords(setup.law);
+  variant.effects = effectNames(sweep);
+  variant.closedEn = closedRestitution(setup.law, pair.reducedMass());
+  if (!setup.law.soft()) variant.sticking.et0 = setup.law.et0;
+  variant.slidingConstant = slidingConstant(setup.law, pair);
+  variant.oracle = fineOracle(setup);
+  variant.oracleReason = sweep.oracle.reason;
+  variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle));
+  variant.noLimit = noLimitPoints(sweep);
+  return variant;
+}
+
+/// How an engine came through all cases.
+EngineRow rowOf(const EngineSweeps& engine, std::size_t cases) {
+  const EngineEntry& entry = engine.entry();
+  EngineRow row{entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
+  // Refusing some variants is no failure; the curves say which.
+  for (std::size_t k = 0; k < cases; ++k)
+    for (const CollisionCurve& curve : *engine.curves(k)) {
+      if (curve.status == SweepStatus::failed) {
+        row.status = EngineStatus::failed;
+        row.reason = curve.reason;
+      }
+      if (curve.realised) row.version = curve.realised->version;
+    }
+  return row;
 }
 
 void requireInstalled(const std::vector<EngineEntry>& engines) {
@@ -142,13 +158,17 @@ std::string collidePlan(const std::vector<Case>& variants, const RunCommand& com
     engine.takeUp(sweeps);
     PlannedWork work{entry.name, "cases"};
     for (std::size_t s = 0; s < sweeps.size(); ++s)
-      if (sweeps[s].wants(entry, command.engines)) count(work, engine.curves(s));
+      if (sweeps[s].wants(entry, command.engines)) {
+        ++work.total;
+        work.finished += engine.curves(s).has_value();
+      }
     works.push_back(work);
   }
   return dryRunInWords(head, works, store, command);
 }
 
-json collideEngines(const std::vector<Case>& variants, const RunCommand& command, RunStore& store) {
+CollideResults collideEngines(const std::vector<Case>& variants, const RunCommand& command,
+                              RunStore& store) {
   const auto started = std::chrono::steady_clock::now();
   const std::vector<EngineEntry> entries = enginesForAny(variants, command.engines);
   requireInstalled(entries);
@@ -188,44 +208,25 @@ json collideEngines(const std::vector<Case>& variants, const RunCommand& command
   for (const EngineSweeps& engine : engines)
     if (isNamed(command.engines, engine.entry())) throwIfAllRefused(engine, sweeps.size());
 
-  json results = resultsHead("collide", variants.front(), command.commandLine);
-  results["case"]["variant"] = "";
-  results["variants"] = json::array();
-  results["orders"] = json::array();
+  CollideResults results;
+  results.head = readAs<ResultsHead>(
+      resultsHead(std::string(kindCollide), variants.front(), command.commandLine));
+  results.head.setup.variant.clear();
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
-    json variant = variantJson(sweeps[s]);
-    for (std::size_t e = 0; e < engines.size(); ++e) {
-      std::vector<const json*> list;
-      for (const json& curve : *engines[e].curves(s)) list.push_back(&curve);
-      if (auto order = convergenceOrder(list)) {
-        (*order)["case"] = variant["case"];
-        (*order)["variant"] = variant["variant"];
-        results["orders"].push_back(*order);
+    CollisionVariant& variant = results.variants.emplace_back(variantOf(sweeps[s]));
+    for (const EngineSweeps& engine : engines) {
+      const std::vector<CollisionCurve>& curves = *engine.curves(s);
+      if (auto order = convergenceOrder(curves)) {
+        order->name = variant.name;
+        order->variant = variant.variant;
+        results.orders.push_back(std::move(*order));
       }
-      for (const json& curve : *engines[e].curves(s)) variant["curves"].push_back(curve);
+      variant.curves.insert(variant.curves.end(), curves.begin(), curves.end());
     }
-    results["variants"].push_back(std::move(variant));
   }
-  results["engines"] = json::array();
-  for (std::size_t e = 0; e < engines.size(); ++e) {
-    // Refusing some variants is no failure; the curves say which.
-    std::string status = "ran", reason, version;
-    for (std::size_t s = 0; s < sweeps.size(); ++s)
-      for (const json& curve : *engines[e].curves(s)) {
-        if (curve["status"] == "failed") {
-          status = "failed";
-          reason = curve["reason"];
-        }
-        if (curve["realised"].is_object()) version = curve["realised"]["version"];
-      }
-    results["engines"].push_back({{"name", entries[e].name},
-                                  {"summary", entries[e].summary},
-                                  {"version", version},
-                                  {"mirrors", entries[e].mirrors},
-                                  {"status", status},
-                                  {"reason", reason}});
-  }
-  results["elapsed_s"] =
+  for (const EngineSweeps& engine : engines)
+    results.engines.push_back(rowOf(engine, sweeps.size()));
+  results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }

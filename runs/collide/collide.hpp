@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
+#include "results/collision.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
@@ -14,9 +14,8 @@ namespace crossgrain::inline runs {
 /// whole curve against the oracle of the same planar problem. Finished sweeps are kept in the store
 /// at once, and taken up.
 /// @param variants  one case per variant, from one file or several
-/// @return results.json, kind "collide"
 /// @throws BadInput, UnsupportedScene, Interrupted
-nlohmann::json collideEngines(const std::vector<Case>& variants, const RunCommand& command,
+CollideResults collideEngines(const std::vector<Case>& variants, const RunCommand& command,
                               RunStore& store);
 
 /// What that would run, for people. Engines are asked for their version; nothing is computed.

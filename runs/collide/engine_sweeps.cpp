@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
+#include "results/collision_fields.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 bool CollisionCase::wants(const EngineEntry& entry, const std::vector<std::string>& named) const {
   if (entry.mirrors.empty() || isNamed(named, entry)) return true;
@@ -29,11 +28,14 @@ void EngineSweeps::start(double timeout) {
 void EngineSweeps::takeUp(const std::vector<CollisionCase>& cases) {
   for (const CollisionCase& each : cases) {
     if (!each.wants(entry_, named_)) {
-      curves_.emplace_back(json::array());
+      curves_.emplace_back(std::vector<CollisionCurve>());
       continue;
     }
-    curves_.push_back(store_.find(nameOf(*each.setup), runKey(*each.setup, entry_.name, version_)));
-    if (curves_.back()) ++takenUp_;
+    const auto kept = store_.find(nameOf(*each.setup), runKey(*each.setup, entry_.name, version_));
+    curves_.emplace_back();
+    if (!kept) continue;
+    readFrom(*kept, curves_.back().emplace());
+    ++takenUp_;
   }
 }
 
@@ -44,43 +46,40 @@ void EngineSweeps::runRest(const std::vector<CollisionCase>& cases,
     if (!curves_[k]) total += cases[k].steps.size();
   for (std::size_t k = 0; k < cases.size(); ++k) {
     if (curves_[k]) continue;
-    json list =
+    std::vector<CollisionCurve> list =
         run(cases[k], [&] { progress(static_cast<double>(++done) / static_cast<double>(total)); });
     const Case& setup = *cases[k].setup;
-    if (std::ranges::none_of(list, [](const json& one) { return one["status"] == "failed"; }))
-      store_.keep(nameOf(setup), runKey(setup, entry_.name, version_), list);
+    if (std::ranges::find(list, SweepStatus::failed, &CollisionCurve::status) == list.end())
+      store_.keep(nameOf(setup), runKey(setup, entry_.name, version_), jsonOf(list));
     curves_[k] = std::move(list);
   }
   worker_.reset();
 }
 
-json EngineSweeps::run(const CollisionCase& each, const std::function<void()>& oneIsDone) {
-  json list = json::array();
+std::vector<CollisionCurve> EngineSweeps::run(const CollisionCase& each,
+                                              const std::function<void()>& oneIsDone) {
+  std::vector<CollisionCurve> list;
   for (const double dt : each.steps) {
     throwIfInterrupted();
     try {
       if (!worker_)
         worker_ = startEngine(entry_, store_.scratch(entry_.name), each.setup->run.timeout);
-      json curve = runSweep(*worker_, entry_, *each.setup, dt, each.starts, each.oracle,
-                            dt == std::ranges::max(each.steps));
+      CollisionCurve curve = runSweep(*worker_, entry_, *each.setup, dt, each.starts, each.oracle,
+                                      dt == std::ranges::max(each.steps));
       // An engine that keeps its own step has nothing new to say at another of the case's.
-      const bool known = std::ranges::any_of(
-          list, [&](const json& before) { return before["dt"] == curve["dt"]; });
-      if (!known) list.push_back(std::move(curve));
+      if (std::ranges::find(list, curve.dt, &CollisionCurve::dt) == list.end())
+        list.push_back(std::move(curve));
     } catch (const Interrupted&) {
       throw;
     } catch (const BadInput&) {
       throw;
     } catch (const std::exception& error) {
       const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
-      list.push_back({{"engine", entry_.name},
-                      {"dt", dt},
-                      {"steps_per_contact", nullptr},
-                      {"status", refused ? "refused" : "failed"},
-                      {"reason", error.what()},
-                      {"realised", nullptr},
-                      {"points", json::object()},
-                      {"score", noScore()}});
+      CollisionCurve& none = list.emplace_back();
+      none.engine = entry_.name;
+      none.dt = dt;
+      none.status = refused ? SweepStatus::refused : SweepStatus::failed;
+      none.reason = error.what();
       if (!refused) worker_.reset();
       // What a law lacks, it lacks at every time step.
       if (refused) break;

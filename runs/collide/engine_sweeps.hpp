@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,12 +49,15 @@ class EngineSweeps {
   const EngineEntry& entry() const { return entry_; }
   /// The curves of a case, step by step: absent before they are run, none where the engine takes no
   /// part.
-  const std::optional<nlohmann::json>& curves(std::size_t which) const { return curves_[which]; }
+  const std::optional<std::vector<CollisionCurve>>& curves(std::size_t which) const {
+    return curves_[which];
+  }
   /// How many cases were finished before.
   std::size_t takenUp() const { return takenUp_; }
 
  private:
-  nlohmann::json run(const CollisionCase& each, const std::function<void()>& oneIsDone);
+  std::vector<CollisionCurve> run(const CollisionCase& each,
+                                  const std::function<void()>& oneIsDone);
   std::string nameOf(const Case& setup) const;
 
   const EngineEntry& entry_;
@@ -63,7 +65,7 @@ class EngineSweeps {
   const RunStore& store_;
   std::unique_ptr<Engine> worker_;
   std::string version_;  ///< empty: it did not answer
-  std::vector<std::optional<nlohmann::json>> curves_;
+  std::vector<std::optional<std::vector<CollisionCurve>>> curves_;
   std::size_t takenUp_ = 0;
 };
 

@@ -9,7 +9,6 @@
 namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::string>& overrides) {
   std::vector<Case> variants;
@@ -21,16 +20,13 @@ std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::st
   return variants;
 }
 
-void describeFolder(json& results, const fs::path& folder, const std::vector<Case>& variants) {
+CaseHead headOfFolder(const fs::path& folder, const std::vector<Case>& variants) {
   std::string toml;
   for (const Case& setup : variants)
     toml += fmt::format("# {}{}{}\n\n{}\n", setup.name, setup.variant.empty() ? "" : ": ",
                         setup.variant, setup.resolvedToml);
   const fs::path last = folder.has_filename() ? folder : folder.parent_path();
-  results["case"] = {{"name", last.filename().string()},
-                     {"variant", ""},
-                     {"file", folder.string()},
-                     {"toml", toml}};
+  return {last.filename().string(), "", folder.string(), toml};
 }
 
 }  // namespace crossgrain::inline runs

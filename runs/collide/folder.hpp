@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
+#include "results/head.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -15,8 +15,7 @@ namespace crossgrain::inline runs {
 std::vector<Case> collisionsOf(const std::filesystem::path& folder,
                                const std::vector<std::string>& overrides);
 
-/// Puts in place of the first case in results.json what a folder's cases are together.
-void describeFolder(nlohmann::json& results, const std::filesystem::path& folder,
-                    const std::vector<Case>& variants);
+/// What a folder's cases are together.
+CaseHead headOfFolder(const std::filesystem::path& folder, const std::vector<Case>& variants);
 
 }  // namespace crossgrain::inline runs

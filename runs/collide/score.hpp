@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_quantities.hpp"
+#include "results/collision.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -15,27 +15,24 @@ using Outcomes = std::vector<std::optional<CollisionOutcome>>;
 
 /// What a quantity's errors are given in.
 struct ErrorUnit {
-  const char* name = "range";  ///< "range" | "magnitude" | "absolute" | "energy_before"
-  double value = 1.0;          ///< in the quantity's own unit
+  ErrorUnitKind kind = ErrorUnitKind::range;
+  double value = 1.0;  ///< in the quantity's own unit
 };
 
 /// The range of the oracle's curve, so that no part of it is favoured; where that is below a tenth
 /// of the curve's largest magnitude, as e_n of a linear law, that magnitude; 1 for a curve that is
-/// zero throughout. (Energies are scored as shares of the energy before, not by this.)
+/// zero throughout. (Energies are scored in units of the energy before, not by this.)
 ErrorUnit errorUnit(const std::vector<double>& oracle);
 
-/// "score" of a curve: for each quantity that both the engine and the oracle have, its largest and
-/// rms error over the whole curve; and whether it held, within the case's margins, where there are
-/// any. A sweep holds where every quantity with a margin does and no pair is missing.
-nlohmann::json scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
-                          const Outcomes& found, const Outcomes& oracle);
+/// For each quantity that both the engine and the oracle have, its largest and rms error over the
+/// whole curve; and whether it held, within the case's margins, where there are any. A sweep holds
+/// where every quantity with a margin does and no pair is missing.
+CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
+                      const Outcomes& found, const Outcomes& oracle);
 
-/// The score of a curve that there is none of.
-nlohmann::json noScore();
-
-/// The order of convergence p of each quantity's rms error ∝ dt^p, from two or more time steps,
-/// that of Ψ_f first: an entry of results.json's "orders".
+/// The order of convergence p of each quantity's rms error ∝ dt^p, from two or more time steps;
+/// absent where there is none. Case and variant are left to be filled in.
 /// @param curves  of one engine and one variant
-std::optional<nlohmann::json> convergenceOrder(const std::vector<const nlohmann::json*>& curves);
+std::optional<ConvergenceOrder> convergenceOrder(const std::vector<CollisionCurve>& curves);
 
 }  // namespace crossgrain::inline runs

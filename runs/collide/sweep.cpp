@@ -6,15 +6,11 @@
 #include <string>
 
 #include "adapters/law_options.hpp"
-#include "adapters/worker/json.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/collision_flight.hpp"
-#include "runs/collide/look.hpp"
-#include "runs/common/records.hpp"
+#include "runs/collide/contact_account.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
   OracleCurve curve;
@@ -31,79 +27,40 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
 
 namespace {
 
-/// Nine digits: what the oracle's and the engines' errors leave of a number, and half the file.
+/// To nine digits.
 double shortened(double value) {
   return std::stod(fmt::format("{:.9g}", value));
 }
 
-struct Column {
-  const char* name;
-  std::optional<double> (*value)(const CollisionOutcome&);
-  bool exact = false;  ///< to the last bit
-};
-
-template <auto member>
-std::optional<double> own(const CollisionOutcome& outcome) {
-  return outcome.end.*member;
+/// As files have it; absent where no outcome has the quantity.
+std::optional<std::vector<std::optional<double>>> columnOf(const CollisionQuantity& quantity,
+                                                           const Outcomes& outcomes) {
+  std::vector<std::optional<double>> column;
+  for (const auto& outcome : outcomes) {
+    auto value = outcome ? quantity.value(*outcome) : std::nullopt;
+    if (value && quantity.inFiles == CollisionQuantity::InFiles::nineDigits)
+      value = shortened(*value);
+    column.push_back(value);
+  }
+  if (std::ranges::none_of(column, [](const auto& value) { return bool(value); }))
+    return std::nullopt;
+  return column;
 }
-
-template <int side>
-std::optional<double> spin(const CollisionOutcome& outcome) {
-  return outcome.end.spin[side];
-}
-
-template <double EnergySplit::*part>
-std::optional<double> lost(const CollisionOutcome& outcome) {
-  return outcome.end.lost ? std::optional((*outcome.end.lost).*part) : std::nullopt;
-}
-
-template <double ForceWork::*part>
-std::optional<double> workOf(const CollisionOutcome& outcome) {
-  return outcome.work ? std::optional((*outcome.work).*part) : std::nullopt;
-}
-
-constexpr Column columns[] = {
-    {"e_n", own<&CollisionEnd::en>, true},
-    {"psi_f", own<&CollisionEnd::psi>, true},
-    {"beta", own<&CollisionEnd::beta>},
-    {"centre_psi_f", own<&CollisionEnd::centrePsi>},
-    {"e_t", own<&CollisionEnd::et>},
-    {"rebound_angle", own<&CollisionEnd::reboundAngle>},
-    {"spin_i", spin<0>},
-    {"spin_j", spin<1>},
-    {"duration", own<&CollisionEnd::duration>},
-    {"max_overlap", own<&CollisionEnd::maxOverlap>},
-    {"energy_before", own<&CollisionEnd::energyBefore>},
-    {"energy_after", own<&CollisionEnd::energyAfter>},
-    {"lost_normal_damping", workOf<&ForceWork::normal>},
-    {"lost_tangential", workOf<&ForceWork::tangential>},
-    {"lost_tangential_damping", lost<&EnergySplit::tangentialDamping>},
-    {"lost_stiffening", lost<&EnergySplit::stiffening>},
-    {"lost_sliding", lost<&EnergySplit::sliding>},
-    {"lost_stored", lost<&EnergySplit::stored>},
-};
 
 }  // namespace
 
-json columnsOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes) {
-  json table;
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes) {
+  CollisionTable table;
   for (const CollisionStart& start : starts) {
-    table["psi_i"].push_back(start.psi);
-    table["v_n"].push_back(start.vn);
+    table.psi.push_back(start.psi);
+    table.vn.push_back(start.vn);
   }
-  for (const Column& column : columns) {
-    std::vector<std::optional<double>> values;
-    for (const auto& outcome : outcomes) {
-      auto value = outcome ? column.value(*outcome) : std::nullopt;
-      if (value && !column.exact) value = shortened(*value);
-      values.push_back(value);
-    }
-    if (std::ranges::any_of(values, [](const auto& value) { return bool(value); }))
-      table[column.name] = toJson(values);
-  }
+  for (const CollisionQuantity& quantity : collisionQuantities())
+    if (quantity.inFiles != CollisionQuantity::InFiles::no)
+      table.columns[quantity.id] = columnOf(quantity, outcomes);
   const auto limitless = [](const auto& outcome) { return outcome && outcome->end.limitless; };
   if (std::ranges::any_of(outcomes, limitless))
-    for (const auto& outcome : outcomes) table["limitless"].push_back(limitless(outcome));
+    for (const auto& outcome : outcomes) table.noLimit.push_back(limitless(outcome));
   return table;
 }
 
@@ -138,18 +95,18 @@ std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& 
 
 namespace {
 
-/// The sweep's outcomes; those of a run that is looked at also with overlaps and work.
+/// The sweep's outcomes; those of a run that is watched also with overlaps and work.
 Outcomes runOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
                      const Scene& scene, const Realised& realised,
-                     const std::vector<CollisionStart>& starts, bool look) {
+                     const std::vector<CollisionStart>& starts, bool watch) {
   const double end = sweepEnd(setup, scene.dt, realised.dt);
   const Capabilities can = engine.capabilities();
   const WatchedRun watched{scene, collidingPair(setup),
                            sceneFor(can, entry, setup, scene).scene.law, realised,
                            can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
-  if (look && can.instantContacts)
-    accounts = lookThrough(engine, watched, end);
+  if (watch && can.instantContacts)
+    accounts = watchContacts(engine, watched, end);
   else
     engine.advance(end);
   const Snapshot after = engine.snapshot(ContactReport::none);
@@ -167,28 +124,34 @@ Outcomes runOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup
 
 }  // namespace
 
-json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
-              const std::vector<CollisionStart>& starts, const OracleCurve& oracle, bool look) {
+CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
+                        bool watch) {
   const Scene scene = collisionScene(setup, starts, dt);
   const Realised realised = loadScene(engine, entry, setup, scene);
-  const Outcomes found = runOutcomes(engine, entry, setup, scene, realised, starts, look);
-  json points = columnsOf(starts, found);
+  const Outcomes found = runOutcomes(engine, entry, setup, scene, realised, starts, watch);
+  CollisionCurve curve;
+  curve.engine = entry.name;
+  curve.dt = realised.dt;
+  const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
+  if (contact > 0.0) curve.stepsPerContact = contact / realised.dt;
+  const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
+  if (missing > 0) {
+    curve.status = SweepStatus::incomplete;
+    curve.reason = fmt::format("{} pairs did not part", missing);
+  }
+  curve.realised = realised;
+  curve.stats = engine.stats();
+  static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const std::string reason = noLimitReason(setup, starts, oracle, k);
-    points["status"].push_back(!found[k] ? "not parted" : reason.empty() ? "parted" : "no limit");
-    points["reason"].push_back(reason);
+    curve.points.status.push_back(!found[k]        ? PairStatus::notParted
+                                  : reason.empty() ? PairStatus::parted
+                                                   : PairStatus::noLimit);
+    curve.points.reason.push_back(reason);
   }
-  const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
-  const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
-  return {{"engine", entry.name},
-          {"dt", realised.dt},
-          {"steps_per_contact", contact > 0.0 ? json(contact / realised.dt) : json(nullptr)},
-          {"status", missing == 0 ? "finished" : "incomplete"},
-          {"reason", missing == 0 ? "" : fmt::format("{} pairs did not part", missing)},
-          {"realised", toJson(realised)},
-          {"stats", statsJson(engine.stats())},
-          {"points", points},
-          {"score", scoreSweep(setup, starts, found, referenceOf(oracle))}};
+  curve.score = scoreSweep(setup, starts, found, referenceOf(oracle));
+  return curve;
 }
 
 }  // namespace crossgrain::inline runs

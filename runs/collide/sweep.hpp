@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"
+#include "results/collision.hpp"
 #include "runs/collide/score.hpp"
 #include "runs/common/engine_access.hpp"
 
@@ -33,17 +33,16 @@ Outcomes referenceOf(const OracleCurve& oracle);
 std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
                           const OracleCurve& oracle, std::size_t k);
 
-/// A table of results.json, {name: [one value per start]}: Ψ_i, v_n and all that is known of the
-/// outcomes; null where one has none, and no column where all have none. Of the oracle's,
-/// `limitless` marks points that have no limit of small time steps.
-nlohmann::json columnsOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
+/// Ψ_i, v_n and all that is known of the outcomes, with as many digits as files have. Of the
+/// oracle's, `noLimit` marks points that have no limit of small time steps.
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
-/// One engine on one sweep: an entry of results.json's "curves".
-/// @param look  step by step at the contacts, for the largest overlap and the energy's whereabouts,
-///              where the engine has contacts to look at; the outcome is the same
+/// One engine on one sweep.
+/// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,
+///               where the engine shows them; the outcome is the same
 /// @throws EngineFailure, UnsupportedScene, BadInput
-nlohmann::json runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                         const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
-                        bool look);
+                        bool watch);
 
 }  // namespace crossgrain::inline runs

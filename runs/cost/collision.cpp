@@ -73,52 +73,29 @@ SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pa
   return best;
 }
 
-/// What a point takes from a sweep of collisions.
-struct SweepScore {
-  double dt = 0.0;  ///< [s]
-  std::uint64_t steps = 0, contactEvaluations = 0;
-  double wallSeconds = 0.0;  ///< [s]
-  std::string failure = {};  ///< why it did not finish; empty if it did
-  double largestEn = 0.0;    ///< |e_n|
-  std::map<std::string, double> rms = {};
-};
-
-SweepScore sweepScore(Engine& engine, const EngineEntry& entry, const Case& pair, double dt,
-                      const CollisionReference& reference) {
-  const nlohmann::json sweep =
-      runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*look=*/false);
-  SweepScore score{.dt = sweep["dt"],
-                   .steps = sweep["stats"]["steps"],
-                   .contactEvaluations = sweep["stats"]["contact_evaluations"],
-                   .wallSeconds = sweep["stats"]["wall_s"]};
-  if (sweep["status"] != "finished") score.failure = sweep["reason"];
-  if (const auto found = sweep["points"].find("e_n"); found != sweep["points"].end())
-    for (const nlohmann::json& en : *found)
-      if (en.is_number()) score.largestEn = std::max(score.largestEn, std::abs(en.get<double>()));
-  for (const char* const measure : collisionMeasures)
-    if (sweep["score"].contains(measure)) score.rms[measure] = sweep["score"][measure]["rms"];
-  return score;
-}
-
 /// Why a sweep says nothing about the case, empty if it does.
-std::string failureOf(const SweepScore& sweep, const Case& pair, double dt) {
+std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) {
   const double ofLimit = dt / stabilityLimit(pair);
   const std::string limit =
       ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
-  if (!sweep.failure.empty()) return limit + sweep.failure;
-  if (sweep.largestEn > 1.0)
+  if (sweep.status != SweepStatus::finished) return limit + sweep.reason;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < sweep.points.size(); ++k)
+    if (const auto en = sweep.points.at(QuantityId::en, k))
+      largest = std::max(largest, std::abs(*en));
+  if (largest > 1.0)
     return fmt::format("{}pairs part {:.3g} times as fast as they met",
-                       limit.empty() ? fmt::format("{}: ", beyondLimit) : limit, sweep.largestEn);
+                       limit.empty() ? fmt::format("{}: ", beyondLimit) : limit, largest);
   return {};
 }
 
 /// √(mean of squares) of a score over sweeps; absent where one has none.
-std::optional<double> rmsOf(const std::vector<SweepScore>& sweeps, const std::string& measure) {
+std::optional<double> rmsOf(const std::vector<CollisionCurve>& sweeps, QuantityId measure) {
   double squares = 0.0;
-  for (const SweepScore& sweep : sweeps) {
-    const auto found = sweep.rms.find(measure);
-    if (found == sweep.rms.end()) return std::nullopt;
-    squares += found->second * found->second;
+  for (const CollisionCurve& sweep : sweeps) {
+    const auto& score = sweep.score.of[measure];
+    if (!score) return std::nullopt;
+    squares += score->rms * score->rms;
   }
   return std::sqrt(squares / static_cast<double>(sweeps.size()));
 }
@@ -130,25 +107,26 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
                                         const CollisionReference& reference) {
   Case pair = collisionOf(setting.setup);
   const double dt = timeStep(setting.setup);
-  std::vector<SweepScore> sweeps;
+  std::vector<CollisionCurve> sweeps;
   for (int k = 0; k < collisionPhases; ++k) {
     pair.collision.startPhase = (k + 0.5) / collisionPhases;
-    sweeps.push_back(sweepScore(engine, entry, pair, dt, reference));
+    sweeps.push_back(
+        runSweep(engine, entry, pair, dt, reference.starts, reference.oracle, /*watch=*/false));
   }
-  const SweepScore& first = sweeps.front();
+  const CollisionCurve& first = sweeps.front();
   CostPoint point = pointOf(entry.name, setting, CostKind::collision, first.dt);
-  countWork(point, first.steps, first.contactEvaluations);
-  for (const SweepScore& each : sweeps)
+  countWork(point, first.stats->steps, first.stats->contactEvaluations);
+  for (const CollisionCurve& each : sweeps)
     if (point.reason.empty()) point.reason = failureOf(each, pair, first.dt);
   if (!point.reason.empty()) point.status = CostStatus::failed;
-  const SweepTime time =
-      shortestSweep(engine, entry, pair, dt, reference.starts, std::max(first.wallSeconds, 1e-6));
+  const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
+                                       std::max(first.stats->wallSeconds, 1e-6));
   point.wallSeconds = time.wall;
   point.cpuSeconds = time.cpu;
 
   std::vector<CostPoint> points;
-  for (const char* const measure : collisionMeasures) {
-    point.measure = measure;
+  for (const QuantityId measure : {QuantityId::psiF, QuantityId::en}) {
+    point.measure = collisionQuantity(measure).name;
     point.error = point.ran() ? rmsOf(sweeps, measure) : std::nullopt;
     points.push_back(point);
   }

@@ -6,6 +6,7 @@
 #include "cases/time_step.hpp"
 #include "runs/common/advance.hpp"
 #include "runs/couette/run.hpp"
+#include "stability/measures.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -30,9 +31,8 @@ HardScene plainScene(const Case& setup, const Packing& packing) {
 
 HardScene hardScene(const Case& setup, const Packing& packing) {
   HardScene hard = plainScene(setup, packing);
-  const std::string& measure = setup.stability->measure;
-  hard.scene.energyLedger = setup.run.energyLedger || measure == "energy_gain" ||
-                            measure == "energy_drift" || measure == "ledger_residual";
+  hard.scene.energyLedger =
+      setup.run.energyLedger || stabilityMeasure(setup.stability->measure).takesLedger;
   return hard;
 }
 

@@ -20,7 +20,7 @@ struct HardScene {
 /// @throws BadInput
 HardScene hardScene(const Case& setup, const Packing& packing);
 
-/// Has an engine load the scene and looks at it `samples` times while it runs. An engine that fails
+/// Has an engine load the scene and takes `samples` samples while it runs. An engine that fails
 /// on the way ends the recording there, with the reason and what was seen before.
 /// @param progress  told the fraction done, 0 … 1
 /// @throws UnsupportedScene, BadInput, Interrupted

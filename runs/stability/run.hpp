@@ -2,9 +2,9 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "cases/packing.hpp"
+#include "results/stability.hpp"
 #include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
@@ -18,11 +18,9 @@ struct StabilityTask {
   std::filesystem::path scratch;  ///< the worker's
 };
 
-/// Runs it in a worker of its own and returns an entry of results.json's "runs". Whatever the
-/// engine does is a verdict: "stable", "degraded", "unstable" (also where it died, hung or returned
-/// a NaN) or "refused" (it lacks what the case calls for).
+/// Runs it in a worker of its own. Whatever the engine does is a verdict.
 /// @param progress  told the fraction done, 0 … 1
 /// @throws Interrupted
-nlohmann::json runStability(const StabilityTask& task, const std::function<void(double)>& progress);
+StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline runs

@@ -9,6 +9,9 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
+#include "results/head_fields.hpp"
+#include "results/schema.hpp"
+#include "results/stability_fields.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/kept_task.hpp"
 #include "runs/common/progress.hpp"
@@ -23,7 +26,6 @@
 namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
@@ -111,7 +113,7 @@ class Suite {
     for (std::size_t e = 0; e < engines_.size(); ++e) {
       PlannedWork work{engines_[e].name, "hard cases"};
       for (std::size_t c = 0; c < cases_.size(); ++c) {
-        const KeptTask task = taskOf(c, e);
+        const auto task = taskOf(c, e);
         count(work, store_.find(task.name, task.key));
       }
       works.push_back(work);
@@ -124,31 +126,25 @@ class Suite {
   }
 
   void run() {
-    std::vector<KeptTask> tasks;
+    std::vector<KeptTaskOf<StabilityRun>> tasks;
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf(c, e));
-    rows_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
+    runs_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
   }
 
-  json results() const {
-    json results = resultsHead("stability", cases_.front(), command_.commandLine);
+  StabilityResults results() const {
+    StabilityResults results;
+    results.head = readAs<ResultsHead>(
+        resultsHead(std::string(kindStability), cases_.front(), command_.commandLine));
     const bool one =
         std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
-    results["case"] = {{"name", one ? cases_.front().name : "hard cases"},
-                       {"variant", ""},
-                       {"file", cases_.front().file.parent_path().string()},
-                       {"toml", ""}};
-    results["cases"] = json::array();
-    for (const Case& setup : cases_) results["cases"].push_back(caseJson(setup));
-    results["runs"] = rows_;
-    results["engines"] = json::array();
+    results.head.setup = {one ? cases_.front().name : "hard cases", "",
+                          cases_.front().file.parent_path().string(), ""};
+    for (const Case& setup : cases_) results.cases.push_back(rowOf(setup));
+    results.runs = runs_;
     for (std::size_t e = 0; e < engines_.size(); ++e)
-      results["engines"].push_back({{"name", engines_[e].name},
-                                    {"summary", engines_[e].summary},
-                                    {"version", versions_[e]},
-                                    {"mirrors", engines_[e].mirrors},
-                                    {"status", "ran"},
-                                    {"reason", ""}});
+      results.engines.push_back({engines_[e].name, engines_[e].summary, versions_[e],
+                                 engines_[e].mirrors, EngineStatus::ran, ""});
     return results;
   }
 
@@ -169,10 +165,10 @@ class Suite {
     return *std::ranges::find(cases_, setup.name, &Case::name);
   }
 
-  KeptTask taskOf(std::size_t c, std::size_t e) const {
+  KeptTaskOf<StabilityRun> taskOf(std::size_t c, std::size_t e) const {
     const Case& setup = cases_[c];
     const EngineEntry& entry = engines_[e];
-    KeptTask task;
+    KeptTaskOf<StabilityRun> task;
     task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
                              setup.variant);
     task.name = task.label;
@@ -180,27 +176,34 @@ class Suite {
     task.key = runKey(setup, entry.name, versions_[e]);
     if (!packings_[c].hash.empty()) task.key["packing"] = packings_[c].hash;
     const Case& original = originalOf(setup);
-    if (!stabilityMeasure(setup.stability->measure).curve)
+    if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
       task.key["held against"] = original.variant;
     task.weight = predicted(setup, entry);
     task.work = [this, &setup, &original, &entry, c,
                  name = task.name](const std::function<void(double)>& progress) {
-      json row =
+      StabilityRun run =
           runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)}, progress);
-      const std::string verdict = row["verdict"];
-      const bool finished = row["status"] != "failed";
-      return KeptTask::Outcome{std::move(row), finished, verdict};
+      const std::string verdict(nameOf(run.verdict));
+      const bool finished = run.status != HardRunStatus::failed;
+      return KeptTaskOf<StabilityRun>::Outcome{std::move(run), finished, verdict};
     };
     return task;
   }
 
-  static json caseJson(const Case& setup) {
+  static HardCase rowOf(const Case& setup) {
     const Stability& hard = *setup.stability;
     const StabilityMeasure& measure = stabilityMeasure(hard.measure);
-    return {{"case", setup.name},   {"variant", setup.variant},  {"file", setup.file.string()},
-            {"tests", hard.tests},  {"measure", hard.measure},   {"what", measure.what},
-            {"unit", measure.unit}, {"limit", hard.limit},       {"degraded_limit", hard.degraded},
-            {"why", hard.why},      {"toml", setup.resolvedToml}};
+    return {setup.name,
+            setup.variant,
+            setup.file.string(),
+            hard.tests,
+            hard.measure,
+            std::string(measure.what),
+            std::string(measure.unit),
+            hard.limit,
+            hard.degraded,
+            hard.why,
+            setup.resolvedToml};
   }
 
   const std::vector<Case>& cases_;
@@ -210,20 +213,20 @@ class Suite {
   Progress progress_;
   std::vector<Packing> packings_;  ///< of Couette cases
   std::vector<std::string> versions_;
-  std::vector<json> rows_;  ///< case by case, engine by engine
+  std::vector<StabilityRun> runs_;  ///< case by case, engine by engine
 };
 
 }  // namespace
 
-json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                   const RunCommand& command, RunStore& store) {
+StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                               const RunCommand& command, RunStore& store) {
   const auto started = std::chrono::steady_clock::now();
   Suite suite(cases, std::move(engines), command, store);
   suite.askVersions();
   suite.preparePackings();
   suite.run();
-  json results = suite.results();
-  results["elapsed_s"] =
+  StabilityResults results = suite.results();
+  results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "adapters/registry.hpp"
 #include "cases/case.hpp"
+#include "results/stability.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
@@ -21,11 +21,11 @@ enum class SuitePart { quick, usual, withLong };
 std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part);
 
-/// Runs every hard case on every engine, each in a worker of its own, and returns results.json of
-/// kind "stability". Finished runs are kept in the store at once.
+/// Runs every hard case on every engine, each in a worker of its own. Finished runs are kept in the
+/// store at once.
 /// @throws BadInput, OutputError, Interrupted
-nlohmann::json testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                             const RunCommand& command, RunStore& store);
+StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
+                               const RunCommand& command, RunStore& store);
 
 /// What that would run, for people. Engines are asked for their version; nothing is computed.
 /// @throws BadInput, Interrupted

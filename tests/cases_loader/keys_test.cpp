@@ -113,7 +113,7 @@ TEST_F(Keys, OfAssemblies) {
 
 TEST_F(Keys, OfMargins) {
   EXPECT_EQ(askedIn(soundCase, "averaging.margins"), namesOf(fieldTable()));
-  EXPECT_EQ(askedIn(soundCollision, "collision.margins"), namesOf(collisionQuantities()));
+  EXPECT_EQ(askedIn(soundCollision, "collision.margins"), namesOf(scoredQuantities()));
   EXPECT_EQ(documented("averaging.margins"), Names{"FIELD"});
   EXPECT_EQ(documented("collision.margins"), Names{"QUANTITY"});
   EXPECT_EQ(askedIn(soundCase, "averaging.margins.spin"),

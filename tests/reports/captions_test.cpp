@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <regex>
 
+#include "reports/collide/report.hpp"
 #include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/cost/panels.hpp"
 #include "reports/cost/report.hpp"
+#include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -119,21 +121,44 @@ TEST(CostPoints, AveragesWithoutAStatisticalErrorCountNowhere) {
   EXPECT_EQ(countedError(point), 0.1);
 }
 
+using Column = std::vector<std::optional<double>>;
+
+/// Ψ_i = 0 and 2, of which half the energy is lost.
+CollisionTable half() {
+  CollisionTable table;
+  table.psi = {0.0, 2.0};
+  table.columns[QuantityId::energyBefore] = Column{1.0, 2.0};
+  table.columns[QuantityId::energyAfter] = Column{0.5, 1.0};
+  return table;
+}
+
 /// A variant whose energy is known part by part, and one of rigid disks.
-Json energies() {
-  return Json::parse(R"({
-    "kind": "collide", "case": {"name": "c"}, "engines": [{"name": "e", "mirrors": ""}],
-    "variants": [
-     {"variant": "hertz", "curves": [{"engine": "e", "dt": 1e-5, "points":
-        {"psi_i": [0, 2], "energy_before": [1, 2], "energy_after": [0.5, 1],
-         "lost_normal_damping": [0.4, 0.5], "lost_tangential": [0.1, 0.5]}}],
-      "oracle": {"psi_i": [0, 2], "psi_f": [0, 1], "energy_before": [1, 2],
-         "energy_after": [0.5, 1], "lost_normal_damping": [0.4, 0.5],
-         "lost_tangential": [0.1, 0.5], "lost_tangential_damping": [0.05, 0.1],
-         "lost_stiffening": [0.02, -0.1], "lost_sliding": [0.02, 0.4],
-         "lost_stored": [0.01, 0.1]}},
-     {"variant": "rigid", "curves": [], "oracle": {"psi_i": [0, 2], "psi_f": [0, 1],
-         "energy_before": [1, 2], "energy_after": [0.5, 1]}}]})");
+CollideResults energies() {
+  using enum QuantityId;
+  CollisionVariant hertz, rigid;
+  hertz.variant = "hertz";
+  CollisionTable table = half();
+  table.columns[lostNormalDamping] = Column{0.4, 0.5};
+  table.columns[lostTangential] = Column{0.1, 0.5};
+  CollisionCurve& curve = hertz.curves.emplace_back();
+  curve.engine = "e";
+  curve.dt = 1e-5;
+  static_cast<CollisionTable&>(curve.points) = table;
+  table.columns[psiF] = Column{0.0, 1.0};
+  table.columns[lostTangentialDamping] = Column{0.05, 0.1};
+  table.columns[lostStiffening] = Column{0.02, -0.1};
+  table.columns[lostSliding] = Column{0.02, 0.4};
+  table.columns[lostStored] = Column{0.01, 0.1};
+  hertz.oracle = table;
+  rigid.variant = "rigid";
+  rigid.oracle = half();
+  rigid.oracle.columns[psiF] = Column{0.0, 1.0};
+  CollideResults results;
+  results.head.setup.name = "c";
+  results.engines.resize(1);
+  results.engines.front().name = "e";
+  results.variants = {hertz, rigid};
+  return results;
 }
 
 TEST(EnergyFigure, PartsAddUpToAllThatWasLost) {
@@ -162,8 +187,8 @@ TEST(EnergyFigure, PartsAddUpToAllThatWasLost) {
 }
 
 TEST(EnergyFigure, NamesThePartsThatAreThere) {
-  Json results = energies();
-  results["variants"].erase(0);  // rigid disks: what was lost, and no parts
+  CollideResults results = energies();
+  results.variants.erase(results.variants.begin());  // rigid disks: what was lost, and no parts
   const auto figures = collideFigures(results);
   const auto figure = std::ranges::find(figures, "collision_1_energy", &Figure::name);
   ASSERT_NE(figure, figures.end());
@@ -173,15 +198,18 @@ TEST(EnergyFigure, NamesThePartsThatAreThere) {
 }
 
 TEST(CollideFigure, MarksPointsWithoutALimitAndNamesOnlyWhatItDraws) {
-  Json results = sample::collideResults();
-  const auto captionOf = [](const Json& of) { return collideFigures(of).front().caption; };
+  CollideResults results = sample::collideResults();
+  const auto captionOf = [](const CollideResults& of) {
+    return collideFigures(of).front().caption;
+  };
   EXPECT_FALSE(has(captionOf(results), "Red squares"));
   EXPECT_TRUE(has(captionOf(results), "Dashed grey"));
-  results["variants"][0]["no_limit"] = {{{"psi_i", 0.5}, {"psi_f", -0.2}, {"reason", "it jumps"}}};
+  results.variants[0].noLimit = {{0.5, 1e-4, -0.2, "it jumps"}};
   EXPECT_TRUE(has(captionOf(results), "Red squares"));
-  for (Json& variant : results["variants"]) {
-    variant["sliding_constant"] = variant["sticking"]["e_t0"] = nullptr;
-    variant.erase("oracle");
+  for (CollisionVariant& variant : results.variants) {
+    variant.slidingConstant.reset();
+    variant.sticking.et0.reset();
+    variant.oracle = {};
   }
   EXPECT_FALSE(has(captionOf(results), "Dashed grey"));
   EXPECT_FALSE(has(captionOf(results), "Grey: the oracle"));

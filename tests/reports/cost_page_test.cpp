@@ -136,7 +136,7 @@ class CostPage : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
-    writeReport(toJson(sample::costResults()), folder_->path());
+    writeReport(sample::costResults(), folder_->path());
     page_ = new std::string(readFile(folder_->path() / "report.html").value());
   }
   static void TearDownTestSuite() {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "reports/collide/report.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -86,17 +88,32 @@ TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
 }
 
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
-  const Json results = Json::parse(R"({
-    "case": {"name": "walton"},
-    "variants": [{"variant": "soft, cut",
-      "reference": {"psi_i": [0.5], "e_n": [0.5], "psi_f": [null], "duration": [2e-3],
-                    "lost_stored": [1e-9]},
-      "curves": [
-      {"engine": "one", "dt": 2e-5, "status": "finished", "points":
-        {"psi_i": [0.5], "v_n": [1e-4], "e_n": [0.25], "psi_f": [-0.125],
-         "status": ["no limit"], "reason": ["it jumps"], "beta": [0.25],
-         "lost_stiffening": [-2e-9]}},
-      {"engine": "two", "dt": null, "status": "failed", "reason": "it hung", "points": {}}]}]})");
+  CollisionVariant variant;
+  variant.variant = "soft, cut";
+  variant.reference.psi = {0.5};
+  variant.reference.columns[QuantityId::en] = {0.5};
+  variant.reference.columns[QuantityId::psiF] = {std::nullopt};
+  variant.reference.columns[QuantityId::duration] = {2e-3};
+  variant.reference.columns[QuantityId::lostStored] = {1e-9};
+  CollisionCurve& one = variant.curves.emplace_back();
+  one.engine = "one";
+  one.dt = 2e-5;
+  one.points.psi = {0.5};
+  one.points.vn = {1e-4};
+  one.points.columns[QuantityId::en] = {0.25};
+  one.points.columns[QuantityId::psiF] = {-0.125};
+  one.points.columns[QuantityId::beta] = {0.25};
+  one.points.columns[QuantityId::lostStiffening] = {-2e-9};
+  one.points.status = {PairStatus::noLimit};
+  one.points.reason = {"it jumps"};
+  CollisionCurve& two = variant.curves.emplace_back();
+  two.engine = "two";
+  two.dt = NAN;
+  two.status = SweepStatus::failed;
+  two.reason = "it hung";
+  CollideResults results;
+  results.head.setup.name = "walton";
+  results.variants = {variant};
   EXPECT_EQ(collisionsCsv(results),
             "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status,"
             "beta,beta_reference,centre_psi_f,centre_psi_f_reference,e_t,e_t_reference,"

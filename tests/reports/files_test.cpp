@@ -86,9 +86,9 @@ TEST(Results, AreReadBackAsTheyWere) {
 }
 
 TEST(Results, BytesThatAreNotUtf8DoNotStopTheWriting) {
-  nlohmann::json results = sample::collideResults();
-  results["notes"].push_back("latin1 \xe9");
-  EXPECT_NO_THROW(nlohmann::json::parse(toText(results)));
+  CollideResults results = sample::collideResults();
+  results.head.command = "latin1 \xe9";
+  EXPECT_NO_THROW(nlohmann::json::parse(toText(toJson(results))));
 }
 
 TEST(Results, SayWhatIsWrongWithAFolder) {

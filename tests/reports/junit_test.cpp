@@ -1,7 +1,9 @@
-#include "reports/junit.hpp"
+#include "reports/common/junit.hpp"
 
 #include <gtest/gtest.h>
 
+#include "reports/collide/report.hpp"
+#include "reports/stability/report.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -37,19 +39,33 @@ TEST(JUnit, WhatXmlCannotHoldIsReplaced) {
   EXPECT_NE(xml.find("name=\"?[31m\xEF\xBF\xBD&#10;\""), std::string::npos) << xml;
 }
 
-Json hardResults(Json run) {
-  run.update({{"engine", "grain"}, {"case", "pile"}, {"variant", "slow"}, {"measure", "drift"}});
-  return {{"cases", {{{"case", "pile"}, {"variant", "slow"}, {"why", "a pile rests"}}}},
-          {"runs", {run}}};
+StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,
+                             const std::string& reason) {
+  StabilityRun run;
+  run.engine = "grain";
+  run.name = "pile";
+  run.variant = "slow";
+  run.measure = "drift";
+  run.status = status;
+  run.verdict = verdict;
+  run.limit = 0.1;
+  run.unit = "d";
+  run.reason = reason;
+  HardCase pile;
+  pile.name = "pile";
+  pile.variant = "slow";
+  pile.why = "a pile rests";
+  StabilityResults results;
+  results.cases = {pile};
+  results.runs = {run};
+  return results;
 }
 
 TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
-  const std::string xml = stabilityJunit(hardResults({{"status", "finished"},
-                                                      {"verdict", "unstable"},
-                                                      {"value", 0.25},
-                                                      {"limit", 0.1},
-                                                      {"unit", "d"},
-                                                      {"reason", "it slides"}}));
+  StabilityResults results =
+      hardResults(HardRunStatus::finished, StabilityVerdict::unstable, "it slides");
+  results.runs.front().value = 0.25;
+  const std::string xml = stabilityJunit(results);
   EXPECT_NE(xml.find("classname=\"pile slow\" name=\"grain: drift\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("<failure message=\"unstable: 0.25 d against a limit of 0.1 (a pile rests); "
                      "it slides\"/>"),
@@ -58,34 +74,50 @@ TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
 }
 
 TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(stabilityJunit(hardResults({{"status", "failed"},
-                                        {"verdict", "unstable"},
-                                        {"reason", "failed: signal 11"}}))
+  EXPECT_NE(stabilityJunit(
+                hardResults(HardRunStatus::failed, StabilityVerdict::unstable, "failed: signal 11"))
                 .find("<error message=\"failed: signal 11\"/>"),
             std::string::npos);
   EXPECT_NE(stabilityJunit(
-                hardResults(
-                    {{"status", "refused"}, {"verdict", "refused"}, {"reason", "has no springs"}}))
+                hardResults(HardRunStatus::refused, StabilityVerdict::refused, "has no springs"))
                 .find("<skipped message=\"has no springs\"/>"),
             std::string::npos);
 }
 
-/// Of an array: braces around one curve would be that curve itself.
-Json sweeps(const Json::array_t& curves) {
-  return {{"variants", {{{"case", "pair"}, {"variant", "cut"}, {"curves", curves}}}}};
+CollideResults sweeps(std::vector<CollisionCurve> curves) {
+  CollisionVariant variant;
+  variant.name = "pair";
+  variant.variant = "cut";
+  variant.curves = std::move(curves);
+  CollideResults results;
+  results.variants = {std::move(variant)};
+  return results;
 }
 
-Json curve(const char* status, const Json& psi) {
-  Json score = {{"max_error", 0.5}, {"limit", 0.1}, {"verdict", "held"}};
-  if (!psi.is_null()) score["psi_f"] = psi;
-  return {{"engine", "grain"},   {"dt", 2e-5},     {"status", status},
-          {"reason", "because"}, {"score", score}, {"stats", {{"wall_s", 0.25}}}};
+CollisionCurve curve(SweepStatus status, const std::optional<QuantityScore>& psi) {
+  CollisionCurve curve;
+  curve.engine = "grain";
+  curve.dt = 2e-5;
+  curve.status = status;
+  curve.reason = "because";
+  curve.score.verdict = CurveVerdict::held;
+  curve.score.of[QuantityId::psiF] = psi;
+  curve.stats.emplace().wallSeconds = 0.25;
+  return curve;
+}
+
+QuantityScore scoreOf(double max, const char* why = nullptr) {
+  QuantityScore score;
+  score.max = max;
+  score.limit = 0.1;
+  score.held = max <= 0.1;
+  if (why) score.why = why;
+  return score;
 }
 
 TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
-  const Json beyond = {
-      {"max", 0.5}, {"unit_is", "range"}, {"limit", 0.1}, {"held", false}, {"why", "the scheme"}};
-  const std::string xml = collideJunit(sweeps(Json::array({curve("finished", beyond)})));
+  const std::string xml =
+      collideJunit(sweeps({curve(SweepStatus::finished, scoreOf(0.5, "the scheme"))}));
   EXPECT_NE(xml.find("<testcase classname=\"pair cut\" name=\"grain, dt 2e-05 s: psi_f\" "
                      "time=\"0.250\"><failure message=\"largest error 0.5 of the range against a "
                      "limit of 0.1 (the scheme)\"/></testcase>"),
@@ -95,26 +127,33 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
 }
 
 TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
-  const Json held = {{"max", 0.05}, {"unit_is", "range"}, {"limit", 0.1}, {"held", true}};
+  const QuantityScore held = scoreOf(0.05);
   // Of two sweeps only the first shows the quantity.
-  const std::string missing =
-      collideJunit(sweeps(Json::array({curve("finished", held), curve("finished", nullptr)})));
+  const std::string missing = collideJunit(
+      sweeps({curve(SweepStatus::finished, held), curve(SweepStatus::finished, std::nullopt)}));
   EXPECT_NE(missing.find("<skipped message=\"not measured"), std::string::npos) << missing;
-  const std::string none = collideJunit(sweeps(Json::array({curve("finished", nullptr)})));
+  const std::string none = collideJunit(sweeps({curve(SweepStatus::finished, std::nullopt)}));
   EXPECT_NE(none.find("<skipped message=\"not judged"), std::string::npos) << none;
-  const std::string apart = collideJunit(sweeps(Json::array({curve("incomplete", held)})));
+  const std::string apart = collideJunit(sweeps({curve(SweepStatus::incomplete, held)}));
   EXPECT_NE(apart.find("all pairs part\" time=\"0.000\"><failure message=\"because\"/>"),
             std::string::npos)
       << apart;
 }
 
 TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(collideJunit(sweeps(Json::array({curve("failed", nullptr)})))
+  EXPECT_NE(collideJunit(sweeps({curve(SweepStatus::failed, std::nullopt)}))
                 .find("<error message=\"because\"/>"),
             std::string::npos);
-  EXPECT_NE(collideJunit(sweeps(Json::array({curve("refused", nullptr)})))
+  EXPECT_NE(collideJunit(sweeps({curve(SweepStatus::refused, std::nullopt)}))
                 .find("<skipped message=\"because\"/>"),
             std::string::npos);
+}
+
+TEST(CollideJunit, QuantitiesAreInTheOrderOfTheirNames) {
+  CollisionCurve both = curve(SweepStatus::finished, scoreOf(0.05));
+  both.score.of[QuantityId::en] = both.score.of[QuantityId::psiF];
+  const std::string xml = collideJunit(sweeps({both}));
+  EXPECT_LT(xml.find(": e_n\""), xml.find(": psi_f\"")) << xml;
 }
 
 TEST(Junit, OfEverythingThatTheReportsShow) {

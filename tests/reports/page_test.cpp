@@ -6,6 +6,7 @@
 #include "reports/collide/table.hpp"
 #include "reports/common/svg.hpp"
 #include "reports/report.hpp"
+#include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -18,7 +19,7 @@ using nlohmann::json;
 
 /// One folder of results with its report, made once for all tests of a kind.
 struct Written {
-  explicit Written(const json& results) {
+  explicit Written(const auto& results) {
     writeReport(results, folder.path());
     page = readFile(folder.path() / "report.html").value();
   }
@@ -169,8 +170,8 @@ TEST(CollidePage, ScoresHeldAndFellShort) {
 
 /// What engines simulate is held against the effects of the variant that they ran.
 TEST(CollidePage, EffectsAreThoseOfEachVariant) {
-  json results = sample::collideResults();
-  const auto pageOf = [](const json& of) { return Written(of).page; };
+  CollideResults results = sample::collideResults();
+  const auto pageOf = [](const CollideResults& of) { return Written(of).page; };
   const std::string all = pageOf(results);
   for (const char* effect : {"normal damping", "friction", "rotation"})
     EXPECT_TRUE(has(all, std::string("<tr><th>") + effect +
@@ -180,13 +181,14 @@ TEST(CollidePage, EffectsAreThoseOfEachVariant) {
   EXPECT_TRUE(has(all,
                   "<tr><th>moving walls</th><td>–</td><td class=\"disagree\">+ though not "
                   "called for</td>"));
-  results["variants"][1]["effects"] = {"normal_damping", "rotation"};
+  results.variants[1].effects = {"normal_damping", "rotation"};
   const std::string one = pageOf(results);
   EXPECT_TRUE(has(one,
                   "<tr><th>friction</th><td>called for in 1 of 2 scenes</td><td "
                   "class=\"disagree\">✓ simulated; + though not called for in 3 of 6 runs</td>"))
       << one.substr(one.find("<tr><th>friction"), 300);
-  for (json& variant : results["variants"]) variant.erase("effects");  // of an earlier version
+  for (CollisionVariant& variant : results.variants)
+    variant.effects.reset();  // of an earlier version
   EXPECT_FALSE(has(pageOf(results), "though not called for"));
 }
 
@@ -196,29 +198,30 @@ TEST(CollidePage, WhatAContactDoesNotHaveIsADash) {
 }
 
 TEST(CollidePage, NothingJudgedIsNoSuccess) {
-  json results = sample::collideResults();
-  for (json& variant : results["variants"])
-    for (json& curve : variant["curves"]) {
-      curve["score"]["verdict"] = "not judged";
-      if (curve["score"].contains("psi_f"))
-        curve["score"]["psi_f"]["limit"] = curve["score"]["psi_f"]["held"] = nullptr;
+  CollideResults results = sample::collideResults();
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves) {
+      curve.score.verdict = CurveVerdict::notJudged;
+      if (auto& psi = curve.score.of[QuantityId::psiF]) {
+        psi->limit.reset();
+        psi->held.reset();
+      }
     }
   EXPECT_TRUE(has(Written(results).page,
                   "Nothing was judged: the case has no [collision.margins] for what was "
                   "measured."));
   EXPECT_EQ(reports::countOf(results).judged(), 0);
-  for (json& variant : results["variants"]) {
-    variant["oracle_reason"] = "no limit";
-    for (json& curve : variant["curves"]) curve["score"].erase("psi_f");
+  for (CollisionVariant& variant : results.variants) {
+    variant.oracleReason = "no limit";
+    for (CollisionCurve& curve : variant.curves) curve.score.of[QuantityId::psiF].reset();
   }
   EXPECT_EQ(reports::nothingJudged(results), "there is no oracle to judge by: no limit");
   EXPECT_EQ(reports::nothingJudged(sample::collideResults()), "");
 }
 
 TEST(CollidePage, NamesPointsWithoutALimitAndWhy) {
-  json results = sample::collideResults();
-  results["variants"][1]["no_limit"] = {
-      {{"psi_i", 0.5573}, {"v_n", 1e-4}, {"psi_f", 0.1}, {"reason", "the law jumps"}}};
+  CollideResults results = sample::collideResults();
+  results.variants[1].noLimit = {{0.5573, 1e-4, 0.1, "the law jumps"}};
   EXPECT_TRUE(has(Written(results).page,
                   "Not judged: spring and dashpot, Ψ<sub>i</sub> = 0.5573: the law jumps."));
 }
@@ -348,6 +351,21 @@ TEST(Report, StandsResultsWithAlmostNothingInThem) {
   broken["cell"]["omega"] = 0.0;
   broken["engines"][1] = 7;
   EXPECT_NO_THROW(writeReport(broken, folder.path()));
+}
+
+TEST(Report, SaysWhatAFileHoldsThatItShouldNot) {
+  const TemporaryFolder folder;
+  json broken = toJson(sample::collideResults());
+  broken["variants"][0]["curves"][1]["points"]["psi_f"][3] = "fast";
+  try {
+    writeReport(broken, folder.path());
+    FAIL() << "written";
+  } catch (const BadInput& error) {
+    EXPECT_TRUE(has(error.what(),
+                    "results.json: variants.0.curves.1.points.psi_f.3: is string, not a number"))
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "results.json"));
 }
 
 /// Sets PATH for its lifetime.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "tests/reports/sample_common.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -18,102 +19,90 @@ double psiAt(int k) {
   return 0.25 * (k + 1);
 }
 
-Json score(double error, double limit) {
-  return {{"max", error},       {"rms", error / 2}, {"unit", 1.0},
-          {"unit_is", "range"}, {"limit", limit},   {"held", error <= limit}};
+void add(CollisionTable& table, QuantityId quantity, double value) {
+  auto& column = table.columns[quantity];
+  if (!column) column.emplace();
+  column->push_back(value);
 }
 
-Json curve(const std::string& name, double steps, double stick, double constant, double error) {
-  const double dt = 2.18e-3 / steps;
-  Json points;
+CollisionCurve curve(const std::string& name, double steps, double stick, double constant,
+                     double error) {
+  CollisionCurve curve;
+  curve.engine = name;
+  curve.dt = 2.18e-3 / steps;
+  curve.stepsPerContact = steps;
+  curve.realised = realisedFromJson(realised(name, curve.dt));
   for (int k = 0; k < places; ++k) {
     const double psi = psiAt(k);
-    points["psi_i"].push_back(psi);
-    points["v_n"].push_back(1e-4);
-    points["e_n"].push_back(0.3408 + error / 5);
-    points["psi_f"].push_back(after(psi, stick, constant) +
-                              error * (0.4 + std::abs(std::sin(3 * psi))));
-    points["status"].push_back("parted");
+    curve.points.psi.push_back(psi);
+    curve.points.vn.push_back(1e-4);
+    add(curve.points, QuantityId::en, 0.3408 + error / 5);
+    add(curve.points, QuantityId::psiF,
+        after(psi, stick, constant) + error * (0.4 + std::abs(std::sin(3 * psi))));
+    curve.points.status.push_back(PairStatus::parted);
   }
-  return {{"engine", name},
-          {"dt", dt},
-          {"steps_per_contact", steps},
-          {"status", "finished"},
-          {"reason", ""},
-          {"realised", realised(name, dt)},
-          {"points", points},
-          {"score",
-           {{"max_error", error / 2},
-            {"rms_error", error / 4},
-            {"e_n_error", error / 5},
-            {"verdict", error < 0.02 ? "held" : "fell short"},
-            {"limit", 0.01},
-            {"psi_f", score(error / 2, 0.01)}}}};
+  QuantityScore& psi = curve.score.of[QuantityId::psiF].emplace();
+  psi.max = error / 2;
+  psi.rms = error / 4;
+  psi.limit = 0.01;
+  psi.held = psi.max <= *psi.limit;
+  curve.score.verdict = *psi.held ? CurveVerdict::held : CurveVerdict::fellShort;
+  return curve;
 }
 
-Json variant(const std::string& name, double stick, double constant) {
-  Json v = {
-      {"variant", name},
-      {"law",
-       {{"normal", "linear"}, {"tangential", "spring_dashpot"}, {"tension", "cut"}, {"mu", 0.44}}},
-      {"effects", {"normal_damping", "friction", "tangential_spring", "rotation"}},
-      {"e_n_closed", 0.3408},
-      {"sticking", {{"e_t0", stick}}},
-      {"sliding_constant", constant},
-      {"curves", Json::array()}};
+CollisionVariant variant(const std::string& name, double stick, double constant) {
+  CollisionVariant v;
+  v.variant = name;
+  v.law = {
+      {"normal", "linear"}, {"tangential", "spring_dashpot"}, {"tension", "cut"}, {"mu", 0.44}};
+  v.effects = {"normal_damping", "friction", "tangential_spring", "rotation"};
+  v.closedEn = 0.3408;
+  v.sticking.et0 = stick;
+  v.slidingConstant = constant;
   for (int k = 0; k < places; ++k) {
-    v["reference"]["psi_i"].push_back(psiAt(k));
-    v["reference"]["e_n"].push_back(0.3408);
-    v["reference"]["psi_f"].push_back(after(psiAt(k), stick, constant));
+    v.reference.psi.push_back(psiAt(k));
+    add(v.reference, QuantityId::en, 0.3408);
+    add(v.reference, QuantityId::psiF, after(psiAt(k), stick, constant));
   }
   for (int k = 0; k <= 200; ++k) {
-    v["oracle"]["psi_i"].push_back(0.02 * k);
-    v["oracle"]["psi_f"].push_back(after(0.02 * k, stick, constant));
+    v.oracle.psi.push_back(0.02 * k);
+    add(v.oracle, QuantityId::psiF, after(0.02 * k, stick, constant));
   }
   for (const double steps : {50.0, 200.0, 1000.0}) {
-    v["curves"].push_back(curve("grain", steps, stick, constant, 12.0 / (steps * steps)));
-    v["curves"].push_back(curve("yade", steps, stick, constant, 1.2 / steps));
+    v.curves.push_back(curve("grain", steps, stick, constant, 12.0 / (steps * steps)));
+    v.curves.push_back(curve("yade", steps, stick, constant, 1.2 / steps));
   }
-  v["curves"].push_back(curve("box2d-impulse", 10.0, stick, constant, 0.03));
+  v.curves.push_back(curve("box2d-impulse", 10.0, stick, constant, 0.03));
   return v;
+}
+
+ConvergenceOrder order(const std::string& engine, FittedOrder fit,
+                       std::map<std::string, double> errorAt) {
+  ConvergenceOrder order{engine, "", "spring, tension cut", std::move(errorAt), {}};
+  order.of[QuantityId::psiF] = fit;
+  return order;
 }
 
 }  // namespace
 
-Json collideResults() {
-  Json results = head("collide", "figure-4-3");
-  results["engines"] = {engine("grain", "the in-house engine"),
-                        engine("yade", "YADE's viscoelastic law"),
-                        engine("box2d-impulse", "Box2D's own solver"),
-                        engine(awkward, "the user's own", "", "failed", "worker hung <120 s>")};
-  results["variants"] = {variant("spring, tension cut", 0.47, 1.770),
-                         variant("spring and dashpot", 0.055, 1.770)};
-  results["variants"][1]["sticking"]["e_t0"] = nullptr;
-  results["variants"][1]["curves"].push_back({{"engine", awkward},
-                                              {"dt", 1e-5},
-                                              {"steps_per_contact", nullptr},
-                                              {"status", "failed"},
-                                              {"reason", "worker hung <120 s>"},
-                                              {"realised", nullptr},
-                                              {"points", Json::object()},
-                                              {"score",
-                                               {{"max_error", nullptr},
-                                                {"rms_error", nullptr},
-                                                {"e_n_error", nullptr},
-                                                {"verdict", "not judged"},
-                                                {"limit", 0.01}}}});
-  results["orders"] = {{{"engine", "grain"},
-                        {"variant", "spring, tension cut"},
-                        {"order", 2.003},
-                        {"stderr", 0.012},
-                        {"error_at", {{"4.36e-05", 0.0024}, {"2.18e-06", 6e-6}}},
-                        {"quantities", {{"psi_f", {{"order", 2.003}, {"stderr", 0.012}}}}}},
-                       {{"engine", "yade"},
-                        {"variant", "spring, tension cut"},
-                        {"order", 1.01},
-                        {"stderr", nullptr},
-                        {"error_at", {{"4.36e-05", 0.012}}},
-                        {"quantities", {{"psi_f", {{"order", 1.01}, {"stderr", nullptr}}}}}}};
+CollideResults collideResults() {
+  CollideResults results;
+  results.head = resultsHead("collide", "figure-4-3");
+  results.elapsed = 754.2;
+  results.engines = {
+      engineRow("grain", "the in-house engine"), engineRow("yade", "YADE's viscoelastic law"),
+      engineRow("box2d-impulse", "Box2D's own solver"),
+      engineRow(awkward, "the user's own", "", EngineStatus::failed, "worker hung <120 s>")};
+  results.variants = {variant("spring, tension cut", 0.47, 1.770),
+                      variant("spring and dashpot", 0.055, 1.770)};
+  results.variants[1].sticking.et0.reset();
+  CollisionCurve& failed = results.variants[1].curves.emplace_back();
+  failed.engine = awkward;
+  failed.dt = 1e-5;
+  failed.status = SweepStatus::failed;
+  failed.reason = "worker hung <120 s>";
+  results.orders = {order("grain", {2.003, 0.012}, {{"4.36e-05", 0.0024}, {"2.18e-06", 6e-6}}),
+                    order("yade", {1.01, {}}, {{"4.36e-05", 0.012}})};
   return results;
 }
 

@@ -6,6 +6,11 @@
 #include <random>
 #include <string>
 
+#include "adapters/worker/json.hpp"
+#include "results/engine_row.hpp"
+#include "results/head_fields.hpp"
+#include "results/schema.hpp"
+
 /// Pieces that both samples use.
 namespace crossgrain::sample {
 
@@ -26,6 +31,12 @@ inline Json engine(const std::string& name, const std::string& summary,
                    const std::string& reason = "") {
   return {{"name", name},       {"summary", summary}, {"version", "1.0"},
           {"mirrors", mirrors}, {"status", status},   {"reason", reason}};
+}
+
+inline EngineRow engineRow(const std::string& name, const std::string& summary,
+                           const std::string& mirrors = "", EngineStatus status = EngineStatus::ran,
+                           const std::string& reason = "") {
+  return {name, summary, "1.0", mirrors, status, reason};
 }
 
 inline Json realised(const std::string& name, double dt) {
@@ -78,6 +89,10 @@ inline Json head(const std::string& kind, const std::string& caseName) {
            {"normal_damping", "friction", "tangential_spring", "rotation", "bottom_friction",
             "moving_walls"}},
           {"notes", Json::array({"Bottom friction is left out by two engines."})}};
+}
+
+inline ResultsHead resultsHead(const std::string& kind, const std::string& caseName) {
+  return readAs<ResultsHead>(head(kind, caseName));
 }
 
 }  // namespace crossgrain::sample

@@ -13,6 +13,6 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
   crossgrain::writeReport(crossgrain::sample::effectsResults(4), dir / "effects");
   crossgrain::writeReport(crossgrain::sample::stabilityResults(), dir / "stability");
-  crossgrain::writeReport(toJson(crossgrain::sample::costResults()), dir / "cost");
+  crossgrain::writeReport(crossgrain::sample::costResults(), dir / "cost");
   std::printf("%s\n", dir.c_str());
 }

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/collision.hpp"
 #include "results/cost.hpp"
+#include "results/stability.hpp"
 
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
@@ -13,14 +15,15 @@ namespace crossgrain::sample {
 nlohmann::json compareResults(int packings, int disks);
 
 /// Two laws, several time steps, a sweep without points.
-nlohmann::json collideResults();
+CollideResults collideResults();
 
 /// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
 /// and which refuses a third switch.
 nlohmann::json effectsResults(int packings);
 
 /// Two hard cases on two engines: every verdict once.
-nlohmann::json stabilityResults();
+StabilityResults stabilityResults();
+
 /// Three engines of known order and cost, a scheme that claims an order it does not have, failures
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 CostResults costResults();

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "reports/common/csv.hpp"
-#include "reports/common/figures.hpp"
-#include "reports/common/pictures.hpp"
 #include "reports/report.hpp"
+#include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -27,12 +25,12 @@ TEST(StabilityCsv, IsTheContract) {
 }
 
 TEST(StabilityTable, TheWorstVariantSpeaksForTheCase) {
-  const Json results = sample::stabilityResults();
+  const StabilityResults results = sample::stabilityResults();
   const auto groups = hardGroups(results);
   ASSERT_EQ(groups.size(), 2u);
-  EXPECT_EQ(text(worstRun(results, "grain", groups[0]), "verdict"), "degraded");
-  EXPECT_EQ(text(worstRun(results, "odd-one", groups[0]), "variant"), "fast");
-  EXPECT_EQ(text(worstRun(results, "odd-one", groups[1]), "verdict"), "refused");
+  EXPECT_EQ(worstRun(results, "grain", groups[0])->verdict, StabilityVerdict::degraded);
+  EXPECT_EQ(worstRun(results, "odd-one", groups[0])->variant, "fast");
+  EXPECT_EQ(worstRun(results, "odd-one", groups[1])->verdict, StabilityVerdict::refused);
 }
 
 TEST(StabilityFigures, AMapAndWhatWentWrongOverTime) {

@@ -7,15 +7,14 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
 TEST(ErrorUnit, IsTheRangeUnlessTheCurveHasHardlyAny) {
-  EXPECT_STREQ(errorUnit({-1.0, 0.5, 2.0}).name, "range");
+  EXPECT_EQ(errorUnit({-1.0, 0.5, 2.0}).kind, ErrorUnitKind::range);
   EXPECT_EQ(errorUnit({-1.0, 0.5, 2.0}).value, 3.0);
-  EXPECT_STREQ(errorUnit({0.34, 0.341, -0.35}).name, "range");
-  EXPECT_STREQ(errorUnit({0.34, 0.341}).name, "magnitude");  // e_n of a linear law
+  EXPECT_EQ(errorUnit({0.34, 0.341, -0.35}).kind, ErrorUnitKind::range);
+  EXPECT_EQ(errorUnit({0.34, 0.341}).kind, ErrorUnitKind::magnitude);  // e_n of a linear law
   EXPECT_EQ(errorUnit({-0.34, -0.341}).value, 0.341);
-  EXPECT_STREQ(errorUnit({0.0, 0.0}).name, "absolute");
+  EXPECT_EQ(errorUnit({0.0, 0.0}).kind, ErrorUnitKind::absolute);
   EXPECT_EQ(errorUnit({0.0, 0.0}).value, 1.0);
 }
 
@@ -35,17 +34,18 @@ Outcomes outcomes(const std::vector<double>& psi, double overlap) {
 TEST(Score, LargestAndRmsErrorInUnitsOfTheRange) {
   const Case setup = test::smallPairCase();
   const std::vector<CollisionStart> starts(3, {1.0, 0.1, Approach::spin});
-  const json score =
+  const CurveScore score =
       scoreSweep(setup, starts, outcomes({0.0, 1.3, 4.0}, 2e-6), outcomes({0.0, 1.0, 4.0}, 1e-6));
-  EXPECT_NEAR(score["psi_f"]["max"].get<double>(), 0.3 / 4.0, 1e-15);
-  EXPECT_NEAR(score["psi_f"]["rms"].get<double>(), 0.3 / 4.0 / std::sqrt(3.0), 1e-15);
-  EXPECT_EQ(score["psi_f"]["unit"], 4.0);
-  EXPECT_EQ(score["max_error"], score["psi_f"]["max"]);
-  EXPECT_EQ(score["e_n_error"], 0.0);
-  EXPECT_NEAR(score["max_overlap"]["max"].get<double>(), 1.0, 1e-12);  // twice as large
-  EXPECT_EQ(score["max_overlap"]["unit_is"], "magnitude");
-  EXPECT_EQ(score["verdict"], "not judged");  // the case has no margins
-  EXPECT_FALSE(score.contains("duration"));   // neither has one
+  const QuantityScore psi = score.of[QuantityId::psiF].value();
+  EXPECT_NEAR(psi.max, 0.3 / 4.0, 1e-15);
+  EXPECT_NEAR(psi.rms, 0.3 / 4.0 / std::sqrt(3.0), 1e-15);
+  EXPECT_EQ(psi.unit, 4.0);
+  EXPECT_EQ(score.of[QuantityId::en].value().max, 0.0);
+  const QuantityScore overlap = score.of[QuantityId::maxOverlap].value();
+  EXPECT_NEAR(overlap.max, 1.0, 1e-12);  // twice as large
+  EXPECT_EQ(overlap.unitIs, ErrorUnitKind::magnitude);
+  EXPECT_EQ(score.verdict, CurveVerdict::notJudged);  // the case has no margins
+  EXPECT_FALSE(score.of[QuantityId::duration]);       // neither has one
 }
 
 TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
@@ -53,38 +53,43 @@ TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
   const std::vector<CollisionStart> starts(2, {1.0, 0.1, Approach::spin});
   const Outcomes oracle = outcomes({0.0, 2.0}, 1e-6), found = outcomes({0.0, 2.1}, 1.2e-6);
   const auto verdict = [&](const Outcomes& outcomes) {
-    return scoreSweep(setup, starts, outcomes, oracle)["verdict"].get<std::string>();
+    return scoreSweep(setup, starts, outcomes, oracle).verdict;
   };
   setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
-  EXPECT_EQ(verdict(found), "held");
+  EXPECT_EQ(verdict(found), CurveVerdict::held);
   setup.collision.margins["max_overlap"] = {0.1, true, "a tenth of the largest", ""};
-  EXPECT_EQ(verdict(found), "fell short");
+  EXPECT_EQ(verdict(found), CurveVerdict::fellShort);
   setup.collision.margins["max_overlap"].value = 0.3;
-  EXPECT_EQ(verdict(found), "held");
+  EXPECT_EQ(verdict(found), CurveVerdict::held);
   setup.collision.margins["duration"] = {0.1, true, "nobody knows it", ""};
-  EXPECT_EQ(verdict(found), "held");
+  EXPECT_EQ(verdict(found), CurveVerdict::held);
   Outcomes one = found;
   one[1].reset();
-  EXPECT_EQ(verdict(one), "fell short");  // a pair that did not part
+  EXPECT_EQ(verdict(one), CurveVerdict::fellShort);  // a pair that did not part
 }
 
-json curve(double dt, double psi, double en) {
-  return {
-      {"engine", "a"}, {"dt", dt}, {"score", {{"psi_f", {{"rms", psi}}}, {"e_n", {{"rms", en}}}}}};
+CollisionCurve curve(double dt, double psi, double en) {
+  CollisionCurve curve;
+  curve.engine = "a";
+  curve.dt = dt;
+  curve.score.of[QuantityId::psiF].emplace().rms = psi;
+  curve.score.of[QuantityId::en].emplace().rms = en;
+  return curve;
 }
 
 TEST(ConvergenceOrder, IsTheSlopeOfErrorOverStepForEachQuantity) {
-  const json coarse = curve(4e-5, 16e-3, 4e-4), middle = curve(2e-5, 4e-3, 2e-4),
-             fine = curve(1e-5, 1e-3, 1e-4);
-  const auto order = convergenceOrder({&coarse, &middle, &fine});
+  const CollisionCurve coarse = curve(4e-5, 16e-3, 4e-4), middle = curve(2e-5, 4e-3, 2e-4),
+                       fine = curve(1e-5, 1e-3, 1e-4);
+  const auto order = convergenceOrder({coarse, middle, fine});
   ASSERT_TRUE(order);
-  EXPECT_NEAR((*order)["order"].get<double>(), 2.0, 1e-12);
-  EXPECT_NEAR((*order)["stderr"].get<double>(), 0.0, 1e-7);
-  EXPECT_EQ((*order)["error_at"].size(), 3u);
-  EXPECT_NEAR((*order)["quantities"]["psi_f"]["order"].get<double>(), 2.0, 1e-12);
-  EXPECT_NEAR((*order)["quantities"]["e_n"]["order"].get<double>(), 1.0, 1e-12);
-  EXPECT_FALSE(convergenceOrder({&coarse}));
-  EXPECT_FALSE(convergenceOrder({&coarse, &coarse}));  // one step taken twice tells nothing
+  EXPECT_EQ(order->engine, "a");
+  const FittedOrder psi = order->of[QuantityId::psiF].value();
+  EXPECT_NEAR(psi.order, 2.0, 1e-12);
+  EXPECT_NEAR(psi.standardError.value(), 0.0, 1e-7);
+  EXPECT_EQ(order->errorAt.size(), 3u);
+  EXPECT_NEAR(order->of[QuantityId::en].value().order, 1.0, 1e-12);
+  EXPECT_FALSE(convergenceOrder({coarse}));
+  EXPECT_FALSE(convergenceOrder({coarse, coarse}));  // one step taken twice tells nothing
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "adapters/grain.hpp"
+#include "results/collision_fields.hpp"
 #include "tests/oracle/thesis_pair.hpp"
 
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
 TEST(CollisionSweep, ScoresTheWholeCurveInUnitsOfItsRange) {
   Case setup = test::smallPairCase();
@@ -21,18 +21,21 @@ TEST(CollisionSweep, ScoresTheWholeCurveInUnitsOfItsRange) {
   const auto oracle = oracleCurve(setup, starts);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();
-  const json held = runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, starts, oracle, false);
-  EXPECT_EQ(held["status"], "finished");
-  EXPECT_EQ(held["points"]["psi_f"].size(), 5u);
-  EXPECT_EQ(held["score"]["verdict"], "held");
-  EXPECT_LT(held["score"]["max_error"].get<double>(), 1e-3);
+  const CollisionCurve held =
+      runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, starts, oracle, false);
+  EXPECT_EQ(held.status, SweepStatus::finished);
+  EXPECT_EQ(held.points.columns[QuantityId::psiF].value().size(), 5u);
+  EXPECT_EQ(held.score.verdict, CurveVerdict::held);
+  const double error = held.score.of[QuantityId::psiF].value().max;
+  EXPECT_LT(error, 1e-3);
   const double range = oracle.ends[4]->psi - oracle.ends[1]->psi;
-  EXPECT_GE(held["score"]["max_error"].get<double>() * range + 1e-15,
-            std::abs(held["points"]["psi_f"][4].get<double>() - oracle.ends[4]->psi));
+  EXPECT_GE(error * range + 1e-15,
+            std::abs(held.points.at(QuantityId::psiF, 4).value() - oracle.ends[4]->psi));
 
   setup.collision.margins["psi_f"].value = 1e-9;
-  const json shortOf = runSweep(*engine, entry, setup, 2.18e-3 / 50.0, starts, oracle, false);
-  EXPECT_EQ(shortOf["score"]["verdict"], "fell short");
+  const CollisionCurve shortOf =
+      runSweep(*engine, entry, setup, 2.18e-3 / 50.0, starts, oracle, false);
+  EXPECT_EQ(shortOf.score.verdict, CurveVerdict::fellShort);
 }
 
 TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
@@ -45,22 +48,24 @@ TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
   const auto oracle = oracleCurve(setup, starts);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();
-  const json curve = runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, starts, oracle, false);
-  EXPECT_EQ(curve["points"]["status"], (json{"parted", "no limit", "parted"}));
-  EXPECT_NE(curve["points"]["reason"][1].get<std::string>().find("jumps"), std::string::npos);
-  EXPECT_EQ(curve["points"]["reason"][0], "");
-  EXPECT_EQ(curve["score"]["verdict"], "held");
+  const CollisionCurve curve =
+      runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, starts, oracle, false);
+  using enum PairStatus;
+  EXPECT_EQ(curve.points.status, (std::vector{parted, noLimit, parted}));
+  EXPECT_NE(curve.points.reason[1].find("jumps"), std::string::npos);
+  EXPECT_EQ(curve.points.reason[0], "");
+  EXPECT_EQ(curve.score.verdict, CurveVerdict::held);
   EXPECT_FALSE(referenceOf(oracle)[1]);
   // Against the branch that the oracle takes there the engine would have fallen short.
-  const double other = std::abs(oracle.ends[1]->psi - curve["points"]["psi_f"][1].get<double>());
+  const double other = std::abs(oracle.ends[1]->psi - curve.points.at(QuantityId::psiF, 1).value());
   EXPECT_GT(other, 0.01);
 
   setup.collision.psi = {0.2, 0.95 * jump, 1.05 * jump, 3.0};
   const auto nearby = collisionStarts(setup);
-  const json judged =
+  const CollisionCurve judged =
       runSweep(*engine, entry, setup, 2.18e-3 / 1000.0, nearby, oracleCurve(setup, nearby), false);
-  EXPECT_EQ(judged["points"]["status"], (json{"parted", "parted", "parted", "parted"}));
-  EXPECT_EQ(judged["score"]["verdict"], "held") << judged["score"].dump();
+  EXPECT_EQ(judged.points.status, std::vector(4, parted));
+  EXPECT_EQ(judged.score.verdict, CurveVerdict::held) << jsonOf(judged.score).dump();
 }
 
 TEST(CollisionSweep, OfOneStartWithoutALimitNothingIsJudged) {
@@ -71,27 +76,26 @@ TEST(CollisionSweep, OfOneStartWithoutALimitNothingIsJudged) {
   const auto starts = collisionStarts(setup);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();
-  EXPECT_EQ(runSweep(*engine, entry, setup, 2.18e-3 / 100.0, starts, oracleCurve(setup, starts),
-                     false)["score"]["verdict"],
-            "not judged");
+  EXPECT_EQ(
+      runSweep(*engine, entry, setup, 2.18e-3 / 100.0, starts, oracleCurve(setup, starts), false)
+          .score.verdict,
+      CurveVerdict::notJudged);
 }
 
 /// What a table tells of where the energy went adds up to what was lost.
-void expectClosedAccount(const json& table, double within) {
-  constexpr const char* parts[] = {"lost_normal_damping", "lost_tangential_damping",
-                                   "lost_stiffening", "lost_sliding", "lost_stored"};
-  for (std::size_t k = 0; k < table["energy_before"].size(); ++k) {
-    if (table["energy_before"][k].is_null()) continue;  // no oracle there
-    const double before = table["energy_before"][k],
-                 lost = before - table["energy_after"][k].get<double>();
+void expectClosedAccount(const CollisionTable& table, double within) {
+  using enum QuantityId;
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    if (!table.at(energyBefore, k)) continue;  // no oracle there
+    const auto value = [&](QuantityId id) { return table.at(id, k).value(); };
+    const double before = value(energyBefore), lost = before - value(energyAfter);
     double sum = 0.0;
-    for (const char* part : parts)
-      if (table.contains(part)) sum += table[part][k].get<double>();
-    EXPECT_NEAR(sum, lost, within * before) << "psi " << table["psi_i"][k];
-    EXPECT_NEAR(
-        table["lost_normal_damping"][k].get<double>() + table["lost_tangential"][k].get<double>(),
-        lost, within * before)
-        << "psi " << table["psi_i"][k];
+    for (const QuantityId part :
+         {lostNormalDamping, lostTangentialDamping, lostStiffening, lostSliding, lostStored})
+      if (table.columns[part]) sum += value(part);
+    EXPECT_NEAR(sum, lost, within * before) << "psi " << table.psi[k];
+    EXPECT_NEAR(value(lostNormalDamping) + value(lostTangential), lost, within * before)
+        << "psi " << table.psi[k];
   }
 }
 
@@ -121,12 +125,13 @@ TEST(CollisionSweep, PartsOfTheEnergyAddUpToWhatWasLostForEveryLaw) {
         const OracleCurve oracle = oracleCurve(setup, starts);
         if (!oracle.reason.empty()) continue;
         ++laws;
-        const json table = columnsOf(starts, outcomesOf(oracle));
-        ASSERT_TRUE(table.contains("energy_before")) << table.dump();
+        const CollisionTable table = tableOf(starts, outcomesOf(oracle));
+        ASSERT_TRUE(table.columns[QuantityId::energyBefore]);
         // Nine digits of each part.
         expectClosedAccount(table, 1e-8);
-        for (const auto& part : table.value("lost_stiffening", json::array()))
-          stiffened = stiffened || std::abs(part.get<double>()) > 1e-3 * 1e-12;
+        for (std::size_t k = 0; k < table.size(); ++k)
+          if (const auto part = table.at(QuantityId::lostStiffening, k))
+            stiffened = stiffened || std::abs(*part) > 1e-3 * 1e-12;
       }
   EXPECT_EQ(laws, 20);     // of 30: for the others oracleCurve() says why there is no oracle
   EXPECT_TRUE(stiffened);  // else the part that was missing is not tested
@@ -139,9 +144,9 @@ TEST(CollisionSweep, PartsThatAnEngineShowsAddUpAsFarAsASumOverStepsCan) {
   const auto starts = collisionStarts(setup);
   const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
   const auto engine = makeGrain();
-  const json curve =
+  const CollisionCurve curve =
       runSweep(*engine, entry, setup, 2.18e-3 / 400.0, starts, oracleCurve(setup, starts), true);
-  expectClosedAccount(curve["points"], 0.01);
+  expectClosedAccount(curve.points, 0.01);
 }
 
 TEST(CollisionSweep, ALawWithoutALimitHasNoReference) {

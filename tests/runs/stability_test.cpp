@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "results/stability_fields.hpp"
 #include "runs/common/engine_access.hpp"
 #include "stability/verdict.hpp"
 #include "support/bad_input.hpp"
@@ -15,20 +16,19 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
 TEST(StabilityVerdict, ByTheTwoLimits) {
   Stability limits;
   limits.limit = 1.0;
   limits.degraded = 2.0;
-  EXPECT_EQ(stabilityVerdict(limits, {0.0, 1.0}).verdict, "stable");
-  EXPECT_FALSE(stabilityVerdict(limits, {0.0, 1.0}).passed);
-  const StabilityVerdict degraded = stabilityVerdict(limits, {0.0, 1.5, 2.0, 1.2});
-  EXPECT_EQ(degraded.verdict, "degraded");
+  EXPECT_EQ(judgeStability(limits, {0.0, 1.0}).verdict, StabilityVerdict::stable);
+  EXPECT_FALSE(judgeStability(limits, {0.0, 1.0}).passed);
+  const StabilityJudgement degraded = judgeStability(limits, {0.0, 1.5, 2.0, 1.2});
+  EXPECT_EQ(degraded.verdict, StabilityVerdict::degraded);
   EXPECT_EQ(degraded.passed, 1u);
   EXPECT_EQ(degraded.worst, 2u);
-  const StabilityVerdict lost = stabilityVerdict(limits, {0.0, std::nan("")});
-  EXPECT_EQ(lost.verdict, "unstable");
+  const StabilityJudgement lost = judgeStability(limits, {0.0, std::nan("")});
+  EXPECT_EQ(lost.verdict, StabilityVerdict::unstable);
   EXPECT_TRUE(std::isfinite(lost.value));
 }
 
@@ -80,29 +80,27 @@ TEST(StabilitySuite, MisbehavingEnginesEndTheirOwnRunsOnly) {
   command.jobs = 2;
   command.quiet = true;
   RunStore store(command, "stability", keysOfEach(cases));
-  const json results = testStability(cases, engines, command, store);
+  const StabilityResults results = testStability(cases, engines, command, store);
 
-  ASSERT_EQ(results["runs"].size(), engines.size());
-  for (const json& row : results["runs"]) {
-    const std::string engine = row["engine"];
-    SCOPED_TRACE(row.dump());
-    if (engine == "grain" || engine == "good") {
-      EXPECT_EQ(row["verdict"], "stable");
+  ASSERT_EQ(results.runs.size(), engines.size());
+  for (const StabilityRun& run : results.runs) {
+    SCOPED_TRACE(jsonOf(run).dump());
+    if (run.engine == "grain" || run.engine == "good") {
+      EXPECT_EQ(run.verdict, StabilityVerdict::stable);
       continue;
     }
-    EXPECT_EQ(row["verdict"], "unstable");
-    EXPECT_TRUE(row["picture"].is_object());
-    if (engine == "pump") {  // 10 % faster after 10 steps, within a look
-      EXPECT_GT(row["step"], 150);
-      EXPECT_LE(row["step"], 170);
-      EXPECT_GT(row["value"], 0.1);
+    EXPECT_EQ(run.verdict, StabilityVerdict::unstable);
+    EXPECT_TRUE(run.picture);
+    if (run.engine == "pump") {  // 10 % faster after 10 steps, within a sample
+      EXPECT_GT(run.step, 150);
+      EXPECT_LE(run.step, 170);
+      EXPECT_GT(run.value, 0.1);
       continue;
     }
-    const std::string reason = row["reason"];
-    EXPECT_EQ(reason.rfind("failed: " + engine, 0), 0u);
-    EXPECT_NE(reason.find("meeting"), std::string::npos);
-    EXPECT_EQ(reason.find('\n'), std::string::npos);
-    EXPECT_EQ(row["step"], 140);  // the last good look; looks are every 10 steps
+    EXPECT_EQ(run.reason.rfind("failed: " + run.engine, 0), 0u);
+    EXPECT_NE(run.reason.find("meeting"), std::string::npos);
+    EXPECT_EQ(run.reason.find('\n'), std::string::npos);
+    EXPECT_EQ(run.step, 140);  // the last good sample; there is one every 10 steps
   }
 }
 
@@ -116,7 +114,7 @@ TEST(StabilitySuite, FinishedRunsAreTakenUp) {
   command.quiet = true;
   const auto stats = [&] {
     RunStore store(command, "stability", keysOfEach(cases));
-    return testStability(cases, engines, command, store)["runs"][0]["stats"];
+    return jsonOf(testStability(cases, engines, command, store).runs.front().stats);
   };
   // Times are measured: the same ones again were not measured anew.
   EXPECT_EQ(stats(), stats());

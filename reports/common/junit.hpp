@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "adapters/engine.hpp"
 
 /// Verdicts as JUnit's XML, which build servers read.
 namespace crossgrain::reports {
@@ -22,11 +23,10 @@ struct JUnitCase {
 /// @param suite  "stability"
 std::string junitXml(const std::string& suite, const std::vector<JUnitCase>& cases);
 
-/// A test for each engine and hard case: unstable ones failed; engines that broke down are errors;
-/// what was refused is skipped.
-std::string stabilityJunit(const Json& results);
+/// "CASE VARIANT", or the one where the other says nothing more.
+std::string junitGroup(const std::string& name, const std::string& variant);
 
-/// A test for each sweep and quantity that the case has a limit for.
-std::string collideJunit(const Json& results);
+/// Of a run; 0 where it is not known [s].
+double junitSeconds(const std::optional<Stats>& stats);
 
 }  // namespace crossgrain::reports

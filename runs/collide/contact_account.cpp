@@ -1,4 +1,4 @@
-#include "runs/collide/look.hpp"
+#include "runs/collide/contact_account.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,14 +18,14 @@ class Motions {
   }
   double latest() const { return now_.time; }
   Vec2 velocity(std::size_t disk, double time) const {
-    const double share = shareOfNow(time);
-    if (share == 1.0) return now_.velocity[disk];
-    return share * now_.velocity[disk] + (1.0 - share) * before_.velocity[disk];
+    const double weight = weightOfNow(time);
+    if (weight == 1.0) return now_.velocity[disk];
+    return weight * now_.velocity[disk] + (1.0 - weight) * before_.velocity[disk];
   }
   double spin(std::size_t disk, double time) const {
-    const double share = shareOfNow(time);
-    if (share == 1.0) return now_.spin[disk];
-    return share * now_.spin[disk] + (1.0 - share) * before_.spin[disk];
+    const double weight = weightOfNow(time);
+    if (weight == 1.0) return now_.spin[disk];
+    return weight * now_.spin[disk] + (1.0 - weight) * before_.spin[disk];
   }
 
  private:
@@ -34,7 +34,7 @@ class Motions {
     std::vector<Vec2> velocity;
     std::vector<double> spin;
   };
-  double shareOfNow(double time) const {
+  double weightOfNow(double time) const {
     if (time == now_.time || before_.velocity.empty() || before_.time == now_.time) return 1.0;
     return (time - before_.time) / (now_.time - before_.time);
   }
@@ -162,8 +162,8 @@ class Accountant {
 
 }  // namespace
 
-std::vector<std::optional<ContactAccount>> lookThrough(Engine& engine, const WatchedRun& run,
-                                                       double end) {
+std::vector<std::optional<ContactAccount>> watchContacts(Engine& engine, const WatchedRun& run,
+                                                         double end) {
   const double dt = run.realised.dt;
   Accountant accountant(run);
   accountant.add(engine.snapshot(ContactReport::none));

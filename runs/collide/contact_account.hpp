@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline runs {
 
-/// What one pair's contact did in a run that was looked at after every step.
+/// What one pair's contact did in a run that was watched step by step.
 struct ContactAccount {
   double maxOverlap = 0.0;  ///< largest at any step: below the true maximum by O(dt²) [m]
   ForceWork work;
@@ -26,8 +26,7 @@ struct WatchedRun {
   bool slidingFlags = false;
 };
 
-/// Advances to `end` and looks at the contacts after every step until all pairs have met and
-/// parted.
+/// Advances to `end` and watches the contacts, step by step, until all pairs have met and parted.
 ///
 /// Work is Σ f·v dt over the steps in contact, forces, normals and velocities of contactTime;
 /// velocities of another time are interpolated between two snapshots, which is of second order. So
@@ -38,7 +37,7 @@ struct WatchedRun {
 /// at the later one.
 /// @returns one account per pair; absent for one that was not seen to touch, and for all where
 ///          forces are means over a step, those of impulses
-std::vector<std::optional<ContactAccount>> lookThrough(Engine& engine, const WatchedRun& run,
-                                                       double end);
+std::vector<std::optional<ContactAccount>> watchContacts(Engine& engine, const WatchedRun& run,
+                                                         double end);
 
 }  // namespace crossgrain::inline runs

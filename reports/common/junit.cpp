@@ -1,0 +1,91 @@
+#include "reports/common/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Outcome = JUnitCase::Outcome;
+
+/// As the value of an attribute. What XML 1.0 cannot hold at all, a terminal's escapes and bytes
+/// that are not UTF-8, becomes a sign of replacement.
+std::string escaped(const std::string& raw) {
+  using Json = nlohmann::json;
+  const std::string utf8 = Json(raw).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = Json::parse(utf8);
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '\n' || c == '\t' || c == '\r')
+      result += fmt::format("&#{};", static_cast<int>(c));
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  }
+  return result;
+}
+
+std::string counts(const std::vector<JUnitCase>& cases) {
+  const auto count = [&](Outcome outcome) {
+    return std::ranges::count(cases, outcome, &JUnitCase::outcome);
+  };
+  double seconds = 0.0;
+  for (const JUnitCase& each : cases) seconds += each.seconds;
+  return fmt::format(R"(tests="{}" failures="{}" errors="{}" skipped="{}" time="{:.3f}")",
+                     cases.size(), count(Outcome::failed), count(Outcome::error),
+                     count(Outcome::skipped), seconds);
+}
+
+const char* tagOf(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::failed:
+      return "failure";
+    case Outcome::error:
+      return "error";
+    case Outcome::skipped:
+      return "skipped";
+    case Outcome::passed:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string junitXml(const std::string& suite, const std::vector<JUnitCase>& cases) {
+  std::string xml = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites {0}>\n"
+      "<testsuite name=\"crossgrain {1}\" {0}>\n",
+      counts(cases), escaped(suite));
+  for (const JUnitCase& each : cases) {
+    xml += fmt::format(R"(<testcase classname="{}" name="{}" time="{:.3f}")", escaped(each.group),
+                       escaped(each.name), each.seconds);
+    if (const char* tag = tagOf(each.outcome))
+      xml += fmt::format("><{} message=\"{}\"/></testcase>\n", tag, escaped(each.message));
+    else if (!each.message.empty())
+      xml += fmt::format("><system-out>{}</system-out></testcase>\n", escaped(each.message));
+    else
+      xml += "/>\n";
+  }
+  return xml + "</testsuite>\n</testsuites>\n";
+}
+
+std::string junitGroup(const std::string& name, const std::string& variant) {
+  return variant.empty() || variant == name ? name : fmt::format("{} {}", name, variant);
+}
+
+double junitSeconds(const std::optional<Stats>& stats) {
+  return stats ? stats->wallSeconds : 0.0;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,38 @@
+#include "results/stability.hpp"
+
+#include "results/head_fields.hpp"
+#include "results/stability_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, HardCase& setup) {
+  io("case", setup.name);
+  io("variant", setup.variant);
+  io("file", setup.file);
+  io("tests", setup.tests);
+  io("measure", setup.measure);
+  io("what", setup.what);
+  io("unit", setup.unit);
+  io("limit", setup.limit);
+  io("degraded_limit", setup.degradedLimit);
+  io("why", setup.why);
+  io("toml", setup.toml);
+}
+
+void fields(auto& io, StabilityResults& results) {
+  fields(io, results.head);
+  io.present("elapsed_s", results.elapsed);
+  io("engines", results.engines);
+  io("cases", results.cases);
+  io("runs", results.runs);
+}
+
+Json toJson(const StabilityResults& results) {
+  return jsonOf(results);
+}
+
+StabilityResults stabilityFromJson(const Json& json) {
+  return readAs<StabilityResults>(json);
+}
+
+}  // namespace crossgrain::inline results
