@@ -1,0 +1,40 @@
+#pragma once
+
+#include "adapters/worker/json.hpp"
+#include "results/engine_row.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, EngineRow& row) {
+  io("name", row.name);
+  io("summary", row.summary);
+  io("version", row.version);
+  io("mirrors", row.mirrors);
+  io("status", row.status);
+  io("reason", row.reason);
+}
+
+void fields(auto& io, Stats& stats) {
+  io("steps", stats.steps);
+  io("contact_evaluations", stats.contactEvaluations);
+  io("wall_s", stats.wallSeconds);
+  io("cpu_s", stats.cpuSeconds);
+  io("counters", stats.counters);
+}
+
+/// As the worker protocol says it.
+template <>
+inline Json jsonOf(const Realised& realised) {
+  return crossgrain::toJson(realised);
+}
+template <>
+inline void readFrom(const Json& json, Realised& realised) {
+  try {
+    realised = realisedFromJson(json);
+  } catch (const std::exception& error) {
+    throw FieldError(std::string(": ") + error.what());
+  }
+}
+
+}  // namespace crossgrain::inline results
