@@ -23,6 +23,7 @@
 ///     void fields(auto& io, StabilityRun& run) {
 ///       io("engine", run.engine);           // always written; where a file lacks it, the default
 ///       io.present("step", run.step);       // an optional that is written only where it is there
+///       io.when(run.turns, "spin", run.spin);  // written where that holds, read where it is there
 ///     }
 ///
 /// Enumerators are written by name: constexpr auto namesOf(Verdict) { return std::array{…}; }.
@@ -51,6 +52,12 @@ concept Enumerated = std::is_enum_v<T> && requires(T value) {
   namesOf(value);
 };
 
+/// Of an enumerator.
+template <Enumerated T>
+constexpr std::string_view nameOf(T value) {
+  return namesOf(value)[static_cast<std::size_t>(value)];
+}
+
 template <typename T>
 Json jsonOf(const T& value);
 template <typename T>
@@ -68,6 +75,10 @@ class FieldWriter {
   template <typename T>
   void present(const char* key, const std::optional<T>& value) {
     if (value) object_[key] = jsonOf(*value);
+  }
+  template <typename T>
+  void when(bool there, const char* key, const T& value) {
+    if (there) (*this)(key, value);
   }
 
  private:
@@ -92,6 +103,10 @@ class FieldReader {
   }
   template <typename T>
   void present(const char* key, std::optional<T>& value) {
+    (*this)(key, value);
+  }
+  template <typename T>
+  void when(bool, const char* key, T& value) {
     (*this)(key, value);
   }
 
@@ -143,7 +158,7 @@ Json jsonOf(const T& value) {
                 std::is_convertible_v<T, std::string_view>) {
     return Json(value);
   } else if constexpr (Enumerated<T>) {
-    return Json(std::string(namesOf(value)[static_cast<std::size_t>(value)]));
+    return Json(nameOf(value));
   } else if constexpr (detail::IsOptional<T>::value) {
     return value ? jsonOf(*value) : Json(nullptr);
   } else if constexpr (detail::IsVector<T>::value || detail::IsArray<T>::value) {
