@@ -104,6 +104,16 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
   if (missing) throw std::runtime_error(*missing);
 }
 
+void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
+  writeReport(toJson(results), dir);
+}
+void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
+  writeReport(toJson(results), dir);
+}
+void writeReport(const RevResults& results, const std::filesystem::path& dir) {
+  writeReport(toJson(results), dir);
+}
+
 nlohmann::json readResults(const std::filesystem::path& dir) {
   return readResultsFile(dir / "results.json");
 }

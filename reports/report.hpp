@@ -3,6 +3,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "results/effects.hpp"
+#include "results/rev.hpp"
+
 namespace crossgrain {
 
 /// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
@@ -14,6 +17,9 @@ namespace crossgrain {
 /// still written before the error is thrown.
 /// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
+void writeReport(const CompareResults& results, const std::filesystem::path& dir);
+void writeReport(const EffectsResults& results, const std::filesystem::path& dir);
+void writeReport(const RevResults& results, const std::filesystem::path& dir);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

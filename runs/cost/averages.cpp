@@ -90,11 +90,10 @@ class ViewAverages {
       const double unit = profile.field == profileMeasures[0] ? rim : 1.0;
       for (const auto& mean : profile.mean) list.push_back(mean ? json(*mean / unit) : json());
     }
-    for (const json& fit : couetteFits(setup_, profiles)) {
-      if (!fit["value"].is_number()) continue;
-      if (fit["name"] == "velocity_decay") numbers["shear_band_width"] = {fit["value"]};
-      if (fit["name"] == "velocity_amplitude")
-        numbers["wall_slip"] = {1.0 - fit["value"].get<double>()};
+    for (const FitRow& fit : couetteFits(setup_, profiles)) {
+      if (!fit.value) continue;
+      if (fit.name == "velocity_decay") numbers["shear_band_width"] = json::array({*fit.value});
+      if (fit.name == "velocity_amplitude") numbers["wall_slip"] = json::array({1.0 - *fit.value});
     }
     if (numbers.contains("stress_rr")) {
       const auto level = ensembleMean(optionalNumbers(numbers["stress_rr"]));
