@@ -1,5 +1,7 @@
 #include "reports/report.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 
@@ -9,8 +11,12 @@
 #include "reports/common/json_view.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
+#include "reports/couette/report.hpp"
+#include "reports/effects/report.hpp"
 #include "reports/junit.hpp"
+#include "results/json_fields.hpp"
 #include "results/schema.hpp"
+#include "support/bad_input.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain {
@@ -20,55 +26,60 @@ namespace {
 using namespace reports;
 
 /// What a kind of results is written as.
+template <typename Results>
 struct Kind {
-  std::vector<std::pair<const char*, std::string (*)(const Json&)>> tables;
-  std::vector<Figure> (*figures)(const Json&);
-  std::vector<Picture> (*pictures)(const Json&);
-  std::string (*page)(const Json&, const Illustrations&);
+  std::vector<std::pair<const char*, std::string (*)(const Results&)>> tables;
+  std::vector<Figure> (*figures)(const Results&);
+  std::vector<Picture> (*pictures)(const Results&);
+  std::string (*page)(const Results&, const Illustrations&);
 };
 
-std::vector<Picture> noPictures(const Json&) {
+template <typename Results>
+std::vector<Picture> noPictures(const Results&) {
   return {};
 }
 
-Kind kindOf(const Json& results) {
-  const std::string kind = text(results, "kind");
-  if (kind == kindCollide)
-    return {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
-            collideFigures,
-            noPictures,
-            collidePage};
-  if (kind == kindEffects)
-    return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
-  if (kind == kindStability)
-    return {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
-            stabilityFigures,
-            stabilityPictures,
-            stabilityPage};
-  if (kind == kindCost) return {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
-  if (kind == kindAverage)
-    return {{{"profiles.csv", profilesCsv},
-             {"series.csv", seriesCsv},
-             {"regimes.csv", regimesCsv},
-             {"steadiness.csv", steadinessCsv},
-             {"distributions.csv", distributionsCsv}},
-            compareFigures,
-            noPictures,
-            averagePage};
-  if (kind == kindRev)
-    return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
-            revFigures,
-            noPictures,
-            revPage};
-  return {{{"profiles.csv", profilesCsv},
-           {"series.csv", seriesCsv},
-           {"agreement.csv", agreementCsv},
-           {"regimes.csv", regimesCsv},
-           {"steadiness.csv", steadinessCsv},
-           {"distributions.csv", distributionsCsv}},
-          compareFigures,
-          comparePictures,
-          comparePage};
+const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
+                                           {"series.csv", seriesCsv},
+                                           {"agreement.csv", agreementCsv},
+                                           {"regimes.csv", regimesCsv},
+                                           {"steadiness.csv", steadinessCsv},
+                                           {"distributions.csv", distributionsCsv}},
+                                          compareFigures,
+                                          comparePictures,
+                                          comparePage};
+
+const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
+                                           {"series.csv", seriesCsv},
+                                           {"regimes.csv", regimesCsv},
+                                           {"steadiness.csv", steadinessCsv},
+                                           {"distributions.csv", distributionsCsv}},
+                                          compareFigures,
+                                          noPictures<CompareResults>,
+                                          averagePage};
+
+const Kind<EffectsResults> effectsKind = {
+    {{"effects.csv", effectsCsv}}, effectFigures, noPictures<EffectsResults>, effectsPage};
+
+const Kind<RevResults> revKind = {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
+                                  revFigures,
+                                  noPictures<RevResults>,
+                                  revPage};
+
+const Kind<Json> collideKind = {{{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
+                                collideFigures,
+                                noPictures<Json>,
+                                collidePage};
+
+const Kind<Json> stabilityKind = {{{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
+                                  stabilityFigures,
+                                  stabilityPictures,
+                                  stabilityPage};
+
+const Kind<Json> costKind = {{{"cost.csv", costCsv}}, costFigures, noPictures<Json>, costPage};
+
+const Kind<CompareResults>& kindOf(const CompareResults& results) {
+  return results.head.kind == kindAverage ? averageKind : compareKind;
 }
 
 /// @returns why there are no plots, if so
@@ -85,13 +96,12 @@ std::optional<std::string> draw(const std::vector<Figure>& figures,
   return std::nullopt;
 }
 
-}  // namespace
-
-void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {
-  checkSchema(results, "results");
+/// @param document  results.json
+template <typename Results>
+void write(const Kind<Results>& kind, const Results& results, const Json& document,
+           const std::filesystem::path& dir) {
   makeDirectory(dir);
-  writeFile(dir / "results.json", toText(results));
-  const Kind kind = kindOf(results);
+  writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
 
   const auto plots = dir / "plots";
@@ -104,14 +114,32 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
   if (missing) throw std::runtime_error(*missing);
 }
 
+}  // namespace
+
 void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
-  writeReport(toJson(results), dir);
+  write(kindOf(results), results, toJson(results), dir);
 }
+
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
-  writeReport(toJson(results), dir);
+  write(effectsKind, results, toJson(results), dir);
 }
+
 void writeReport(const RevResults& results, const std::filesystem::path& dir) {
-  writeReport(toJson(results), dir);
+  write(revKind, results, toJson(results), dir);
+}
+
+void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
+  checkSchema(results, "results");
+  const std::string kind = text(results, "kind");
+  if (kind == kindCollide) return write(collideKind, results, results, dir);
+  if (kind == kindStability) return write(stabilityKind, results, results, dir);
+  if (kind == kindCost) return write(costKind, results, results, dir);
+  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
+  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
+  const CompareResults compared = compareFromJson(results);
+  write(kindOf(compared), compared, results, dir);
+} catch (const FieldError& error) {
+  throw BadInput(fmt::format("{}: {}", (dir / "results.json").string(), error.what()));
 }
 
 nlohmann::json readResults(const std::filesystem::path& dir) {

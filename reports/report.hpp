@@ -15,7 +15,8 @@ namespace crossgrain {
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are
 /// still written before the error is thrown.
-/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
+/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
+///         BadInput for JSON that is no such document
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
 void writeReport(const CompareResults& results, const std::filesystem::path& dir);
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir);

@@ -3,6 +3,7 @@
 #include "results/compare.hpp"
 #include "results/engine_fields.hpp"
 #include "results/head_fields.hpp"
+#include "results/scene_picture_fields.hpp"
 #include "results/schema.hpp"
 
 /// Members of what results of Couette cases are made of (results/json_fields.hpp).
@@ -145,23 +146,6 @@ void fields(auto& io, Distribution& distribution) {
   io("stderr", distribution.standardError);
   io("outside", distribution.outside);
   io("samples", distribution.samples);
-}
-
-void fields(auto& io, CellPicture& picture) {
-  io("radius", picture.radius);
-  io("x", picture.x);
-  io("y", picture.y);
-  io("start_r", picture.startR);
-  io("start_phi", picture.startPhi);
-  io("wall_x", picture.wallX);
-  io("wall_y", picture.wallY);
-  io("wall_radius", picture.wallRadius);
-  io.present("contact_i", picture.contactI);
-  io.present("contact_j", picture.contactJ);
-  io.present("contact_force", picture.contactForce);
-  io.present("planes", picture.planes);
-  io("time_s", picture.time);
-  io("rotation", picture.rotation);
 }
 
 void fields(auto& io, CouetteRun& run) {

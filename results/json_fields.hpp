@@ -52,7 +52,7 @@ concept Enumerated = std::is_enum_v<T> && requires(T value) {
   namesOf(value);
 };
 
-/// Of an enumerator.
+/// As it is written.
 template <Enumerated T>
 constexpr std::string_view nameOf(T value) {
   return namesOf(value)[static_cast<std::size_t>(value)];
@@ -158,7 +158,7 @@ Json jsonOf(const T& value) {
                 std::is_convertible_v<T, std::string_view>) {
     return Json(value);
   } else if constexpr (Enumerated<T>) {
-    return Json(nameOf(value));
+    return Json(std::string(nameOf(value)));
   } else if constexpr (detail::IsOptional<T>::value) {
     return value ? jsonOf(*value) : Json(nullptr);
   } else if constexpr (detail::IsVector<T>::value || detail::IsArray<T>::value) {

@@ -6,13 +6,6 @@
 
 namespace crossgrain::inline results {
 
-Json toJson(const CellPicture& picture) {
-  return jsonOf(picture);
-}
-CellPicture pictureFromJson(const Json& json) {
-  return readAs<CellPicture>(json);
-}
-
 Json toJson(const CouetteRun& run) {
   return jsonOf(run);
 }

@@ -12,7 +12,7 @@
 #include "results/couette_numbers.hpp"
 #include "results/couette_state.hpp"
 #include "results/json_fields.hpp"
-#include "results/picture.hpp"
+#include "results/scene_picture.hpp"
 
 namespace crossgrain::inline results {
 
@@ -40,7 +40,7 @@ struct CouetteRun {
   /// Absent where a report does not show them; then it shows no distributions and picture either.
   std::optional<RunSeries> series;
   std::vector<Distribution> distributions;
-  std::optional<CellPicture> picture;  ///< of the first packing
+  std::optional<ScenePicture> picture;  ///< of the first packing
 
   bool finished() const { return status == RunStatus::finished; }
 };

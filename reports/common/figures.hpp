@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,46 +9,15 @@
 
 namespace crossgrain::reports {
 
-/// Every plot of a comparison that there are data for. Names of figures: overview; profile_FIELD
-/// (profile_azimuthal_velocity_log for its log axis); check_1, check_2, …; series_NAME;
-/// distribution_velocities, distribution_joint, distribution_directions,
-/// distribution_contacts.
-std::vector<Figure> compareFigures(const Json& results);
-
 /// Every plot of a collision sweep: collision_1, collision_2, … in the order of its variants.
 std::vector<Figure> collideFigures(const Json& results);
-
-/// Every plot of a study of effects, for each engine k = 1, 2, …: effects_k_cost, what each costs
-/// and changes; effects_k_profile_FIELD, with and without.
-std::vector<Figure> effectFigures(const Json& results);
 
 /// Every plot of a study of cost: cost_KIND, error against time, and cost_orders_KIND, against the
 /// step, for each kind of error; cost_parts, of averages; cost_contacts; cost_growth.
 std::vector<Figure> costFigures(const Json& results);
 
-/// Plots of fields against ring width: rev_FIELD.
-std::vector<Figure> revFigures(const Json& results);
-
 /// Plots of hard cases: stability_map, the verdicts of all; stability_CASE, the figure of a case
 /// over time where an engine did not keep to its limit.
 std::vector<Figure> stabilityFigures(const Json& results);
-
-/// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
-using IsFaint = std::function<bool(const EngineResults&, const std::string& field)>;
-
-/// The parts of compareFigures. A check of a single number is no plot.
-std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines,
-                                   const IsFaint& faint = {});
-std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineResults>& engines);
-std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineResults>& engines);
-
-std::vector<Figure> distributionFigures(const Json& results,
-                                        const std::vector<EngineResults>& engines);
-
-/// What the bars of the profiles are, in words: over packings, or within one run.
-std::string barsInWords(const std::vector<EngineResults>& engines);
-
-/// The radial axis of a cell, from the wheel to the ring; absent without a cell.
-std::optional<Range> rTildeRange(const Json& results);
 
 }  // namespace crossgrain::reports

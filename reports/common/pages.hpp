@@ -20,12 +20,8 @@ struct Illustrations {
 };
 
 /// One page each, HTML with everything inside: no scripts and nothing to fetch.
-std::string averagePage(const Json& results, const Illustrations& shown);
-std::string comparePage(const Json& results, const Illustrations& shown);
 std::string collidePage(const Json& results, const Illustrations& shown);
-std::string effectsPage(const Json& results, const Illustrations& shown);
 std::string stabilityPage(const Json& results, const Illustrations& shown);
 std::string costPage(const Json& results, const Illustrations& shown);
-std::string revPage(const Json& results, const Illustrations& shown);
 
 }  // namespace crossgrain::reports

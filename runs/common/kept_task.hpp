@@ -5,15 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "results/json_fields.hpp"
 #include "runs/common/progress.hpp"
 #include "runs/common/run_store.hpp"
+#include "support/task_pool.hpp"
 
 namespace crossgrain::inline runs {
 
 /// A piece of work whose result stays in the store, so that it is done once.
-struct KeptTask {
+/// @tparam Result  has fields(); or is JSON
+template <typename Result>
+struct KeptTaskOf {
   struct Outcome {
-    nlohmann::json result;
+    Result result;
     bool finished;     ///< is kept; what failed is tried again by the next command
     std::string line;  ///< how it ended, for the progress
   };
@@ -25,12 +29,37 @@ struct KeptTask {
   /// @param progress  to be told the fraction done, 0 … 1
   std::function<Outcome(const std::function<void(double)>& progress)> work;
 };
+using KeptTask = KeptTaskOf<nlohmann::json>;
 
 /// Takes up the results that are there and does the rest, `jobs` at a time. All that are there are
 /// looked at before anything is done, so that what stands in the way does so at once.
 /// @returns the results in the order of the tasks
 /// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
-std::vector<nlohmann::json> doOrTakeUp(const std::vector<KeptTask>& tasks, const RunStore& store,
-                                       Progress& progress, const std::string& stage, int jobs);
+template <typename Result>
+std::vector<Result> doOrTakeUp(const std::vector<KeptTaskOf<Result>>& tasks, const RunStore& store,
+                               Progress& progress, const std::string& stage, int jobs) {
+  std::vector<Result> results(tasks.size());
+  std::vector<double> weights;
+  for (const auto& task : tasks) weights.push_back(task.weight);
+  progress.begin(stage, weights);
+  std::vector<Task> open;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const auto& task = tasks[k];
+    if (const auto before = store.find(task.name, task.key)) {
+      readFrom(*before, results[k]);
+      progress.finish(k, task.label + ": finished in an earlier run");
+      continue;
+    }
+    open.push_back({task.weight, [&, k] {
+                      const auto& own = tasks[k];
+                      auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
+                      if (outcome.finished) store.keep(own.name, own.key, jsonOf(outcome.result));
+                      results[k] = std::move(outcome.result);
+                      progress.finish(k, own.label + ": " + outcome.line);
+                    }});
+  }
+  runTasks(open, jobs);
+  return results;
+}
 
 }  // namespace crossgrain::inline runs

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "results/scene_picture_fields.hpp"
+
 namespace crossgrain::inline runs {
 
-CellPicture cellPicture(const Scene& scene, const Snapshot& now, double rotation) {
-  CellPicture picture;
+ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
+  ScenePicture picture;
   picture.radius = scene.disks.radius;
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
     picture.x.push_back(now.position[i].x());
@@ -32,7 +34,7 @@ CellPicture cellPicture(const Scene& scene, const Snapshot& now, double rotation
 }
 
 Json pictureOf(const Scene& scene, const Snapshot& now, double rotation) {
-  return toJson(cellPicture(scene, now, rotation));
+  return jsonOf(scenePicture(scene, now, rotation));
 }
 
 }  // namespace crossgrain::inline runs

@@ -9,6 +9,7 @@
 #include "cases/preparation.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
+#include "results/couette_fields.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -152,8 +153,8 @@ std::string runName(const EngineEntry& entry, const Variant& variant, int packin
 
 }  // namespace
 
-KeptTask::Outcome Campaign::runOne(const Variant& variant, int packing,
-                                   const std::function<void(double)>& progress) const {
+KeptTaskOf<CouetteRun>::Outcome Campaign::runOne(
+    const Variant& variant, int packing, const std::function<void(double)>& progress) const {
   const EngineEntry& entry = engines_[variant.engine].entry;
   const std::string name = runName(entry, variant, packing);
   CouetteRun run;
@@ -171,7 +172,7 @@ KeptTask::Outcome Campaign::runOne(const Variant& variant, int packing,
                            Json(keyOf(variant.engine, packing, variant.without)).dump()};
     run = runCouette(task, progress);
     run.without = variant.without;
-    return {toJson(run), true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
+    return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
   } catch (const Interrupted&) {
     throw;
   } catch (const OutputError&) {
@@ -180,7 +181,7 @@ KeptTask::Outcome Campaign::runOne(const Variant& variant, int packing,
     run.without = variant.without;
     run.status = RunStatus::failed;
     run.reason = fmt::format("packing {}: {}", packing, error.what());
-    return {toJson(run), false, fmt::format("failed: {}", error.what())};
+    return {run, false, fmt::format("failed: {}", error.what())};
   }
 }
 
@@ -192,14 +193,11 @@ std::vector<Variant> Campaign::wholeCase() const {
 }
 
 void Campaign::run(const std::vector<Variant>& variants) {
-  const auto done =
-      doOrTakeUp(tasksOf(variants), store_, progress_, "running engines", command_.jobs);
-  runs_.clear();
-  for (const Json& run : done) runs_.push_back(runFromJson(run));
+  runs_ = doOrTakeUp(tasksOf(variants), store_, progress_, "running engines", command_.jobs);
 }
 
-std::vector<KeptTask> Campaign::tasksOf(const std::vector<Variant>& variants) const {
-  std::vector<KeptTask> tasks;
+std::vector<KeptTaskOf<CouetteRun>> Campaign::tasksOf(const std::vector<Variant>& variants) const {
+  std::vector<KeptTaskOf<CouetteRun>> tasks;
   for (const Variant& variant : variants) {
     const CampaignEngine& own = engines_[variant.engine];
     for (int k = 0; k < packingCount(); ++k)
@@ -236,7 +234,7 @@ std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) co
   for (const Variant& variant : variants) {
     const std::string& name = engines_[variant.engine].entry.name;
     PlannedWork work{name + (variant.without.empty() ? "" : " without " + variant.without), "runs"};
-    for (const KeptTask& task : tasksOf({variant})) count(work, store_.find(task.name, task.key));
+    for (const auto& task : tasksOf({variant})) count(work, store_.find(task.name, task.key));
     works.push_back(work);
   }
   for (const CampaignEngine& own : engines_)

@@ -82,7 +82,7 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
     averages.add(snapshot);
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
-      run.picture = cellPicture(scene, snapshot, snapshot.positionTime / rotation);
+      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / rotation);
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {

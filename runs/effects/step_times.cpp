@@ -25,9 +25,9 @@ void unlessFailed(StepTimes& times, Work&& work) {
   }
 }
 
-/// About how long a step takes [s]: of the last of stretches that double until one takes `wanted`,
+/// About how long a step takes [s]: of the last of stretches that double until one takes `target`,
 /// for the first steps may be slow.
-double roughStep(TimedVariant& variant, double wanted) {
+double roughStep(TimedVariant& variant, double target) {
   constexpr std::uint64_t most = 1 << 20;
   const double dt = variant.load();
   std::uint64_t steps = 0, stretch = 16;
@@ -36,7 +36,7 @@ double roughStep(TimedVariant& variant, double wanted) {
     const double before = variant.engine->stats().wallSeconds;
     variant.engine->advance(static_cast<double>(steps) * dt);
     const double took = variant.engine->stats().wallSeconds - before;
-    if (took >= wanted || stretch >= most) return took / static_cast<double>(stretch);
+    if (took >= target || stretch >= most) return took / static_cast<double>(stretch);
   }
 }
 

@@ -2,20 +2,22 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results/effects.hpp"
+
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
 namespace crossgrain::sample {
 
 /// Three engines, a mirror, one engine that refused and one run that failed, text that HTML and
 /// gnuplot must not take literally, and absent numbers here and there.
-nlohmann::json compareResults(int packings, int disks);
+CompareResults compareResults(int packings, int disks);
 
 /// Two laws, several time steps, a sweep without points.
 nlohmann::json collideResults();
 
 /// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
 /// and which refuses a third switch.
-nlohmann::json effectsResults(int packings);
+EffectsResults effectsResults(int packings);
 
 /// Two hard cases on two engines: every verdict once.
 nlohmann::json stabilityResults();

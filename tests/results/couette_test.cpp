@@ -42,9 +42,9 @@ CouetteRun finishedRun() {
                 {"wall_pressure", "pressure", {1.0}, {{}}, {2.0}, {}, "half"}};
   run.series = RunSeries{{"t_s", {0.0, 0.5}}, {"wheel_torque", {{}, 2e-3}}};
   run.distributions = {{"spin", 0, {{-1.0, 0.5, 3}}, {0.25, 0.0, 1.5}, {}, 0.125, 8.0}};
-  CellPicture picture;
+  ScenePicture picture;
   picture.radius = picture.x = picture.y = picture.startR = picture.startPhi = {0.25};
-  picture.contactI = picture.contactJ = std::vector<std::int64_t>{0};
+  picture.contactI = picture.contactJ = std::vector<int>{0};
   picture.contactForce = {0.5};
   picture.time = 3.0;
   run.picture = picture;

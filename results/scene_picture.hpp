@@ -1,0 +1,21 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace crossgrain::inline results {
+
+/// A scene at one instant, to be drawn: lengths in m, one entry per disk, wall disk or contact.
+struct ScenePicture {
+  std::vector<double> radius, x, y;      ///< disks
+  std::vector<double> startR, startPhi;  ///< where they started: distance from the origin, angle
+  std::vector<double> wallX, wallY, wallRadius;
+  std::optional<std::vector<int>> contactI, contactJ;        ///< ids: disks, then wall disks
+  std::optional<std::vector<double>> contactForce;           ///< f_n [N]
+  std::optional<std::vector<std::array<double, 4>>> planes;  ///< x, y and normal x, y
+  double time = 0.0;                                         ///< [s]
+  double rotation = 0.0;                                     ///< of the wheel so far
+};
+
+}  // namespace crossgrain::inline results
