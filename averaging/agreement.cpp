@@ -167,18 +167,6 @@ std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> 
   return result;
 }
 
-std::string_view toString(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::agree:
-      return "agree";
-    case Verdict::disagree:
-      return "disagree";
-    case Verdict::undecided:
-      return "undecided";
-  }
-  throw std::invalid_argument("agreement: not a verdict");
-}
-
 std::vector<std::optional<PairedComparison>> comparePaired(std::span<const PairedSample> family,
                                                            double confidence) {
   const double alpha = 1.0 - confidence;

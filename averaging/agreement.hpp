@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -18,9 +19,14 @@ struct EnsembleMean {
 std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> packingMeans);
 
 enum class Verdict { agree, disagree, undecided };
+constexpr auto namesOf(Verdict) {
+  return std::array<std::string_view, 3>{"agree", "disagree", "undecided"};
+}
 
 /// "agree", "disagree", "undecided"
-std::string_view toString(Verdict verdict);
+constexpr std::string_view toString(Verdict verdict) {
+  return namesOf(verdict)[static_cast<std::size_t>(verdict)];
+}
 
 /// One ring of one field as two engines found it on the same packings.
 struct PairedSample {

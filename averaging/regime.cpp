@@ -56,18 +56,6 @@ std::optional<double> inertialNumber(const Rings& rings, std::span<const Profile
   return std::abs(gradient - rotation) * rings.diameter() * std::sqrt(2.0 * density / (*rr + *pp));
 }
 
-const char* toString(Regime regime) {
-  switch (regime) {
-    case Regime::flowing:
-      return "flowing";
-    case Regime::blocked:
-      return "blocked";
-    case Regime::collisional:
-      return "collisional";
-  }
-  return "";
-}
-
 RegimeVerdict regimeOf(const RegimeFigures& figures) {
   const auto& contacts = figures.wheelContacts;
   const auto& number = figures.inertialNumber;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,9 +39,14 @@ std::optional<double> inertialNumber(const Rings& rings, std::span<const Profile
 /// - collisional: no lasting network of contacts leads from the wheel outward; what stress there is
 ///   comes from impacts and goes with Ω².
 enum class Regime { flowing, blocked, collisional };
+constexpr auto namesOf(Regime) {
+  return std::array<std::string_view, 3>{"flowing", "blocked", "collisional"};
+}
 
 /// "flowing", "blocked", "collisional"
-const char* toString(Regime regime);
+constexpr std::string_view toString(Regime regime) {
+  return namesOf(regime)[static_cast<std::size_t>(regime)];
+}
 
 /// Above it a disk is hit before it has found its place under the pressure: contacts become brief
 /// and binary. GDR MiDi (2004), da Cruz et al. (2005) and Forterre & Pouliquen (2008) put the end

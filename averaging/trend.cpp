@@ -94,18 +94,6 @@ Trend estimateTrend(std::span<const double> series) {
   return result;
 }
 
-const char* toString(Drift drift) {
-  switch (drift) {
-    case Drift::drifts:
-      return "drifts";
-    case Drift::notSeen:
-      return "no drift seen";
-    case Drift::cannotTell:
-      return "cannot tell";
-  }
-  return "";
-}
-
 RelativeDrift relativeDrift(std::span<const double> series, double confidence, double limit) {
   RelativeDrift result;
   if (series.empty()) return result;

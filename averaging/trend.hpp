@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace crossgrain::inline averaging {
 
@@ -30,9 +32,14 @@ struct Trend {
 Trend estimateTrend(std::span<const double> series);
 
 enum class Drift { drifts, notSeen, cannotTell };
+constexpr auto namesOf(Drift) {
+  return std::array<std::string_view, 3>{"drifts", "no drift seen", "cannot tell"};
+}
 
 /// "drifts", "no drift seen", "cannot tell"
-const char* toString(Drift drift);
+constexpr std::string_view toString(Drift drift) {
+  return namesOf(drift)[static_cast<std::size_t>(drift)];
+}
 
 /// The change over the whole series in units of its mean, with its interval.
 struct RelativeDrift {

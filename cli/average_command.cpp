@@ -1,6 +1,8 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/report.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/couette/average.hpp"
 
 namespace crossgrain::inline cli {
@@ -9,7 +11,10 @@ namespace {
 int average(const CommandLine& line) {
   const Case setup = onlyCase(line, "average");
   RunStore store(line.run, "average", {});
-  return averaged(line, store, averageSnapshots(setup, line.snapshots, line.run.commandLine));
+  const CompareResults results = averageSnapshots(setup, line.snapshots, line.run.commandLine);
+  store.begin();
+  writeReport(results, line.run.out);
+  return averaged(line, results.averaging);
 }
 
 Action declare(CLI::App& app, CommandLine& line) {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "cases/effect_switch.hpp"
 #include "cli/one_case.hpp"
@@ -12,15 +14,12 @@
 
 namespace crossgrain::inline cli {
 
-using nlohmann::json;
-
 namespace {
 
 /// Only the verdicts between engines that the user named decide the exit status.
-json peerRows(const json& results) {
-  json rows = json::array();
-  for (const json& row : results["agreement"])
-    if (row["kind"] == "peer") rows.push_back(row);
+std::vector<AgreementRow> peerRows(const CompareResults& results) {
+  std::vector<AgreementRow> rows = results.agreement;
+  std::erase_if(rows, [](const AgreementRow& row) { return row.kind != PairKind::peer; });
   return rows;
 }
 
@@ -29,31 +28,31 @@ int compare(const CommandLine& line, bool strict) {
   printWarnings(setup);
   RunStore store(line.run, "compare", soleCase(setup));
   if (line.run.dryRun) return told(comparePlan(setup, line.run, store));
-  const json results = compareEngines(setup, line.run, store);
+  const CompareResults results = compareEngines(setup, line.run, store);
   writeReport(results, line.run.out);
 
-  const json rows = peerRows(results);
-  const int agree = countOf(rows, "verdict", "agree");
-  const int disagree = countOf(rows, "verdict", "disagree");
-  const int undecided = countOf(rows, "verdict", "undecided");
-  const int failed = countOf(results["runs"], "status", "failed");
+  const std::vector<AgreementRow> rows = peerRows(results);
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count(rows, verdict, &AgreementRow::verdict);
+  };
+  const auto disagree = count(Verdict::disagree), undecided = count(Verdict::undecided);
+  const auto failed = std::ranges::count(results.runs, RunStatus::failed, &CouetteRun::status);
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else {
     fmt::print("{}\n", effectsInWords(effectsOf(setup)));
-    for (const json& row : rows)
-      if (row["a"] == results["engines"][0]["name"])
-        fmt::print("{:<16} {:<22} {}\n", row["b"].get<std::string>(),
-                   row["field"].get<std::string>(), row["verdict"].get<std::string>());
-    fmt::print("{} agree, {} disagree, {} undecided; {} of {} runs failed\nreport: {}\n", agree,
-               disagree, undecided, failed, results["runs"].size(),
+    for (const AgreementRow& row : rows)
+      if (row.a == results.engines.front().name)
+        fmt::print("{:<16} {:<22} {}\n", row.b, row.field, toString(row.verdict));
+    fmt::print("{} agree, {} disagree, {} undecided; {} of {} runs failed\nreport: {}\n",
+               count(Verdict::agree), disagree, undecided, failed, results.runs.size(),
                (line.run.out / "report.html").string());
   }
-  printFailures(results["runs"]);
+  for (const CouetteRun& run : results.runs)
+    if (run.status == RunStatus::failed) printFailure(run.reason);
   int judged = exitHeld;
-  if (const json nothing = results.value("nothing_judged", json()); nothing.is_object())
-    judged = nothingWasJudged(line, nothing["reason"], nothing["by_request"] == true || line.quick,
-                              strict);
+  if (const auto& nothing = results.nothingJudged)
+    judged = nothingWasJudged(line, nothing->reason, nothing->byRequest || line.quick, strict);
   if (failed > 0) return exitEngineFailed;
   if (disagree > 0 || (strict && undecided > 0)) return exitFellShort;
   return judged;

@@ -12,28 +12,24 @@
 
 namespace crossgrain::inline cli {
 
-using nlohmann::json;
-
 namespace {
 
 /// "grain  without friction  0.583 ± 0.012 of the time per step, 21 of 42 rings changed"
-void printLeg(const json& leg) {
-  const std::string engine = leg["engine"];
-  if (leg["effect"] == "") return;
-  const std::string name = leg["effect"];
-  if (leg["status"] != "ran") {
-    fmt::print("{:<16} without {:<22} {}: {}\n", engine, name, leg["status"].get<std::string>(),
-               leg["reason"].get<std::string>());
+void printVariant(const EffectVariant& variant) {
+  if (!variant.isSwitched()) return;
+  if (variant.status != EngineStatus::ran) {
+    fmt::print("{:<16} without {:<22} {}: {}\n", variant.engine, variant.effect,
+               nameOf(variant.status), variant.reason);
     return;
   }
   int judged = 0, changed = 0;
-  for (const json& field : leg["fields"])
-    for (const json& ring : field["rings"]) {
-      judged += ring["resolved"].is_boolean();
-      changed += ring["resolved"] == true;
+  for (const ChangedField& field : variant.changes.fields)
+    for (const RingChange& ring : field.rings) {
+      judged += ring.resolved.has_value();
+      changed += ring.resolved == true;
     }
-  fmt::print("{:<16} without {:<22} {:.3f} of the time per step, {}\n", engine, name,
-             leg["time_ratio"].is_number() ? leg["time_ratio"].get<double>() : NAN,
+  fmt::print("{:<16} without {:<22} {:.3f} of the time per step, {}\n", variant.engine,
+             variant.effect, variant.timeRatio.value_or(NAN),
              judged == 0 ? "too few packings to tell what changed"
                          : fmt::format("{} of {} rings changed", changed, judged));
 }
@@ -44,17 +40,22 @@ int effects(const CommandLine& line) {
   if (line.quick) plan.seconds = 0.02;
   RunStore store(line.run, "effects", soleCase(setup));
   if (line.run.dryRun) return told(effectsPlan(setup, line.run, store, plan));
-  const json results = measureEffects(setup, line.run, store, plan);
+  const EffectsResults results = measureEffects(setup, line.run, store, plan);
   writeReport(results, line.run.out);
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else {
     fmt::print("{}\n", effectsInWords(effectsOf(setup)));
-    for (const json& leg : results["legs"]) printLeg(leg);
+    for (const EffectVariant& variant : results.variants) printVariant(variant);
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
-  printFailures(results["legs"]);
-  return countOf(results["legs"], "status", "failed") > 0 ? exitEngineFailed : exitHeld;
+  int status = exitHeld;
+  for (const EffectVariant& variant : results.variants) {
+    if (variant.status != EngineStatus::failed) continue;
+    printFailure(variant.reason);
+    status = exitEngineFailed;
+  }
+  return status;
 }
 
 Action declare(CLI::App& app, CommandLine& line) {

@@ -2,32 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "reports/report.hpp"
-
 namespace crossgrain::inline cli {
 
-using nlohmann::json;
-
-int countOf(const json& list, const char* key, const std::string& value) {
-  return static_cast<int>(
-      std::ranges::count_if(list, [&](const json& row) { return row.value(key, "") == value; }));
+void printFailure(const std::string& reason) {
+  fmt::print(stderr, "crossgrain: {}\n", reason);
 }
 
-void printFailures(const json& rows) {
-  for (const json& row : rows)
-    if (row["status"] == "failed")
-      fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
-}
-
-int averaged(const CommandLine& line, RunStore& store, const json& results) {
-  store.begin();
-  writeReport(results, line.run.out);
+int averaged(const CommandLine& line, const CouetteAveraging& averaging) {
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else
-    fmt::print("{} snapshots averaged\nreport: {}\n", results["averaging"]["snapshots"].get<int>(),
+    fmt::print("{} snapshots averaged\nreport: {}\n", averaging.snapshots,
                (line.run.out / "report.html").string());
   return exitHeld;
 }

@@ -1,22 +1,18 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cases/case.hpp"
 #include "cli/command.hpp"
-#include "runs/common/run_store.hpp"
+#include "results/couette_frame.hpp"
 
 namespace crossgrain::inline cli {
 
-/// Rows of a list whose `key` has this value.
-int countOf(const nlohmann::json& list, const char* key, const std::string& value);
+/// One line on standard error for a run that failed.
+void printFailure(const std::string& reason);
 
-/// One line on standard error for each run, or leg, that failed.
-void printFailures(const nlohmann::json& rows);
-
-/// What the commands that only average leave and print. @returns an ExitStatus
-int averaged(const CommandLine& line, RunStore& store, const nlohmann::json& results);
+/// What the commands that only average print. @returns an ExitStatus
+int averaged(const CommandLine& line, const CouetteAveraging& averaging);
 
 /// Prints what --dry-run tells. @returns an ExitStatus
 int told(const std::string& plan);

@@ -1,6 +1,8 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/report.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/couette/rev.hpp"
 
 namespace crossgrain::inline cli {
@@ -9,8 +11,10 @@ namespace {
 int rev(const CommandLine& line) {
   const Case setup = onlyCase(line, "rev");
   RunStore store(line.run, "rev", {});
-  return averaged(line, store,
-                  revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet));
+  const RevResults results = revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet);
+  store.begin();
+  writeReport(results, line.run.out);
+  return averaged(line, results.averaging);
 }
 
 Action declare(CLI::App& app, CommandLine& line) {

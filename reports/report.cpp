@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/csv.hpp"
-#include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/common/json_view.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/cost/report.hpp"
+#include "reports/couette/report.hpp"
+#include "reports/effects/report.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -39,6 +39,31 @@ std::vector<Picture> noPictures(const Results&) {
   return {};
 }
 
+const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
+                                           {"series.csv", seriesCsv},
+                                           {"agreement.csv", agreementCsv},
+                                           {"regimes.csv", regimesCsv},
+                                           {"steadiness.csv", steadinessCsv},
+                                           {"distributions.csv", distributionsCsv}},
+                                          compareFigures,
+                                          comparePictures,
+                                          comparePage};
+
+const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
+                                           {"series.csv", seriesCsv},
+                                           {"regimes.csv", regimesCsv},
+                                           {"steadiness.csv", steadinessCsv},
+                                           {"distributions.csv", distributionsCsv}},
+                                          compareFigures,
+                                          noPictures,
+                                          averagePage};
+
+const Kind<EffectsResults> effectsKind = {
+    {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+
+const Kind<RevResults> revKind = {
+    {{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}}, revFigures, noPictures, revPage};
+
 const Kind<CollideResults> collideKind = {
     {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
     collideFigures,
@@ -53,33 +78,8 @@ const Kind<StabilityResults> stabilityKind = {
 
 const Kind<CostResults> costKind = {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
 
-Kind<Json> kindOf(const Json& results) {
-  const std::string kind = text(results, "kind");
-  if (kind == kindEffects)
-    return {{{"effects.csv", effectsCsv}}, effectFigures, noPictures<Json>, effectsPage};
-  if (kind == kindAverage)
-    return {{{"profiles.csv", profilesCsv},
-             {"series.csv", seriesCsv},
-             {"regimes.csv", regimesCsv},
-             {"steadiness.csv", steadinessCsv},
-             {"distributions.csv", distributionsCsv}},
-            compareFigures,
-            noPictures<Json>,
-            averagePage};
-  if (kind == kindRev)
-    return {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
-            revFigures,
-            noPictures<Json>,
-            revPage};
-  return {{{"profiles.csv", profilesCsv},
-           {"series.csv", seriesCsv},
-           {"agreement.csv", agreementCsv},
-           {"regimes.csv", regimesCsv},
-           {"steadiness.csv", steadinessCsv},
-           {"distributions.csv", distributionsCsv}},
-          compareFigures,
-          comparePictures,
-          comparePage};
+const Kind<CompareResults>& kindOf(const CompareResults& results) {
+  return results.head.kind == kindAverage ? averageKind : compareKind;
 }
 
 /// @returns why there are no plots, if so
@@ -128,13 +128,28 @@ void writeReport(const StabilityResults& results, const std::filesystem::path& d
   write(stabilityKind, results, toJson(results), dir);
 }
 
+void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
+  write(kindOf(results), results, toJson(results), dir);
+}
+
+void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
+  write(effectsKind, results, toJson(results), dir);
+}
+
+void writeReport(const RevResults& results, const std::filesystem::path& dir) {
+  write(revKind, results, toJson(results), dir);
+}
+
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
   checkSchema(results, "results");
   const std::string kind = text(results, "kind");
   if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
   if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
+  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
+  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
-  write(kindOf(results), results, results, dir);
+  const CompareResults compared = compareFromJson(results);
+  write(kindOf(compared), compared, results, dir);
 } catch (const FieldError& error) {
   throw BadInput(fmt::format("{}: {}", (dir / "results.json").string(), error.what()));
 }

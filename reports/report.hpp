@@ -5,6 +5,8 @@
 
 #include "results/collision.hpp"
 #include "results/cost.hpp"
+#include "results/effects.hpp"
+#include "results/rev.hpp"
 #include "results/stability.hpp"
 
 namespace crossgrain {
@@ -22,6 +24,9 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
 void writeReport(const CollideResults& results, const std::filesystem::path& dir);
 void writeReport(const CostResults& results, const std::filesystem::path& dir);
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
+void writeReport(const CompareResults& results, const std::filesystem::path& dir);
+void writeReport(const EffectsResults& results, const std::filesystem::path& dir);
+void writeReport(const RevResults& results, const std::filesystem::path& dir);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

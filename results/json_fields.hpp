@@ -23,6 +23,7 @@
 ///     void fields(auto& io, StabilityRun& run) {
 ///       io("engine", run.engine);           // always written; where a file lacks it, the default
 ///       io.present("step", run.step);       // an optional that is written only where it is there
+///       io.when(run.turns, "spin", run.spin);  // written where that holds, read where it is there
 ///     }
 ///
 /// Enumerators are written by name: constexpr auto namesOf(Verdict) { return std::array{…}; }.
@@ -75,6 +76,10 @@ class FieldWriter {
   void present(const char* key, const std::optional<T>& value) {
     if (value) object_[key] = jsonOf(*value);
   }
+  template <typename T>
+  void when(bool there, const char* key, const T& value) {
+    if (there) (*this)(key, value);
+  }
 
  private:
   Json& object_;
@@ -98,6 +103,10 @@ class FieldReader {
   }
   template <typename T>
   void present(const char* key, std::optional<T>& value) {
+    (*this)(key, value);
+  }
+  template <typename T>
+  void when(bool, const char* key, T& value) {
     (*this)(key, value);
   }
 

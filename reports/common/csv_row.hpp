@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -16,9 +17,9 @@ inline std::string cell(const std::string& value) {
   return quoted + "\"";
 }
 
-/// The shortest text that reads back as the same double; nothing where it is absent.
+/// The shortest text that reads back as the same double; nothing where it is absent or not finite.
 inline std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
+  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
 inline std::string cell(std::size_t value) {

@@ -6,42 +6,12 @@ namespace crossgrain::reports {
 
 namespace {
 
-const Json nothing;
-
 /// The open mark that goes with a filled one.
 int openMark(int pointType) {
   return pointType - 1;
 }
 
 }  // namespace
-
-const Json& EngineResults::averages() const {
-  if (ensemble) return *ensemble;
-  return finished.empty() ? nothing : *finished.front();
-}
-
-const Json& EngineResults::realised() const {
-  for (const Json* run : runs)
-    if (member(*run, "realised").is_object()) return member(*run, "realised");
-  return nothing;
-}
-
-void EngineResults::takeRuns(const Json& results, const std::string& of,
-                             const std::string& without) {
-  const auto belongs = [&](const Json& row) {
-    return text(row, "engine") == of && text(row, "without") == without;
-  };
-  for (const Json& run : list(results, "runs")) {
-    if (!belongs(run)) continue;
-    runs.push_back(&run);
-    if (text(run, "status") == "finished") finished.push_back(&run);
-  }
-  for (const Json& mean : list(results, "ensemble"))
-    if (belongs(mean) && finished.size() > 1) {
-      ensemble = &mean;
-      break;
-    }
-}
 
 LineStyle engineStyle(std::size_t index) {
   static const std::array<std::string, 7> colours = {"#000000", "#d55e00", "#0072b2", "#009e73",
@@ -83,10 +53,10 @@ std::vector<EngineResults> engineResults(const Json& results) {
                          text(entry, "status"),
                          styles[engines.size()],
                          &entry,
-                         {},
-                         {},
-                         nullptr};
-    engine.takeRuns(results, engine.name, "");
+                         {}};
+    for (const Json& run : list(results, "runs"))
+      if (text(run, "engine") == engine.name && text(run, "status") == "finished")
+        engine.finished.push_back(&run);
     engines.push_back(std::move(engine));
   }
   return engines;

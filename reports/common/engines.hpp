@@ -9,7 +9,7 @@
 
 namespace crossgrain::reports {
 
-/// What a comparison's results hold about one engine. The results must outlive it.
+/// What results.json says of one engine. The results must outlive it.
 struct EngineResults {
   std::string name;
   std::string
@@ -17,20 +17,10 @@ struct EngineResults {
   std::string status;  ///< "ran" | "refused" | "failed"
   LineStyle style;     ///< a mirror has its peer's colour, dashed and open
   const Json* entry = nullptr;
-  std::vector<const Json*> runs;      ///< in the order of the results
-  std::vector<const Json*> finished;  ///< those of them that finished
-  const Json* ensemble = nullptr;     ///< over packings; null with fewer than two finished runs
-
-  /// Where averages are taken from: the ensemble, else the only finished run, else null.
-  const Json& averages() const;
-  /// Of the first run that got as far as loading the scene, or null.
-  const Json& realised() const;
-
-  /// Sets runs, finished and ensemble: of that engine, with that effect switched off (empty: none).
-  void takeRuns(const Json& results, const std::string& engine, const std::string& without);
+  std::vector<const Json*> finished;  ///< runs, in the order of the results
 };
 
-/// In the results' order: the reference first. Runs with an effect switched off are left out.
+/// In the results' order: the reference first.
 std::vector<EngineResults> engineResults(const Json& results);
 
 /// Colours by Okabe and Ito (2008), told apart with any colour vision; marks differ too.

@@ -54,8 +54,16 @@ std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+std::optional<double> at(const std::vector<std::optional<double>>& list, std::size_t k) {
+  return k < list.size() ? finite(list[k]) : std::nullopt;
+}
+
+std::optional<double> at(const std::vector<double>& list, std::size_t k) {
+  return k < list.size() ? finite(list[k]) : std::nullopt;
+}
+
 std::string readable(std::optional<double> value) {
-  if (!value) return absentText;
+  if (!finite(value)) return absentText;
   if (*value == 0.0) return "0";
   const int exponent = exponentOf(*value, 3);
   if (plain(exponent)) return fixed(*value, 2 - exponent);
@@ -63,7 +71,7 @@ std::string readable(std::optional<double> value) {
 }
 
 std::string readableSetting(std::optional<double> value) {
-  if (!value) return absentText;
+  if (!finite(value)) return absentText;
   const std::string digits = fmt::format("{:.4g}", *value);
   const auto power = digits.find('e');
   if (power == std::string::npos) return typeset(digits);
@@ -71,7 +79,7 @@ std::string readableSetting(std::optional<double> value) {
 }
 
 std::string readableCount(std::optional<double> value) {
-  return value ? fixed(*value, 0) : absentText;
+  return finite(value) ? fixed(*value, 0) : absentText;
 }
 
 std::string morePackings(double count) {
@@ -81,7 +89,7 @@ std::string morePackings(double count) {
 }
 
 std::string readable(std::optional<double> value, std::optional<double> error) {
-  if (!value || !error || *error == 0.0) return readable(value);
+  if (!finite(value) || !finite(error) || *error == 0.0) return readable(value);
   const int magnitude = exponentOf(std::max(std::abs(*value), std::abs(*error)), 3);
   const int shift = plain(magnitude) ? 0 : magnitude;
   const double scale = std::pow(10.0, shift);

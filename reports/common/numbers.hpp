@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// Numbers for people to read, as plain text. Absent is "–".
 namespace crossgrain::reports {
@@ -10,6 +12,10 @@ inline constexpr const char* absentText = "–";
 
 /// Absent where it is not finite, too.
 std::optional<double> finite(std::optional<double> value);
+
+/// The k-th of a list; absent where that is shorter.
+std::optional<double> at(const std::vector<std::optional<double>>& list, std::size_t k);
+std::optional<double> at(const std::vector<double>& list, std::size_t k);
 
 /// Three significant digits: 0.0123, 12.3, 12 346, 1.23×10⁻⁵.
 std::string readable(std::optional<double> value);

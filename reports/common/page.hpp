@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/common/details.hpp"
 #include "reports/common/engines.hpp"
 #include "reports/common/pages.hpp"
 #include "results/head.hpp"
@@ -32,20 +33,5 @@ Json columnsView(const std::vector<EngineResults>& engines);
 
 /// "1 field", "2 fields".
 std::string counted(std::size_t count, std::string_view noun);
-
-/// One row per packing: index, seed, hash, and where it came from.
-Json packingRows(const Json& results);
-
-/// Rings, weights and snapshots that the profiles are means over.
-std::string averagesInWords(const Json& results);
-
-/// What an engine made of a scene.
-struct RealisedOf {
-  std::string engine;
-  const Json* realised;
-  const Json* calledFor;  ///< names of the effects that this scene calls for; no list: not known
-};
-/// Rows of the tables of deviations, pairs and effects, set in view.
-void addDetails(Json& view, const std::vector<RealisedOf>& realised);
 
 }  // namespace crossgrain::reports

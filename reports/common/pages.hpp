@@ -19,10 +19,4 @@ struct Illustrations {
   std::optional<std::string> missing;  ///< why there are no plots: none is shown then
 };
 
-/// One page each, HTML with everything inside: no scripts and nothing to fetch.
-std::string averagePage(const Json& results, const Illustrations& shown);
-std::string comparePage(const Json& results, const Illustrations& shown);
-std::string effectsPage(const Json& results, const Illustrations& shown);
-std::string revPage(const Json& results, const Illustrations& shown);
-
 }  // namespace crossgrain::reports

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "reports/common/engines.hpp"
 #include "reports/common/numbers.hpp"
+#include "results/scene_picture_fields.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {
@@ -22,14 +21,23 @@ struct Disk {
   double x = 0.0, y = 0.0, radius = 0.0;
 };
 
-std::vector<Disk> disksOf(const Json& picture, const char* x, const char* y, const char* radius) {
+/// What has no place has no radius.
+std::vector<Disk> disksOf(const std::vector<double>& x, const std::vector<double>& y,
+                          const std::vector<double>& radius) {
   std::vector<Disk> disks;
-  for (std::size_t k = 0; k < list(picture, x).size(); ++k) {
-    const auto px = number(list(picture, x)[k]), py = number(element(list(picture, y), k)),
-               r = number(element(list(picture, radius), k));
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const auto px = at(x, k), py = at(y, k), r = at(radius, k);
     disks.push_back({px.value_or(0.0), py.value_or(0.0), px && py ? r.value_or(0.0) : 0.0});
   }
   return disks;
+}
+
+std::vector<Disk> disksOf(const ScenePicture& picture) {
+  return disksOf(picture.x, picture.y, picture.radius);
+}
+
+std::vector<Disk> wallsOf(const ScenePicture& picture) {
+  return disksOf(picture.wallX, picture.wallY, picture.wallRadius);
 }
 
 Stroke dot(const Disk& disk) {
@@ -79,16 +87,44 @@ Drawing emptyDrawing(const std::vector<Disk>& disks, const std::vector<Disk>& wa
   return drawing;
 }
 
-Drawing originsDrawing(const Json& picture, const Json& cell) {
-  const auto disks = disksOf(picture, "x", "y", "radius");
-  const auto walls = disksOf(picture, "wall_x", "wall_y", "wall_radius");
+/// A force over the widest line's, in steps of 1/16, 0 … 1.
+double weightOf(double force, double widest) {
+  return std::round(std::clamp(force / widest, 0.0, 1.0) * 16.0) / 16.0;
+}
+
+std::string greyOf(double weight) {
+  const int level = static_cast<int>(std::lround(170.0 * (1.0 - weight)));
+  return fmt::format("#{0:02x}{0:02x}{0:02x}", level);
+}
+
+void addForces(const ScenePicture& picture, const std::vector<Disk>& bodies, double widest,
+               double width, Drawing& drawing) {
+  if (!picture.contactI || !picture.contactJ || !picture.contactForce) return;
+  Groups groups;
+  const auto count = static_cast<int>(bodies.size());
+  const std::size_t contacts =
+      std::min({picture.contactI->size(), picture.contactJ->size(), picture.contactForce->size()});
+  for (std::size_t k = 0; k < contacts; ++k) {
+    const int i = (*picture.contactI)[k], j = (*picture.contactJ)[k];
+    const auto force = at(*picture.contactForce, k);
+    if (!force || i < 0 || j < 0 || i >= count || j >= count) continue;
+    const Disk &a = bodies[static_cast<std::size_t>(i)], &b = bodies[static_cast<std::size_t>(j)];
+    const double weight = weightOf(*force, widest);
+    groups.add(greyOf(weight), width * weight, {a.x, a.y, b.x, b.y});
+  }
+  groups.moveTo(drawing);
+}
+
+}  // namespace
+
+Drawing originsDrawing(const ScenePicture& picture, double inner, double diameter) {
+  const auto disks = disksOf(picture);
+  const auto walls = wallsOf(picture);
   Drawing drawing = emptyDrawing(disks, walls);
-  const double inner = number(cell, "inner_radius").value_or(0.0);
-  const double band = 2.0 * number(cell, "diameter").value_or(drawing.halfWidth / 15.0);
+  const double band = 2.0 * (diameter > 0.0 ? diameter : drawing.halfWidth / 15.0);
   Groups groups;
   for (std::size_t k = 0; k < disks.size(); ++k) {
-    const auto radius = number(element(list(picture, "start_r"), k)),
-               angle = number(element(list(picture, "start_phi"), k));
+    const auto radius = at(picture.startR, k), angle = at(picture.startPhi, k);
     const bool known = radius && angle;
     groups.add(known ? originColour(*radius, *angle, band, inner) : "#cccccc",
                2.0 * disks[k].radius, dot(disks[k]));
@@ -98,37 +134,9 @@ Drawing originsDrawing(const Json& picture, const Json& cell) {
   return drawing;
 }
 
-/// A force as a share of the widest line's, in steps of 1/16, 0 … 1.
-double shareOf(double force, double widest) {
-  return std::round(std::clamp(force / widest, 0.0, 1.0) * 16.0) / 16.0;
-}
-
-std::string greyOf(double share) {
-  const int level = static_cast<int>(std::lround(170.0 * (1.0 - share)));
-  return fmt::format("#{0:02x}{0:02x}{0:02x}", level);
-}
-
-void addForces(const Json& picture, const std::vector<Disk>& bodies, double widest, double width,
-               Drawing& drawing) {
-  Groups groups;
-  for (std::size_t k = 0; k < list(picture, "contact_i").size(); ++k) {
-    const auto i = number(list(picture, "contact_i")[k]),
-               j = number(element(list(picture, "contact_j"), k)),
-               force = number(element(list(picture, "contact_force"), k));
-    const auto last = static_cast<double>(bodies.size());
-    if (!i || !j || !force || *i < 0 || *j < 0 || *i >= last || *j >= last) continue;
-    const Disk &a = bodies[static_cast<std::size_t>(*i)], &b = bodies[static_cast<std::size_t>(*j)];
-    const double share = shareOf(*force, widest);
-    groups.add(greyOf(share), width * share, {a.x, a.y, b.x, b.y});
-  }
-  groups.moveTo(drawing);
-}
-
-}  // namespace
-
-Drawing forcesDrawing(const Json& picture, double widest, double width) {
-  auto disks = disksOf(picture, "x", "y", "radius");
-  const auto walls = disksOf(picture, "wall_x", "wall_y", "wall_radius");
+Drawing forcesDrawing(const ScenePicture& picture, double widest, double width) {
+  auto disks = disksOf(picture);
+  const auto walls = wallsOf(picture);
   Drawing drawing = emptyDrawing(disks, walls);
   const double outline = drawing.halfWidth / 500.0;
   double largest = 0.0;
@@ -146,51 +154,23 @@ Drawing forcesDrawing(const Json& picture, double widest, double width) {
   return drawing;
 }
 
-namespace {
-
-const Json& firstPicture(const EngineResults& engine) {
-  for (const Json* run : engine.runs)
-    if (member(*run, "picture").is_object()) return member(*run, "picture");
-  static const Json none;
-  return none;
-}
-
-/// Letters, digits and dashes only: names of engines become names of files.
-std::string fileWord(const std::string& name) {
-  std::string word = name;
-  for (char& c : word)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
-  return word;
-}
-
-}  // namespace
-
-std::optional<double> widestForce(const Json& picture) {
+std::optional<double> widestForce(const ScenePicture& picture) {
   std::vector<double> forces;
-  for (const Json& force : list(picture, "contact_force"))
-    if (const auto value = number(force); value && *value > 0.0) forces.push_back(*value);
+  if (picture.contactForce)
+    for (const double force : *picture.contactForce)
+      if (std::isfinite(force) && force > 0.0) forces.push_back(force);
   if (forces.empty()) return std::nullopt;
   const auto place = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(forces.size() - 1));
   std::ranges::nth_element(forces, forces.begin() + place);
   return forces[static_cast<std::size_t>(place)];
 }
 
-std::vector<Picture> comparePictures(const Json& results) {
-  std::vector<Picture> origins, forces;
-  for (const EngineResults& engine : engineResults(results)) {
-    const Json& picture = firstPicture(engine);
-    if (list(picture, "x").empty()) continue;
-    const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
-    origins.push_back({"origins_" + word, engine.name,
-                       engine.name + ": disks coloured by where they started", "",
-                       Picture::Shows::origins, originsDrawing(picture, member(results, "cell"))});
-    if (const auto widest = widestForce(picture))
-      forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
-                        fmt::format("Widest line: {} N and more.", readable(widest)),
-                        Picture::Shows::forces, forcesDrawing(picture, *widest, 0.75)});
-  }
-  for (Picture& picture : forces) origins.push_back(std::move(picture));
-  return origins;
+Drawing forcesDrawing(const Json& picture, double widest, double width) {
+  return forcesDrawing(readAs<ScenePicture>(picture), widest, width);
+}
+
+std::optional<double> widestForce(const Json& picture) {
+  return widestForce(readAs<ScenePicture>(picture));
 }
 
 void writePicture(const Picture& picture, const std::filesystem::path& dir) {

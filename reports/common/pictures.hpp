@@ -6,6 +6,7 @@
 
 #include "reports/common/json_view.hpp"
 #include "reports/common/strokes.hpp"
+#include "results/scene_picture.hpp"
 
 namespace crossgrain::reports {
 
@@ -20,21 +21,20 @@ struct Picture {
   Drawing drawing;
 };
 
-/// Two per engine, of its first run that has a picture:
-/// - origins: disks coloured by where they started, sectors of angle crossed with bands of radius,
-///   so that shear bends the sectors;
-/// - forces: contacts as lines from centre to centre, width and darkness ∝ f_n, disks pale. Each
-///   has its own scale (widestForce): engines' forces may differ by orders of magnitude, and what
-///   is to be compared is how they are laid out.
-std::vector<Picture> comparePictures(const Json& results);
+/// Disks coloured by where they started, sectors of angle crossed with bands of radius, so that
+/// shear bends the sectors. @param inner  radius of the wheel  @param diameter  half of a band; 0:
+/// not known
+Drawing originsDrawing(const ScenePicture& picture, double inner, double diameter);
 
 /// Disks pale, contacts as lines whose width is full at a force of `widest` [N], centred on the
 /// origin.
 /// @param width  of a full line, in radii of the largest disk
+Drawing forcesDrawing(const ScenePicture& picture, double widest, double width);
 Drawing forcesDrawing(const Json& picture, double widest, double width);
 
 /// The normal force of the widest line [N]: 99 % of the picture's contacts lie below. Absent
 /// without contacts.
+std::optional<double> widestForce(const ScenePicture& picture);
 std::optional<double> widestForce(const Json& picture);
 
 /// Writes name.svg and name.pdf.

@@ -8,7 +8,7 @@
 #include "cases/cost_knobs.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/effects/legs.hpp"
+#include "reports/effects/variants.hpp"
 
 namespace crossgrain::reports {
 

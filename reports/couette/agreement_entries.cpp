@@ -6,39 +6,35 @@ namespace crossgrain::reports {
 
 namespace {
 
-bool isOf(const Json& entry, const std::string& a, const std::string& b) {
-  const std::string first = text(entry, "a"), second = text(entry, "b");
-  return (first == a && second == b) || (first == b && second == a);
+bool isOf(const AgreementRow& row, const std::string& a, const std::string& b) {
+  return (row.a == a && row.b == b) || (row.a == b && row.b == a);
 }
 
 }  // namespace
 
-std::vector<std::string> fieldsOf(const Json& results) {
+std::vector<std::string> fieldsOf(const Agreement& agreement) {
   std::vector<std::string> fields;
-  for (const Json& entry : list(results, "agreement"))
-    if (const std::string field = text(entry, "field");
-        std::ranges::find(fields, field) == fields.end())
-      fields.push_back(field);
+  for (const AgreementRow& row : agreement)
+    if (std::ranges::find(fields, row.field) == fields.end()) fields.push_back(row.field);
   return fields;
 }
 
-const Json& entryOf(const Json& results, const std::string& a, const std::string& b,
-                    const std::string& field) {
-  for (const Json& entry : list(results, "agreement"))
-    if (text(entry, "field") == field && isOf(entry, a, b)) return entry;
-  static const Json none;
-  return none;
+const AgreementRow* rowOf(const Agreement& agreement, const std::string& a, const std::string& b,
+                          const std::string& field) {
+  const auto found = std::ranges::find_if(
+      agreement, [&](const AgreementRow& row) { return row.field == field && isOf(row, a, b); });
+  return found == agreement.end() ? nullptr : &*found;
 }
 
-bool compared(const Json& results, const std::string& a, const std::string& b) {
-  return std::ranges::any_of(list(results, "agreement"),
-                             [&](const Json& entry) { return isOf(entry, a, b); });
+bool compared(const Agreement& agreement, const std::string& a, const std::string& b) {
+  return std::ranges::any_of(agreement, [&](const AgreementRow& row) { return isOf(row, a, b); });
 }
 
-std::vector<std::string> peersOf(const Json& results, const std::vector<EngineResults>& engines) {
+std::vector<std::string> peersOf(const Agreement& agreement,
+                                 const std::vector<EngineRuns>& engines) {
   std::vector<std::string> peers;
   for (std::size_t k = 1; k < engines.size(); ++k)
-    if (engines[k].mirrors.empty() && compared(results, engines.front().name, engines[k].name))
+    if (engines[k].mirrors.empty() && compared(agreement, engines.front().name, engines[k].name))
       peers.push_back(engines[k].name);
   return peers;
 }

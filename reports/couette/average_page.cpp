@@ -1,23 +1,27 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/couette/report.hpp"
 #include "reports/couette/state_view.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<EngineRuns>;
 
 /// "t = 0.5 to 1.2 s"; empty without times.
 std::string timesOf(const Engines& engines) {
-  for (const EngineResults& engine : engines)
-    for (const Json* run : engine.finished) {
-      const Json& times = list(member(*run, "series"), "t_s");
+  for (const EngineRuns& engine : engines)
+    for (const CouetteRun* run : engine.finished) {
+      if (!run->series) continue;
+      const Numbers& times = valuesOf(*run->series, "t_s");
       if (times.empty()) continue;
-      const auto first = number(times.front()), last = number(times.back());
+      const auto first = finite(times.front()), last = finite(times.back());
       if (first && last)
         return *first == *last
                    ? fmt::format("t = {} s", readableSetting(first))
@@ -27,25 +31,23 @@ std::string timesOf(const Engines& engines) {
 }
 
 /// "12 fields in 20 rings".
-std::string extentOf(const Json& results, const Engines& engines) {
-  std::size_t fields = 0;
-  const std::string method = text(member(results, "averaging"), "method");
-  for (const EngineResults& engine : engines)
-    for (const Json& profile : list(engine.averages(), "profiles"))
-      fields += text(profile, "method") == method;
-  return fmt::format("{} in {}", counted(fields, "field"),
-                     counted(list(member(results, "rings"), "r").size(), "ring"));
+std::string extentOf(const CompareResults& results, const Engines& engines) {
+  std::ptrdiff_t fields = 0;
+  for (const EngineRuns& engine : engines)
+    fields += std::ranges::count(engine.profiles(), results.averaging.method, &Profile::method);
+  return fmt::format("{} in {}", counted(static_cast<std::size_t>(fields), "field"),
+                     counted(results.rings.r.size(), "ring"));
 }
 
-void addAverageSummary(Json& view, const Json& results, const Engines& engines) {
-  const auto snapshots = number(member(results, "averaging"), "snapshots");
+void addAverageSummary(Json& view, const CompareResults& results, const Engines& engines) {
+  const auto snapshots = results.averaging.snapshots;
   view["sentences"] = Json::array();
   if (engines.empty() || engines.front().finished.empty()) {
     view["lead"] = "Nothing was averaged.";
     return;
   }
   view["lead"] = fmt::format("{} of {} averaged: {}.",
-                             counted(static_cast<std::size_t>(snapshots.value_or(0.0)), "snapshot"),
+                             counted(static_cast<std::size_t>(snapshots), "snapshot"),
                              engines.front().name, extentOf(results, engines));
   if (const std::string times = timesOf(engines); !times.empty())
     view["sentences"].push_back("The snapshots are of " + times + ".");
@@ -54,24 +56,22 @@ void addAverageSummary(Json& view, const Json& results, const Engines& engines) 
   view["sentences"].push_back(
       "Nothing was run and nothing compared: bars are those within these snapshots, and say "
       "nothing about other packings.");
-  if (snapshots == 1.0)
+  if (snapshots == 1)
     view["sentences"].push_back("One snapshot is an instant, not an average over time.");
-  std::size_t refused = 0, all = 0;
-  for (const Json& fit : list(engines.front().averages(), "fits")) {
-    ++all;
-    refused += !number(fit, "value");
-  }
+  const std::vector<FitRow>& fits = engines.front().fits();
+  const auto refused =
+      std::ranges::count_if(fits, [](const FitRow& fit) { return !finite(fit.value); });
   if (refused > 0)
     view["sentences"].push_back(
         fmt::format("{} of {} could not be had; the table of fits says why.", refused,
-                    counted(all, "fitted number")));
+                    counted(fits.size(), "fitted number")));
 }
 
 }  // namespace
 
-std::string averagePage(const Json& results, const Illustrations& shown) {
-  const Engines engines = engineResults(results);
-  Json view = commonView(results, shown);
+std::string averagePage(const CompareResults& results, const Illustrations& shown) {
+  const Engines engines = engineRuns(results);
+  Json view = studyView(results, shown);
   addAverageSummary(view, results, engines);
   view["columns"] = columnsView(engines);
   addStateTable(view, engines);

@@ -1,59 +1,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "reports/common/figures.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/couette/figures.hpp"
+#include "reports/couette/report.hpp"
 #include "reports/couette/state_view.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<EngineRuns>;
 
-const Json& fitOf(const EngineResults& engine, const std::string& name) {
-  return findByText(engine.averages(), "fits", "name", name);
+const FitRow* fitOf(const EngineRuns& engine, const std::string& name) {
+  const auto found = std::ranges::find(engine.fits(), name, &FitRow::name);
+  return found == engine.fits().end() ? nullptr : &*found;
 }
 
-Json fitCell(const Json& fit) {
-  const auto value = number(fit, "value");
-  const auto chi2 = number(fit, "chi2_per_dof");
-  const auto found = number(fit, "packings"), of = number(fit, "of_packings");
+Json fitCell(const FitRow* fit) {
+  if (!fit) return {{"value", absentText}, {"lines", Json::array()}};
+  const auto value = finite(fit->value), chi2 = finite(fit->chi2PerDof);
   std::vector<std::string> lines;
   if (value && chi2) lines.push_back("χ²/dof " + readable(chi2));
-  if (found && of && *found < *of)
-    lines.push_back(fmt::format("{} of {} packings can be fitted", *found, *of));
-  if (!value) lines.push_back(text(fit, "reason"));
+  if (fit->packings && fit->ofPackings && *fit->packings < *fit->ofPackings)
+    lines.push_back(
+        fmt::format("{} of {} packings can be fitted", *fit->packings, *fit->ofPackings));
+  if (!value) lines.push_back(fit->reason);
   std::erase(lines, std::string());
-  return {{"value", readable(value, number(fit, "stderr"))}, {"lines", lines}};
+  return {{"value", readable(value, fit->standardError)}, {"lines", lines}};
 }
 
 Json fitRows(const Engines& engines) {
   std::vector<std::string> names;
-  for (const EngineResults& engine : engines)
-    for (const Json& fit : list(engine.averages(), "fits"))
-      if (const std::string name = text(fit, "name"); std::ranges::find(names, name) == names.end())
-        names.push_back(name);
+  for (const EngineRuns& engine : engines)
+    for (const FitRow& fit : engine.fits())
+      if (std::ranges::find(names, fit.name) == names.end()) names.push_back(fit.name);
   Json rows = Json::array();
   for (const std::string& name : names) {
     Json row = {{"label", mathHtml(name)},
                 {"unit", ""},
                 {"expected", absentText},
                 {"cells", Json::array()}};
-    for (const EngineResults& engine : engines) {
-      const Json& fit = fitOf(engine, name);
+    for (const EngineRuns& engine : engines) {
+      const FitRow* fit = fitOf(engine, name);
       row["cells"].push_back(fitCell(fit));
-      if (!fit.is_object()) continue;
-      if (const std::string label = text(fit, "label"); !label.empty())
-        row["label"] = mathHtml(label);
-      if (const std::string unit = text(fit, "unit"); unit != "-" && unit != "1")
-        row["unit"] = unit;
-      if (const auto expected = number(fit, "expected"))
-        row["expected"] = readableSetting(expected);
+      if (!fit) continue;
+      if (!fit->label.empty()) row["label"] = mathHtml(fit->label);
+      if (fit->unit != "-" && fit->unit != "1") row["unit"] = fit->unit;
+      if (finite(fit->expected)) row["expected"] = readableSetting(fit->expected);
     }
     rows.push_back(std::move(row));
   }
@@ -63,16 +62,14 @@ Json fitRows(const Engines& engines) {
 /// Checks of a single number: found, and expected, of each engine's first finished packing.
 Json numberCheckRows(const Engines& engines) {
   Json rows = Json::array();
-  for (const EngineResults& engine : engines)
-    for (const Json& check : list(*engine.finished.front(), "checks")) {
-      if (list(check, "value").size() != 1) continue;
-      rows.push_back({{"check", mathHtml(text(check, "label"))},
+  for (const EngineRuns& engine : engines)
+    for (const CheckRow& check : engine.finished.front()->checks) {
+      if (check.value.size() != 1) continue;
+      rows.push_back({{"check", mathHtml(check.label)},
                       {"engine", engine.name},
-                      {"found", readable(number(list(check, "value")[0]),
-                                         number(element(list(check, "stderr"), 0)))},
-                      {"expected", readable(number(element(list(check, "reference"), 0)),
-                                            number(check, "reference_stderr"))},
-                      {"note", mathHtml(text(check, "note"))}});
+                      {"found", readable(at(check.value, 0), at(check.standardError, 0))},
+                      {"expected", readable(at(check.reference, 0), check.referenceError)},
+                      {"note", mathHtml(check.note.value_or(""))}});
     }
   std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
     return text(a, "check") < text(b, "check");
@@ -81,10 +78,10 @@ Json numberCheckRows(const Engines& engines) {
 }
 
 std::string instantOf(const Engines& engines) {
-  for (const EngineResults& engine : engines)
-    for (const Json* run : engine.runs)
-      if (const auto rotation = number(member(*run, "picture"), "rotation"))
-        return fmt::format("after {:.3g} rotations of the wheel", *rotation);
+  for (const EngineRuns& engine : engines)
+    for (const CouetteRun* run : engine.runs)
+      if (run->picture && std::isfinite(run->picture->rotation))
+        return fmt::format("after {:.3g} rotations of the wheel", run->picture->rotation);
   return "at one instant";
 }
 
@@ -107,7 +104,7 @@ void addPictures(Json& view, const Engines& engines, const Illustrations& shown)
 
 void addFitsAndNumberChecks(Json& view, const Engines& engines) {
   Engines withData;
-  for (const EngineResults& engine : engines)
+  for (const EngineRuns& engine : engines)
     if (!engine.finished.empty()) withData.push_back(engine);
   view["numberChecks"] = numberCheckRows(withData);
   view["hasNumberChecks"] = !view["numberChecks"].empty();
@@ -129,14 +126,9 @@ void addFigures(Json& view, const Engines& engines, const Illustrations& shown) 
   });
 }
 
-std::string comparePage(const Json& results, const Illustrations& shown) {
-  const Engines engines = engineResults(results);
-  std::vector<RealisedOf> realised;
-  for (const EngineResults& engine : engines)
-    if (engine.realised().is_object())
-      realised.push_back({engine.name, &engine.realised(), &member(results, "effects")});
-
-  Json view = commonView(results, shown);
+std::string comparePage(const CompareResults& results, const Illustrations& shown) {
+  const Engines engines = engineRuns(results);
+  Json view = studyView(results, shown);
   addSummary(view, results, engines);
   view["columns"] = columnsView(engines);
   addEngineTable(view, engines);
@@ -147,8 +139,8 @@ std::string comparePage(const Json& results, const Illustrations& shown) {
   addFitsAndNumberChecks(view, engines);
   addFigures(view, engines, shown);
   addPictures(view, engines, shown);
-  addDetails(view, realised);
-  view["packings"] = packingRows(results);
+  addDetails(view, realisedOf(results, engines));
+  view["packings"] = packingRows(results.packings);
   view["files"] =
       "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv, "
       "regimes.csv, steadiness.csv and agreement.csv.";

@@ -12,8 +12,8 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
-using Cell = std::function<std::string(const EngineResults&)>;
+using Engines = std::vector<EngineRuns>;
+using Cell = std::function<std::string(const EngineRuns&)>;
 
 /// Sums over an engine's finished runs.
 struct Cost {
@@ -24,15 +24,15 @@ void addTo(std::optional<double>& sum, std::optional<double> value) {
   if (value) sum = sum.value_or(0.0) + *value;
 }
 
-Cost costOf(const EngineResults& engine) {
+Cost costOf(const EngineRuns& engine) {
   Cost cost;
-  for (const Json* run : engine.finished) {
-    const Json& stats = member(*run, "stats");
-    const auto steps = number(stats, "steps"), dt = number(member(*run, "realised"), "dt");
+  for (const CouetteRun* run : engine.finished) {
+    if (!run->stats) continue;
+    const auto steps = static_cast<double>(run->stats->steps);
     addTo(cost.steps, steps);
-    addTo(cost.wall, number(stats, "wall_s"));
-    addTo(cost.cpu, number(stats, "cpu_s"));
-    if (steps && dt) addTo(cost.simulated, *steps * *dt);
+    addTo(cost.wall, finite(run->stats->wallSeconds));
+    addTo(cost.cpu, finite(run->stats->cpuSeconds));
+    if (run->realised) addTo(cost.simulated, finite(steps * run->realised->dt));
   }
   return cost;
 }
@@ -45,7 +45,7 @@ std::optional<double> quotient(std::optional<double> a, std::optional<double> b)
 Json tableRow(const std::string& label, const std::string& unit, const Engines& engines,
               const Cell& cell) {
   Json cells = Json::array();
-  for (const EngineResults& engine : engines) cells.push_back(cell(engine));
+  for (const EngineRuns& engine : engines) cells.push_back(cell(engine));
   return {{"label", label}, {"unit", unit == "-" ? "" : unit}, {"cells", std::move(cells)}};
 }
 
@@ -54,85 +54,90 @@ Json group(const std::string& title, const Engines& engines, Json rows) {
       {"title", title}, {"span", std::to_string(engines.size() + 2)}, {"rows", std::move(rows)}};
 }
 
-Cell fromRealised(const char* key) {
-  return [key](const EngineResults& engine) {
-    const std::string value = text(engine.realised(), key);
-    return value.empty() ? std::string(absentText) : spaced(value);
+Cell fromRealised(std::string Realised::*member) {
+  return [member](const EngineRuns& engine) {
+    const Realised* realised = engine.realised();
+    return !realised || (realised->*member).empty() ? std::string(absentText)
+                                                    : spaced(realised->*member);
   };
 }
 
-std::string statusOf(const EngineResults& engine) {
-  if (engine.runs.empty()) return engine.status;
+std::string statusOf(const EngineRuns& engine) {
+  if (engine.runs.empty()) return std::string(nameOf(engine.status));
   return fmt::format("{} of {}", engine.finished.size(), engine.runs.size());
 }
 
 Json whatRan(const Engines& engines) {
   Json rows = Json::array();
-  rows.push_back(tableRow("version", "", engines, [](const EngineResults& engine) {
-    return text(*engine.entry, "version");
-  }));
+  rows.push_back(
+      tableRow("version", "", engines, [](const EngineRuns& engine) { return engine.version; }));
   if (std::ranges::any_of(engines, [](const auto& e) { return !e.mirrors.empty(); }))
-    rows.push_back(tableRow("mirrors", "", engines,
-                            [](const EngineResults& engine) { return engine.mirrors; }));
+    rows.push_back(
+        tableRow("mirrors", "", engines, [](const EngineRuns& engine) { return engine.mirrors; }));
   rows.push_back(tableRow("runs finished", "", engines, statusOf));
-  rows.push_back(tableRow("precision", "", engines, fromRealised("precision")));
-  rows.push_back(tableRow("integrator", "", engines, fromRealised("integrator")));
+  rows.push_back(tableRow("precision", "", engines, fromRealised(&Realised::precision)));
+  rows.push_back(tableRow("integrator", "", engines, fromRealised(&Realised::integrator)));
   return rows;
 }
 
-const Json& headOf(const EngineResults& engine, const std::string& name) {
-  return findByText(engine.averages(), "head", "name", name);
+const HeadNumber* headOf(const EngineRuns& engine, const std::string& name) {
+  const auto found = std::ranges::find(engine.head(), name, &HeadNumber::name);
+  return found == engine.head().end() ? nullptr : &*found;
 }
 
 Json headRow(const std::string& name, const Engines& engines) {
   std::string unit;
-  for (const EngineResults& engine : engines)
-    if (unit.empty()) unit = text(headOf(engine, name), "unit");
-  return tableRow(headLabel(name), unit, engines, [&name](const EngineResults& engine) {
-    const Json& entry = headOf(engine, name);
-    return readable(number(entry, "value"), number(entry, "stderr"));
+  for (const EngineRuns& engine : engines)
+    if (const HeadNumber* number = headOf(engine, name); number && unit.empty())
+      unit = number->unit;
+  return tableRow(headLabel(name), unit, engines, [&name](const EngineRuns& engine) {
+    const HeadNumber* number = headOf(engine, name);
+    return number ? readable(number->value, number->standardError) : std::string(absentText);
   });
 }
 
 /// Counters that engines keep of their own, summed over finished runs.
 Json counterRows(const Engines& engines) {
   std::set<std::string> names;
-  for (const EngineResults& engine : engines)
-    for (const Json* run : engine.finished)
-      for (const auto& [name, value] : member(member(*run, "stats"), "counters").items())
-        names.insert(name);
+  for (const EngineRuns& engine : engines)
+    for (const CouetteRun* run : engine.finished)
+      if (run->stats)
+        for (const auto& [name, value] : run->stats->counters) names.insert(name);
   Json rows = Json::array();
   for (const std::string& name : names)
-    rows.push_back(tableRow(headLabel(name), "", engines, [&name](const EngineResults& engine) {
+    rows.push_back(tableRow(headLabel(name), "", engines, [&name](const EngineRuns& engine) {
       std::optional<double> sum;
-      for (const Json* run : engine.finished)
-        addTo(sum, number(member(member(*run, "stats"), "counters"), name));
+      for (const CouetteRun* run : engine.finished) {
+        if (!run->stats) continue;
+        const auto counter = run->stats->counters.find(name);
+        if (counter != run->stats->counters.end()) addTo(sum, finite(counter->second));
+      }
       return readableCount(sum);
     }));
   return rows;
 }
 
-constexpr const char* stepShare = "dt_over_tc";
+constexpr const char* stepFraction = "dt_over_tc";
 
 Json costRows(const Engines& engines) {
   Json rows = Json::array();
-  rows.push_back(tableRow("time step dt", "s", engines, [](const EngineResults& engine) {
-    return readableSetting(number(engine.realised(), "dt"));
+  rows.push_back(tableRow("time step dt", "s", engines, [](const EngineRuns& engine) {
+    return engine.realised() ? readableSetting(engine.realised()->dt) : std::string(absentText);
   }));
-  rows.push_back(headRow(stepShare, engines));
+  rows.push_back(headRow(stepFraction, engines));
   rows.push_back(
       tableRow("steps", "", engines, [](const auto& e) { return readableCount(costOf(e).steps); }));
   rows.push_back(tableRow("wall time", "", engines,
                           [](const auto& e) { return readableDuration(costOf(e).wall); }));
   rows.push_back(tableRow("CPU time", "", engines,
                           [](const auto& e) { return readableDuration(costOf(e).cpu); }));
-  rows.push_back(tableRow("wall time per step", "µs", engines, [](const EngineResults& engine) {
+  rows.push_back(tableRow("wall time per step", "µs", engines, [](const EngineRuns& engine) {
     const Cost cost = costOf(engine);
     const auto perStep = quotient(cost.wall, cost.steps);
     return readable(perStep ? std::optional(*perStep * 1e6) : std::nullopt);
   }));
   rows.push_back(
-      tableRow("CPU time per simulated second", "s", engines, [](const EngineResults& engine) {
+      tableRow("CPU time per simulated second", "s", engines, [](const EngineRuns& engine) {
         const Cost cost = costOf(engine);
         return readable(quotient(cost.cpu, cost.simulated));
       }));
@@ -142,11 +147,10 @@ Json costRows(const Engines& engines) {
 
 Json stateRows(const Engines& engines) {
   std::vector<std::string> names;
-  for (const EngineResults& engine : engines)
-    for (const Json& entry : list(engine.averages(), "head"))
-      if (const std::string name = text(entry, "name");
-          name != stepShare && std::ranges::find(names, name) == names.end())
-        names.push_back(name);
+  for (const EngineRuns& engine : engines)
+    for (const HeadNumber& number : engine.head())
+      if (number.name != stepFraction && std::ranges::find(names, number.name) == names.end())
+        names.push_back(number.name);
   Json rows = Json::array();
   for (const std::string& name : names) rows.push_back(headRow(name, engines));
   return rows;
@@ -172,18 +176,18 @@ void addStateTable(Json& view, const Engines& engines) {
 
 void addTroubles(Json& view, const Engines& engines) {
   Json rows = Json::array();
-  for (const EngineResults& engine : engines) {
-    if (engine.status != "ran")
+  for (const EngineRuns& engine : engines) {
+    if (engine.status != EngineStatus::ran)
       rows.push_back({{"engine", engine.name},
                       {"packing", "all"},
-                      {"status", engine.status},
-                      {"reason", text(*engine.entry, "reason")}});
-    for (const Json* run : engine.runs)
-      if (text(*run, "status") != "finished")
+                      {"status", nameOf(engine.status)},
+                      {"reason", engine.reason}});
+    for (const CouetteRun* run : engine.runs)
+      if (!run->finished())
         rows.push_back({{"engine", engine.name},
-                        {"packing", readableCount(number(*run, "packing"))},
-                        {"status", text(*run, "status")},
-                        {"reason", text(*run, "reason")}});
+                        {"packing", readableCount(run->packing)},
+                        {"status", nameOf(run->status)},
+                        {"reason", run->reason}});
   }
   view["troubles"] = std::move(rows);
   view["hasTroubles"] = !view["troubles"].empty();

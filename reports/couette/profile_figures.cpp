@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/common/figures.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/couette/figures.hpp"
 #include "reports/couette/state_view.hpp"
 
 namespace crossgrain::reports {
@@ -52,30 +52,27 @@ const std::vector<ProfilePlot>& profilePlots() {
 
 /// v_φ/(ΩR_i) and S d/(ΩD) with D = 2R_i (Lätzel 2003, chapter 6) where the cell has a turning
 /// wheel.
-Scaled scaled(const ProfilePlot& plot, const Json& cell) {
-  const auto omega = number(cell, "omega"), radius = number(cell, "inner_radius"),
-             diameter = number(cell, "diameter");
-  const bool turning = omega && radius && *omega * *radius != 0.0;
-  if (turning && plot.field == "azimuthal_velocity")
-    return {1.0 / (*omega * *radius), "v_{φ} / (Ω R_{i})"};
-  if (turning && diameter && plot.field == "spin")
-    return {*diameter / (*omega * 2.0 * *radius), "S d / (Ω D)"};
+Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
+  const double rim = cell.omega * cell.innerRadius;
+  const bool turning = rim != 0.0;
+  if (turning && plot.field == "azimuthal_velocity") return {1.0 / rim, "v_{φ} / (Ω R_{i})"};
+  if (turning && cell.diameter > 0.0 && plot.field == "spin")
+    return {cell.diameter / (cell.omega * 2.0 * cell.innerRadius), "S d / (Ω D)"};
   // Shear stress follows the sense of rotation; a logarithmic axis shows no negative values.
-  if (turning && *omega < 0.0 && plot.field == "stress_rp") return {-1.0, "−" + plot.label};
+  if (turning && cell.omega < 0.0 && plot.field == "stress_rp") return {-1.0, "−" + plot.label};
   return {1.0, plot.label};
 }
 
-std::vector<Point> profilePoints(const Json& results, const Json& averages, const ProfilePlot& plot,
-                                 double factor) {
-  const Json& profile = findByText(averages, "profiles", "field", plot.field);
-  const Json& rings = member(results, "rings");
-  const auto inner = number(member(results, "cell"), "inner_radius");
+std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& engine,
+                                 const ProfilePlot& plot, double factor) {
   std::vector<Point> points;
-  for (std::size_t ring = 0; ring < list(profile, "mean").size(); ++ring) {
-    const auto mean = number(list(profile, "mean")[ring]);
-    const auto error = number(element(list(profile, "stderr"), ring));
-    auto x = number(element(list(rings, plot.logX ? "r" : "r_tilde"), ring));
-    if (x && plot.logX && inner) *x /= *inner;
+  const Profile* profile = profileOf(engine.profiles(), plot.field);
+  if (!profile) return points;
+  const double inner = frame.cell.innerRadius;
+  for (std::size_t ring = 0; ring < profile->mean.size(); ++ring) {
+    const auto mean = at(profile->mean, ring), error = at(profile->standardError, ring);
+    auto x = at(plot.logX ? frame.rings.r : frame.rings.rTilde, ring);
+    if (x && plot.logX && inner > 0.0) *x /= inner;
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
     if (error) point.error = *error * std::abs(factor);
@@ -108,17 +105,17 @@ void makeFaint(Curve& curve) {
   curve.width = 1.0;
 }
 
-Panel profilePanel(const Json& results, const std::vector<EngineResults>& engines,
+Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& engines,
                    const ProfilePlot& plot, const IsFaint& faint) {
-  const Scaled scale = scaled(plot, member(results, "cell"));
+  const Scaled scale = scaled(plot, frame.cell);
   Panel panel;
   panel.xLabel = plot.logX ? "r / R_{i}" : "(r − R_{i}) / d";
   panel.yLabel = scale.label;
   panel.logX = plot.logX;
   panel.logY = plot.logY;
-  for (const EngineResults& engine : engines) {
+  for (const EngineRuns& engine : engines) {
     Curve curve{engine.name, engine.style, Draw::linesAndPoints,
-                profilePoints(results, engine.averages(), plot, scale.factor), 1.5};
+                profilePoints(frame, engine, plot, scale.factor), 1.5};
     if (faint && faint(engine, plot.field)) makeFaint(curve);
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
   }
@@ -126,25 +123,24 @@ Panel profilePanel(const Json& results, const std::vector<EngineResults>& engine
   if (plot.field.starts_with("stress_") && !plot.logY) chooseLogY(panel);
   if (plot.guide)
     if (auto line = powerLaw(panel, *plot.guide)) panel.curves.push_back(*line);
-  const auto outer = number(member(results, "cell"), "outer_radius"),
-             inner = number(member(results, "cell"), "inner_radius");
+  const double inner = frame.cell.innerRadius, outer = frame.cell.outerRadius;
   if (!plot.logX) {
-    panel.xRange = rTildeRange(results);
+    panel.xRange = rTildeRange(frame);
     if (plot.field == "spin") panel.level = 0.0;
-  } else if (inner && outer && *outer > *inner) {
-    panel.xRange = Range{1.0, *outer / *inner};
+  } else if (inner > 0.0 && outer > inner) {
+    panel.xRange = Range{1.0, outer / inner};
     panel.xTicks = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
   }
   return panel;
 }
 
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
-Figure overview(const Json& results, const std::vector<EngineResults>& engines,
+Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engines,
                 const IsFaint& faint) {
   Figure figure;
   figure.name = "overview";
   figure.title = "Azimuthal velocity, shear stress and volume fraction of all engines";
-  const std::string when = averagedRotations(results);
+  const std::string when = averagedRotations(frame.averaging);
   figure.caption = barsInWords(engines) + (when.empty() ? "" : " Averaged: " + when + ".");
   figure.columns = 2;
   figure.panelWidth = 480;
@@ -153,7 +149,7 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines,
   for (const char* name :
        {"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}) {
     const auto plot = std::ranges::find(profilePlots(), name, &ProfilePlot::name);
-    Panel panel = profilePanel(results, engines, *plot, faint);
+    Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
     panel.key = figure.panels.empty() ? Key::topRight : Key::none;
     figure.panels.push_back(std::move(panel));
@@ -162,7 +158,7 @@ Figure overview(const Json& results, const std::vector<EngineResults>& engines,
 }
 
 /// A stress without the rotations that it was averaged over says little: cells drift.
-std::string captionOf(const Json& results, const ProfilePlot& plot, const Panel& panel) {
+std::string captionOf(const CouetteFrame& frame, const ProfilePlot& plot, const Panel& panel) {
   std::string caption = plot.title;
   caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
   const bool guided = std::ranges::any_of(
@@ -175,24 +171,23 @@ std::string captionOf(const Json& results, const ProfilePlot& plot, const Panel&
         return std::ranges::any_of(curve.points, [](const Point& p) { return p.y <= 0.0; });
       });
   if (hidden) caption += "; values that are not positive do not show";
-  if (const std::string when = averagedRotations(results); !when.empty()) caption += "; " + when;
+  if (const std::string when = averagedRotations(frame.averaging); !when.empty())
+    caption += "; " + when;
   return caption + ".";
 }
 
 }  // namespace
 
-std::optional<Range> rTildeRange(const Json& results) {
-  const Json& cell = member(results, "cell");
-  const auto inner = number(cell, "inner_radius"), outer = number(cell, "outer_radius"),
-             diameter = number(cell, "diameter");
-  if (!inner || !outer || !diameter || *outer <= *inner || *diameter <= 0.0) return std::nullopt;
-  return Range{0.0, (*outer - *inner) / *diameter};
+std::optional<Range> rTildeRange(const CouetteFrame& frame) {
+  const CouetteCell& cell = frame.cell;
+  if (cell.outerRadius <= cell.innerRadius || cell.diameter <= 0.0) return std::nullopt;
+  return Range{0.0, (cell.outerRadius - cell.innerRadius) / cell.diameter};
 }
 
-std::string barsInWords(const std::vector<EngineResults>& engines) {
+std::string barsInWords(const std::vector<EngineRuns>& engines) {
   std::string single;
   bool ensemble = false;
-  for (const EngineResults& engine : engines) {
+  for (const EngineRuns& engine : engines) {
     if (engine.finished.empty()) continue;
     if (engine.ensemble)
       ensemble = true;
@@ -207,18 +202,18 @@ std::string barsInWords(const std::vector<EngineResults>& engines) {
   return single.empty() ? over + "." : fmt::format("{}; for {}: {}.", over, single, within);
 }
 
-std::vector<Figure> profileFigures(const Json& results, const std::vector<EngineResults>& engines,
-                                   const IsFaint& faint) {
+std::vector<Figure> profileFigures(const CouetteFrame& frame,
+                                   const std::vector<EngineRuns>& engines, const IsFaint& faint) {
   std::vector<Figure> figures;
-  if (Figure all = overview(results, engines, faint); !all.panels.empty())
+  if (Figure all = overview(frame, engines, faint); !all.panels.empty())
     figures.push_back(std::move(all));
   for (const ProfilePlot& plot : profilePlots()) {
-    Panel panel = profilePanel(results, engines, plot, faint);
+    Panel panel = profilePanel(frame, engines, plot, faint);
     if (!hasPoints(panel)) continue;
     Figure figure;
     figure.name = "profile_" + plot.name;
     figure.title = "Profile of the " + plot.title;
-    figure.caption = captionOf(results, plot, panel);
+    figure.caption = captionOf(frame, plot, panel);
     figure.panels.push_back(std::move(panel));
     figures.push_back(std::move(figure));
   }

@@ -4,11 +4,11 @@
 #include <array>
 #include <set>
 
-#include "reports/common/csv.hpp"
-#include "reports/common/figures.hpp"
+#include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
+#include "reports/couette/report.hpp"
 
 namespace crossgrain::reports {
 
@@ -38,20 +38,18 @@ constexpr std::array<std::pair<const char*, const char*>, 6> drawnFields = {
      {"stress_rr", "σ_{rr} [N/m^{2}]"},
      {"stress_pr", "σ_{φr} [N/m^{2}]"}}};
 
-Curve drawnCurve(const Json& curve, const MethodStyle& method) {
+Curve drawnCurve(const RevCurve& curve, const MethodStyle& method) {
   Curve drawn{spaced(method.name), method.style, Draw::linesAndPoints, {}, 1.2};
-  for (std::size_t k = 0; k < list(curve, "width").size(); ++k) {
-    const auto width = number(list(curve, "width")[k]);
-    const auto mean = number(element(list(curve, "mean"), k));
+  for (std::size_t k = 0; k < curve.width.size(); ++k) {
+    const auto width = at(curve.width, k), mean = at(curve.mean, k);
     if (width && mean) drawn.points.push_back({*width, *mean, {}});
   }
   return drawn;
 }
 
-Figure fieldFigure(const Json& results, const std::string& field, const std::string& label) {
+Figure fieldFigure(const RevResults& results, const std::string& field, const std::string& label) {
   std::set<double> radii;
-  for (const Json& curve : list(results, "curves"))
-    if (const auto r = number(curve, "r")) radii.insert(*r);
+  for (const RevCurve& curve : results.curves) radii.insert(curve.r);
   Figure figure{fmt::format("rev_{}", field),
                 fmt::format("{} against ring width", spaced(field)),
                 fmt::format("{}: rings of width Δr about each radius.", spaced(field)),
@@ -64,9 +62,8 @@ Figure fieldFigure(const Json& results, const std::string& field, const std::str
     panel.yLabel = label;
     panel.logX = true;
     for (const MethodStyle& method : methodStyles())
-      for (const Json& curve : list(results, "curves"))
-        if (text(curve, "field") == field && text(curve, "method") == method.name &&
-            number(curve, "r") == r)
+      for (const RevCurve& curve : results.curves)
+        if (curve.field == field && curve.method == method.name && curve.r == r)
           panel.curves.push_back(drawnCurve(curve, method));
     panel.key = figure.panels.empty() ? Key::outside : Key::none;
     if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
@@ -75,20 +72,20 @@ Figure fieldFigure(const Json& results, const std::string& field, const std::str
 }
 
 std::string percent(std::optional<double> fraction) {
-  return fraction ? fmt::format("{:.2g}", 100.0 * *fraction) : absentText;
+  return finite(fraction) ? fmt::format("{:.2g}", 100.0 * *fraction) : absentText;
 }
 
 /// Where the method meets slicing next to that width; a dash where no radius has room for it.
-std::string meetingOf(const Json& results, const char* field, const char* method, double near) {
-  for (const Json& row : list(results, "meetings"))
-    if (text(row, "field") == field && text(row, "method") == method && number(row, "near") == near)
-      return fmt::format("{:.2f} ({} %)", number(row, "width").value_or(0.0),
-                         percent(number(row, "difference")));
+std::string meetingOf(const RevResults& results, const char* field, const char* method,
+                      double near) {
+  for (const RevMeeting& row : results.meetings)
+    if (row.field == field && row.method == method && row.near == near)
+      return fmt::format("{:.2f} ({} %)", row.width, percent(row.difference));
   return absentText;
 }
 
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
-Json meetingRows(const Json& results) {
+Json meetingRows(const RevResults& results) {
   Json rows = Json::array();
   for (const auto& [field, label] : drawnFields) {
     Json cells = Json::array();
@@ -102,7 +99,7 @@ Json meetingRows(const Json& results) {
 
 }  // namespace
 
-std::vector<Figure> revFigures(const Json& results) {
+std::vector<Figure> revFigures(const RevResults& results) {
   std::vector<Figure> figures;
   for (const auto& [field, label] : drawnFields)
     if (Figure figure = fieldFigure(results, field, label); !figure.panels.empty())
@@ -113,35 +110,32 @@ std::vector<Figure> revFigures(const Json& results) {
 namespace {
 
 /// "400 snapshots of grain: 12 fields under 5 weights, in rings of widths from 0.1 to 4 d."
-std::string leadOf(const Json& results) {
+std::string leadOf(const RevResults& results) {
   std::set<std::string> fields, methods;
   std::set<double> widths;
-  for (const Json& curve : list(results, "curves")) {
-    fields.insert(text(curve, "field"));
-    methods.insert(text(curve, "method"));
-    for (const Json& width : list(curve, "width"))
-      if (const auto d = number(width)) widths.insert(*d);
+  for (const RevCurve& curve : results.curves) {
+    fields.insert(curve.field);
+    methods.insert(curve.method);
+    widths.insert(curve.width.begin(), curve.width.end());
   }
   if (widths.empty()) return "No ring fits into the cell: nothing was averaged.";
-  const auto snapshots = number(member(results, "averaging"), "snapshots").value_or(0.0);
   return fmt::format("{} of {}: {} under {}, in rings of widths from {} to {} d.",
-                     counted(static_cast<std::size_t>(snapshots), "snapshot"),
-                     text(results, "engine"), counted(fields.size(), "field"),
+                     counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
+                     results.engine, counted(fields.size(), "field"),
                      counted(methods.size(), "weight"), readableSetting(*widths.begin()),
                      readableSetting(*widths.rbegin()));
 }
 
 }  // namespace
 
-std::string revPage(const Json& results, const Illustrations& shown) {
-  Json view = commonView(results, shown);
-  const Json& averaging = member(results, "averaging");
+std::string revPage(const RevResults& results, const Illustrations& shown) {
+  Json view = commonView(results.head, std::nullopt, results.notes, shown);
   view["lead"] = leadOf(results);
   view["sentences"] = {
       "Nothing was run and nothing compared but ways of averaging the same "
       "snapshots: what depends on the ring's width or on the weight is a matter "
       "of averaging there, not of the field."};
-  if (const auto width = number(averaging, "line_width"))
+  if (const auto width = results.averaging.lineWidth)
     view["sentences"].push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
                                             readableSetting(width)));
   view["figures"] = figureViews(shown, "rev_");
@@ -150,6 +144,23 @@ std::string revPage(const Json& results, const Illustrations& shown) {
       "Beside this page: results.json (everything), rev.csv (every field, weight and width) and "
       "rev_meetings.csv.";
   return render("report_rev.html", view);
+}
+
+std::string revCsv(const RevResults& results) {
+  std::string table = "engine,method,field,r_m,width_over_d,mean,stderr,unit\n";
+  for (const RevCurve& curve : results.curves)
+    for (std::size_t k = 0; k < curve.width.size(); ++k)
+      table += row(results.engine, curve.method, curve.field, std::optional(curve.r),
+                   at(curve.width, k), at(curve.mean, k), at(curve.standardError, k), curve.unit);
+  return table;
+}
+
+std::string revMeetingsCsv(const RevResults& results) {
+  std::string table = "method,field,near_d,width_over_d,difference\n";
+  for (const RevMeeting& meeting : results.meetings)
+    table += row(meeting.method, meeting.field, std::optional(meeting.near),
+                 std::optional(meeting.width), std::optional(meeting.difference));
+  return table;
 }
 
 }  // namespace crossgrain::reports

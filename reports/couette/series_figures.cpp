@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "reports/common/figures.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/couette/figures.hpp"
+#include "reports/couette/report.hpp"
 
 namespace crossgrain::reports {
 
@@ -29,7 +31,7 @@ const std::vector<SeriesPlot>& seriesPlots() {
 constexpr std::size_t shownPoints = 80;
 
 /// Means of so many equal parts of a series, each at its mean time.
-std::vector<Point> blockMeans(const Json& times, const Json& values, double timeScale) {
+std::vector<Point> blockMeans(const Numbers& times, const Numbers& values, double timeScale) {
   const std::size_t size = std::min(times.size(), values.size());
   const std::size_t block = std::max<std::size_t>(1, (size + shownPoints - 1) / shownPoints);
   std::vector<Point> means;
@@ -37,7 +39,7 @@ std::vector<Point> blockMeans(const Json& times, const Json& values, double time
     double x = 0.0, y = 0.0;
     int count = 0;
     for (std::size_t k = begin; k < std::min(size, begin + block); ++k) {
-      const auto time = number(times[k]), value = number(values[k]);
+      const auto time = at(times, k), value = at(values, k);
       if (!time || !value) continue;
       x += *time;
       y += *value;
@@ -49,27 +51,28 @@ std::vector<Point> blockMeans(const Json& times, const Json& values, double time
 }
 
 /// Rotations of the wheel per second; absent if it stands.
-std::optional<double> rotationRate(const Json& results) {
-  const auto omega = number(member(results, "cell"), "omega");
-  if (!omega || *omega == 0.0) return std::nullopt;
-  return std::abs(*omega) / (2.0 * std::numbers::pi);
+std::optional<double> rotationRate(const CouetteCell& cell) {
+  if (cell.omega == 0.0) return std::nullopt;
+  return std::abs(cell.omega) / (2.0 * std::numbers::pi);
 }
 
-Panel seriesPanel(const Json& results, const std::vector<EngineResults>& engines,
+Panel seriesPanel(const CouetteFrame& frame, const std::vector<EngineRuns>& engines,
                   const SeriesPlot& plot) {
-  const auto rate = rotationRate(results);
+  const auto rate = rotationRate(frame.cell);
   Panel panel;
   panel.xLabel = rate ? "rotations since hand-over" : "time since hand-over [s]";
   panel.yLabel = plot.label;
-  const auto settle = number(member(results, "averaging"), "settle_rotations");
+  const auto settle = frame.averaging.settleRotations;
   if (rate && settle && *settle > 0.0) panel.shaded = Range{0.0, *settle};
-  for (const EngineResults& engine : engines) {
+  for (const EngineRuns& engine : engines) {
     std::string name = engine.name;
-    for (const Json* run : engine.runs) {
-      const Json& series = member(*run, "series");
-      Curve curve{name, engine.style, Draw::lines,
-                  blockMeans(list(series, "t_s"), list(series, plot.name), rate.value_or(1.0)),
-                  1.0};
+    for (const CouetteRun* run : engine.runs) {
+      if (!run->series) continue;
+      const RunSeries& series = *run->series;
+      Curve curve{
+          name, engine.style, Draw::lines,
+          blockMeans(valuesOf(series, "t_s"), valuesOf(series, plot.name), rate.value_or(1.0)),
+          1.0};
       if (curve.points.empty()) continue;
       panel.curves.push_back(std::move(curve));
       name.clear();
@@ -83,13 +86,11 @@ Panel seriesPanel(const Json& results, const std::vector<EngineResults>& engines
 }
 
 /// value/reference per ring; 1 is balance.
-std::vector<Point> balancePoints(const Json& results, const Json& check) {
+std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check) {
   std::vector<Point> points;
-  for (std::size_t ring = 0; ring < list(check, "value").size(); ++ring) {
-    const auto x = number(element(list(member(results, "rings"), "r_tilde"), ring));
-    const auto value = number(list(check, "value")[ring]);
-    const auto reference = number(element(list(check, "reference"), ring));
-    const auto error = number(element(list(check, "stderr"), ring));
+  for (std::size_t ring = 0; ring < check.value.size(); ++ring) {
+    const auto x = at(rings.rTilde, ring), value = at(check.value, ring);
+    const auto reference = at(check.reference, ring), error = at(check.standardError, ring);
     if (!x || !value || !reference || *reference == 0.0) continue;
     Point point{*x, *value / *reference, {}};
     if (error) point.error = *error / std::abs(*reference);
@@ -100,10 +101,11 @@ std::vector<Point> balancePoints(const Json& results, const Json& check) {
 
 }  // namespace
 
-std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineResults>& engines) {
+std::vector<Figure> seriesFigures(const CouetteFrame& frame,
+                                  const std::vector<EngineRuns>& engines) {
   std::vector<Figure> figures;
   for (const SeriesPlot& plot : seriesPlots()) {
-    Panel panel = seriesPanel(results, engines, plot);
+    Panel panel = seriesPanel(frame, engines, plot);
     if (!hasPoints(panel)) continue;
     Figure figure;
     figure.name = "series_" + plot.name;
@@ -115,27 +117,30 @@ std::vector<Figure> seriesFigures(const Json& results, const std::vector<EngineR
   return figures;
 }
 
-std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineResults>& engines) {
+std::vector<Figure> checkFigures(const CouetteFrame& frame,
+                                 const std::vector<EngineRuns>& engines) {
   std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> checks;  // name, label
-  for (const EngineResults& engine : engines)
+  for (const EngineRuns& engine : engines)
     if (!engine.finished.empty())
-      for (const Json& check : list(*engine.finished.front(), "checks")) {
-        if (list(check, "value").size() < 2) continue;
-        const std::pair entry(text(check, "name"), text(check, "label"));
+      for (const CheckRow& check : engine.finished.front()->checks) {
+        if (check.value.size() < 2) continue;
+        const std::pair entry(check.name, check.label);
         if (std::ranges::find(checks, entry) == checks.end()) checks.push_back(entry);
       }
   for (const auto& [name, label] : checks) {
     Panel panel;
     panel.xLabel = "(r − R_{i}) / d";
     panel.yLabel = "found / expected";
-    panel.xRange = rTildeRange(results);
+    panel.xRange = rTildeRange(frame);
     panel.level = 1.0;
-    for (const EngineResults& engine : engines) {
+    for (const EngineRuns& engine : engines) {
       if (engine.finished.empty()) continue;
-      const Json& check = findByText(*engine.finished.front(), "checks", "name", name);
-      Curve curve{engine.name, engine.style, Draw::linesAndPoints, balancePoints(results, check),
-                  1.5};
+      const std::vector<CheckRow>& ofEngine = engine.finished.front()->checks;
+      const auto check = std::ranges::find(ofEngine, name, &CheckRow::name);
+      if (check == ofEngine.end()) continue;
+      Curve curve{engine.name, engine.style, Draw::linesAndPoints,
+                  balancePoints(frame.rings, *check), 1.5};
       if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
     }
     if (!hasPoints(panel)) continue;
@@ -149,8 +154,8 @@ std::vector<Figure> checkFigures(const Json& results, const std::vector<EngineRe
   return figures;
 }
 
-std::vector<Figure> compareFigures(const Json& results) {
-  const std::vector<EngineResults> engines = engineResults(results);
+std::vector<Figure> compareFigures(const CompareResults& results) {
+  const std::vector<EngineRuns> engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
   for (auto& figure : checkFigures(results, engines)) figures.push_back(std::move(figure));
   for (auto& figure : seriesFigures(results, engines)) figures.push_back(std::move(figure));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "reports/common/labels.hpp"
@@ -13,32 +14,29 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<EngineRuns>;
 using Names = std::vector<std::string>;
 
 /// What a packing does in each regime, as a verb; of several packings.
 struct Verb {
-  const char *regime, *one, *many;
+  std::optional<Regime> regime;  ///< absent: it could not be told
+  const char *one, *many;
 };
 constexpr Verb verbs[] = {
-    {"blocked", "stands still", "stand still"},
-    {"collisional", "is carried by collisions", "are carried by collisions"},
-    {"flowing", "flows", "flow"},
-    {"", "shows too little to tell", "show too little to tell"},
+    {Regime::blocked, "stands still", "stand still"},
+    {Regime::collisional, "is carried by collisions", "are carried by collisions"},
+    {Regime::flowing, "flows", "flow"},
+    {{}, "shows too little to tell", "show too little to tell"},
 };
 
-/// Engines by regime ("" where it could not be told), of one packing.
-using ByRegime = std::map<std::string, Names>;
+/// Engines by regime, of one packing.
+using ByRegime = std::map<std::optional<Regime>, Names>;
 
-std::map<long, ByRegime> regimesByPacking(const Engines& engines) {
-  std::map<long, ByRegime> packings;
-  for (const EngineResults& engine : engines)
-    for (const Json* run : engine.finished) {
-      const auto packing = number(*run, "packing");
-      const Json& regime = member(*run, "regime");
-      if (packing && regime.is_object())
-        packings[static_cast<long>(*packing)][text(regime, "name")].push_back(engine.name);
-    }
+std::map<int, ByRegime> regimesByPacking(const Engines& engines) {
+  std::map<int, ByRegime> packings;
+  for (const EngineRuns& engine : engines)
+    for (const CouetteRun* run : engine.finished)
+      if (run->regime) packings[run->packing][run->regime->regime].push_back(engine.name);
   return packings;
 }
 
@@ -62,12 +60,12 @@ void addRegimes(Names& sentences, const Engines& engines) {
   const auto all = static_cast<std::size_t>(
       std::ranges::count_if(engines, [](const auto& engine) { return !engine.finished.empty(); }));
   // Packings that do the same are told together, those that flow everywhere last.
-  std::map<std::string, std::vector<long>> alike;
+  std::map<std::string, std::vector<int>> alike;
   for (const auto& [packing, byRegime] : packings)
     alike[doesWhat(byRegime, all, false)].push_back(packing);
-  const auto flows = [&](const std::vector<long>& group) {
+  const auto flows = [&](const std::vector<int>& group) {
     const ByRegime& first = packings.at(group.front());
-    return first.size() == 1 && first.begin()->first == "flowing";
+    return first.size() == 1 && first.begin()->first == Regime::flowing;
   };
   for (const bool last : {false, true})
     for (const auto& [what, group] : alike) {
@@ -80,12 +78,11 @@ void addRegimes(Names& sentences, const Engines& engines) {
               : fmt::format("Packing{} {} {}.", many ? "s" : "", fmt::join(group, ", "), does));
     }
   Names mixed;
-  for (const EngineResults& engine : engines) {
-    std::set<std::string> names;
-    for (const Json* run : engine.finished)
-      if (const std::string name = text(member(*run, "regime"), "name"); !name.empty())
-        names.insert(name);
-    if (names.size() > 1) mixed.push_back(engine.name);
+  for (const EngineRuns& engine : engines) {
+    std::set<Regime> regimes;
+    for (const CouetteRun* run : engine.finished)
+      if (run->regime && run->regime->regime) regimes.insert(*run->regime->regime);
+    if (regimes.size() > 1) mixed.push_back(engine.name);
   }
   if (!mixed.empty())
     sentences.push_back(
@@ -93,19 +90,16 @@ void addRegimes(Names& sentences, const Engines& engines) {
                     fmt::join(mixed, ", ")));
 }
 
-std::string packingsInWords(const Json& indices) {
-  Names words;
-  for (const Json& index : indices) words.push_back(index.dump());
-  return fmt::format("packing{} {}", words.size() > 1 ? "s" : "", fmt::join(words, ", "));
+std::string packingsInWords(const std::vector<int>& indices) {
+  return fmt::format("packing{} {}", indices.size() > 1 ? "s" : "", fmt::join(indices, ", "));
 }
 
-void addPairs(Names& sentences, const Json& results, const std::string& reference) {
+void addPairs(Names& sentences, const CompareResults& results, const std::string& reference) {
   Names pairs;
-  for (const Json& pair : list(results, "regimes")) {
-    const std::string a = text(pair, "a"), b = text(pair, "b");
-    if (list(pair, "differ").empty() || (a != reference && b != reference)) continue;
-    pairs.push_back(
-        fmt::format("{} on {}", a == reference ? b : a, packingsInWords(list(pair, "differ"))));
+  for (const RegimesOfPair& pair : results.regimes) {
+    if (pair.differ.empty() || (pair.a != reference && pair.b != reference)) continue;
+    pairs.push_back(fmt::format("{} on {}", pair.a == reference ? pair.b : pair.a,
+                                packingsInWords(pair.differ)));
   }
   if (!pairs.empty())
     sentences.push_back(fmt::format(
@@ -122,15 +116,15 @@ struct Answers {
   bool seenNone = true;            ///< every series: no drift seen
 };
 
-std::map<std::string, Answers> answersByEngine(const Json& results) {
+std::map<std::string, Answers> answersByEngine(const std::vector<EngineDrift>& steadiness) {
   std::map<std::string, Answers> engines;
-  for (const Json& row : list(results, "steadiness")) {
-    Answers& answers = engines[text(row, "engine")];
-    const std::string verdict = text(row, "verdict"), quantity = spaced(text(row, "quantity"));
-    const auto change = number(row, "change"), half = number(row, "half_width");
-    const auto excluded = number(row, "excluded");
-    answers.seenNone = answers.seenNone && verdict == "no drift seen";
-    if (verdict == "drifts" && change && half)
+  for (const EngineDrift& row : steadiness) {
+    Answers& answers = engines[row.engine];
+    const std::string quantity = spaced(row.quantity);
+    const auto change = finite(row.drift.change), half = finite(row.drift.half);
+    const auto excluded = finite(row.drift.excluded);
+    answers.seenNone = answers.seenNone && row.drift.verdict == Drift::notSeen;
+    if (row.drift.verdict == Drift::drifts && change && half)
       answers.drifts.push_back(
           fmt::format("{} {} by {} ± {} %", quantity, *change < 0.0 ? "falls" : "rises",
                       readablePercent(std::abs(*change)), readablePercent(*half)));
@@ -142,12 +136,12 @@ std::map<std::string, Answers> answersByEngine(const Json& results) {
   return engines;
 }
 
-void addSteadiness(Names& sentences, const Json& results, const Engines& engines) {
-  const auto answers = answersByEngine(results);
+void addSteadiness(Names& sentences, const CompareResults& results, const Engines& engines) {
+  const auto answers = answersByEngine(results.steadiness);
   Names drifts, none, open;
   std::optional<double> largest;
   std::string series;
-  for (const EngineResults& engine : engines) {
+  for (const EngineRuns& engine : engines) {
     const auto found = answers.find(engine.name);
     if (found == answers.end()) continue;
     const Answers& here = found->second;
@@ -184,22 +178,21 @@ std::string range(double from, double to) {
 
 }  // namespace
 
-std::string readablePercent(double share) {
-  const double percent = 100.0 * share;
+std::string readablePercent(double fraction) {
+  const double percent = 100.0 * fraction;
   return percent < 0.95 ? fmt::format("{:.1g}", percent) : fmt::format("{:.0f}", percent);
 }
 
-std::string averagedRotations(const Json& results) {
-  const Json& averaging = member(results, "averaging");
-  const auto from = number(averaging, "from_rotation"), to = number(averaging, "to_rotation");
+std::string averagedRotations(const CouetteAveraging& averaging) {
+  const auto from = averaging.fromRotation, to = averaging.toRotation;
   if (!from || !to) return {};
   std::string words = fmt::format("rotations {} since the hand-over", range(*from, *to));
-  if (const auto before = number(averaging, "prepared_rotations"))
+  if (const auto before = averaging.preparedRotations)
     words += fmt::format(", {} since the ring had closed", range(*before + *from, *before + *to));
   return words;
 }
 
-std::vector<std::string> stateSentences(const Json& results, const Engines& engines) {
+std::vector<std::string> stateSentences(const CompareResults& results, const Engines& engines) {
   Names sentences;
   addRegimes(sentences, engines);
   if (!engines.empty()) addPairs(sentences, results, engines.front().name);

@@ -13,31 +13,32 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<EngineRuns>;
 
-/// The fields of one pair by verdict, with their symbols.
+/// The fields of one pair by verdict.
 struct Tally {
   std::vector<std::string> agree, disagree, undecided;
-  std::optional<double> fewest;  ///< more packings that any undecided field asks for
+  std::optional<int> fewest;  ///< more packings that any undecided field asks for
 };
 
-Tally tally(const Json& results, const std::string& a, const std::string& b) {
+Tally tally(const Agreement& agreement, const std::string& a, const std::string& b) {
   Tally counts;
-  for (const std::string& field : fieldsOf(results)) {
-    const Json& entry = entryOf(results, a, b, field);
-    const std::string verdict = text(entry, "verdict"), name = spaced(field);
-    if (verdict == "agree") counts.agree.push_back(name);
-    if (verdict == "disagree") counts.disagree.push_back(name);
-    if (verdict != "undecided") continue;
+  for (const std::string& field : fieldsOf(agreement)) {
+    const AgreementRow* row = rowOf(agreement, a, b, field);
+    if (!row) continue;
+    const std::string name = spaced(field);
+    if (row->verdict == Verdict::agree) counts.agree.push_back(name);
+    if (row->verdict == Verdict::disagree) counts.disagree.push_back(name);
+    if (row->verdict != Verdict::undecided) continue;
     counts.undecided.push_back(name);
-    if (const auto more = number(entry, "more_packings"))
-      counts.fewest = std::min(*more, counts.fewest.value_or(*more));
+    if (row->morePackings)
+      counts.fewest = std::min(*row->morePackings, counts.fewest.value_or(*row->morePackings));
   }
   return counts;
 }
 
 /// ", 2 disagree (spin, stress rr)"; names are left out where it is all of them.
-std::string share(const std::vector<std::string>& fields, std::size_t all, const char* verdict) {
+std::string partOf(const std::vector<std::string>& fields, std::size_t all, const char* verdict) {
   if (fields.empty()) return {};
   const std::string names =
       fields.size() == all ? std::string() : fmt::format(" ({})", fmt::join(fields, ", "));
@@ -47,8 +48,8 @@ std::string share(const std::vector<std::string>& fields, std::size_t all, const
 std::string inWords(const Tally& counts) {
   const std::size_t all = counts.agree.size() + counts.disagree.size() + counts.undecided.size();
   std::string words = fmt::format("{} of {} agree", counts.agree.size(), counted(all, "field")) +
-                      share(counts.disagree, all, "disagree") +
-                      share(counts.undecided, all, "undecided");
+                      partOf(counts.disagree, all, "disagree") +
+                      partOf(counts.undecided, all, "undecided");
   if (counts.fewest)
     words += fmt::format("; the nearest to a verdict needs {}", morePackings(*counts.fewest));
   return words;
@@ -62,29 +63,28 @@ std::string leadOf(const std::string& reference, std::size_t agree, std::size_t 
                      disagree, undecided);
 }
 
-std::string basisInWords(const Json& results, const std::string& reference) {
-  const std::string when = averagedRotations(results);
-  return fmt::format("Reference: {}. {}{}.", reference,
-                     counted(list(results, "packings").size(), "packing"),
+std::string basisInWords(const CompareResults& results, const std::string& reference) {
+  const std::string when = averagedRotations(results.averaging);
+  return fmt::format("Reference: {}. {}{}.", reference, counted(results.packings.size(), "packing"),
                      when.empty() ? std::string() : "; averaged: " + when);
 }
 
 /// Of a mirror: how its peer's difference splits. Empty for others.
-std::string splitInWords(const Json& results, const EngineResults& mirror,
+std::string splitInWords(const Agreement& agreement, const EngineRuns& mirror,
                          const std::string& reference) {
-  if (mirror.mirrors.empty() || !compared(results, mirror.name, mirror.mirrors)) return {};
+  if (mirror.mirrors.empty() || !compared(agreement, mirror.name, mirror.mirrors)) return {};
   return fmt::format("{} mirrors {}. Model, against {}: {}. Implementation, against {}: {}.",
                      mirror.name, mirror.mirrors, reference,
-                     inWords(tally(results, reference, mirror.name)), mirror.mirrors,
-                     inWords(tally(results, mirror.name, mirror.mirrors)));
+                     inWords(tally(agreement, reference, mirror.name)), mirror.mirrors,
+                     inWords(tally(agreement, mirror.name, mirror.mirrors)));
 }
 
-std::string troubleInWords(const EngineResults& engine) {
-  if (engine.status != "ran") {
-    const std::string reason = text(*engine.entry, "reason");
-    return engine.name + " " + (engine.status == "refused" ? "refused the scene" : engine.status) +
-           (reason.empty() ? "." : ": " + reason);
-  }
+std::string troubleInWords(const EngineRuns& engine) {
+  if (engine.status != EngineStatus::ran)
+    return fmt::format(
+        "{} {}{}", engine.name,
+        engine.status == EngineStatus::refused ? "refused the scene" : nameOf(engine.status),
+        engine.reason.empty() ? "." : ": " + engine.reason);
   const std::size_t lost = engine.runs.size() - engine.finished.size();
   return lost == 0 ? std::string()
                    : fmt::format("{}: {} of {} did not finish.", engine.name, lost,
@@ -93,27 +93,28 @@ std::string troubleInWords(const EngineResults& engine) {
 
 }  // namespace
 
-void addSummary(Json& view, const Json& results, const Engines& engines) {
+void addSummary(Json& view, const CompareResults& results, const Engines& engines) {
+  const Agreement& agreement = results.agreement;
   Json sentences = Json::array();
   std::size_t agree = 0, disagree = 0, undecided = 0;
   if (!engines.empty()) sentences.push_back(basisInWords(results, engines.front().name));
   for (std::string& state : stateSentences(results, engines)) sentences.push_back(std::move(state));
-  for (const std::string& peer : peersOf(results, engines)) {
-    const Tally counts = tally(results, engines.front().name, peer);
+  for (const std::string& peer : peersOf(agreement, engines)) {
+    const Tally counts = tally(agreement, engines.front().name, peer);
     agree += counts.agree.size();
     disagree += counts.disagree.size();
     undecided += counts.undecided.size();
     sentences.push_back(
         fmt::format("{} against {}: {}.", peer, engines.front().name, inWords(counts)));
   }
-  for (const EngineResults& engine : engines)
-    if (const std::string split = splitInWords(results, engine, engines.front().name);
+  for (const EngineRuns& engine : engines)
+    if (const std::string split = splitInWords(agreement, engine, engines.front().name);
         !split.empty())
       sentences.push_back(split);
-  for (const EngineResults& engine : engines)
+  for (const EngineRuns& engine : engines)
     if (const std::string trouble = troubleInWords(engine); !trouble.empty())
       sentences.push_back(trouble);
-  if (const auto packings = list(results, "packings").size(); packings < 4 && undecided > 0)
+  if (const auto packings = results.packings.size(); packings < 4 && undecided > 0)
     sentences.push_back(
         "Fewer than 4 packings: what differs between packings cannot be told from what differs "
         "between engines, so no general verdict is given.");

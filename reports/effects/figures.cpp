@@ -4,38 +4,42 @@
 #include <array>
 #include <cmath>
 
-#include "reports/common/figures.hpp"
+#include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
-#include "reports/effects/legs.hpp"
+#include "reports/couette/figures.hpp"
+#include "reports/effects/report.hpp"
+#include "reports/effects/variants.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Legs = std::vector<EffectLeg>;
+using Variants = std::vector<VariantSummary>;
 
-Legs legsThatRan(const Json& results, const std::string& engine) {
-  Legs legs = effectLegs(results);
-  std::erase_if(legs, [&](const EffectLeg& leg) { return leg.engine != engine || !leg.ran(); });
-  return legs;
+Variants variantsThatRan(const EffectsResults& results, const std::string& engine) {
+  Variants variants = variantSummaries(results);
+  std::erase_if(variants, [&](const VariantSummary& variant) {
+    return variant.engine != engine || !variant.ran();
+  });
+  return variants;
 }
 
-Panel rowsOf(const Legs& legs) {
+Panel rowsOf(const Variants& variants) {
   Panel panel;
   panel.key = Key::none;
-  for (const EffectLeg& leg : legs) panel.rows.push_back(effectLabel(leg.effect));
+  for (const VariantSummary& variant : variants) panel.rows.push_back(effectLabel(variant.effect));
   return panel;
 }
 
-Panel costPanel(const Legs& legs) {
-  Panel panel = rowsOf(legs);
+Panel costPanel(const Variants& variants) {
+  Panel panel = rowsOf(variants);
   panel.title = "cost";
   panel.xLabel = "share of a step [%]";
   Curve cost{"", engineStyle(2), Draw::blocks, {}, 1.5};
-  for (std::size_t k = 0; k < legs.size(); ++k) {
-    if (!legs[k].saved) continue;
-    Point point{100.0 * *legs[k].saved, static_cast<double>(k), {}};
-    if (legs[k].savedError) point.error = 100.0 * *legs[k].savedError;
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    if (!variants[k].saved) continue;
+    Point point{100.0 * *variants[k].saved, static_cast<double>(k), {}};
+    if (variants[k].savedError) point.error = 100.0 * *variants[k].savedError;
     cost.points.push_back(point);
   }
   panel.curves.push_back(std::move(cost));
@@ -47,15 +51,15 @@ int triangle(bool up, bool filled) {
   return (up ? 8 : 10) + (filled ? 1 : 0);
 }
 
-/// The shares [%] that the change panels of a figure show.
-Range rangeOf(const Legs& legs, const std::vector<std::string>& fields) {
+/// The sizes [%] that the change panels of a figure show.
+Range rangeOf(const Variants& variants, const std::vector<std::string>& fields) {
   constexpr double least = 0.01;  // [%] below lies no change that anybody would look for
   Range range{100.0, 100.0};
-  for (const EffectLeg& leg : legs)
+  for (const VariantSummary& variant : variants)
     for (const std::string& field : fields)
-      if (const FieldChange* change = leg.of(field)) {
-        const double share = std::max(100.0 * std::abs(change->change), least);
-        range = {std::min(range.low, share), std::max(range.high, share)};
+      if (const FieldChange* change = variant.of(field)) {
+        const double size = std::max(100.0 * std::abs(change->change), least);
+        range = {std::min(range.low, size), std::max(range.high, size)};
       }
   return {std::pow(10.0, std::floor(std::log10(range.low))), 2.0 * range.high};
 }
@@ -81,8 +85,8 @@ std::string enhanced(const std::string& field) {
   return spaced(field);
 }
 
-Panel changePanel(const Legs& legs, const std::string& field, const Range& range) {
-  Panel panel = rowsOf(legs);
+Panel changePanel(const Variants& variants, const std::string& field, const Range& range) {
+  Panel panel = rowsOf(variants);
   panel.title = "change of " + enhanced(field);
   panel.xLabel = "of the largest value [%]";
   panel.logX = true;
@@ -92,8 +96,8 @@ Panel changePanel(const Legs& legs, const std::string& field, const Range& range
     for (const bool filled : {true, false}) {
       Curve marks{
           "", {filled ? "#d55e00" : "#7a858f", triangle(up, filled), false}, Draw::points, {}, 1.5};
-      for (std::size_t k = 0; k < legs.size(); ++k) {
-        const FieldChange* change = legs[k].of(field);
+      for (std::size_t k = 0; k < variants.size(); ++k) {
+        const FieldChange* change = variants[k].of(field);
         if (!change || (change->change > 0.0) != up || change->detected.value_or(false) != filled)
           continue;
         Point point{100.0 * std::abs(change->change), static_cast<double>(k), {}};
@@ -109,9 +113,9 @@ Panel changePanel(const Legs& legs, const std::string& field, const Range& range
 }
 
 /// The fields that say most about a shear cell, as far as they are judged; else the first ones.
-std::vector<std::string> keyFields(const Legs& legs) {
+std::vector<std::string> keyFields(const Variants& variants) {
   constexpr std::size_t most = 4;
-  const std::vector<std::string> judged = judgedFields(legs);
+  const std::vector<std::string> judged = judgedFields(variants);
   std::vector<std::string> fields;
   for (const char* name : {"azimuthal_velocity", "volume_fraction", "spin", "stress_rr"})
     if (std::ranges::find(judged, name) != judged.end()) fields.emplace_back(name);
@@ -121,8 +125,8 @@ std::vector<std::string> keyFields(const Legs& legs) {
   return fields;
 }
 
-Figure costFigure(const Legs& legs, const std::string& name) {
-  const std::vector<std::string> fields = keyFields(legs);
+Figure costFigure(const Variants& variants, const std::string& name) {
+  const std::vector<std::string> fields = keyFields(variants);
   Figure figure;
   figure.name = name;
   figure.title = "What each effect costs and what it changes";
@@ -130,49 +134,50 @@ Figure costFigure(const Legs& legs, const std::string& name) {
       "Left: the share of a step's time that switching the effect off saves, ± one standard error. "
       "Right: the largest change of a profile when it is switched off, in % of the profile's "
       "largest value. ▲ larger without it, ▼ smaller; " +
-      std::string(std::ranges::any_of(legs, &EffectLeg::decidable)
+      std::string(std::ranges::any_of(variants, &VariantSummary::decidable)
                       ? "filled: told apart from no change, open: not. Bars: as far as the "
                         "end nearer 0 of the interval that this rests on; one that leaves the axis "
                         "on the left holds 0."
                       : "open: too few packings to tell whether they are chance. Bars: one "
                         "standard error.");
-  figure.panels.push_back(costPanel(legs));
-  const Range range = rangeOf(legs, fields);
+  figure.panels.push_back(costPanel(variants));
+  const Range range = rangeOf(variants, fields);
   for (const std::string& field : fields) {
-    Panel panel = changePanel(legs, field, range);
+    Panel panel = changePanel(variants, field, range);
     if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
   }
   figure.columns = static_cast<int>(figure.panels.size());
   figure.panelWidth = 205;
-  figure.panelHeight = 110 + 26 * static_cast<int>(legs.size());
+  figure.panelHeight = 110 + 26 * static_cast<int>(variants.size());
   figure.rowNames = 165;
   figure.png = true;
   return figure;
 }
 
-/// Legs whose change of the field was not told apart from none.
-IsFaint unchanged(const Legs& legs) {
-  return [&legs](const EngineResults& curve, const std::string& field) {
-    const auto leg = std::ranges::find_if(
-        legs, [&](const EffectLeg& one) { return legLabel(one.effect) == curve.name; });
-    if (leg == legs.end()) return false;
-    const FieldChange* change = leg->of(field);
+/// Variants whose change of the field was not told apart from none.
+IsFaint unchanged(const Variants& variants) {
+  return [&variants](const EngineRuns& curve, const std::string& field) {
+    const auto variant = std::ranges::find_if(variants, [&](const VariantSummary& one) {
+      return variantLabel(one.effect) == curve.name;
+    });
+    if (variant == variants.end()) return false;
+    const FieldChange* change = variant->of(field);
     return change && change->detected == std::optional(false);
   };
 }
 
 }  // namespace
 
-std::vector<Figure> effectFigures(const Json& results) {
+std::vector<Figure> effectFigures(const EffectsResults& results) {
   std::vector<Figure> figures;
   std::size_t k = 0;
-  for (const EngineResults& engine : engineResults(results)) {
+  for (const EngineRuns& engine : engineRuns(results, results.ensemble)) {
     const std::string prefix = fmt::format("effects_{}_", ++k);
-    const Legs legs = legsThatRan(results, engine.name);
-    if (legs.empty()) continue;
-    figures.push_back(costFigure(legs, prefix + "cost"));
+    const Variants variants = variantsThatRan(results, engine.name);
+    if (variants.empty()) continue;
+    figures.push_back(costFigure(variants, prefix + "cost"));
     for (Figure& figure :
-         profileFigures(results, legResults(results, engine.name), unchanged(legs))) {
+         profileFigures(results, variantRuns(results, engine.name), unchanged(variants))) {
       if (figure.name == "overview") continue;
       figure.name = prefix + figure.name;
       figures.push_back(std::move(figure));

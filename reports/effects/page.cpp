@@ -2,28 +2,29 @@
 
 #include <algorithm>
 
-#include "reports/common/figures.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/effects/report.hpp"
 #include "reports/effects/views.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<EngineResults>;
+using Engines = std::vector<EngineRuns>;
 
-std::vector<EffectLeg> legsOf(const Json& results, const std::string& engine) {
-  std::vector<EffectLeg> legs = effectLegs(results);
-  std::erase_if(legs, [&](const EffectLeg& leg) { return leg.engine != engine; });
-  return legs;
+std::vector<VariantSummary> variantsOf(const EffectsResults& results, const std::string& engine) {
+  std::vector<VariantSummary> variants = variantSummaries(results);
+  std::erase_if(variants, [&](const VariantSummary& variant) { return variant.engine != engine; });
+  return variants;
 }
 
-std::string dearestInWords(const std::vector<EffectLeg>& legs) {
-  const EffectLeg* dearest = nullptr;
-  for (const EffectLeg& leg : legs)
-    if (leg.saved && costsTime(leg) && (!dearest || *leg.saved > *dearest->saved)) dearest = &leg;
+std::string dearestInWords(const std::vector<VariantSummary>& variants) {
+  const VariantSummary* dearest = nullptr;
+  for (const VariantSummary& variant : variants)
+    if (variant.saved && costsTime(variant) && (!dearest || *variant.saved > *dearest->saved))
+      dearest = &variant;
   if (!dearest) return "none is shown to cost time";
   return fmt::format("the dearest is {}, {:.0f} % of a step", effectLabel(dearest->effect),
                      100.0 * *dearest->saved);
@@ -31,18 +32,19 @@ std::string dearestInWords(const std::vector<EffectLeg>& legs) {
 
 /// "1 of 3 effects of this scene changes a profile detectably, of 2 no change is told apart from
 /// none (1 is shown within every margin)": three things, each counted by itself.
-std::string changesInCounts(const std::vector<EffectLeg>& legs) {
+std::string changesInCounts(const std::vector<VariantSummary>& variants) {
   const auto count = [&](const auto& is) {
-    return static_cast<std::size_t>(std::ranges::count_if(legs, is));
+    return static_cast<std::size_t>(std::ranges::count_if(variants, is));
   };
-  const std::size_t changing = count(&EffectLeg::changesSomething);
-  const std::size_t open =
-      count([](const EffectLeg& leg) { return leg.decidable() && !leg.changesSomething(); });
-  const std::size_t within = count(&EffectLeg::withinMargins);
-  const std::size_t untold = legs.size() - changing - open;
+  const std::size_t changing = count(&VariantSummary::changesSomething);
+  const std::size_t open = count([](const VariantSummary& variant) {
+    return variant.decidable() && !variant.changesSomething();
+  });
+  const std::size_t within = count(&VariantSummary::withinMargins);
+  const std::size_t untold = variants.size() - changing - open;
   std::string words =
       fmt::format("{} of {} of this scene {} a profile detectably", changing,
-                  counted(legs.size(), "effect"), changing == 1 ? "changes" : "change");
+                  counted(variants.size(), "effect"), changing == 1 ? "changes" : "change");
   if (open > 0) words += fmt::format(", of {} no change is told apart from none", open);
   if (untold > 0) words += fmt::format(", of {} it cannot be told", untold);
   if (within > 0)
@@ -50,70 +52,74 @@ std::string changesInCounts(const std::vector<EffectLeg>& legs) {
   return words;
 }
 
-std::string leadOf(const std::string& engine, std::vector<EffectLeg> legs) {
-  const std::size_t all = legs.size();
-  std::erase_if(legs, [](const EffectLeg& leg) { return !leg.ran(); });
+std::string leadOf(const std::string& engine, std::vector<VariantSummary> variants) {
+  const std::size_t all = variants.size();
+  std::erase_if(variants, [](const VariantSummary& variant) { return !variant.ran(); });
   const std::string notRun =
-      legs.size() == all ? std::string()
-                         : fmt::format(" Not measured: {}.", counted(all - legs.size(), "effect"));
-  if (legs.empty()) return fmt::format("Nothing could be switched off on {}.{}", engine, notRun);
-  if (std::ranges::none_of(legs, &EffectLeg::decidable))
-    return fmt::format("On {}, of {} of this scene {}.{}", engine, counted(legs.size(), "effect"),
-                       dearestInWords(legs), notRun);
-  return fmt::format("On {}, {}; {}.{}", engine, changesInCounts(legs), dearestInWords(legs),
-                     notRun);
+      variants.size() == all
+          ? std::string()
+          : fmt::format(" Not measured: {}.", counted(all - variants.size(), "effect"));
+  if (variants.empty())
+    return fmt::format("Nothing could be switched off on {}.{}", engine, notRun);
+  if (std::ranges::none_of(variants, &VariantSummary::decidable))
+    return fmt::format("On {}, of {} of this scene {}.{}", engine,
+                       counted(variants.size(), "effect"), dearestInWords(variants), notRun);
+  return fmt::format("On {}, {}; {}.{}", engine, changesInCounts(variants),
+                     dearestInWords(variants), notRun);
 }
 
-std::string sentenceOf(const EffectLeg& leg) {
-  std::string effect = effectLabel(leg.effect);
+std::string sentenceOf(const VariantSummary& variant) {
+  std::string effect = effectLabel(variant.effect);
   effect[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(effect[0])));
-  if (!leg.ran()) return fmt::format("{}: {}: {}.", effect, leg.status, leg.reason);
-  const std::string changes = changesInWords(leg);
-  return fmt::format("{} {}{}{}.", effect, costInWords(leg), changes.empty() ? "" : "; ", changes);
+  if (!variant.ran())
+    return fmt::format("{}: {}: {}.", effect, nameOf(variant.status), variant.reason);
+  const std::string changes = changesInWords(variant);
+  return fmt::format("{} {}{}{}.", effect, costInWords(variant), changes.empty() ? "" : "; ",
+                     changes);
 }
 
-Json sentencesOf(const Json& results, const std::string& engine) {
+Json sentencesOf(const EffectsResults& results, const std::string& engine) {
   Json sentences = Json::array();
-  for (const EffectLeg& leg : legsOf(results, engine)) sentences.push_back(sentenceOf(leg));
+  for (const VariantSummary& variant : variantsOf(results, engine))
+    sentences.push_back(sentenceOf(variant));
   return sentences;
 }
 
 /// What the figures rest on.
-Json basis(const Json& results) {
-  const Json& averaging = member(results, "averaging");
+Json basis(const EffectsResults& results) {
+  const CouetteAveraging& averaging = results.averaging;
   Json sentences = Json::array();
-  if (list(results, "packings").size() < 4)
+  if (results.packings.size() < 4)
     sentences.push_back(
         "Fewer than 4 packings: what an effect changes cannot be told from the scatter between "
         "packings.");
   sentences.push_back(fmt::format(
       "Changes are in % of the profile's largest value with everything on. {}; rotations averaged "
       "in each run: {}, after {} of settling.",
-      counted(list(results, "packings").size(), "packing"),
-      readableSetting(number(averaging, "rotations")),
-      readableSetting(number(averaging, "settle_rotations"))));
+      counted(results.packings.size(), "packing"), readableSetting(averaging.rotations),
+      readableSetting(averaging.settleRotations)));
   return sentences;
 }
 
 /// One engine: a sentence on each effect. Several: one on each engine, the others with its study.
-void addEffectSummary(Json& view, const Json& results, const Engines& engines) {
+void addEffectSummary(Json& view, const EffectsResults& results, const Engines& engines) {
   view["sentences"] = Json::array();
   if (engines.size() == 1) view["sentences"] = sentencesOf(results, engines.front().name);
   view["lead"] = engines.empty()
                      ? "Nothing ran."
-                     : leadOf(engines.front().name, legsOf(results, engines.front().name));
+                     : leadOf(engines.front().name, variantsOf(results, engines.front().name));
   for (std::size_t k = 1; k < engines.size(); ++k)
-    if (engines[k].status != "refused")
-      view["sentences"].push_back(leadOf(engines[k].name, legsOf(results, engines[k].name)));
-  for (const EngineResults& engine : engines)
-    if (engine.status == "refused")
+    if (engines[k].status != EngineStatus::refused)
+      view["sentences"].push_back(leadOf(engines[k].name, variantsOf(results, engines[k].name)));
+  for (const EngineRuns& engine : engines)
+    if (engine.status == EngineStatus::refused)
       view["sentences"].push_back(
-          fmt::format("{} refused the scene: {}", engine.name, text(*engine.entry, "reason")));
+          fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   for (const Json& sentence : basis(results)) view["sentences"].push_back(sentence);
 }
 
-std::string barsOf(const Json& results) {
-  const std::size_t packings = list(results, "packings").size();
+std::string barsOf(const EffectsResults& results) {
+  const std::size_t packings = results.packings.size();
   if (packings >= 4)
     return "in brackets the interval that the verdict rests on, over packings, each held against "
            "itself: it leaves out 0 exactly where the change is told apart";
@@ -123,17 +129,17 @@ std::string barsOf(const Json& results) {
                         "about other packings";
 }
 
-Json switchRows(const Json& results) {
+Json switchRows(const EffectsResults& results) {
   Json rows = Json::array();
-  for (const Json& one : list(results, "switches"))
-    rows.push_back({{"label", legLabel(text(one, "effect"))}, {"what", text(one, "what")}});
+  for (const SwitchRow& one : results.switches)
+    rows.push_back({{"label", variantLabel(one.effect)}, {"what", one.what}});
   return rows;
 }
 
-Json studies(const Json& results, const Engines& engines, const Illustrations& shown) {
+Json studies(const EffectsResults& results, const Engines& engines, const Illustrations& shown) {
   Json all = Json::array();
   for (std::size_t k = 0; k < engines.size(); ++k) {
-    if (!wholeLeg(results, engines[k].name).is_object()) continue;
+    if (!wholeVariant(results, engines[k].name)) continue;
     const std::string prefix = fmt::format("effects_{}_", k + 1);
     all.push_back(
         {{"engine", engines[k].name},
@@ -145,9 +151,10 @@ Json studies(const Json& results, const Engines& engines, const Illustrations& s
     all.back()["hasSentences"] = !all.back()["sentences"].empty();
     all.back()["hasProfiles"] = !all.back()["profiles"].empty();
     // With too few packings no run is drawn grey.
-    all.back()["hasFaint"] =
-        std::ranges::any_of(legsOf(results, engines[k].name), [](const EffectLeg& leg) {
-          return leg.ran() && std::ranges::any_of(leg.changes, [](const FieldChange& change) {
+    all.back()["hasFaint"] = std::ranges::any_of(
+        variantsOf(results, engines[k].name), [](const VariantSummary& variant) {
+          return variant.ran() &&
+                 std::ranges::any_of(variant.changes, [](const FieldChange& change) {
                    return change.detected == std::optional(false);
                  });
         });
@@ -157,29 +164,22 @@ Json studies(const Json& results, const Engines& engines, const Illustrations& s
 
 }  // namespace
 
-std::string effectsPage(const Json& results, const Illustrations& shown) {
-  const Engines engines = engineResults(results);
-  std::vector<RealisedOf> realised;
-  for (const EngineResults& engine : engines)
-    if (engine.realised().is_object())
-      realised.push_back({engine.name, &engine.realised(), &member(results, "effects")});
-
-  Json view = commonView(results, shown);
+std::string effectsPage(const EffectsResults& results, const Illustrations& shown) {
+  const Engines engines = engineRuns(results, results.ensemble);
+  Json view = studyView(results, shown);
   addEffectSummary(view, results, engines);
   view["columns"] = columnsView(engines);
   addEngineTable(view, engines);
   addTroubles(view, engines);
-  const double confidence = number(member(results, "averaging"), "confidence").value_or(0.95);
-  const Json& timing = member(results, "timing");
-  view["falseAlarm"] = fmt::format("{:.3g} %", 100.0 * (1.0 - confidence));
-  view["rounds"] = readableCount(number(timing, "rounds"));
-  view["seconds"] = readableSetting(number(timing, "seconds"));
+  view["falseAlarm"] = fmt::format("{:.3g} %", 100.0 * (1.0 - results.averaging.confidence));
+  view["rounds"] = readableCount(results.timing.rounds);
+  view["seconds"] = readableSetting(results.timing.seconds);
   view["bars"] = barsOf(results);
   view["averages"] = averagesInWords(results);
   view["switches"] = switchRows(results);
   view["studies"] = studies(results, engines, shown);
-  addDetails(view, realised);
-  view["packings"] = packingRows(results);
+  addDetails(view, realisedOf(results, engines));
+  view["packings"] = packingRows(results.packings);
   view["files"] =
       "Beside this page: results.json (everything) and effects.csv (every ring of every field).";
   return render("report_effects.html", view);

@@ -25,8 +25,8 @@ std::string signedRoughly(double percent) {
   return (percent < 0.0 ? "−" : "+") + digits;
 }
 
-std::optional<double> percent(std::optional<double> share) {
-  return share ? std::optional(100.0 * *share) : std::nullopt;
+std::optional<double> percent(std::optional<double> fraction) {
+  return fraction ? std::optional(100.0 * *fraction) : std::nullopt;
 }
 
 /// "−20 % (−25 to −15 %)": with the interval that the verdict rests on; else with one standard
@@ -40,8 +40,8 @@ std::string changePercent(const FieldChange& change) {
   return readableDifference(value, percent(change.error)) + " % (one standard error)";
 }
 
-bool measured(const EffectLeg& leg) {
-  return !leg.savedError || std::abs(*leg.saved) > 2.0 * *leg.savedError;
+bool measured(const VariantSummary& variant) {
+  return !variant.savedError || std::abs(*variant.saved) > 2.0 * *variant.savedError;
 }
 
 std::string ringName(const FieldChange& change) {
@@ -52,9 +52,9 @@ std::string changeInWords(const FieldChange& change) {
   return fmt::format("{} in {}, {}", spaced(change.field), ringName(change), changePercent(change));
 }
 
-std::vector<const FieldChange*> detectedOf(const EffectLeg& leg) {
+std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
   std::vector<const FieldChange*> found;
-  for (const FieldChange& change : leg.changes)
+  for (const FieldChange& change : variant.changes)
     if (change.detected.value_or(false)) found.push_back(&change);
   std::ranges::stable_sort(found, std::ranges::greater(),
                            [](const FieldChange* change) { return std::abs(change->change); });
@@ -62,9 +62,9 @@ std::vector<const FieldChange*> detectedOf(const EffectLeg& leg) {
 }
 
 /// "0.8 % (volume fraction) to 45 % (spin)"
-std::string detectableInWords(const EffectLeg& leg) {
+std::string detectableInWords(const VariantSummary& variant) {
   const FieldChange *least = nullptr, *most = nullptr;
-  for (const FieldChange& change : leg.changes) {
+  for (const FieldChange& change : variant.changes) {
     if (!change.detectable) continue;
     if (!least || *change.detectable < *least->detectable) least = &change;
     if (!most || *change.detectable > *most->detectable) most = &change;
@@ -81,39 +81,40 @@ std::string detectableInWords(const EffectLeg& leg) {
 namespace {
 
 /// ", with 45 contacts instead of 424": where that is part of what a step takes.
-std::string contactsInWords(const EffectLeg& leg) {
+std::string contactsInWords(const VariantSummary& variant) {
   constexpr double notable = 0.2;
-  if (!leg.contacts || !leg.wholeContacts) return {};
-  if (std::abs(*leg.contacts - *leg.wholeContacts) < notable * *leg.wholeContacts) return {};
+  if (!variant.contacts || !variant.wholeContacts) return {};
+  if (std::abs(*variant.contacts - *variant.wholeContacts) < notable * *variant.wholeContacts)
+    return {};
   return fmt::format(" (without it there are {} contacts instead of {})",
-                     readableCount(leg.contacts), readableCount(leg.wholeContacts));
+                     readableCount(variant.contacts), readableCount(variant.wholeContacts));
 }
 
 }  // namespace
 
-bool costsTime(const EffectLeg& leg) {
-  return leg.saved && *leg.saved > 0.0 && measured(leg);
+bool costsTime(const VariantSummary& variant) {
+  return variant.saved && *variant.saved > 0.0 && measured(variant);
 }
 
-std::string costInWords(const EffectLeg& leg) {
-  if (!leg.saved) return "was not timed";
-  const std::string share = readable(percent(std::abs(*leg.saved)), percent(leg.savedError));
-  if (!measured(leg))
+std::string costInWords(const VariantSummary& variant) {
+  if (!variant.saved) return "was not timed";
+  const std::string part = readable(percent(std::abs(*variant.saved)), percent(variant.savedError));
+  if (!measured(variant))
     return fmt::format("costs nothing measurable ({} % of a step)",
-                       readableDifference(percent(leg.saved), percent(leg.savedError)));
-  return (*leg.saved > 0.0
-              ? fmt::format("takes {} % of a step", share)
-              : fmt::format("saves time: a step without it takes {} % longer", share)) +
-         contactsInWords(leg);
+                       readableDifference(percent(variant.saved), percent(variant.savedError)));
+  return (*variant.saved > 0.0
+              ? fmt::format("takes {} % of a step", part)
+              : fmt::format("saves time: a step without it takes {} % longer", part)) +
+         contactsInWords(variant);
 }
 
-std::string changesInWords(const EffectLeg& leg) {
-  const auto found = detectedOf(leg);
+std::string changesInWords(const VariantSummary& variant) {
+  const auto found = detectedOf(variant);
   if (found.empty())
-    return leg.decidable() ? "no change told apart from none; the smallest that this run could "
-                             "have, field by field: " +
-                                 detectableInWords(leg)
-                           : std::string();
+    return variant.decidable() ? "no change told apart from none; the smallest that this run could "
+                                 "have, field by field: " +
+                                     detectableInWords(variant)
+                               : std::string();
   constexpr std::size_t told = 3;
   std::vector<std::string> words;
   for (std::size_t k = 0; k < std::min(found.size(), told); ++k)
@@ -127,11 +128,11 @@ namespace {
 
 /// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
 std::string againstMargin(const FieldChange& change) {
-  if (change.verdict.empty()) return {};
-  if (change.verdict == "agree") return "shown within the margin";
-  if (change.verdictHere == "disagree") return "shown beyond the margin";
-  return change.verdict == "disagree" ? "shown beyond the margin in another ring"
-                                      : "margin: undecided";
+  if (change.verdict == AgainstMargin::untold) return {};
+  if (change.verdict == AgainstMargin::agree) return "shown within the margin";
+  if (change.verdictHere == AgainstMargin::disagree) return "shown beyond the margin";
+  return change.verdict == AgainstMargin::disagree ? "shown beyond the margin in another ring"
+                                                   : "margin: undecided";
 }
 
 const char* symbolOf(const FieldChange& change) {
@@ -154,29 +155,31 @@ Json fieldCell(const FieldChange* change) {
           {"class", found ? "disagree" : "undecided"}};
 }
 
-Json tableRow(const EffectLeg& leg, const std::vector<std::string>& fields) {
-  Json row = {{"label", effectLabel(leg.effect)},
+Json tableRow(const VariantSummary& variant, const std::vector<std::string>& fields) {
+  Json row = {{"label", effectLabel(variant.effect)},
               {"refused", ""},
-              {"saved", readable(percent(leg.saved), percent(leg.savedError))},
-              {"step", readable(leg.step ? std::optional(*leg.step * 1e6) : std::nullopt)},
-              {"contacts", readableCount(leg.contacts)},
+              {"saved", readable(percent(variant.saved), percent(variant.savedError))},
+              {"step", readable(variant.step ? std::optional(*variant.step * 1e6) : std::nullopt)},
+              {"contacts", readableCount(variant.contacts)},
               {"cells", Json::array()}};
-  if (!leg.ran()) row["refused"] = leg.status + ": " + leg.reason;
-  for (const std::string& field : fields) row["cells"].push_back(fieldCell(leg.of(field)));
+  if (!variant.ran())
+    row["refused"] = fmt::format("{}: {}", nameOf(variant.status), variant.reason);
+  for (const std::string& field : fields) row["cells"].push_back(fieldCell(variant.of(field)));
   return row;
 }
 
 /// The largest value of each field with everything on: what shares are of.
-Json scales(const Json& results, const std::string& engine,
+Json scales(const EffectsResults& results, const std::string& engine,
             const std::vector<std::string>& fields) {
-  const auto all = legResults(results, engine);
+  const auto all = variantRuns(results, engine);
   Json cells = Json::array();
   for (const std::string& field : fields) {
-    const Json& profile = findByText(all.front().averages(), "profiles", "field", field);
+    const Profile* profile = profileOf(all.front().profiles(), field);
     double scale = 0.0;
-    for (const Json& mean : list(profile, "mean"))
-      scale = std::max(scale, std::abs(number(mean).value_or(0.0)));
-    const std::string unit = text(profile, "unit");
+    if (profile)
+      for (const auto& mean : profile->mean)
+        scale = std::max(scale, std::abs(finite(mean).value_or(0.0)));
+    const std::string unit = profile ? profile->unit : std::string();
     cells.push_back(readable(scale) + (unit == "-" || unit == "1" ? "" : " " + unit));
   }
   return cells;
@@ -184,20 +187,20 @@ Json scales(const Json& results, const std::string& engine,
 
 }  // namespace
 
-Json effectTable(const Json& results, const std::string& engine) {
-  std::vector<EffectLeg> legs = effectLegs(results);
-  std::erase_if(legs, [&](const EffectLeg& leg) { return leg.engine != engine; });
-  const std::vector<std::string> fields = judgedFields(legs);
-  const Json& whole = wholeLeg(results, engine);
-  const auto step = number(whole, "step_s");
+Json effectTable(const EffectsResults& results, const std::string& engine) {
+  std::vector<VariantSummary> variants = variantSummaries(results);
+  std::erase_if(variants, [&](const VariantSummary& variant) { return variant.engine != engine; });
+  const std::vector<std::string> fields = judgedFields(variants);
+  const EffectVariant* whole = wholeVariant(results, engine);
+  const auto step = whole ? finite(whole->step) : std::nullopt;
   Json table = {{"fields", Json::array()},
                 {"span", std::to_string(fields.size() + 3)},
                 {"wholeStep", readable(step ? std::optional(*step * 1e6) : std::nullopt)},
-                {"wholeContacts", readableCount(number(whole, "contacts_per_step"))},
+                {"wholeContacts", whole ? readableCount(whole->contacts) : std::string(absentText)},
                 {"scales", scales(results, engine, fields)},
                 {"rows", Json::array()}};
   for (const std::string& field : fields) table["fields"].push_back(fieldLabel(field));
-  for (const EffectLeg& leg : legs) table["rows"].push_back(tableRow(leg, fields));
+  for (const VariantSummary& variant : variants) table["rows"].push_back(tableRow(variant, fields));
   return table;
 }
 

@@ -6,18 +6,17 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
-std::optional<NothingJudged> nothingJudged(const Case& setup, const json& agreement,
+std::optional<NothingJudged> nothingJudged(const Case& setup,
+                                           std::span<const AgreementRow> agreement,
                                            std::size_t named) {
   if (named < 2) return NothingJudged{"one engine has nothing to be held against", true};
   if (setup.averaging.margins.empty()) return NothingJudged{"the case has no [averaging.margins]"};
   constexpr int fewest = 4;  // of packings, for a test of any ring
   int fields = 0, most = 0;
-  for (const json& row : agreement) {
-    if (row["kind"] != "peer") continue;
+  for (const AgreementRow& row : agreement) {
+    if (row.kind != PairKind::peer) continue;
     ++fields;
-    for (const json& ring : row["rings"]) most = std::max(most, ring["packings"].get<int>());
+    for (const AgreementRing& ring : row.rings) most = std::max(most, ring.packings.value_or(0));
   }
   if (fields == 0)
     return NothingJudged{"no two engines finished a run that shows a field with a margin"};

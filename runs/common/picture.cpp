@@ -2,39 +2,39 @@
 
 #include <cmath>
 
+#include "results/scene_picture_fields.hpp"
+
 namespace crossgrain::inline runs {
 
-nlohmann::json pictureOf(const Scene& scene, const Snapshot& now, double rotation) {
-  std::vector<double> x, y, startR, startPhi, wallX, wallY, wallRadius;
+ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
+  ScenePicture picture;
+  picture.radius = scene.disks.radius;
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
-    x.push_back(now.position[i].x());
-    y.push_back(now.position[i].y());
+    picture.x.push_back(now.position[i].x());
+    picture.y.push_back(now.position[i].y());
     const Vec2& start = scene.disks.position[i];
-    startR.push_back(start.norm());
-    startPhi.push_back(std::atan2(start.y(), start.x()));
+    picture.startR.push_back(start.norm());
+    picture.startPhi.push_back(std::atan2(start.y(), start.x()));
   }
   for (const Vec2& position : now.wallPosition) {
-    wallX.push_back(position.x());
-    wallY.push_back(position.y());
+    picture.wallX.push_back(position.x());
+    picture.wallY.push_back(position.y());
   }
   for (const WallBody& body : scene.bodies)
-    wallRadius.insert(wallRadius.end(), body.diskRadius.begin(), body.diskRadius.end());
-  nlohmann::json picture = {{"radius", scene.disks.radius},
-                            {"x", x},
-                            {"y", y},
-                            {"start_r", startR},
-                            {"start_phi", startPhi},
-                            {"wall_x", wallX},
-                            {"wall_y", wallY},
-                            {"wall_radius", wallRadius},
-                            {"time_s", now.positionTime},
-                            {"rotation", rotation}};
+    picture.wallRadius.insert(picture.wallRadius.end(), body.diskRadius.begin(),
+                              body.diskRadius.end());
+  picture.time = now.positionTime;
+  picture.rotation = rotation;
   if (now.contacts) {
-    picture["contact_i"] = now.contacts->i;
-    picture["contact_j"] = now.contacts->j;
-    picture["contact_force"] = now.contacts->normalForce;
+    picture.contactI.emplace(now.contacts->i.begin(), now.contacts->i.end());
+    picture.contactJ.emplace(now.contacts->j.begin(), now.contacts->j.end());
+    picture.contactForce = now.contacts->normalForce;
   }
   return picture;
+}
+
+Json pictureOf(const Scene& scene, const Snapshot& now, double rotation) {
+  return jsonOf(scenePicture(scene, now, rotation));
 }
 
 }  // namespace crossgrain::inline runs

@@ -90,11 +90,10 @@ class SampledAverages {
       for (const auto& mean : profile.mean)
         rings.push_back(mean ? std::optional(*mean / unit) : std::nullopt);
     }
-    for (const nlohmann::json& fit : couetteFits(setup_, profiles)) {
-      const auto value = optionalNumber(fit["value"]);
-      if (!value) continue;
-      if (fit["name"] == "velocity_decay") numbers["shear_band_width"] = {*value};
-      if (fit["name"] == "velocity_amplitude") numbers["wall_slip"] = {1.0 - *value};
+    for (const FitRow& fit : couetteFits(setup_, profiles)) {
+      if (!fit.value) continue;
+      if (fit.name == "velocity_decay") numbers["shear_band_width"] = {*fit.value};
+      if (fit.name == "velocity_amplitude") numbers["wall_slip"] = {1.0 - *fit.value};
     }
     if (const auto stress = numbers.find("stress_rr"); stress != numbers.end())
       if (const auto level = ensembleMean(stress->second)) numbers["stress_level"] = {level->mean};

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "runs/common/records.hpp"
+#include "results/schema.hpp"
 #include "runs/couette/averages.hpp"
-#include "runs/couette/head.hpp"
+#include "runs/couette/frame.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "runs/couette/snapshot_fit.hpp"
 #include "runs/couette/state_table.hpp"
@@ -13,10 +13,8 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
-json averageSnapshots(const Case& setup, const std::filesystem::path& file,
-                      const std::string& commandLine) {
+CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& file,
+                                const std::string& commandLine) {
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
   const Scene& scene = reader.scene();
@@ -31,25 +29,21 @@ json averageSnapshots(const Case& setup, const std::filesystem::path& file,
     }
   }
 
-  json results = couetteHead("average", setup, commandLine, scene.disks);
+  CompareResults results;
+  static_cast<CouetteFrame&>(results) = couetteFrame(kindAverage, setup, commandLine, scene.disks);
   // Of a file's snapshots nobody says from when to when they are.
-  for (const char* unknown :
-       {"settle_rotations", "rotations", "from_rotation", "to_rotation", "prepared_rotations"})
-    results["averaging"].erase(unknown);
-  results["averaging"]["snapshots"] = reader.count();
-  results["engines"] = {{{"name", reader.engine()},
-                         {"summary", fmt::format("snapshots of {}", file.filename().string())},
-                         {"version", ""},
-                         {"mirrors", ""},
-                         {"status", "ran"},
-                         {"reason", ""}}};
-  json run = {{"engine", reader.engine()}, {"packing", 0}, {"status", "finished"}, {"reason", ""}};
+  CouetteAveraging& averaging = results.averaging;
+  averaging.settleRotations = averaging.rotations = averaging.fromRotation = averaging.toRotation =
+      averaging.preparedRotations = std::nullopt;
+  averaging.snapshots = static_cast<std::int64_t>(reader.count());
+  results.engines = {{reader.engine(), fmt::format("snapshots of {}", file.filename().string()), "",
+                      "", EngineStatus::ran, ""}};
+  CouetteRun& run = results.runs.emplace_back();
+  run.engine = reader.engine();
   averages.describe(Realised{}, run);
-  results["runs"] = {run};
-  results["steadiness"] =
-      steadinessOf(results["runs"], {reader.engine()}, setup.averaging.confidence);
-  results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
-                                  reader.count(), file.string())};
+  results.steadiness = steadinessOf(results.runs, {reader.engine()}, setup.averaging.confidence);
+  results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
+                               reader.count(), file.string())};
   return results;
 }
 

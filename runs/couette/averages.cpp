@@ -1,13 +1,10 @@
 #include "runs/couette/averages.hpp"
 
-#include "runs/common/records.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/state.hpp"
 #include "runs/couette/summary.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 CouetteAverages::CouetteAverages(const Case& setup, const Scene& scene)
     : setup_(setup),
@@ -27,19 +24,16 @@ void CouetteAverages::add(const Snapshot& snapshot) {
   if (const auto wall = outerWallBalance(ringsOf(setup_), scene_, snapshot)) wall_.push_back(*wall);
 }
 
-void CouetteAverages::describe(const Realised& realised, json& run) const {
-  const std::vector<Profile> profiles = profiles_.profiles();
-  const json& series = series_.rows();
-  run["profiles"] = json::array();
-  for (const Profile& profile : profiles) run["profiles"].push_back(toJson(profile));
-  run["series"] = series;
-  run["head"] = headNumbers(setup_, profiles, series, realised);
-  run["regime"] = couetteRegime(setup_, profiles, series);
-  run["steadiness"] = couetteSteadiness(setup_, series);
-  run["fits"] = couetteFits(setup_, profiles);
-  for (const json& fit : spinFits(setup_, spin_)) run["fits"].push_back(fit);
-  run["checks"] = couetteChecks(setup_, profiles, series, wall_);
-  run["distributions"] = toJson(distributions_.distributions());
+void CouetteAverages::describe(const Realised& realised, CouetteRun& run) const {
+  run.profiles = profiles_.profiles();
+  run.series = series_.rows();
+  run.head = headNumbers(setup_, run.profiles, *run.series, realised);
+  run.regime = couetteRegime(setup_, run.profiles, *run.series);
+  run.steadiness = couetteSteadiness(setup_, *run.series);
+  run.fits = couetteFits(setup_, run.profiles);
+  for (FitRow& fit : spinFits(setup_, spin_)) run.fits.push_back(std::move(fit));
+  run.checks = couetteChecks(setup_, run.profiles, *run.series, wall_);
+  run.distributions = distributions_.distributions();
 }
 
 }  // namespace crossgrain::inline runs

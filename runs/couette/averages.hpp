@@ -1,12 +1,12 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "averaging/distributions.hpp"
 #include "averaging/layer_spin.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/wall_balance.hpp"
+#include "results/run.hpp"
 #include "runs/couette/series.hpp"
 
 namespace crossgrain::inline runs {
@@ -21,9 +21,9 @@ class CouetteAverages {
   /// @throws std::invalid_argument for a snapshot that does not fit the scene or those before it
   void add(const Snapshot& snapshot);
 
-  /// Puts them, and what follows from them, into a run of results.json: "profiles", "series",
-  /// "head", "regime", "steadiness", "fits", "checks", "distributions".
-  void describe(const Realised& realised, nlohmann::json& run) const;
+  /// Puts them, and what follows from them, into a run: all but what it was run with and its
+  /// picture.
+  void describe(const Realised& realised, CouetteRun& run) const;
 
  private:
   const Case& setup_;

@@ -9,7 +9,7 @@
 #include "cases/preparation.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/records.hpp"
+#include "results/couette_fields.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -17,8 +17,6 @@
 #include "support/task_pool.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 namespace {
 
@@ -42,34 +40,30 @@ Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<Eng
                    RunStore& store)
     : setup_(setup),
       command_(command),
-      engines_(std::move(engines)),
       dt_(stepOf(setup)),
       store_(store),
-      progress_(command.quiet),
-      predicted_(engines_.size(), 1.0),
-      versions_(engines_.size()),
-      refusals_(engines_.size()),
-      can_(engines_.size()),
-      realised_(engines_.size()) {}
+      progress_(command.quiet) {
+  for (EngineEntry& entry : engines) engines_.push_back({std::move(entry)});
+}
 
 void Campaign::askEngines() {
   Packing unplaced;
   unplaced.disks = diskKinds(setup_.particles);
   const Scene scene = couetteScene(setup_, unplaced, dt_);
-  for (std::size_t e = 0; e < engines_.size(); ++e) {
+  for (CampaignEngine& own : engines_) {
     throwIfInterrupted();
-    const EngineEntry& entry = engines_[e];
+    const EngineEntry& entry = own.entry;
     try {
       const auto engine =
           startEngine(entry, store_.scratch("ask-" + entry.name), setup_.run.timeout);
       const Capabilities can = engine->capabilities();
-      versions_[e] = can.version;
+      own.version = can.version;
       checkSuitable(can, entry, setup_, scene);
-      if (command_.dryRun) can_[e] = can;
+      if (command_.dryRun) own.can = can;
     } catch (const UnsupportedScene& refusal) {
       // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
       if (isNamed(command_.engines, entry)) throw;
-      refusals_[e] = refusal.what();
+      own.refusal = refusal.what();
     } catch (const EngineFailure& failure) {
       progress_.say(failure.what());  // its runs will tell, one by one
     }
@@ -117,20 +111,20 @@ void Campaign::timeEngines() {
   const double end =
       (setup_.averaging.settleRotations + setup_.averaging.rotations) * rotationTime(setup_);
   const Scene scene = couetteScene(setup_, packings_.front(), dt_);
-  for (std::size_t e = 0; e < engines_.size(); ++e) {
+  for (CampaignEngine& own : engines_) {
     throwIfInterrupted();
-    if (!refusals_[e].empty()) continue;
+    if (!own.refusal.empty()) continue;
     try {
       const LoadedEngine loaded =
-          loadEngine(engines_[e], setup_, scene, store_.scratch("time-" + engines_[e].name));
+          loadEngine(own.entry, setup_, scene, store_.scratch("time-" + own.entry.name));
       const double dt = loaded.realised.dt;
       loaded.engine->advance(steps * dt);
-      can_[e] = loaded.can;
-      realised_[e] = loaded.realised;
-      predicted_[e] = loaded.engine->stats().wallSeconds / steps * end / dt;
+      own.can = loaded.can;
+      own.realised = loaded.realised;
+      own.predicted = loaded.engine->stats().wallSeconds / steps * end / dt;
     } catch (const UnsupportedScene& refusal) {
-      if (isNamed(command_.engines, engines_[e])) throw;
-      refusals_[e] = refusal.what();
+      if (isNamed(command_.engines, own.entry)) throw;
+      own.refusal = refusal.what();
     } catch (const EngineFailure& failure) {
       progress_.say(failure.what());  // its runs will tell, one by one
     }
@@ -138,7 +132,7 @@ void Campaign::timeEngines() {
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {
-  CaseKeys key = runKey(setup_, engines_[engine].name, versions_[engine]);
+  CaseKeys key = runKey(setup_, engines_[engine].entry.name, engines_[engine].version);
   key["packing"] = packings_[static_cast<std::size_t>(packing)].hash;
   if (!part.empty()) key["part"] = part;
   return key;
@@ -147,68 +141,72 @@ CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& par
 namespace {
 
 /// "grain packing 0", "grain without friction packing 0"
-std::string labelOf(const EngineEntry& entry, const Leg& leg, int packing) {
+std::string labelOf(const EngineEntry& entry, const Variant& variant, int packing) {
   return fmt::format("{}{} packing {}", entry.name,
-                     leg.without.empty() ? "" : " without " + leg.without, packing);
+                     variant.without.empty() ? "" : " without " + variant.without, packing);
 }
 
-std::string runName(const EngineEntry& entry, const Leg& leg, int packing) {
-  return fmt::format("{}{}-p{}", entry.name, leg.without.empty() ? "" : "-without-" + leg.without,
-                     packing);
+std::string runName(const EngineEntry& entry, const Variant& variant, int packing) {
+  return fmt::format("{}{}-p{}", entry.name,
+                     variant.without.empty() ? "" : "-without-" + variant.without, packing);
 }
 
 }  // namespace
 
-KeptTask::Outcome Campaign::runOne(const Leg& leg, int packing,
-                                   const std::function<void(double)>& progress) const {
-  const EngineEntry& entry = engines_[leg.engine];
-  const std::string name = runName(entry, leg, packing);
-  json result = {{"engine", entry.name}, {"packing", packing}};
+KeptTaskOf<CouetteRun>::Outcome Campaign::runOne(
+    const Variant& variant, int packing, const std::function<void(double)>& progress) const {
+  const EngineEntry& entry = engines_[variant.engine].entry;
+  const std::string name = runName(entry, variant, packing);
+  CouetteRun run;
+  run.engine = entry.name;
+  run.packing = packing;
   try {
-    const CouetteRun run{leg.setup,
-                         entry,
-                         packing,
-                         &packings_[static_cast<std::size_t>(packing)],
-                         dt_,
-                         store_.scratch(name),
-                         store_.snapshots(name),
-                         store_.unfinished(name),
-                         json(keyOf(leg.engine, packing, leg.without)).dump()};
-    result = runCouette(run, progress);
-    if (!leg.without.empty()) result["without"] = leg.without;
-    return {result, true, fmt::format("{:.1f} s", result["stats"]["wall_s"].get<double>())};
+    const CouetteTask task{variant.setup,
+                           entry,
+                           packing,
+                           &packings_[static_cast<std::size_t>(packing)],
+                           dt_,
+                           store_.scratch(name),
+                           store_.snapshots(name),
+                           store_.unfinished(name),
+                           Json(keyOf(variant.engine, packing, variant.without)).dump()};
+    run = runCouette(task, progress);
+    run.without = variant.without;
+    return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
   } catch (const Interrupted&) {
     throw;
   } catch (const OutputError&) {
     throw;  // nothing more can be kept
   } catch (const std::exception& error) {
-    result["status"] = "failed";
-    result["reason"] = fmt::format("packing {}: {}", packing, error.what());
-    if (!leg.without.empty()) result["without"] = leg.without;
-    return {result, false, fmt::format("failed: {}", error.what())};
+    run.without = variant.without;
+    run.status = RunStatus::failed;
+    run.reason = fmt::format("packing {}: {}", packing, error.what());
+    return {run, false, fmt::format("failed: {}", error.what())};
   }
 }
 
-std::vector<Leg> Campaign::wholeCase() const {
-  std::vector<Leg> legs;
+std::vector<Variant> Campaign::wholeCase() const {
+  std::vector<Variant> variants;
   for (std::size_t e = 0; e < engines_.size(); ++e)
-    if (refusals_[e].empty()) legs.push_back({e, "", &setup_});
-  return legs;
+    if (engines_[e].refusal.empty()) variants.push_back({e, "", &setup_});
+  return variants;
 }
 
-void Campaign::run(const std::vector<Leg>& legs) {
-  runs_ = doOrTakeUp(tasksOf(legs), store_, progress_, "running engines", command_.jobs);
+void Campaign::run(const std::vector<Variant>& variants) {
+  runs_ = doOrTakeUp(tasksOf(variants), store_, progress_, "running engines", command_.jobs);
 }
 
-std::vector<KeptTask> Campaign::tasksOf(const std::vector<Leg>& legs) const {
-  std::vector<KeptTask> tasks;
-  for (const Leg& leg : legs)
+std::vector<KeptTaskOf<CouetteRun>> Campaign::tasksOf(const std::vector<Variant>& variants) const {
+  std::vector<KeptTaskOf<CouetteRun>> tasks;
+  for (const Variant& variant : variants) {
+    const CampaignEngine& own = engines_[variant.engine];
     for (int k = 0; k < packingCount(); ++k)
-      tasks.push_back({runName(engines_[leg.engine], leg, k), labelOf(engines_[leg.engine], leg, k),
-                       keyOf(leg.engine, k, leg.without), predicted_[leg.engine],
-                       [this, &leg, k](const std::function<void(double)>& progress) {
-                         return runOne(leg, k, progress);
+      tasks.push_back({runName(own.entry, variant, k), labelOf(own.entry, variant, k),
+                       keyOf(variant.engine, k, variant.without), own.predicted,
+                       [this, &variant, k](const std::function<void(double)>& progress) {
+                         return runOne(variant, k, progress);
                        }});
+  }
   return tasks;
 }
 
@@ -231,16 +229,16 @@ std::string Campaign::planHead() const {
                      packings_.size(), std::ranges::count_if(packings_, &Packing::fromCache));
 }
 
-std::vector<PlannedWork> Campaign::plan(const std::vector<Leg>& legs) const {
+std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) const {
   std::vector<PlannedWork> works;
-  for (const Leg& leg : legs) {
-    const EngineEntry& entry = engines_[leg.engine];
-    PlannedWork work{entry.name + (leg.without.empty() ? "" : " without " + leg.without), "runs"};
-    for (const KeptTask& task : tasksOf({leg})) count(work, store_.find(task.name, task.key));
+  for (const Variant& variant : variants) {
+    const std::string& name = engines_[variant.engine].entry.name;
+    PlannedWork work{name + (variant.without.empty() ? "" : " without " + variant.without), "runs"};
+    for (const auto& task : tasksOf({variant})) count(work, store_.find(task.name, task.key));
     works.push_back(work);
   }
-  for (std::size_t e = 0; e < engines_.size(); ++e)
-    if (!refusals_[e].empty()) works.push_back({engines_[e].name, "runs", refusals_[e]});
+  for (const CampaignEngine& own : engines_)
+    if (!own.refusal.empty()) works.push_back({own.entry.name, "runs", own.refusal});
   return works;
 }
 

@@ -4,11 +4,13 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
+#include "results/compare.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/kept_task.hpp"
@@ -18,8 +20,18 @@
 
 namespace crossgrain::inline runs {
 
+/// An engine of a campaign and what is known of it.
+struct CampaignEngine {
+  EngineEntry entry;
+  std::string version = {};               ///< empty: it did not answer
+  std::string refusal = {};               ///< why it does not take part, empty if it does
+  std::optional<Capabilities> can = {};   ///< what timeEngines() found; absent where it failed
+  std::optional<Realised> realised = {};  ///< likewise
+  double predicted = 1.0;                 ///< seconds of one run
+};
+
 /// One engine on every packing, with the case as it is or with something switched off.
-struct Leg {
+struct Variant {
   std::size_t engine;   ///< index into Campaign::engines()
   std::string without;  ///< what is switched off, empty: nothing; "without" of its runs
   const Case* setup;
@@ -29,7 +41,7 @@ struct Leg {
 /// run is kept in out/runs at once and taken up by the next campaign there; a failed one ends by
 /// itself and is reported.
 ///
-///   askEngines ── preparePackings ── timeEngines ── run ── results
+///   askEngines ── preparePackings ── timeEngines ── run ── study
 class Campaign {
  public:
   /// @param store  of the case, opened with soleCase()
@@ -45,26 +57,29 @@ class Campaign {
   /// Times some steps of every engine on the first packing, so that the longest runs start first.
   void timeEngines();
   /// Every engine with the case as it is.
-  std::vector<Leg> wholeCase() const;
-  void run(const std::vector<Leg>& legs);
+  std::vector<Variant> wholeCase() const;
+  void run(const std::vector<Variant>& variants);
 
   /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
   void lookForPackings();
   /// What `run` would do, engine by engine, those that refuse too.
-  std::vector<PlannedWork> plan(const std::vector<Leg>& legs) const;
+  std::vector<PlannedWork> plan(const std::vector<Variant>& variants) const;
   /// "compare of quick: 4 packings, 3 of them prepared already"
   std::string planHead() const;
 
-  /// results.json as far as it does not depend on what the runs are for: head, cell, averaging,
-  /// effects, engines, rings, packings, runs, notes, elapsed_s.
-  nlohmann::json results(const std::string& kind) const;
+  /// Results as far as they do not depend on what the runs are for.
+  CouetteStudy study(std::string_view kind) const;
+  nlohmann::json results(std::string_view kind) const { return toJson(study(kind)); }
 
-  const std::vector<EngineEntry>& engines() const { return engines_; }
-  /// Why an engine does not take part, empty if it does.
-  const std::string& refusal(std::size_t engine) const { return refusals_[engine]; }
-  /// What timeEngines() found; absent where the engine failed.
-  const std::optional<Capabilities>& capabilities(std::size_t engine) const { return can_[engine]; }
-  const std::optional<Realised>& realised(std::size_t engine) const { return realised_[engine]; }
+  auto engines() const { return engines_ | std::views::transform(&CampaignEngine::entry); }
+  /// As of CampaignEngine.
+  const std::string& refusal(std::size_t engine) const { return engines_[engine].refusal; }
+  const std::optional<Capabilities>& capabilities(std::size_t engine) const {
+    return engines_[engine].can;
+  }
+  const std::optional<Realised>& realised(std::size_t engine) const {
+    return engines_[engine].realised;
+  }
   const std::vector<Packing>& packings() const { return packings_; }
   double dt() const { return dt_; }  ///< the case's [s]
   RunStore& store() const { return store_; }
@@ -77,24 +92,20 @@ class Campaign {
  private:
   /// A file is one packing, however many a case would prepare.
   int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
-  std::vector<KeptTask> tasksOf(const std::vector<Leg>& legs) const;
-  KeptTask::Outcome runOne(const Leg& leg, int packing,
-                           const std::function<void(double)>& progress) const;
-  nlohmann::json enginesJson() const;
+  std::vector<KeptTaskOf<CouetteRun>> tasksOf(const std::vector<Variant>& variants) const;
+  KeptTaskOf<CouetteRun>::Outcome runOne(const Variant& variant, int packing,
+                                         const std::function<void(double)>& progress) const;
+  std::vector<EngineRow> engineRows() const;
 
   const Case& setup_;
   const RunCommand& command_;
-  std::vector<EngineEntry> engines_;
+  std::vector<CampaignEngine> engines_;
   double dt_;
   RunStore& store_;
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  std::vector<double> predicted_;  ///< seconds of one run, per engine
-  std::vector<std::string> versions_, refusals_;
-  std::vector<std::optional<Capabilities>> can_;
-  std::vector<std::optional<Realised>> realised_;
   std::vector<Packing> packings_;
-  std::vector<nlohmann::json> runs_;  ///< leg by leg, packing by packing
+  std::vector<CouetteRun> runs_;  ///< variant by variant, packing by packing
 };
 
 }  // namespace crossgrain::inline runs

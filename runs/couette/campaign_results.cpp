@@ -3,49 +3,43 @@
 #include <algorithm>
 
 #include "runs/couette/campaign.hpp"
-#include "runs/couette/head.hpp"
+#include "runs/couette/frame.hpp"
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
-json Campaign::enginesJson() const {
-  json list = json::array();
-  for (std::size_t e = 0; e < engines_.size(); ++e) {
-    std::string status = refusals_[e].empty() ? "ran" : "refused", reason = refusals_[e];
-    for (const json& run : runs_)
-      if (run["engine"] == engines_[e].name && run["status"] == "failed" && reason.empty()) {
-        status = "failed";
-        reason = run["reason"];
+std::vector<EngineRow> Campaign::engineRows() const {
+  std::vector<EngineRow> rows;
+  for (const CampaignEngine& own : engines_) {
+    EngineRow row{own.entry.name,    own.entry.summary, own.version,
+                  own.entry.mirrors, EngineStatus::ran, own.refusal};
+    if (!own.refusal.empty()) row.status = EngineStatus::refused;
+    for (const CouetteRun& run : runs_)
+      if (run.engine == row.name && run.status == RunStatus::failed && row.reason.empty()) {
+        row.status = EngineStatus::failed;
+        row.reason = run.reason;
       }
-    list.push_back({{"name", engines_[e].name},
-                    {"summary", engines_[e].summary},
-                    {"version", versions_[e]},
-                    {"mirrors", engines_[e].mirrors},
-                    {"status", status},
-                    {"reason", reason}});
+    rows.push_back(std::move(row));
   }
-  return list;
+  return rows;
 }
 
-json Campaign::results(const std::string& kind) const {
-  json results = couetteHead(kind, setup_, command_.commandLine, packings_.front().disks);
-  results["engines"] = enginesJson();
+CouetteStudy Campaign::study(std::string_view kind) const {
+  CouetteStudy study;
+  static_cast<CouetteFrame&>(study) =
+      couetteFrame(kind, setup_, command_.commandLine, packings_.front().disks);
+  study.engines = engineRows();
   for (std::size_t k = 0; k < packings_.size(); ++k)
-    results["packings"].push_back({{"index", k},
-                                   {"seed", setup_.preparation.seed},
-                                   {"hash", packings_[k].hash},
-                                   {"from_cache", packings_[k].fromCache}});
-  results["runs"] = runs_;
-  results["notes"] = json::array();
+    study.packings.push_back(
+        {k, setup_.preparation.seed, packings_[k].hash, packings_[k].fromCache});
+  study.runs = runs_;
   const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
   for (const EngineEntry& entry : engineRegistry())
     if (all && entry.missing && !entry.missing().empty())
-      results["notes"].push_back(
+      study.notes.push_back(
           fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
-  results["elapsed_s"] = elapsed.count();
-  return results;
+  study.elapsed = elapsed.count();
+  return study;
 }
 
 }  // namespace crossgrain::inline runs

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cases/case.hpp"
+#include "results/compare.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
@@ -12,9 +12,8 @@ namespace crossgrain::inline runs {
 /// Prepares the case's packings, runs every engine on each of them, side by side where `jobs`
 /// allows, averages, and holds the engines against each other. Every finished run is kept in the
 /// store at once; a failed one ends by itself and is reported.
-/// @return results.json, kind "compare"
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case), Interrupted
-nlohmann::json compareEngines(const Case& setup, const RunCommand& command, RunStore& store);
+CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store);
 
 /// What that would run, for people. Engines are asked what they can do; nothing is computed.
 /// @throws BadInput, UnsupportedScene, Interrupted

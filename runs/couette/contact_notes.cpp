@@ -10,18 +10,16 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
 /// Over all snapshots of all finished runs of an engine.
-std::optional<double> meanOf(const json& results, const std::string& engine, const char* series) {
+std::optional<double> meanOf(const CouetteStudy& study, const std::string& engine,
+                             const char* series) {
   std::vector<double> values;
-  for (const json& run : results["runs"]) {
-    if (run["engine"] != engine || run["status"] != "finished") continue;
-    if (!run["series"].contains(series)) continue;
-    for (const json& value : run["series"][series])
-      if (value.is_number()) values.push_back(value);
+  for (const CouetteRun& run : study.runs) {
+    if (run.engine != engine || !run.finished() || !run.series) continue;
+    for (const auto& value : valuesOf(*run.series, series))
+      if (value) values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -29,19 +27,19 @@ std::optional<double> meanOf(const json& results, const std::string& engine, con
 
 }  // namespace
 
-json contactNotes(const json& results) {
+std::vector<std::string> contactNotes(const CouetteStudy& study) {
   std::vector<std::string> differ, same;
-  for (const json& engine : results["engines"]) {
-    const std::string name = engine["name"];
-    const auto counted = meanOf(results, name, "coordination");
-    const auto listed = meanOf(results, name, "pairs_listed");
+  for (const EngineRow& engine : study.engines) {
+    const std::string& name = engine.name;
+    const auto counted = meanOf(study, name, "coordination");
+    const auto listed = meanOf(study, name, "pairs_listed");
     if (!counted || !listed) continue;
     if (*listed == *counted)
       same.push_back(name);
     else
       differ.push_back(fmt::format("{} {:.3g} instead of {:.3g}", name, *listed, *counted));
   }
-  if (differ.empty() && same.empty()) return json::array();
+  if (differ.empty() && same.empty()) return {};
   std::string outcome;
   if (!differ.empty()) outcome = fmt::format("{}", fmt::join(differ, ", "));
   if (!same.empty())

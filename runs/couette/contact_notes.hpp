@@ -1,12 +1,15 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "results/compare.hpp"
 
 namespace crossgrain::inline runs {
 
 /// What it means that contacts are pairs which transmit a force (averaging/contact_rule.hpp):
 /// coordination as it is and as it would be with every pair that an engine lists, engine by engine.
-/// An array of one note, or of none where no run shows contacts.
-nlohmann::json contactNotes(const nlohmann::json& results);
+/// One note, or none where no run shows contacts.
+std::vector<std::string> contactNotes(const CouetteStudy& study);
 
 }  // namespace crossgrain::inline runs

@@ -3,46 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runs/common/records.hpp"
-
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
-std::vector<const json*> finishedRuns(const json& runs, const std::string& engine,
-                                      const std::string& without) {
-  std::vector<const json*> found;
-  for (const json& run : runs)
-    if (run["engine"] == engine && run["status"] == "finished" &&
-        run.value("without", "") == without)
-      found.push_back(&run);
-  std::ranges::sort(found, {}, [](const json* run) { return (*run)["packing"].get<int>(); });
+Runs finishedRuns(std::span<const CouetteRun> runs, const std::string& engine,
+                  const std::string& without) {
+  Runs found;
+  for (const CouetteRun& run : runs)
+    if (run.engine == engine && run.finished() && run.without == without) found.push_back(&run);
+  std::ranges::sort(found, {}, [](const CouetteRun* run) { return run->packing; });
   return found;
 }
 
-std::size_t packingsOf(const json& runs) {
-  std::size_t packings = 0;
-  for (const json& run : runs) packings = std::max(packings, run["packing"].get<std::size_t>() + 1);
-  return packings;
+std::size_t packingsOf(std::span<const CouetteRun> runs) {
+  int packings = 0;
+  for (const CouetteRun& run : runs) packings = std::max(packings, run.packing + 1);
+  return static_cast<std::size_t>(packings);
 }
 
-const json* profileOf(const json& run, const json& method, const std::string& field) {
-  for (const json& profile : run["profiles"])
-    if (profile["field"] == field && profile["method"] == method) return &profile;
-  return nullptr;
-}
-
-std::vector<Numbers> fieldByRing(const std::vector<const json*>& runs, const json& method,
-                                 const std::string& field, std::size_t packings, const char* what) {
+std::vector<Numbers> fieldByRing(const Runs& runs, const std::string& method,
+                                 const std::string& field, std::size_t packings,
+                                 Numbers Profile::*what) {
   std::vector<Numbers> rings;
-  for (const json* run : runs) {
-    const json* profile = profileOf(*run, method, field);
+  for (const CouetteRun* run : runs) {
+    const Profile* profile = profileOf(run->profiles, method, field);
     if (!profile) continue;
-    if (!profile->contains(what)) continue;
-    const Numbers mean = optionalNumbers((*profile)[what]);
-    rings.resize(std::max(rings.size(), mean.size()), Numbers(packings));
-    for (std::size_t ring = 0; ring < mean.size(); ++ring)
-      rings[ring][(*run)["packing"].get<std::size_t>()] = mean[ring];
+    const Numbers& values = profile->*what;
+    rings.resize(std::max(rings.size(), values.size()), Numbers(packings));
+    for (std::size_t ring = 0; ring < values.size(); ++ring)
+      rings[ring][static_cast<std::size_t>(run->packing)] = values[ring];
   }
   return rings;
 }

@@ -1,35 +1,31 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "averaging/agreement.hpp"
 #include "cases/case.hpp"
+#include "results/run.hpp"
 
-/// Numbers of results.json's "runs", packing by packing, as two engines or two cases are paired.
+/// Numbers of runs, packing by packing, as two engines or two cases are paired.
 namespace crossgrain::inline runs {
 
-using Numbers = std::vector<std::optional<double>>;
+/// In the order of packings.
+using Runs = std::vector<const CouetteRun*>;
 
-/// The finished runs of one engine, with that switched off (empty: nothing), in the order of
-/// packings.
-std::vector<const nlohmann::json*> finishedRuns(const nlohmann::json& runs,
-                                                const std::string& engine,
-                                                const std::string& without = "");
+/// The finished runs of one engine, with that switched off (empty: nothing). They point into runs.
+Runs finishedRuns(std::span<const CouetteRun> runs, const std::string& engine,
+                  const std::string& without = "");
 
 /// One more than the largest index of a packing.
-std::size_t packingsOf(const nlohmann::json& runs);
+std::size_t packingsOf(std::span<const CouetteRun> runs);
 
-/// Null where the run has none.
-const nlohmann::json* profileOf(const nlohmann::json& run, const nlohmann::json& method,
-                                const std::string& field);
-
-/// One field in each ring, by packing index. @param what "mean" | "stderr", of the profile
-std::vector<Numbers> fieldByRing(const std::vector<const nlohmann::json*>& runs,
-                                 const nlohmann::json& method, const std::string& field,
-                                 std::size_t packings, const char* what = "mean");
+/// One field in each ring, by packing index. @param what  of the profile
+std::vector<Numbers> fieldByRing(const Runs& runs, const std::string& method,
+                                 const std::string& field, std::size_t packings,
+                                 Numbers Profile::*what = &Profile::mean);
 
 /// One ring as it is put to the test. A relative margin is one on the ratio of the two engines:
 /// where every packing has a value of one and the same sign it is tested on logarithms, whose

@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "averaging/profiles.hpp"
+#include "results/schema.hpp"
 #include "runs/common/progress.hpp"
-#include "runs/common/records.hpp"
-#include "runs/couette/head.hpp"
+#include "runs/couette/frame.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "runs/couette/snapshot_fit.hpp"
@@ -18,8 +18,6 @@
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 namespace {
 
@@ -48,15 +46,7 @@ std::optional<Rings> ringsAbout(const Case& setup, double r, double width) {
   return Rings(std::move(edges), setup.cell.height, 2.0 * setup.particles.smallRadius);
 }
 
-/// One field under one weight about one radius, against ring width.
-struct Curve {
-  std::string method, field, unit;
-  double r;
-  std::vector<double> width;  ///< [d]
-  std::vector<std::optional<double>> mean, error;
-};
-
-using Curves = std::map<std::tuple<std::string, std::string, double>, Curve>;
+using Curves = std::map<std::tuple<std::string, std::string, double>, RevCurve>;
 
 void addWidth(const Case& setup, const SnapshotReader& reader, double width, Curves& curves) {
   const double diameter = 2.0 * setup.particles.smallRadius;
@@ -78,14 +68,14 @@ void addWidth(const Case& setup, const SnapshotReader& reader, double width, Cur
     }
     const auto ring = static_cast<std::size_t>(rings->binOf(r));
     for (const Profile& profile : accumulator.profiles()) {
-      Curve& curve = curves[{profile.method, profile.field, r}];
+      RevCurve& curve = curves[{profile.method, profile.field, r}];
       curve.method = profile.method;
       curve.field = profile.field;
       curve.unit = profile.unit;
       curve.r = r;
       curve.width.push_back(width);
       curve.mean.push_back(profile.mean[ring]);
-      curve.error.push_back(profile.standardError[ring]);
+      curve.standardError.push_back(profile.standardError[ring]);
     }
   }
 }
@@ -116,11 +106,11 @@ std::optional<double> apart(const Curves& curves, const std::string& method,
   return std::sqrt(difference / scale);
 }
 
-json meetings(const Curves& curves) {
+std::vector<RevMeeting> meetingsOf(const Curves& curves) {
   std::vector<double> radii;
   for (const auto& [_, curve] : curves)
     if (std::ranges::find(radii, curve.r) == radii.end()) radii.push_back(curve.r);
-  json rows = json::array();
+  std::vector<RevMeeting> rows;
   for (const std::string_view method : weightNames) {
     if (method == "slicing") continue;
     for (const FieldSpec& spec : fieldTable())
@@ -136,11 +126,7 @@ json meetings(const Curves& curves) {
           }
         }
         if (best)
-          rows.push_back({{"method", method},
-                          {"field", spec.name},
-                          {"near", near},
-                          {"width", *where},
-                          {"difference", *best}});
+          rows.push_back({std::string(method), std::string(spec.name), near, *where, *best});
       }
   }
   return rows;
@@ -148,8 +134,8 @@ json meetings(const Curves& curves) {
 
 }  // namespace
 
-json revStudy(const Case& setup, const std::filesystem::path& file, const std::string& commandLine,
-              bool quiet) {
+RevResults revStudy(const Case& setup, const std::filesystem::path& file,
+                    const std::string& commandLine, bool quiet) {
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
   Progress progress(quiet);
@@ -160,25 +146,17 @@ json revStudy(const Case& setup, const std::filesystem::path& file, const std::s
     addWidth(setup, reader, all[k], curves);
     progress.update(k, "ring widths", 1.0);
   }
-  json results = couetteHead("rev", setup, commandLine, reader.scene().disks);
-  results["averaging"]["snapshots"] = reader.count();
-  results["averaging"]["line_width"] = setup.averaging.lineWidth;
-  results["engine"] = reader.engine();
-  results["notes"] = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
-                                  reader.count(), file.string())};
-  results["curves"] = json::array();
+  RevResults results{
+      couetteFrame(kindRev, setup, commandLine, reader.scene().disks), reader.engine(), {}, {}};
+  results.averaging.snapshots = static_cast<std::int64_t>(reader.count());
+  results.averaging.lineWidth = setup.averaging.lineWidth;
+  results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
+                               reader.count(), file.string())};
+  results.meetings = meetingsOf(curves);
   for (const std::string_view method : weightNames)
     for (const FieldSpec& field : fieldTable())
       for (const auto& [_, curve] : curves)
-        if (curve.method == method && curve.field == field.name)
-          results["curves"].push_back({{"method", curve.method},
-                                       {"field", curve.field},
-                                       {"unit", curve.unit},
-                                       {"r", curve.r},
-                                       {"width", curve.width},
-                                       {"mean", toJson(curve.mean)},
-                                       {"stderr", toJson(curve.error)}});
-  results["meetings"] = meetings(curves);
+        if (curve.method == method && curve.field == field.name) results.curves.push_back(curve);
   return results;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cases/case.hpp"
+#include "results/rev.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -12,9 +12,8 @@ namespace crossgrain::inline runs {
 /// weight, in rings of widths from d/10 to 4 d about a few fixed radii (those of Fig. 5.6 in the
 /// thesis' cell), and the widths next to d and 2 d at which each weight comes closest to slicing.
 /// @param file  snapshots, as averageSnapshots() takes them
-/// @return results.json, kind "rev"
 /// @throws BadInput naming the file and what does not fit
-nlohmann::json revStudy(const Case& setup, const std::filesystem::path& file,
-                        const std::string& commandLine, bool quiet);
+RevResults revStudy(const Case& setup, const std::filesystem::path& file,
+                    const std::string& commandLine, bool quiet);
 
 }  // namespace crossgrain::inline runs

@@ -6,18 +6,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "adapters/worker/json.hpp"
 #include "cases/couette.hpp"
 #include "runs/common/picture.hpp"
-#include "runs/common/records.hpp"
 #include "runs/couette/averages.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "runs/couette/unfinished_run.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 Rings ringsOf(const Case& setup) {
   return Rings(setup.cell.innerRadius, setup.cell.outerRadius, setup.averaging.rings,
@@ -35,10 +31,10 @@ double rotationTime(const Case& setup) {
   return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
 }
 
-json runCouette(const CouetteRun& run, const std::function<void(double)>& progress) {
-  const Case& setup = *run.setup;
-  const Scene scene = couetteScene(setup, *run.packing, run.dt);
-  LoadedEngine loaded = loadEngine(run.entry, setup, scene, run.scratch);
+CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress) {
+  const Case& setup = *task.setup;
+  const Scene scene = couetteScene(setup, *task.packing, task.dt);
+  LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
   Engine& engine = *loaded.engine;
   // Forces of one instant belong to the positions beside them; those summed over an interval do not
   // where the wheel's disks moved on meanwhile.
@@ -54,7 +50,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   const double end = settled + samples * interval;
   // In pieces: an engine answers within its time-out however far apart snapshots are.
   const double piece = 2000.0 * loaded.realised.dt;
-  UnfinishedRun unfinished(run.unfinished, run.key, scene,
+  UnfinishedRun unfinished(task.unfinished, task.key, scene,
                            loaded.can.checkpoints && report == ContactReport::instant);
   const auto before = unfinished.resume(engine);
   double now = before ? before->time : 0.0;
@@ -66,7 +62,7 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
       const double reached = engine.advance(next);
       if (std::abs(reached - next) > loaded.realised.dt)
         throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
-                                        run.entry.name, setup.name, next, reached));
+                                        task.entry.name, setup.name, next, reached));
       now = next;
       unfinished.keepIfDue(engine, now);
     }
@@ -78,16 +74,15 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
   if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
 
   CouetteAverages averages(setup, scene);
-  SnapshotFile kept(run.snapshots, run.entry.name, scene, samples, setup.run.keepSnapshots);
-  json picture;
+  SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
+  CouetteRun run;
   const double pictureTime = std::min(0.5 * rotation, end);
   int taken = 0;
   const auto take = [&](const Snapshot& snapshot) {
     averages.add(snapshot);
     kept.offer(snapshot, ++taken);
-    if (run.packingIndex == 0 && picture.is_null() &&
-        snapshot.positionTime >= pictureTime - interval)
-      picture = pictureOf(scene, snapshot, snapshot.positionTime / rotation);
+    if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
+      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / rotation);
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
@@ -103,15 +98,12 @@ json runCouette(const CouetteRun& run, const std::function<void(double)>& progre
     stats.wallSeconds += before->wallSeconds;
     stats.cpuSeconds += before->cpuSeconds;
   }
-  json result = {{"engine", run.entry.name},
-                 {"packing", run.packingIndex},
-                 {"status", "finished"},
-                 {"reason", ""},
-                 {"realised", toJson(loaded.realised)},
-                 {"stats", statsJson(stats)},
-                 {"picture", picture}};
-  averages.describe(loaded.realised, result);
-  return result;
+  run.engine = task.entry.name;
+  run.packing = task.packingIndex;
+  run.realised = loaded.realised;
+  run.stats = stats;
+  averages.describe(loaded.realised, run);
+  return run;
 }
 
 }  // namespace crossgrain::inline runs

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "averaging/rings.hpp"
 #include "averaging/weights.hpp"
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
+#include "results/run.hpp"
 #include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
@@ -23,7 +23,7 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
 double rotationTime(const Case& setup);
 
 /// What one engine on one packing is to do, and where its files go.
-struct CouetteRun {
+struct CouetteTask {
   const Case* setup;
   EngineEntry entry;
   int packingIndex;
@@ -35,10 +35,9 @@ struct CouetteRun {
   std::string key;                   ///< everything that the run depends on
 };
 
-/// Lets the packing settle, averages over the case's rotations and returns a finished entry of
-/// results.json's "runs".
+/// Lets the packing settle and averages over the case's rotations.
 /// @param progress  told the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
-nlohmann::json runCouette(const CouetteRun& run, const std::function<void(double)>& progress);
+CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline runs

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
+#include "results/couette_numbers.hpp"
 
 namespace crossgrain::inline runs {
 
-/// Numbers of the whole cell over time: "series" of a run in results.json.
+/// Collects numbers of the whole cell over time.
 class CouetteSeries {
  public:
   /// Both outlive it. The scene has the Couette cell's two bodies.
@@ -16,12 +15,12 @@ class CouetteSeries {
 
   void add(const Snapshot& now);
 
-  const nlohmann::json& rows() const { return rows_; }
+  const RunSeries& rows() const { return rows_; }
 
  private:
   const Case& setup_;
   const Scene& scene_;
-  nlohmann::json rows_;
+  RunSeries rows_;
 };
 
 }  // namespace crossgrain::inline runs

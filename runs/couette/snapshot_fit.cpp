@@ -25,12 +25,12 @@ bool same(double a, double b) {
 /// Everything that does not fit, each "what the file has, not what the case has".
 class Misfits {
  public:
-  void number(const char* what, std::size_t found, std::size_t wanted) {
-    if (found != wanted) list_.push_back(fmt::format("{} {}, not {}", found, what, wanted));
+  void number(const char* what, std::size_t found, std::size_t target) {
+    if (found != target) list_.push_back(fmt::format("{} {}, not {}", found, what, target));
   }
-  void size(const std::string& what, double found, double wanted, const char* unit) {
-    if (!same(found, wanted))
-      list_.push_back(fmt::format("{} {:.4g} {}, not {:.4g} {}", what, found, unit, wanted, unit));
+  void size(const std::string& what, double found, double target, const char* unit) {
+    if (!same(found, target))
+      list_.push_back(fmt::format("{} {:.4g} {}, not {:.4g} {}", what, found, unit, target, unit));
   }
   void add(std::string misfit) { list_.push_back(std::move(misfit)); }
   const std::vector<std::string>& list() const { return list_; }
@@ -54,23 +54,23 @@ std::size_t compareKind(const Disks& disks, double radius, double mass, const ch
   return count;
 }
 
-void compareDisks(const Disks& disks, const Particles& wanted, Misfits& misfits) {
+void compareDisks(const Disks& disks, const Particles& target, Misfits& misfits) {
   const auto isOf = [&](double radius) {
-    return same(radius, wanted.smallRadius) || same(radius, wanted.largeRadius);
+    return same(radius, target.smallRadius) || same(radius, target.largeRadius);
   };
   const auto other = std::ranges::find_if_not(disks.radius, isOf);
   if (other != disks.radius.end())
     misfits.add(fmt::format("disks of radius {:.4g} m, not {:.4g} and {:.4g} m", *other,
-                            wanted.smallRadius, wanted.largeRadius));
-  misfits.number("disks", disks.size(), static_cast<std::size_t>(wanted.small + wanted.large));
+                            target.smallRadius, target.largeRadius));
+  misfits.number("disks", disks.size(), static_cast<std::size_t>(target.small + target.large));
   if (other != disks.radius.end()) return;
   const std::size_t small =
-      compareKind(disks, wanted.smallRadius, wanted.smallMass, "small", misfits);
-  if (same(wanted.smallRadius, wanted.largeRadius)) return;
+      compareKind(disks, target.smallRadius, target.smallMass, "small", misfits);
+  if (same(target.smallRadius, target.largeRadius)) return;
   const std::size_t large =
-      compareKind(disks, wanted.largeRadius, wanted.largeMass, "large", misfits);
-  misfits.number("small disks", small, static_cast<std::size_t>(wanted.small));
-  misfits.number("large disks", large, static_cast<std::size_t>(wanted.large));
+      compareKind(disks, target.largeRadius, target.largeMass, "large", misfits);
+  misfits.number("small disks", small, static_cast<std::size_t>(target.small));
+  misfits.number("large disks", large, static_cast<std::size_t>(target.large));
 }
 
 /// The wheel's and the ring's wall disks, in this order, against those of the case's cell.
@@ -81,9 +81,9 @@ void compareWalls(const Scene& scene, const Snapshot& first, const Case& setup, 
   for (std::size_t b = 0; b < 2; ++b) {
     const std::vector<double>& disks = scene.bodies[b].diskRadius;
     if (disks.empty()) continue;
-    const WallBody wanted = wallRing(names[b], setup.cell, radii[b], 0.0);
+    const WallBody target = wallRing(names[b], setup.cell, radii[b], 0.0);
     misfits.number(b == 0 ? "wall disks of the wheel" : "wall disks of the ring", disks.size(),
-                   wanted.diskRadius.size());
+                   target.diskRadius.size());
     misfits.size(fmt::format("the {}'s wall disks' radius", names[b]), disks.front(),
                  setup.cell.wallRadius, "m");
     misfits.size(fmt::format("the {}'s radius", names[b]), first.wallPosition[at].norm(), radii[b],

@@ -12,19 +12,11 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
-std::optional<double> meanOf(const json& series, const char* name) {
-  const std::vector<double> values = presentNumbers(series.value(name, json::array()));
-  if (values.empty()) return std::nullopt;
-  return estimateMean(values).mean;
-}
-
 /// Samples in the time in which the wheel's rim passes one disk, at least one.
-std::size_t rimPassesADisk(const Case& setup, const json& series) {
-  const std::vector<double> times = presentNumbers(series.value("t_s", json::array()));
+std::size_t rimPassesADisk(const Case& setup, const RunSeries& series) {
+  const std::vector<double> times = presentNumbers(valuesOf(series, "t_s"));
   if (times.size() < 2) return 1;
   const double interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
@@ -34,36 +26,27 @@ std::size_t rimPassesADisk(const Case& setup, const json& series) {
 
 }  // namespace
 
-json couetteRegime(const Case& setup, const std::vector<Profile>& profiles, const json& series) {
+RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
+                        const RunSeries& series) {
   RegimeFigures figures;
-  figures.wheelContacts = meanOf(series, "wheel_contacts");
-  const auto slip = meanOf(series, "wheel_slip"), shear = meanOf(series, "shear_share");
+  figures.wheelContacts = meanOf(valuesOf(series, "wheel_contacts"));
+  const auto slip = meanOf(valuesOf(series, "wheel_slip"));
+  const auto shear = meanOf(valuesOf(series, "shear_share"));
   if (slip && shear) figures.motion = WheelMotion{*slip, *shear};
   figures.inertialNumber = inertialNumber(ringsOf(setup), profiles, diskDensity(setup));
-  figures.blockedShare = blockedShare(presentNumbers(series.value("shear_share", json::array())),
-                                      rimPassesADisk(setup, series));
+  figures.blockedShare =
+      blockedShare(presentNumbers(valuesOf(series, "shear_share")), rimPassesADisk(setup, series));
   const RegimeVerdict verdict = regimeOf(figures);
-  return {{"name", verdict.regime ? json(toString(*verdict.regime)) : json(nullptr)},
-          {"reason", verdict.reason},
-          {"wheel_contacts", toJson(figures.wheelContacts)},
-          {"wheel_slip", toJson(slip)},
-          {"shear_share", toJson(shear)},
-          {"inertial_number", toJson(figures.inertialNumber)},
-          {"blocked_share", toJson(figures.blockedShare)}};
+  return {verdict.regime, verdict.reason,         figures.wheelContacts, slip,
+          shear,          figures.inertialNumber, figures.blockedShare};
 }
 
-json couetteSteadiness(const Case& setup, const json& series) {
-  json rows = json::array();
+std::vector<SeriesDrift> couetteSteadiness(const Case& setup, const RunSeries& series) {
+  std::vector<SeriesDrift> rows;
   for (const char* name : watchedSeries) {
-    const std::vector<double> values = presentNumbers(series.value(name, json::array()));
-    if (values.empty()) continue;
-    const RelativeDrift drift =
-        relativeDrift(values, setup.averaging.confidence, largestUnseenDrift);
-    rows.push_back({{"quantity", name},
-                    {"verdict", toString(drift.verdict)},
-                    {"change", toJson(drift.change)},
-                    {"half_width", toJson(drift.half)},
-                    {"excluded", toJson(drift.excluded)}});
+    const std::vector<double> values = presentNumbers(valuesOf(series, name));
+    if (!values.empty())
+      rows.push_back({name, relativeDrift(values, setup.averaging.confidence, largestUnseenDrift)});
   }
   return rows;
 }

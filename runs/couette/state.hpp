@@ -1,11 +1,13 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "averaging/profiles.hpp"
 #include "cases/case.hpp"
+#include "results/couette_numbers.hpp"
+#include "results/couette_state.hpp"
 
-/// In what state a run was while it was averaged: pieces of a run in results.json.
+/// In what state a run was while it was averaged.
 namespace crossgrain::inline runs {
 
 /// The series that say whether a run was steady. Torque and pressure are what the walls carry,
@@ -17,16 +19,14 @@ inline constexpr const char* watchedSeries[] = {"wheel_torque", "outer_pressure"
 /// engines do.
 inline constexpr double largestUnseenDrift = 0.25;
 
-/// "regime": {name | null, reason, wheel_contacts, wheel_slip, shear_share, inertial_number,
-/// blocked_share}. The rules and their reasons are in averaging/regime.hpp.
+/// The rules and their reasons are in averaging/regime.hpp.
 /// @param series  as CouetteSeries makes it
-nlohmann::json couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
-                             const nlohmann::json& series);
+RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
+                        const RunSeries& series);
 
-/// "steadiness": of each of watchedSeries {quantity, verdict "drifts" | "no drift seen" | "cannot
-/// tell", change, half_width, excluded}: the change of its straight line over the averaged time in
-/// units of its mean, with its interval at the case's confidence, and up to what size a change is
-/// not excluded. A series that the engine does not show is left out.
-nlohmann::json couetteSteadiness(const Case& setup, const nlohmann::json& series);
+/// Of each of watchedSeries the change of its straight line over the averaged time in units of its
+/// mean, with its interval at the case's confidence, and up to what size a change is not excluded.
+/// A series that the engine does not show is left out.
+std::vector<SeriesDrift> couetteSteadiness(const Case& setup, const RunSeries& series);
 
 }  // namespace crossgrain::inline runs

@@ -8,33 +8,27 @@
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
 #include "averaging/trend.hpp"
-#include "runs/common/records.hpp"
 #include "runs/couette/paired_rings.hpp"
 #include "runs/couette/state.hpp"
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr int packingsForAMean = 4;
 
-std::map<int, std::string> regimesByPacking(const json& runs, const std::string& engine,
-                                            const std::string& without) {
-  std::map<int, std::string> regimes;
-  for (const json* run : finishedRuns(runs, engine, without))
-    if (const json name = run->value("regime", json::object()).value("name", json());
-        name.is_string())
-      regimes[(*run)["packing"]] = name;
+std::map<int, Regime> regimesByPacking(std::span<const CouetteRun> runs, const std::string& engine,
+                                       const std::string& without) {
+  std::map<int, Regime> regimes;
+  for (const CouetteRun* run : finishedRuns(runs, engine, without))
+    if (run->regime && run->regime->regime) regimes[run->packing] = *run->regime->regime;
   return regimes;
 }
 
 /// What one run says of one series, or null.
-json rowOf(const json& run, const char* quantity) {
-  for (const json& row : run.value("steadiness", json::array()))
-    if (row["quantity"] == quantity) return row;
-  return nullptr;
+const RelativeDrift* driftOf(const CouetteRun& run, const std::string& quantity) {
+  const auto found = std::ranges::find(run.steadiness, quantity, &SeriesDrift::quantity);
+  return found == run.steadiness.end() ? nullptr : &found->drift;
 }
 
 RelativeDrift overPackings(const std::vector<std::optional<double>>& changes, double confidence) {
@@ -52,78 +46,63 @@ RelativeDrift overPackings(const std::vector<std::optional<double>>& changes, do
 }
 
 /// The same answer of all runs, in the same direction, with the least certain run's numbers.
-RelativeDrift ofAllRuns(const std::vector<json>& rows) {
-  const auto same = [&](const json& row) {
-    if (row["verdict"] != rows.front()["verdict"]) return false;
-    return row["verdict"] != toString(Drift::drifts) ||
-           (row["change"] < 0.0) == (rows.front()["change"] < 0.0);
-  };
-  RelativeDrift result;
-  const auto worst = std::ranges::max_element(
-      rows, {}, [](const json& row) { return optionalNumber(row["half_width"]).value_or(0.0); });
-  result.change = optionalNumber((*worst)["change"]);
-  result.half = optionalNumber((*worst)["half_width"]);
-  result.excluded = optionalNumber((*worst)["excluded"]);
-  if (!std::ranges::all_of(rows, same)) return result;
-  for (const Drift verdict : {Drift::drifts, Drift::notSeen})
-    if (rows.front()["verdict"] == toString(verdict)) result.verdict = verdict;
+RelativeDrift ofAllRuns(const std::vector<RelativeDrift>& drifts) {
+  const RelativeDrift& first = drifts.front();
+  const bool alike = std::ranges::all_of(drifts, [&](const RelativeDrift& drift) {
+    return drift.verdict == first.verdict &&
+           (drift.verdict != Drift::drifts || (drift.change < 0.0) == (first.change < 0.0));
+  });
+  RelativeDrift result = *std::ranges::max_element(
+      drifts, {}, [](const RelativeDrift& drift) { return drift.half.value_or(0.0); });
+  result.verdict = alike ? first.verdict : Drift::cannotTell;
   return result;
 }
 
 }  // namespace
 
-json regimesOf(const json& runs, const std::vector<ComparedPair>& pairs) {
-  json table = json::array();
+std::vector<RegimesOfPair> regimesOf(std::span<const CouetteRun> runs,
+                                     const std::vector<ComparedPair>& pairs) {
+  std::vector<RegimesOfPair> table;
   for (const ComparedPair& pair : pairs) {
     const auto ours = regimesByPacking(runs, pair.reference, "");
     const auto theirs = regimesByPacking(runs, pair.other, pair.without);
-    json differ = json::array();
-    int packings = 0;
+    RegimesOfPair row{pair.reference, pair.other, pair.kind, 0, {}};
     for (const auto& [packing, regime] : ours) {
       const auto other = theirs.find(packing);
       if (other == theirs.end()) continue;
-      ++packings;
-      if (other->second != regime) differ.push_back(packing);
+      ++row.packings;
+      if (other->second != regime) row.differ.push_back(packing);
     }
-    if (packings > 0)
-      table.push_back({{"a", pair.reference},
-                       {"b", pair.other},
-                       {"kind", pair.kind},
-                       {"packings", packings},
-                       {"differ", differ}});
+    if (row.packings > 0) table.push_back(std::move(row));
   }
   return table;
 }
 
-json steadinessOf(const json& runs, const std::vector<std::string>& engines, double confidence) {
-  json table = json::array();
+std::vector<EngineDrift> steadinessOf(std::span<const CouetteRun> runs,
+                                      const std::vector<std::string>& engines, double confidence) {
+  std::vector<EngineDrift> table;
   const double shared = 1.0 - (1.0 - confidence) / static_cast<double>(std::size(watchedSeries));
   for (const std::string& engine : engines) {
-    const auto finished = finishedRuns(runs, engine);
+    const Runs finished = finishedRuns(runs, engine);
     for (const char* quantity : watchedSeries) {
-      std::vector<json> rows;
-      std::vector<std::optional<double>> changes;
-      json drifting = json::array();
-      for (const json* run : finished) {
-        const json row = rowOf(*run, quantity);
-        if (row.is_null()) continue;
-        rows.push_back(row);
-        changes.push_back(optionalNumber(row["change"]));
-        if (row["verdict"] == toString(Drift::drifts)) drifting.push_back((*run)["packing"]);
+      EngineDrift row;
+      row.engine = engine;
+      row.quantity = quantity;
+      std::vector<RelativeDrift> drifts;
+      Numbers changes;
+      for (const CouetteRun* run : finished) {
+        const RelativeDrift* drift = driftOf(*run, quantity);
+        if (!drift) continue;
+        drifts.push_back(*drift);
+        changes.push_back(drift->change);
+        if (drift->verdict == Drift::drifts) row.drifting.push_back(run->packing);
       }
-      if (rows.empty()) continue;
+      if (drifts.empty()) continue;
       const auto known =
           std::ranges::count_if(changes, [](const auto& c) { return c.has_value(); });
-      const RelativeDrift drift =
-          known >= packingsForAMean ? overPackings(changes, shared) : ofAllRuns(rows);
-      table.push_back({{"engine", engine},
-                       {"quantity", quantity},
-                       {"verdict", toString(drift.verdict)},
-                       {"change", toJson(drift.change)},
-                       {"half_width", toJson(drift.half)},
-                       {"excluded", toJson(drift.excluded)},
-                       {"packings", rows.size()},
-                       {"drifting", drifting}});
+      row.drift = known >= packingsForAMean ? overPackings(changes, shared) : ofAllRuns(drifts);
+      row.packings = static_cast<int>(drifts.size());
+      table.push_back(std::move(row));
     }
   }
   return table;

@@ -5,43 +5,39 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
-#include "runs/common/records.hpp"
+#include "runs/couette/paired_rings.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 namespace {
 
 constexpr double tolerance = 0.15;
 constexpr std::size_t rings = 3;
 
-using ByPacking = std::map<int, std::vector<std::optional<double>>>;
+using ByPacking = std::map<int, Numbers>;
 
-ByPacking velocitiesOf(const json& results, const std::string& engine) {
+ByPacking velocitiesOf(const CouetteStudy& study, const std::string& engine) {
   ByPacking found;
-  for (const json& run : results["runs"]) {
-    if (run["engine"] != engine || run["status"] != "finished") continue;
-    for (const json& profile : run["profiles"])
-      if (profile["field"] == "azimuthal_velocity" &&
-          profile["method"] == results["averaging"]["method"])
-        found[run["packing"]] = optionalNumbers(profile["mean"]);
-  }
+  for (const CouetteRun* run : finishedRuns(study.runs, engine))
+    if (const Profile* profile =
+            profileOf(run->profiles, study.averaging.method, "azimuthal_velocity"))
+      found[run->packing] = profile->mean;
   return found;
 }
 
-/// Paired difference of two engines in one ring, as a share of the first one's mean.
+/// Paired difference of two engines in one ring, as a fraction of the first one's mean.
 struct Difference {
-  double share = 0.0;
+  double fraction = 0.0;
   double halfWidth = INFINITY;  ///< of the 95 % interval; infinite with fewer than two packings
-  bool holds() const { return std::abs(share) <= tolerance || std::abs(share) <= halfWidth; }
+  bool holds() const { return std::abs(fraction) <= tolerance || std::abs(fraction) <= halfWidth; }
 };
 
 std::optional<Difference> difference(const ByPacking& from, const ByPacking& to, std::size_t ring) {
-  std::vector<std::optional<double>> differences, references;
+  Numbers differences, references;
   for (const auto& [packing, reference] : from) {
     const auto other = to.find(packing);
     if (other == to.end() || ring >= reference.size() || ring >= other->second.size()) continue;
@@ -53,7 +49,7 @@ std::optional<Difference> difference(const ByPacking& from, const ByPacking& to,
   const auto reference = ensembleMean(references);
   if (!mean || reference->mean == 0.0) return std::nullopt;
   Difference result;
-  result.share = mean->mean / std::abs(reference->mean);
+  result.fraction = mean->mean / std::abs(reference->mean);
   if (mean->standardError)
     result.halfWidth = studentQuantile(0.95, mean->packings - 1) * *mean->standardError /
                        std::abs(reference->mean);
@@ -62,16 +58,16 @@ std::optional<Difference> difference(const ByPacking& from, const ByPacking& to,
 
 std::string percent(const Difference& d) {
   return std::isfinite(d.halfWidth)
-             ? fmt::format("{:+.0f} ± {:.0f} %", 100.0 * d.share, 100.0 * d.halfWidth)
-             : fmt::format("{:+.0f} %", 100.0 * d.share);
+             ? fmt::format("{:+.0f} ± {:.0f} %", 100.0 * d.fraction, 100.0 * d.halfWidth)
+             : fmt::format("{:+.0f} %", 100.0 * d.fraction);
 }
 
-std::string mirrorSentence(const json& results, const std::string& peer, const ByPacking& reference,
-                           const ByPacking& measured, std::size_t ring) {
-  for (const json& engine : results["engines"]) {
-    if (engine["mirrors"] != peer) continue;
-    const std::string name = engine["name"];
-    const ByPacking mirror = velocitiesOf(results, name);
+std::string mirrorSentence(const CouetteStudy& study, const std::string& peer,
+                           const ByPacking& reference, const ByPacking& measured,
+                           std::size_t ring) {
+  for (const EngineRow& engine : study.engines) {
+    if (engine.mirrors != peer) continue;
+    const ByPacking mirror = velocitiesOf(study, engine.name);
     const auto model = difference(reference, mirror, ring);
     const auto rest = difference(mirror, measured, ring);
     if (!model || !rest) continue;
@@ -80,35 +76,35 @@ std::string mirrorSentence(const json& results, const std::string& peer, const B
                               ? "what it mirrors is not what makes the difference"
                               : "it explains a part, as far as these packings can tell";
     return fmt::format(" Its mirror {} (same ring) is {} off the reference and {} off it: {}.",
-                       name, percent(*model), percent(*rest), reading);
+                       engine.name, percent(*model), percent(*rest), reading);
   }
   return " It has no mirror.";
 }
 
 }  // namespace
 
-json velocityNotes(const json& results) {
-  json notes = json::array();
-  const std::string first = results["engines"][0]["name"];
-  const ByPacking reference = velocitiesOf(results, first);
-  for (const json& engine : results["engines"]) {
-    const std::string name = engine["name"];
-    if (name == first || engine["mirrors"] != "") continue;
-    const ByPacking measured = velocitiesOf(results, name);
-    std::vector<std::string> shares;
+std::vector<std::string> velocityNotes(const CouetteStudy& study) {
+  std::vector<std::string> notes;
+  const std::string& first = study.engines.front().name;
+  const ByPacking reference = velocitiesOf(study, first);
+  for (const EngineRow& engine : study.engines) {
+    const std::string& name = engine.name;
+    if (name == first || !engine.mirrors.empty()) continue;
+    const ByPacking measured = velocitiesOf(study, name);
+    std::vector<std::string> differences;
     std::string beyond;
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const auto found = difference(reference, measured, ring);
       if (!found) continue;
-      shares.push_back(percent(*found));
+      differences.push_back(percent(*found));
       if (!found->holds() && beyond.empty())
         beyond = fmt::format(" Ring {} is beyond both.", ring + 1) +
-                 mirrorSentence(results, name, reference, measured, ring);
+                 mirrorSentence(study, name, reference, measured, ring);
     }
-    if (shares.empty()) continue;
+    if (differences.empty()) continue;
     notes.push_back(
         fmt::format("v_φ of {} in rings 1 to {} against {} (95 % interval over packings): {}. {}{}",
-                    name, shares.size(), first, fmt::join(shares, ", "),
+                    name, differences.size(), first, fmt::join(differences, ", "),
                     beyond.empty() ? "Within 15 % or within the interval in each."
                                    : "Not within 15 % or the "
                                      "interval everywhere.",

@@ -1,6 +1,9 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "results/compare.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -8,7 +11,6 @@ namespace crossgrain::inline runs {
 /// lie within 15 % of the reference's, or within the bars that packings leave? Where it does not,
 /// what its mirror has to say: a mirror that follows the peer away from the reference shows that
 /// the model makes the difference, one that stays with the reference that it does not.
-/// @param results  with engines, runs and averaging
-nlohmann::json velocityNotes(const nlohmann::json& results);
+std::vector<std::string> velocityNotes(const CouetteStudy& study);
 
 }  // namespace crossgrain::inline runs

@@ -8,14 +8,12 @@
 #include "adapters/law_options.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
-#include "runs/common/records.hpp"
+#include "results/schema.hpp"
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/effects/changes.hpp"
 
 namespace crossgrain::inline runs {
-
-using nlohmann::json;
 
 namespace {
 
@@ -55,7 +53,7 @@ std::string switchRefusal(const Capabilities& can, const Case& setup, const Effe
 namespace {
 
 /// One engine with one thing switched off, or nothing (`off` null), and why not if it cannot.
-struct PlannedLeg {
+struct PlannedVariant {
   std::size_t engine;
   const EffectSwitch* off;
   std::string refusal;
@@ -76,22 +74,21 @@ class EffectCampaign {
     campaign_.askEngines();
     campaign_.preparePackings();
     campaign_.timeEngines();
-    planLegs();
-    timeLegs();
-    campaign_.run(legsThatRun());
+    planVariants();
+    timeVariants();
+    campaign_.run(variantsThatRun());
   }
 
   /// What run() would do.
   std::string plan(const RunCommand& command) {
     campaign_.askEngines();
     campaign_.lookForPackings();
-    planLegs();
-    std::vector<PlannedWork> works = campaign_.plan(legsThatRun());
-    for (const PlannedLeg& leg : legs_)
-      if (!leg.refusal.empty())
-        works.push_back(
-            {fmt::format("{} without {}", campaign_.engines()[leg.engine].name, leg.without()),
-             "runs", leg.refusal});
+    planVariants();
+    std::vector<PlannedWork> works = campaign_.plan(variantsThatRun());
+    for (const PlannedVariant& planned : variants_)
+      if (!planned.refusal.empty())
+        works.push_back({fmt::format("{} without {}", nameOf(planned), planned.without()), "runs",
+                         planned.refusal});
     for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
       if (!campaign_.refusal(e).empty()) continue;
       PlannedWork timing{campaign_.engines()[e].name, "timing of steps"};
@@ -101,34 +98,33 @@ class EffectCampaign {
     return dryRunInWords(campaign_.planHead(), works, campaign_.store(), command);
   }
 
-  json results() const {
-    json results = campaign_.results("effects");
-    results["switches"] = json::array();
-    for (const EffectSwitch& off : switches_)
-      results["switches"].push_back({{"effect", off.name}, {"what", off.what}});
-    results["timing"] = {{"rounds", plan_.rounds}, {"seconds", plan_.seconds}};
-    results["legs"] = json::array();
-    for (const PlannedLeg& leg : legs_) {
-      results["legs"].push_back(legJson(leg, results["runs"]));
-      json ensemble =
-          ensembleOf(results["runs"], campaign_.engines()[leg.engine].name, leg.without());
-      if (ensemble.is_null()) continue;
-      if (leg.off) ensemble["without"] = leg.without();
-      results["ensemble"].push_back(std::move(ensemble));
+  EffectsResults results() const {
+    EffectsResults results{campaign_.study(kindEffects), {}, {}, plan_, {}};
+    for (const EffectSwitch& off : switches_) results.switches.push_back({off.name, off.what});
+    for (const PlannedVariant& planned : variants_) {
+      results.variants.push_back(variantOf(planned, results.runs));
+      if (auto ensemble = ensembleOf(results.runs, nameOf(planned), planned.without()))
+        results.ensemble.push_back(std::move(*ensemble));
     }
-    for (json& run : results["runs"])  // what no part of this report shows; runs/ has it
-      for (const char* bulky : {"series", "picture", "distributions"}) run.erase(bulky);
+    for (CouetteRun& run : results.runs)
+      run.series.reset();  // no part of this report; runs/ has it
     return results;
   }
 
  private:
-  const Case* caseOf(const PlannedLeg& leg) const { return leg.off ? &leg.off->without : &setup_; }
+  const Case* caseOf(const PlannedVariant& planned) const {
+    return planned.off ? &planned.off->without : &setup_;
+  }
+  const std::string& nameOf(const PlannedVariant& planned) const {
+    return campaign_.engines()[planned.engine].name;
+  }
 
-  std::vector<Leg> legsThatRun() const {
-    std::vector<Leg> legs;
-    for (const PlannedLeg& leg : legs_)
-      if (leg.refusal.empty()) legs.push_back({leg.engine, leg.without(), caseOf(leg)});
-    return legs;
+  std::vector<Variant> variantsThatRun() const {
+    std::vector<Variant> variants;
+    for (const PlannedVariant& planned : variants_)
+      if (planned.refusal.empty())
+        variants.push_back({planned.engine, planned.without(), caseOf(planned)});
+    return variants;
   }
 
   std::string timingName(std::size_t e) const { return "timing-" + campaign_.engines()[e].name; }
@@ -137,17 +133,17 @@ class EffectCampaign {
                            fmt::format("timing {} rounds of {} s", plan_.rounds, plan_.seconds));
   }
 
-  void planLegs() {
+  void planVariants() {
     for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
       if (!campaign_.refusal(e).empty()) continue;
-      legs_.push_back({e, nullptr, ""});
+      variants_.push_back({e, nullptr, ""});
       const auto& can = campaign_.capabilities(e);
       for (const EffectSwitch& off : switches_)
-        if (can) legs_.push_back({e, &off, switchRefusal(*can, setup_, off)});
+        if (can) variants_.push_back({e, &off, switchRefusal(*can, setup_, off)});
     }
   }
 
-  void timeLegs() {
+  void timeVariants() {
     const std::size_t engines = campaign_.engines().size();
     campaign_.progress().begin("timing steps", std::vector<double>(engines, 1.0));
     for (std::size_t e = 0; e < engines; ++e) timeEngine(e);
@@ -155,36 +151,38 @@ class EffectCampaign {
 
   void timeEngine(std::size_t e) {
     const std::string& name = campaign_.engines()[e].name;
-    std::vector<const PlannedLeg*> timed;
-    for (const PlannedLeg& leg : legs_)
-      if (leg.engine == e && leg.refusal.empty()) timed.push_back(&leg);
-    if (timed.empty()) return;
-    const std::string kept = timingName(e);
-    const CaseKeys key = timingKey(e);
-    json times = campaign_.store().find(kept, key).value_or(json::array());
-    if (times.empty()) {
-      std::vector<TimedLeg> legs;
-      for (const PlannedLeg* leg : timed) legs.push_back(timedLeg(*leg));
-      bool failed = false;
-      for (const StepTimes& one : timeSteps(legs, plan_, [&](double fraction) {
-             campaign_.progress().update(e, "timing " + name, fraction);
-           })) {
-        times.push_back(toJson(one));
-        failed = failed || !one.failure.empty();
-      }
-      if (!failed) campaign_.store().keep(kept, key, times);
-    }
-    for (std::size_t k = 0; k < timed.size(); ++k)
-      times_[timed[k]] = stepTimesFromJson(times.at(k));
+    std::vector<const PlannedVariant*> planned;
+    for (const PlannedVariant& one : variants_)
+      if (one.engine == e && one.refusal.empty()) planned.push_back(&one);
+    if (planned.empty()) return;
+    const std::vector<StepTimes> times = stepTimesOf(e, planned);
+    for (std::size_t k = 0; k < planned.size(); ++k) times_[planned[k]] = times.at(k);
     campaign_.progress().finish(e, "timed " + name);
   }
 
-  TimedLeg timedLeg(const PlannedLeg& leg) {
-    const EngineEntry& entry = campaign_.engines()[leg.engine];
-    const Case& setup = *caseOf(leg);
+  /// Kept from an earlier run, or measured.
+  std::vector<StepTimes> stepTimesOf(std::size_t e,
+                                     const std::vector<const PlannedVariant*>& planned) {
+    const std::string kept = timingName(e);
+    const CaseKeys key = timingKey(e);
+    if (const auto before = campaign_.store().find(kept, key); before && !before->empty())
+      return readAs<std::vector<StepTimes>>(*before);
+    std::vector<TimedVariant> timed;
+    for (const PlannedVariant* one : planned) timed.push_back(timedVariant(*one));
+    const auto times = timeSteps(timed, plan_, [&](double fraction) {
+      campaign_.progress().update(e, "timing " + campaign_.engines()[e].name, fraction);
+    });
+    if (std::ranges::all_of(times, &std::string::empty, &StepTimes::failure))
+      campaign_.store().keep(kept, key, jsonOf(times));
+    return times;
+  }
+
+  TimedVariant timedVariant(const PlannedVariant& planned) {
+    const EngineEntry& entry = campaign_.engines()[planned.engine];
+    const Case& setup = *caseOf(planned);
     const auto scratch =
-        campaign_.store().scratch(fmt::format("time-{}-{}", entry.name, leg.without()));
-    TimedLeg timed;
+        campaign_.store().scratch(fmt::format("time-{}-{}", entry.name, planned.without()));
+    TimedVariant timed;
     timed.engine = startEngine(entry, scratch, setup.run.timeout);
     timed.load = [this, &entry, &setup, engine = timed.engine.get()] {
       const Scene scene = couetteScene(setup, campaign_.packings().front(), campaign_.dt());
@@ -193,59 +191,65 @@ class EffectCampaign {
     return timed;
   }
 
-  json legJson(const PlannedLeg& leg, const json& runs) const {
-    const std::string& engine = campaign_.engines()[leg.engine].name;
-    json row = {{"engine", engine},
-                {"effect", leg.without()},
-                {"status", leg.refusal.empty() ? "ran" : "refused"},
-                {"reason", leg.refusal}};
-    if (!leg.refusal.empty()) return row;
-    if (const auto found = times_.find(&leg); found != times_.end())
-      addTimes(row, leg, found->second);
-    for (const json& run : runs)
-      if (run["engine"] == engine && run.value("without", "") == leg.without()) addRun(row, run);
-    if (leg.off) row.update(effectChanges(setup_, runs, engine, leg.without()));
-    return row;
+  EffectVariant variantOf(const PlannedVariant& planned, std::span<const CouetteRun> runs) const {
+    EffectVariant variant;
+    variant.engine = nameOf(planned);
+    variant.effect = planned.without();
+    variant.reason = planned.refusal;
+    if (!planned.refusal.empty()) {
+      variant.status = EngineStatus::refused;
+      return variant;
+    }
+    if (const auto found = times_.find(&planned); found != times_.end())
+      addTimes(variant, planned, found->second);
+    for (const CouetteRun& run : runs)
+      if (run.engine == variant.engine && run.without == variant.effect) addRun(variant, run);
+    if (planned.off) variant.changes = effectChanges(setup_, runs, variant.engine, variant.effect);
+    return variant;
   }
 
-  void addTimes(json& row, const PlannedLeg& leg, const StepTimes& times) const {
-    row["step_s"] = toJson(shortestStep(times));
-    row["contacts_per_step"] = toJson(times.contacts);
+  void addTimes(EffectVariant& variant, const PlannedVariant& planned,
+                const StepTimes& times) const {
+    variant.step = shortestStep(times);
+    variant.contacts = times.contacts;
     if (!times.failure.empty()) {
-      row["status"] = "failed";
-      row["reason"] = times.failure;
+      variant.status = EngineStatus::failed;
+      variant.reason = times.failure;
     }
     for (const auto& [other, whole] : times_) {
-      if (other->engine != leg.engine || other->off) continue;
+      if (other->engine != planned.engine || other->off) continue;
       const auto ratio = timeRatio(times, whole);
-      row["time_ratio"] = ratio ? json(ratio->value) : json(nullptr);
-      row["time_ratio_stderr"] = ratio ? toJson(ratio->standardError) : json(nullptr);
+      if (!ratio) continue;
+      variant.timeRatio = ratio->value;
+      variant.timeRatioError = ratio->standardError;
     }
   }
 
-  /// A run that failed is the leg's trouble; of one that finished the leg tells what was simulated.
-  static void addRun(json& row, const json& run) {
-    if (run["status"] == "failed" && row["status"] == "ran") {
-      row["status"] = "failed";
-      row["reason"] = run["reason"];
+  /// A run that failed is its variant's trouble; one that finished tells what was simulated.
+  static void addRun(EffectVariant& variant, const CouetteRun& run) {
+    if (run.status == RunStatus::failed && variant.status == EngineStatus::ran) {
+      variant.status = EngineStatus::failed;
+      variant.reason = run.reason;
     }
-    if (run["status"] != "finished") return;
-    row["precision"] = run["realised"]["precision"];
-    row["effects"] = run["realised"]["effects"];
+    if (!run.finished()) return;
+    variant.precision = run.realised->precision;
+    variant.effects.emplace();
+    for (const Effect effect : run.realised->effects)
+      variant.effects->emplace_back(toString(effect));
   }
 
   const Case& setup_;
   TimingPlan plan_;
   std::vector<EffectSwitch> switches_;
   Campaign campaign_;
-  std::vector<PlannedLeg> legs_;
-  std::map<const PlannedLeg*, StepTimes> times_;
+  std::vector<PlannedVariant> variants_;
+  std::map<const PlannedVariant*, StepTimes> times_;
 };
 
 }  // namespace
 
-json measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
-                    const TimingPlan& plan) {
+EffectsResults measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
+                              const TimingPlan& plan) {
   checkEngineSections(setup);
   EffectCampaign campaign(setup, command, store, plan);
   campaign.run();

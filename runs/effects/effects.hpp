@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cases/case.hpp"
 #include "cases/effect_switch.hpp"
+#include "results/effects.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/effects/step_times.hpp"
@@ -17,10 +17,10 @@ std::string switchRefusal(const Capabilities& can, const Case& setup, const Effe
 
 /// Runs a Couette case as it is and with each of its effects switched off, on every engine that can
 /// do without it and on the case's packings; and times a step of each, one at a time. Everything
-/// finished is kept in the store at once. @returns results.json of kind "effects"
+/// finished is kept in the store at once.
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case itself), OutputError,
 /// Interrupted
-nlohmann::json measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
+EffectsResults measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
                               const TimingPlan& plan);
 
 /// What that would run, for people. Engines are asked what they can do; nothing is computed.

@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "averaging/agreement.hpp"
-#include "runs/common/records.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
 namespace {
 
-/// Does `work` unless the leg has failed before; notes if it fails now.
+/// Does `work` unless the variant has failed before; notes if it fails now.
 template <typename Work>
 void unlessFailed(StepTimes& times, Work&& work) {
   throwIfInterrupted();
@@ -28,36 +25,36 @@ void unlessFailed(StepTimes& times, Work&& work) {
   }
 }
 
-/// About how long a step takes [s]: of the last of stretches that double until one takes `wanted`,
+/// About how long a step takes [s]: of the last of stretches that double until one takes `target`,
 /// for the first steps may be slow.
-double roughStep(TimedLeg& leg, double wanted) {
+double roughStep(TimedVariant& variant, double target) {
   constexpr std::uint64_t most = 1 << 20;
-  const double dt = leg.load();
+  const double dt = variant.load();
   std::uint64_t steps = 0, stretch = 16;
   for (;; stretch *= 2) {
     steps += stretch;
-    const double before = leg.engine->stats().wallSeconds;
-    leg.engine->advance(static_cast<double>(steps) * dt);
-    const double took = leg.engine->stats().wallSeconds - before;
-    if (took >= wanted || stretch >= most) return took / static_cast<double>(stretch);
+    const double before = variant.engine->stats().wallSeconds;
+    variant.engine->advance(static_cast<double>(steps) * dt);
+    const double took = variant.engine->stats().wallSeconds - before;
+    if (took >= target || stretch >= most) return took / static_cast<double>(stretch);
   }
 }
 
-/// Between two looks at the engine [s]. Other programs that have the core meanwhile add to the wall
-/// time of an engine on one thread, but not to its CPU time.
+/// Between two samples of the engine's times [s]. Other programs that have the core meanwhile add
+/// to the wall time of an engine on one thread, but not to its CPU time.
 double timeBetween(const Stats& before, const Stats& after) {
   const double wall = after.wallSeconds - before.wallSeconds;
   const double cpu = after.cpuSeconds - before.cpuSeconds;
   return cpu > 0.0 ? std::min(wall, cpu) : wall;
 }
 
-void timeOnce(TimedLeg& leg, std::uint64_t steps, StepTimes& times) {
-  const double dt = leg.load();
+void timeOnce(TimedVariant& variant, std::uint64_t steps, StepTimes& times) {
+  const double dt = variant.load();
   const std::uint64_t warmUp = steps / 2;
-  leg.engine->advance(static_cast<double>(warmUp) * dt);
-  const Stats before = leg.engine->stats();
-  leg.engine->advance(static_cast<double>(warmUp + steps) * dt);
-  const Stats after = leg.engine->stats();
+  variant.engine->advance(static_cast<double>(warmUp) * dt);
+  const Stats before = variant.engine->stats();
+  variant.engine->advance(static_cast<double>(warmUp + steps) * dt);
+  const Stats after = variant.engine->stats();
   const auto done = static_cast<double>(after.steps - before.steps);
   times.seconds.push_back(timeBetween(before, after) / done);
   if (after.contactEvaluations > before.contactEvaluations)
@@ -67,21 +64,21 @@ void timeOnce(TimedLeg& leg, std::uint64_t steps, StepTimes& times) {
 
 }  // namespace
 
-std::vector<StepTimes> timeSteps(std::vector<TimedLeg>& legs, const TimingPlan& plan,
+std::vector<StepTimes> timeSteps(std::vector<TimedVariant>& variants, const TimingPlan& plan,
                                  const std::function<void(double)>& progress) {
-  std::vector<StepTimes> times(legs.size());
+  std::vector<StepTimes> times(variants.size());
   double most = 1.0;
-  for (std::size_t k = 0; k < legs.size(); ++k)
+  for (std::size_t k = 0; k < variants.size(); ++k)
     unlessFailed(times[k], [&] {
-      const double step = roughStep(legs[k], plan.seconds / 4.0);
+      const double step = roughStep(variants[k], plan.seconds / 4.0);
       if (step > 0.0) most = std::max(most, plan.seconds / step);
     });
   const auto steps = static_cast<std::uint64_t>(std::ceil(std::min(most, 1e8)));
-  const auto turns = static_cast<double>(legs.size()) * plan.rounds;
+  const auto turns = static_cast<double>(variants.size()) * plan.rounds;
   double done = 0.0;
   for (int round = 0; round < plan.rounds; ++round)
-    for (std::size_t k = 0; k < legs.size(); ++k) {
-      unlessFailed(times[k], [&] { timeOnce(legs[k], steps, times[k]); });
+    for (std::size_t k = 0; k < variants.size(); ++k) {
+      unlessFailed(times[k], [&] { timeOnce(variants[k], steps, times[k]); });
       progress(++done / turns);
     }
   return times;
@@ -99,15 +96,6 @@ std::optional<TimeRatio> timeRatio(const StepTimes& time, const StepTimes& whole
   for (std::size_t k = 0; k < std::min(time.seconds.size(), whole.seconds.size()); ++k)
     ratios.push_back(time.seconds[k] / whole.seconds[k]);
   return TimeRatio{*one / *other, ensembleMean(ratios)->standardError};
-}
-
-json toJson(const StepTimes& times) {
-  return {
-      {"seconds", times.seconds}, {"contacts", toJson(times.contacts)}, {"failure", times.failure}};
-}
-
-StepTimes stepTimesFromJson(const json& times) {
-  return {times.at("seconds"), optionalNumber(times.at("contacts")), times.at("failure")};
 }
 
 }  // namespace crossgrain::inline runs

@@ -11,7 +11,6 @@
 #include "tests/coverage/studies.hpp"
 
 using namespace crossgrain;
-using nlohmann::json;
 
 namespace {
 
@@ -30,22 +29,22 @@ int main(int argc, char** argv) {
   try {
     if (argc < 3) throw BadInput("usage: coverage CASE RUNS.jsonl...");
     const Case setup = loadCase(argv[1]).front();
-    coverage::Sample sample{&setup, json::array()};
-    std::vector<json> windows;
+    coverage::Sample sample{&setup, {}};
+    std::vector<coverage::WindowRun> windows;
     for (int k = 2; k < argc; ++k) {
       std::ifstream file(argv[k]);
-      std::vector<json> entries;
+      std::vector<coverage::WindowRun> entries;
       bool several = false;
       for (std::string line; std::getline(file, line);) {
-        entries.push_back(json::parse(line));
-        several |= entries.back()["window"] != 0;
+        entries.push_back(readAs<coverage::WindowRun>(Json::parse(line)));
+        several |= entries.back().window != 0;
       }
-      for (json& entry : entries) {
+      for (coverage::WindowRun& entry : entries) {
         if (several) {
           windows.push_back(std::move(entry));
           continue;
         }
-        sample.packings = std::max(sample.packings, entry["packing"].get<std::size_t>() + 1);
+        sample.packings = std::max(sample.packings, static_cast<std::size_t>(entry.packing) + 1);
         sample.runs.push_back(std::move(entry));
       }
     }

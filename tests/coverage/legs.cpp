@@ -10,12 +10,9 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/records.hpp"
 #include "runs/couette/run.hpp"
 
 namespace crossgrain::coverage {
-
-using nlohmann::json;
 
 namespace {
 
@@ -34,13 +31,16 @@ void nudge(Packing& packing, int index) {
         2.0 * packing.disks.radius[i] * Vec2(shift(generator), shift(generator));
 }
 
-json entry(int index, const Leg& leg, int window, double rotations,
-           const ProfileAccumulator& averaged) {
-  json profiles = json::array();
-  for (const Profile& profile : averaged.profiles()) profiles.push_back(toJson(profile));
-  return {{"engine", engineName}, {"packing", index}, {"status", "finished"},
-          {"without", leg.name},  {"window", window}, {"rotations", rotations},
-          {"profiles", profiles}};
+WindowRun entry(int index, const Leg& leg, int window, double rotations,
+                const ProfileAccumulator& averaged) {
+  WindowRun run;
+  run.engine = engineName;
+  run.packing = index;
+  run.without = leg.name;
+  run.profiles = averaged.profiles();
+  run.window = window;
+  run.rotations = rotations;
+  return run;
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ Packing prepared(const Case& setup, int index) {
   return packingOf(setup, index, timeStep(setup), *engine, [](double) {});
 }
 
-std::vector<json> run(const Case& setup, const Packing& packing, int index, const Leg& leg,
-                      int windows, bool whole) {
+std::vector<WindowRun> run(const Case& setup, const Packing& packing, int index, const Leg& leg,
+                           int windows, bool whole) {
   Case planted = setup;
   leg.plant(planted);
   Packing start = packing;
@@ -84,7 +84,7 @@ std::vector<json> run(const Case& setup, const Packing& packing, int index, cons
   double now = setup.averaging.settleRotations * rotation;
   const auto methods = weightsOf(setup, std::span(setup.averaging.methods).first(1));
   ProfileAccumulator all(ringsOf(setup), methods, scene);
-  std::vector<json> entries;
+  std::vector<WindowRun> entries;
   for (int window = 0; window < windows; ++window) {
     ProfileAccumulator averaged(ringsOf(setup), methods, scene);
     for (int k = 0; k < samples; ++k) {

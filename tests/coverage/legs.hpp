@@ -2,19 +2,19 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
+#include "results/couette_fields.hpp"
 
 /// Runs of the in-house engine whose truth is known: repeats of one case, and repeats with a fault.
 namespace crossgrain::coverage {
 
 /// One way to run a packing.
 struct Leg {
-  std::string name;  ///< "" is the case itself; goes into "without" of its runs
+  std::string name;  ///< "" is the case itself; goes into `without` of its runs
   std::function<void(Case&)> plant;
   bool nudged = false;  ///< every disk moved by 10⁻⁸ d: the same packing, another trajectory
 };
@@ -28,10 +28,20 @@ const Leg& leg(const std::string& name);
 /// Packing `index` of the case, prepared by the in-house engine or from the cache.
 Packing prepared(const Case& setup, int index);
 
-/// Settles and averages one packing in windows that follow each other. Entries as in results.json's
-/// "runs", with "window" and "rotations" (that it averages over) beside them. With `whole`, the
-/// last entry averages over all windows.
-std::vector<nlohmann::json> run(const Case& setup, const Packing& packing, int index,
-                                const Leg& leg, int windows, bool whole);
+/// The profiles of one window of a run.
+struct WindowRun : CouetteRun {
+  int window = 0;
+  double rotations = 0.0;  ///< that it averages over
+};
+void fields(auto& io, WindowRun& run) {
+  fields(io, static_cast<CouetteRun&>(run));
+  io("window", run.window);
+  io("rotations", run.rotations);
+}
+
+/// Settles and averages one packing in windows that follow each other. With `whole`, the last entry
+/// averages over all windows.
+std::vector<WindowRun> run(const Case& setup, const Packing& packing, int index, const Leg& leg,
+                           int windows, bool whole);
 
 }  // namespace crossgrain::coverage

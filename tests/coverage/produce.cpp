@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
       for (std::string name; std::getline(names, name, ',');) {
         const auto& leg = coverage::leg(name == "whole" ? "" : name);
         for (const auto& entry : coverage::run(setup, packing, index, leg, windows, windows > 1))
-          std::cout << entry << std::endl;
+          std::cout << jsonOf(entry) << std::endl;
       }
     }
   } catch (const std::exception& error) {

@@ -18,7 +18,7 @@ class SmallCoverage : public testing::Test {
                       {"preparation.rotations=0", "averaging.settle_rotations=0.05",
                        "averaging.rotations=0.15"})
                  .front();
-    sample_ = {&setup_, nlohmann::json::array(), packings};
+    sample_ = {&setup_, {}, packings};
     for (int index = 0; index < packings; ++index) {
       const Packing packing = coverage::prepared(setup_, index);
       for (const char* name : {"", "stiff"})

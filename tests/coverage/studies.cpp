@@ -8,12 +8,9 @@
 
 #include "averaging/agreement.hpp"
 #include "averaging/statistics.hpp"
-#include "runs/common/records.hpp"
 #include "runs/couette/paired_rings.hpp"
 
 namespace crossgrain::coverage {
-
-using nlohmann::json;
 
 namespace {
 
@@ -40,8 +37,8 @@ std::vector<Numbers> ringsOfLeg(const Sample& sample, const std::string& leg,
 /// Indices of the packings that a leg has run, in an order of its own for every shuffle.
 std::vector<std::size_t> shuffled(const Sample& sample, const std::string& leg, int shuffle) {
   std::vector<std::size_t> order;
-  for (const json* run : finishedRuns(sample.runs, engineName, leg))
-    order.push_back((*run)["packing"]);
+  for (const CouetteRun* run : finishedRuns(sample.runs, engineName, leg))
+    order.push_back(static_cast<std::size_t>(run->packing));
   std::mt19937_64 generator(static_cast<std::uint64_t>(shuffle));
   std::ranges::shuffle(order, generator);
   return order;
@@ -106,35 +103,34 @@ double Rate::error() const {
   return std::sqrt(value * (1.0 - value) / std::max(independent, 1));
 }
 
-std::vector<Rate> withinRuns(const Case& setup, const std::vector<json>& entries) {
+std::vector<Rate> withinRuns(const Case& setup, const std::vector<WindowRun>& entries) {
   struct Counts {
     Tally whole, next;
     double distance = 0.0, bar = 0.0;
   };
   std::map<std::pair<std::string, int>, Counts> counts;
-  std::map<int, const json*> whole;
-  std::map<int, std::map<int, const json*>> windows;
-  for (const json& entry : entries) {
-    const int packing = entry["packing"];
-    if (entry["rotations"] == setup.averaging.rotations)
-      windows[packing][entry["window"]] = &entry;
+  std::map<int, const WindowRun*> whole;
+  std::map<int, std::map<int, const WindowRun*>> windows;
+  for (const WindowRun& entry : entries) {
+    if (entry.rotations == setup.averaging.rotations)
+      windows[entry.packing][entry.window] = &entry;
     else
-      whole[packing] = &entry;
+      whole[entry.packing] = &entry;
   }
   int independent = 0;
   for (const auto& [packing, truth] : whole) {
     independent += static_cast<int>(windows[packing].size());
-    for (const json& profile : (*truth)["profiles"]) {
-      const std::string field = profile["field"];
-      const Numbers mean = optionalNumbers(profile["mean"]);
+    for (const Profile& profile : truth->profiles) {
+      const std::string& field = profile.field;
+      const Numbers& mean = profile.mean;
       for (std::size_t ring = 0; ring < mean.size(); ++ring) {
         Counts& here = counts[{field, static_cast<int>(ring)}];
         double before = 0.0, beforeError = 0.0, beforeDof = 0.0;
         for (const auto& [window, entry] : windows[packing]) {
-          const json& part = *profileOf(*entry, profile["method"], field);
-          if (!mean[ring] || !part["stderr"][ring].is_number()) continue;
-          const double value = part["mean"][ring], error = part["stderr"][ring],
-                       dof = part["dof"][ring];
+          const Profile& part = *profileOf(entry->profiles, profile.method, field);
+          if (!mean[ring] || !part.standardError[ring]) continue;
+          const double value = *part.mean[ring], error = *part.standardError[ring],
+                       dof = *part.dof[ring];
           here.whole.add(std::abs(value - *mean[ring]) <= studentQuantile(0.95, dof) * error);
           here.distance += (value - *mean[ring]) * (value - *mean[ring]);
           here.bar += error * error;
@@ -166,9 +162,9 @@ std::vector<Rate> withinRuns(const Case& setup, const std::vector<json>& entries
 
 std::vector<Rate> ensembles(const Sample& sample, int group) {
   std::vector<Rate> rates;
-  const json& first = *finishedRuns(sample.runs, engineName).front();
-  for (const json& profile : first["profiles"]) {
-    const std::string field = profile["field"];
+  const CouetteRun& first = *finishedRuns(sample.runs, engineName).front();
+  for (const Profile& profile : first.profiles) {
+    const std::string& field = profile.field;
     const auto rings = ringsOfLeg(sample, "", field);
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
       const auto truth = ensembleMean(rings[ring]);

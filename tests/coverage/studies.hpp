@@ -1,11 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cases/case.hpp"
+#include "tests/coverage/legs.hpp"
 
 /// How often bars cover, verdicts are false and faults are found, counted on runs of known truth.
 namespace crossgrain::coverage {
@@ -27,14 +27,14 @@ struct Rate {
 /// Runs as `run()` makes them, of all legs; window 0 of runs that have several.
 struct Sample {
   const Case* setup;
-  nlohmann::json runs;
+  std::vector<CouetteRun> runs;
   std::size_t packings = 0;
 };
 
 /// Do 95 % bars of one window cover the mean of a long run of the same packing? Studies
 /// "within" (against the whole run), "within_next" (two windows in a row against each other: a
 /// slow drift cancels) and "within_ratio", rms distance from the whole run's mean over the rms bar.
-std::vector<Rate> withinRuns(const Case& setup, const std::vector<nlohmann::json>& entries);
+std::vector<Rate> withinRuns(const Case& setup, const std::vector<WindowRun>& entries);
 
 /// Do the 95 % intervals of groups of P packings cover the mean of all? Study "ensemble".
 std::vector<Rate> ensembles(const Sample& sample, int group);

@@ -6,7 +6,6 @@
 #include <regex>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/cost/panels.hpp"
 #include "reports/cost/report.hpp"

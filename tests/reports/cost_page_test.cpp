@@ -219,7 +219,7 @@ TEST_F(CostPage, HasItsPlotsAndTableBesideIt) {
 
 TEST(CostPageOf, NothingSaysSo) {
   const TemporaryFolder folder;
-  writeReport({{"schema", "crossgrain-results-1"}, {"kind", "cost"}}, folder.path());
+  writeReport(Json{{"schema", "crossgrain-results-1"}, {"kind", "cost"}}, folder.path());
   const std::string page = readFile(folder.path() / "report.html").value();
   EXPECT_TRUE(has(page, "Nothing was measured."));
   EXPECT_FALSE(has(page, "{{"));

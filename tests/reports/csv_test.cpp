@@ -1,4 +1,4 @@
-#include "reports/common/csv.hpp"
+#include "reports/couette/report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace crossgrain::reports {
 namespace {
 
 /// A comparison small enough to write its tables down by hand.
-Json tiny() {
-  return Json::parse(R"({
+CompareResults tiny() {
+  return compareFromJson(Json::parse(R"({
     "kind": "compare",
     "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
     "runs": [
@@ -33,7 +33,7 @@ Json tiny() {
                   "margin": 0.56, "verdict": "agree", "detects": 0.75, "within_share": 0.5,
                   "packings": 4},
                  {"ring": 1, "difference": 0.25, "stderr": null, "low": null, "high": null,
-                  "margin": 0.56, "verdict": "undecided"}]}]})");
+                  "margin": 0.56, "verdict": "undecided"}]}]})"));
 }
 
 TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
@@ -44,20 +44,21 @@ TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
             "one,0,slicing,spin,2,0.2,1.5,,,,rad/s,within_run,,,,\n"
             "one,all,slicing,spin,1,0.1,0.5,0.30000000000000004,,,rad/s,packings,,,,\n"
             "one,all,slicing,spin,2,0.2,1.5,2,,,rad/s,packings,,,,\n");
-  Json results = tiny();
-  results["averaging"] = {
-      {"from_rotation", 0.25}, {"to_rotation", 1.25}, {"prepared_rotations", 2.0}};
+  CompareResults results = tiny();
+  results.averaging.fromRotation = 0.25;
+  results.averaging.toRotation = 1.25;
+  results.averaging.preparedRotations = 2.0;
   EXPECT_NE(profilesCsv(results).find("within_run,7,0.25,1.25,2\n"), std::string::npos);
 }
 
 TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
-  const Json results = Json::parse(R"({
+  const CompareResults results = compareFromJson(Json::parse(R"({
     "runs": [{"engine": "one", "packing": 2, "distributions": [
       {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
        "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},
       {"quantity": "joint", "ring": null, "samples": 4, "outside": 0,
        "axes": [{"low": 0, "width": 1, "count": 2}, {"low": 10, "width": 2, "count": 1}],
-       "density": [0, 0.5], "stderr": []}]}]})");
+       "density": [0, 0.5], "stderr": []}]}]})"));
   EXPECT_EQ(distributionsCsv(results),
             "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n"
             "one,2,spin,1,-1,-0.5,0.25,0.125,,,within_run\n"
@@ -81,8 +82,8 @@ TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
             "one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,\n"
             "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree,0.75,0.5,4,,,\n"
             "one,two,spin,2,0.25,,,,0.56,undecided,,,,,,\n");
-  Json results = tiny();
-  results["regimes"] = {{{"a", "one"}, {"b", "two"}, {"packings", 4}, {"differ", {1, 3}}}};
+  CompareResults results = tiny();
+  results.regimes = {{"one", "two", PairKind::peer, 4, {1, 3}}};
   EXPECT_NE(agreementCsv(results).find("one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,2\n"),
             std::string::npos);
 }
@@ -132,13 +133,13 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
 }
 
 TEST(Csv, QuotesCommasAndQuotesInNames) {
-  Json results = tiny();
-  results["runs"][0]["engine"] = "a,\"b\"";
+  CompareResults results = tiny();
+  results.runs[0].engine = "a,\"b\"";
   EXPECT_NE(profilesCsv(results).find("\n\"a,\"\"b\"\"\",0,slicing"), std::string::npos);
 }
 
 TEST(Csv, EveryRunRingAndFieldOfTheSampleHasARow) {
-  const Json results = sample::compareResults(2, 10);
+  const CompareResults results = sample::compareResults(2, 10);
   const std::string table = profilesCsv(results);
   // 4 engines × 2 packings − 1 failed run, and 4 ensembles; 7 fields, 20 rings; one header.
   EXPECT_EQ(std::ranges::count(table, '\n'), (4 * 2 - 1 + 4) * 7 * 20 + 1);

@@ -3,10 +3,11 @@
 #include <cstdlib>
 
 #include "reports/common/engines.hpp"
-#include "reports/common/figures.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/common/strokes.hpp"
+#include "reports/couette/figures.hpp"
+#include "reports/couette/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
@@ -21,8 +22,8 @@ const Figure& figureNamed(const std::vector<Figure>& figures, const std::string&
 }
 
 TEST(Styles, AnEngineKeepsItsColourAndAMirrorSharesItsPeers) {
-  const Json results = sample::compareResults(1, 10);
-  const auto engines = engineResults(results);
+  const CompareResults results = sample::compareResults(1, 10);
+  const auto engines = engineRuns(results);
   ASSERT_EQ(engines.size(), 5u);
   EXPECT_EQ(engines[3].mirrors, engines[1].name);
   EXPECT_EQ(engines[3].style.colour, engines[1].style.colour);
@@ -36,13 +37,13 @@ TEST(Styles, AnEngineKeepsItsColourAndAMirrorSharesItsPeers) {
 /// v_φ/(ΩR_i) and S d/(ΩD), D = 2R_i: Lätzel (2003), chapter 6. With Ω = 1 /s, R_i = 0.1 m,
 /// d = 0.01 m these are 10 v_φ and S/20.
 TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
-  const Json results = Json::parse(R"({
+  const CompareResults results = compareFromJson(Json::parse(R"({
     "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
     "cell": {"inner_radius": 0.1, "outer_radius": 0.2, "diameter": 0.01, "omega": 1.0},
     "rings": {"r": [0.105, 0.2], "r_tilde": [0.5, 10]},
     "runs": [{"engine": "e", "packing": 0, "status": "finished", "profiles": [
       {"field": "azimuthal_velocity", "mean": [0.05, -1e-9], "stderr": [0.001, null]},
-      {"field": "spin", "mean": [-2, null], "stderr": [0.2, null]}]}]})");
+      {"field": "spin", "mean": [-2, null], "stderr": [0.2, null]}]}]})"));
   const auto figures = compareFigures(results);
   const auto& velocity = figureNamed(figures, "profile_azimuthal_velocity").panels[0].curves[0];
   ASSERT_EQ(velocity.points.size(), 2u);
@@ -57,14 +58,14 @@ TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
 }
 
 TEST(Profiles, SayWhatTheirBarsAre) {
-  const Json several = sample::compareResults(4, 10), single = sample::compareResults(1, 10),
-             two = sample::compareResults(2, 10);
-  EXPECT_EQ(barsInWords(engineResults(several)),
+  const CompareResults several = sample::compareResults(4, 10),
+                       single = sample::compareResults(1, 10), two = sample::compareResults(2, 10);
+  EXPECT_EQ(barsInWords(engineRuns(several)),
             "Bars: ± one standard error of the mean over packings.");
-  EXPECT_NE(barsInWords(engineResults(single)).find("conditional on its one packing"),
+  EXPECT_NE(barsInWords(engineRuns(single)).find("conditional on its one packing"),
             std::string::npos);
   // One of two runs of the second engine failed: its bars are those of the other.
-  EXPECT_NE(barsInWords(engineResults(two))
+  EXPECT_NE(barsInWords(engineRuns(two))
                 .find("over packings; for yade: ± one standard error "
                       "within the run"),
             std::string::npos);
@@ -153,8 +154,8 @@ TEST(Strokes, PdfHasTheSameStrokesAndAValidTable) {
 }
 
 TEST(Pictures, ForcesAreDrawnOnTheirPicturesOwnScale) {
-  Json results = sample::compareResults(1, 200);
-  const auto widestOfFirst = [&] { return widestForce(results["runs"][0]["picture"]); };
+  CompareResults results = sample::compareResults(1, 200);
+  const auto widestOfFirst = [&] { return widestForce(results.runs[0].picture.value()); };
   const auto widest = widestOfFirst();
   ASSERT_TRUE(widest.has_value());
   const auto pictures = comparePictures(results);
@@ -162,8 +163,8 @@ TEST(Pictures, ForcesAreDrawnOnTheirPicturesOwnScale) {
   EXPECT_EQ(pictures[0].name, "origins_1_grain");
   EXPECT_EQ(pictures[7].name, "forces_4_grain_yade");
   // Twice the forces, twice the scale: the same lines.
-  for (Json& run : results["runs"])
-    for (Json& force : run["picture"]["contact_force"]) force = 2.0 * force.get<double>();
+  for (CouetteRun& run : results.runs)
+    for (double& force : run.picture->contactForce.value()) force *= 2.0;
   EXPECT_DOUBLE_EQ(widestOfFirst().value(), 2.0 * *widest);
   EXPECT_EQ(toSvg(comparePictures(results)[4].drawing, 100, ""),
             toSvg(pictures[4].drawing, 100, ""));

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "reports/common/csv.hpp"
-#include "reports/common/figures.hpp"
-#include "reports/effects/legs.hpp"
+#include "reports/effects/report.hpp"
+#include "reports/effects/variants.hpp"
 #include "reports/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -50,30 +49,30 @@ TEST(EffectsCsv, WhatCannotBeToldIsEmpty) {
             "0.01,2.5e-06,45,double,ran,");
 }
 
-TEST(EffectLegs, TellTheRingThatSaysMostAsAShareOfTheProfilesLargestValue) {
-  const auto legs = effectLegs(sample::effectsResults(4));
-  ASSERT_EQ(legs.size(), 3u);
-  const FieldChange& velocity = *legs[0].of("azimuthal_velocity");
+TEST(EffectVariants, TellTheRingThatSaysMostAsAShareOfTheProfilesLargestValue) {
+  const auto variants = variantSummaries(sample::effectsResults(4));
+  ASSERT_EQ(variants.size(), 3u);
+  const FieldChange& velocity = *variants[0].of("azimuthal_velocity");
   EXPECT_EQ(velocity.ring, 1u);
   EXPECT_NEAR(velocity.change, -0.2, 1e-12);  // −0.004 of 0.02
   EXPECT_NEAR(*velocity.error, 0.01, 1e-12);
   EXPECT_NEAR(*velocity.inErrors, 20.0, 1e-9);
   EXPECT_EQ(velocity.detected, true);
-  EXPECT_EQ(legs[0].of("volume_fraction")->detected, false);
-  EXPECT_NEAR(*legs[0].saved, 0.5, 1e-12);
-  EXPECT_FALSE(legs[2].ran());
+  EXPECT_EQ(variants[0].of("volume_fraction")->detected, false);
+  EXPECT_NEAR(*variants[0].saved, 0.5, 1e-12);
+  EXPECT_FALSE(variants[2].ran());
 }
 
-TEST(EffectLegs, AreRunsOfTheirOwn) {
-  const Json results = sample::effectsResults(4);
-  EXPECT_EQ(engineResults(results).front().runs.size(), 4u);  // with everything on
-  const auto legs = legResults(results, "grain");
-  ASSERT_EQ(legs.size(), 4u);
-  EXPECT_EQ(legs[1].name, "without friction");
-  EXPECT_EQ(legs[1].finished.size(), 4u);
-  EXPECT_EQ(text(*legs[1].ensemble, "without"), "friction");
-  EXPECT_EQ(legs[3].name, "tension cut off");
-  EXPECT_TRUE(legs[3].runs.empty());
+TEST(EffectVariants, AreRunsOfTheirOwn) {
+  const EffectsResults results = sample::effectsResults(4);
+  EXPECT_EQ(engineRuns(results, results.ensemble).front().runs.size(), 4u);  // with everything on
+  const auto variants = variantRuns(results, "grain");
+  ASSERT_EQ(variants.size(), 4u);
+  EXPECT_EQ(variants[1].name, "without friction");
+  EXPECT_EQ(variants[1].finished.size(), 4u);
+  EXPECT_EQ(variants[1].ensemble->without, "friction");
+  EXPECT_EQ(variants[3].name, "tension cut off");
+  EXPECT_TRUE(variants[3].runs.empty());
 }
 
 TEST(EffectFigures, MarkWhatIsToldApartByShapeToo) {
@@ -131,13 +130,13 @@ TEST(EffectsPage, SaysInASentenceWhatEachEffectCostsAndChanges) {
 
 /// "−68.9 ± 7.3 %, beyond the margin" beside "not told apart" was one such sentence.
 TEST(EffectsPage, NotToldApartStandsBesideAnIntervalThatHoldsZero) {
-  Json results = sample::effectsResults(4);
-  Json& ring = results["legs"][2]["fields"][0]["rings"][0];  // bottom friction
-  ring["change"] = -0.01378;                                 // of 0.02
-  ring["stderr"] = 0.00146;                                  // 9 standard errors
-  ring["low"] = -0.0290;
-  ring["high"] = 0.0014;
-  ring["smallest"] = 0.0152;
+  EffectsResults results = sample::effectsResults(4);
+  RingChange& ring = results.variants[2].changes.fields[0].rings[0];  // bottom friction
+  ring.change = -0.01378;                                             // of 0.02
+  ring.standardError = 0.00146;                                       // 9 standard errors
+  ring.low = -0.0290;
+  ring.high = 0.0014;
+  ring.smallest = 0.0152;
   const auto page = [&] {
     const TemporaryFolder folder;
     writeReport(results, folder.path());
@@ -149,9 +148,10 @@ TEST(EffectsPage, NotToldApartStandsBesideAnIntervalThatHoldsZero) {
       << page().substr(page().find("○"), 200);
   EXPECT_FALSE(has(page(), "beyond the margin"));
   // Beyond it only where that is shown, and in which ring.
-  results["legs"][1]["fields"][0]["verdict"] = "disagree";
+  ChangedField& velocity = results.variants[1].changes.fields[0];
+  velocity.verdict = AgainstMargin::disagree;
   EXPECT_TRUE(has(page(), "shown beyond the margin in another ring"));
-  results["legs"][1]["fields"][0]["rings"][1]["verdict"] = "disagree";
+  velocity.rings[1].verdict = AgainstMargin::disagree;
   EXPECT_TRUE(has(page(), "ring 2; shown beyond the margin<"));
 }
 
@@ -169,15 +169,18 @@ TEST(EffectsPage, OfFewPackingsSaysThatItCannotTell) {
 }
 
 TEST(EffectsPage, OfSeveralEnginesHasASentenceOnEachAndAStudyOfEach) {
-  Json results = sample::effectsResults(4);
-  Json second = results["engines"][0];
-  second["name"] = "other";
-  results["engines"].push_back(second);
-  for (const char* rows : {"legs", "runs", "ensemble"})
-    for (Json row : Json(results[rows])) {
-      row["engine"] = "other";
-      results[rows].push_back(row);
+  EffectsResults results = sample::effectsResults(4);
+  results.engines.push_back(results.engines[0]);
+  results.engines[1].name = "other";
+  const auto ofTheOther = [](auto& rows) {
+    for (std::size_t k = 0, all = rows.size(); k < all; ++k) {
+      rows.push_back(rows[k]);
+      rows.back().engine = "other";
     }
+  };
+  ofTheOther(results.variants);
+  ofTheOther(results.runs);
+  ofTheOther(results.ensemble);
   const TemporaryFolder folder;
   writeReport(results, folder.path());
   const std::string page = readFile(folder.path() / "report.html").value();

@@ -80,7 +80,7 @@ TEST(WriteReport, AFolderThatCannotBeMadeIsOneClearLine) {
 
 TEST(Results, AreReadBackAsTheyWere) {
   const TemporaryFolder folder;
-  const nlohmann::json results = sample::compareResults(2, 50);
+  const nlohmann::json results = toJson(sample::compareResults(2, 50));
   writeFile(folder.path() / "results.json", toText(results));
   EXPECT_EQ(readResults(folder.path()), results);
 }

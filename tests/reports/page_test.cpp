@@ -6,6 +6,7 @@
 #include "reports/collide/table.hpp"
 #include "reports/common/svg.hpp"
 #include "reports/report.hpp"
+#include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -240,15 +241,22 @@ TEST(CollidePage, EveryScoreIsThere) {
 }
 
 /// What `average` writes: one run of one source, nothing run by crossgrain.
-json averaged() {
-  json results = sample::compareResults(1, 100);
-  results["kind"] = "average";
-  results["command"] = "crossgrain average cases/a.toml snapshots.csv";
-  results["engines"] = json::array({results["engines"][0]});
-  results["runs"] = json::array({results["runs"][0]});
-  for (const char* none : {"realised", "stats", "picture"}) results["runs"][0].erase(none);
-  for (const char* none : {"agreement", "ensemble", "packings"}) results.erase(none);
-  results["averaging"] = {{"method", "slicing"}, {"snapshots", 12}, {"confidence", 0.95}};
+CompareResults averaged() {
+  CompareResults results = sample::compareResults(1, 100);
+  results.head.kind = "average";
+  results.head.command = "crossgrain average cases/a.toml snapshots.csv";
+  results.engines.resize(1);
+  results.runs.resize(1);
+  CouetteRun& run = results.runs.front();
+  run.realised.reset();
+  run.stats.reset();
+  run.picture.reset();
+  results.agreement.clear();
+  results.ensemble.clear();
+  results.packings.clear();
+  results.averaging = {};
+  results.averaging.method = "slicing";
+  results.averaging.snapshots = 12;
   return results;
 }
 
@@ -272,23 +280,16 @@ TEST(AveragePage, SaysWhatItIs) {
 }
 
 TEST(RevPage, SaysWhatItIs) {
-  json results = {{"schema", "crossgrain-results-1"},
-                  {"kind", "rev"},
-                  {"engine", "grain"},
-                  {"averaging", {{"snapshots", 3}, {"line_width", 1.0}}}};
+  RevResults results;
+  results.head.schema = schemaVersion;
+  results.head.kind = kindRev;
+  results.engine = "grain";
+  results.averaging.snapshots = 3;
+  results.averaging.lineWidth = 1.0;
   for (const char* method : {"slicing", "centre"})
-    results["curves"].push_back({{"method", method},
-                                 {"field", "volume_fraction"},
-                                 {"unit", "1"},
-                                 {"r", 0.12},
-                                 {"width", {0.5, 1.0, 2.2}},
-                                 {"mean", {0.7, 0.8, 0.8}},
-                                 {"stderr", {0.1, 0.1, 0.1}}});
-  results["meetings"] = {{{"method", "centre"},
-                          {"field", "volume_fraction"},
-                          {"near", 1.0},
-                          {"width", 0.95},
-                          {"difference", 0.01}}};
+    results.curves.push_back(
+        {method, "volume_fraction", "1", 0.12, {0.5, 1.0, 2.2}, {0.7, 0.8, 0.8}, {0.1, 0.1, 0.1}});
+  results.meetings = {{"centre", "volume_fraction", 1.0, 0.95, 0.01}};
   const std::string page = withoutImages(Written(results).page);
   EXPECT_TRUE(has(page, "crossgrain rev"));
   EXPECT_TRUE(has(page,
@@ -341,16 +342,37 @@ TEST(Report, IsTheSameWhenRebuilt) {
 
 TEST(Report, StandsResultsWithAlmostNothingInThem) {
   const TemporaryFolder folder;
-  for (const char* kind : {"compare", "collide"})
+  for (const char* kind : {"compare", "average", "effects", "rev", "collide"})
     EXPECT_NO_THROW(
-        writeReport({{"schema", "crossgrain-results-1"}, {"kind", kind}}, folder.path()))
+        writeReport(json{{"schema", "crossgrain-results-1"}, {"kind", kind}}, folder.path()))
         << kind;
-  json broken = sample::compareResults(2, 10);
+  json standing = toJson(sample::compareResults(2, 10));
+  standing["runs"][0]["picture"] = nullptr;
+  standing["cell"]["omega"] = 0.0;
+  EXPECT_NO_THROW(writeReport(standing, folder.path()));
+}
+
+TEST(Report, NamesWhatIsWrongInAFile) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const json& broken) -> std::string {
+    try {
+      writeReport(broken, folder.path());
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::string file = (folder.path() / "results.json").string();
+  const json whole = toJson(sample::compareResults(2, 10));
+  json broken = whole;
   broken["runs"][0]["profiles"][0]["mean"] = "not a list";
+  EXPECT_EQ(complaint(broken), file + ": runs.0.profiles.0.mean: is string, not a list");
+  broken = whole;
   broken["runs"][0]["picture"]["x"] = nullptr;
-  broken["cell"]["omega"] = 0.0;
+  EXPECT_EQ(complaint(broken), file + ": runs.0.picture.x: is null, not a list");
+  broken = whole;
   broken["engines"][1] = 7;
-  EXPECT_NO_THROW(writeReport(broken, folder.path()));
+  EXPECT_EQ(complaint(broken), file + ": engines.1: is number, not an object");
 }
 
 TEST(Report, SaysWhatAFileHoldsThatItShouldNot) {

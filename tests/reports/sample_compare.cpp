@@ -181,8 +181,8 @@ Json run(const std::string& name, int packing, double bias, double dt, int disks
   Noise noise(static_cast<unsigned>(packing) * 31u + static_cast<unsigned>(name.size()));
   const bool impulses = name.starts_with("box2d");
   const double steps = 7.85 / dt;
-  Json stats = {{"steps", std::round(steps)},
-                {"contact_evaluations", std::round(steps) * 2800},
+  Json stats = {{"steps", std::lround(steps)},
+                {"contact_evaluations", std::lround(steps) * 2800},
                 {"wall_s", steps * (impulses ? 2.4e-3 : 1.1e-4)},
                 {"cpu_s", steps * (impulses ? 2.3e-3 : 1.0e-4)},
                 {"counters", Json::object()}};
@@ -270,7 +270,7 @@ void append(Json& to, const Json& more) {
 
 }  // namespace
 
-Json compareResults(int packings, int disks) {
+CompareResults compareResults(int packings, int disks) {
   Json results = head("compare", "nu-0.804");
   results["notes"].push_back(std::string("A note with ") + awkward);
   results["cell"] = {{"inner_radius", inner},
@@ -351,7 +351,7 @@ Json compareResults(int packings, int disks) {
   append(results["agreement"], agreement("grain", "grain~yade", "mirror_model", -0.05, decided));
   append(results["agreement"],
          agreement("grain~yade", "yade", "mirror_implementation", -0.01, decided));
-  return results;
+  return compareFromJson(results);
 }
 
 }  // namespace crossgrain::sample

@@ -71,7 +71,7 @@ Json leg(const std::string& effect, double ratio, double contacts) {
 
 }  // namespace
 
-Json effectsResults(int packings) {
+EffectsResults effectsResults(int packings) {
   const bool decided = packings >= 4;
   Json results = head("effects", "small");
   results["notes"] = Json::array();
@@ -110,7 +110,7 @@ Json effectsResults(int packings) {
   const Json refused = {
       {"engine", "grain"}, {"effect", "tension_cut"}, {"status", "refused"}, {"reason", awkward}};
   results["legs"] = {leg("", 1.0, 424.0), friction, bottom, refused};
-  return results;
+  return effectsFromJson(results);
 }
 
 }  // namespace crossgrain::sample

@@ -4,6 +4,7 @@
 
 #include "results/collision.hpp"
 #include "results/cost.hpp"
+#include "results/effects.hpp"
 #include "results/stability.hpp"
 
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
@@ -12,14 +13,14 @@ namespace crossgrain::sample {
 
 /// Three engines, a mirror, one engine that refused and one run that failed, text that HTML and
 /// gnuplot must not take literally, and absent numbers here and there.
-nlohmann::json compareResults(int packings, int disks);
+CompareResults compareResults(int packings, int disks);
 
 /// Two laws, several time steps, a sweep without points.
 CollideResults collideResults();
 
 /// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
 /// and which refuses a third switch.
-nlohmann::json effectsResults(int packings);
+EffectsResults effectsResults(int packings);
 
 /// Two hard cases on two engines: every verdict once.
 StabilityResults stabilityResults();

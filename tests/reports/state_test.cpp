@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/common/csv.hpp"
+#include "reports/couette/report.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -39,7 +39,8 @@ void set(Json& results, const char* engine, int packing, const char* regime) {
 }
 
 std::vector<std::string> sentencesOf(const Json& results) {
-  return stateSentences(results, engineResults(results));
+  const CompareResults compared = compareFromJson(results);
+  return stateSentences(compared, engineRuns(compared));
 }
 
 TEST(StateSentences, AllAlikeIsOneSentence) {
@@ -120,13 +121,13 @@ TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
 }
 
 TEST(AveragedRotations, CountFromTheHandOverAndFromThePreparation) {
-  Json results = flowing(1);
-  EXPECT_EQ(averagedRotations(results),
+  CouetteAveraging averaging = compareFromJson(flowing(1)).averaging;
+  EXPECT_EQ(averagedRotations(averaging),
             "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed");
-  results["averaging"]["prepared_rotations"] = nullptr;  // a packing of the user's own
-  EXPECT_EQ(averagedRotations(results), "rotations 0.25 to 1.25 since the hand-over");
-  results["averaging"].erase("from_rotation");  // a file of snapshots
-  EXPECT_EQ(averagedRotations(results), "");
+  averaging.preparedRotations.reset();  // a packing of the user's own
+  EXPECT_EQ(averagedRotations(averaging), "rotations 0.25 to 1.25 since the hand-over");
+  averaging.fromRotation.reset();  // a file of snapshots
+  EXPECT_EQ(averagedRotations(averaging), "");
 }
 
 TEST(StateTables, HaveARunAPairAndASeriesALine) {
@@ -135,7 +136,8 @@ TEST(StateTables, HaveARunAPairAndASeriesALine) {
   results["regimes"] = {{{"a", "ours"}, {"b", "hard"}, {"packings", 2}, {"differ", {1}}}};
   results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.4, 0.08)};
   Json view;
-  addStates(view, results, engineResults(results));
+  const CompareResults compared = compareFromJson(results);
+  addStates(view, compared, engineRuns(compared));
   ASSERT_EQ(view["regimes"].size(), 2u);
   EXPECT_EQ(view["regimes"][1]["cells"][0]["word"], "blocked");
   EXPECT_NE(view["regimes"][1]["cells"][0]["figures"].get<std::string>().find("25"),
@@ -149,14 +151,14 @@ TEST(StateTables, CsvNamesTheRotationsOfEveryRow) {
   Json results = flowing(1);
   results["runs"][0]["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
   results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
-  const std::string regimes = regimesCsv(results);
+  const std::string regimes = regimesCsv(compareFromJson(results));
   EXPECT_EQ(regimes.substr(0, regimes.find('\n')),
             "engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,"
             "blocked_share,from_rotation,to_rotation,prepared_rotations,reason");
   EXPECT_NE(regimes.find("ours,0,flowing,15.5,0.998,0.002,0.00014,0.25,0.25,1.25,2,\"layers take "
                          "up 0.002, less than 0.1\"\n"),
             std::string::npos);
-  EXPECT_EQ(steadinessCsv(results),
+  EXPECT_EQ(steadinessCsv(compareFromJson(results)),
             "engine,packing,quantity,verdict,change,half_width,excluded,from_rotation,to_rotation,"
             "prepared_rotations\n"
             "ours,0,outer_pressure,drifts,-0.5,0.25,0.75,0.25,1.25,2\n"

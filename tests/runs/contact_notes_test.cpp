@@ -2,24 +2,27 @@
 
 #include <gtest/gtest.h>
 
+namespace crossgrain {
 namespace {
 
-using nlohmann::json;
+CouetteRun run(const char* engine, const Numbers& coordination, const Numbers& listed) {
+  CouetteRun run;
+  run.engine = engine;
+  run.series = RunSeries{{"coordination", coordination}, {"pairs_listed", listed}};
+  return run;
+}
 
-json run(const char* engine, const json& coordination, const json& listed) {
-  return {{"engine", engine},
-          {"status", "finished"},
-          {"series", {{"coordination", coordination}, {"pairs_listed", listed}}}};
+CouetteStudy studyOf(const std::vector<const char*>& engines) {
+  CouetteStudy study;
+  for (const char* name : engines) study.engines.emplace_back().name = name;
+  return study;
 }
 
 TEST(ContactNotes, SayWhatTheRuleChanges) {
-  json results;
-  for (const char* name : {"soft", "rigid", "blind"})
-    results["engines"].push_back({{"name", name}});
-  results["runs"] = {run("soft", {2.0, 4.0}, {2.0, 4.0}),
-                     run("rigid", {1.0, nullptr}, {2.5, nullptr}), run("rigid", {2.0}, {3.5}),
-                     run("blind", {nullptr}, {nullptr})};
-  const json notes = crossgrain::contactNotes(results);
+  CouetteStudy study = studyOf({"soft", "rigid", "blind"});
+  study.runs = {run("soft", {2.0, 4.0}, {2.0, 4.0}), run("rigid", {1.0, {}}, {2.5, {}}),
+                run("rigid", {2.0}, {3.5}), run("blind", {std::nullopt}, {std::nullopt})};
+  const auto notes = contactNotes(study);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(notes[0],
             "Contacts are pairs that transmit a force. With every pair that an engine lists, the "
@@ -28,10 +31,10 @@ TEST(ContactNotes, SayWhatTheRuleChanges) {
 }
 
 TEST(ContactNotes, AreSilentWithoutContacts) {
-  json results;
-  results["engines"].push_back({{"name", "blind"}});
-  results["runs"] = {run("blind", {nullptr}, {nullptr})};
-  EXPECT_TRUE(crossgrain::contactNotes(results).empty());
+  CouetteStudy study = studyOf({"blind"});
+  study.runs = {run("blind", {std::nullopt}, {std::nullopt})};
+  EXPECT_TRUE(contactNotes(study).empty());
 }
 
 }  // namespace
+}  // namespace crossgrain

@@ -19,10 +19,9 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
-json seriesOf(double shear, double contacts) {
-  json series;
+RunSeries seriesOf(double shear, double contacts) {
+  RunSeries series;
   for (int k = 0; k < 400; ++k) {
     series["t_s"].push_back(1.0 + 0.0157 * k);
     series["wheel_contacts"].push_back(contacts);
@@ -38,102 +37,101 @@ Case quick() {
 
 TEST(CouetteRegime, IsReadFromTheSeries) {
   const Case setup = quick();
-  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 18.0))["name"], "flowing");
-  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.002, 18.0))["name"], "blocked");
-  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 0.2))["name"], "collisional");
+  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 18.0)).regime, Regime::flowing);
+  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.002, 18.0)).regime, Regime::blocked);
+  EXPECT_EQ(couetteRegime(setup, {}, seriesOf(0.3, 0.2)).regime, Regime::collisional);
   // Half of the time it stands still: d/(Ω R_i) is 16 of these samples.
-  json changes = seriesOf(0.3, 18.0);
+  RunSeries changes = seriesOf(0.3, 18.0);
   for (std::size_t k = 0; k < 200; ++k) changes["shear_share"][k] = 0.0;
-  const json regime = couetteRegime(setup, {}, changes);
-  EXPECT_EQ(regime["name"], "flowing");
-  EXPECT_NEAR(regime["blocked_share"].get<double>(), 0.5, 0.03);
+  const RegimeRow regime = couetteRegime(setup, {}, changes);
+  EXPECT_EQ(regime.regime, Regime::flowing);
+  EXPECT_NEAR(*regime.blockedShare, 0.5, 0.03);
   // A file's snapshots may lack velocities' partners, contacts, walls.
-  const json unknown = couetteRegime(setup, {}, json::object());
-  EXPECT_TRUE(unknown["name"].is_null());
-  EXPECT_FALSE(unknown["reason"].get<std::string>().empty());
+  const RegimeRow unknown = couetteRegime(setup, {}, {});
+  EXPECT_FALSE(unknown.regime);
+  EXPECT_FALSE(unknown.reason.empty());
 }
 
 TEST(CouetteSteadiness, SaysItOfEachSeriesThatIsThere) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
-  json series;
+  RunSeries series;
   for (int k = 0; k < 400; ++k) {
     series["wheel_torque"].push_back(2.0 + 0.2 * normal(generator));
-    series["outer_pressure"].push_back(k % 9 == 0 ? json(nullptr)
-                                                  : json(100.0 - 0.1 * k + normal(generator)));
+    series["outer_pressure"].push_back(
+        k % 9 == 0 ? std::nullopt : std::optional(100.0 - 0.1 * k + normal(generator)));
   }
-  const json rows = couetteSteadiness(quick(), series);
+  const auto rows = couetteSteadiness(quick(), series);
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0]["quantity"], "wheel_torque");
-  EXPECT_EQ(rows[0]["verdict"], "no drift seen");
-  EXPECT_LT(rows[0]["excluded"], 0.2);
-  EXPECT_EQ(rows[1]["verdict"], "drifts");
-  EXPECT_NEAR(rows[1]["change"].get<double>(), -0.5, 0.02);
+  EXPECT_EQ(rows[0].quantity, "wheel_torque");
+  EXPECT_EQ(rows[0].drift.verdict, Drift::notSeen);
+  EXPECT_LT(rows[0].drift.excluded.value(), 0.2);
+  EXPECT_EQ(rows[1].drift.verdict, Drift::drifts);
+  EXPECT_NEAR(rows[1].drift.change.value(), -0.5, 0.02);
 }
 
 /// A run of the sort that the tables take.
-json run(const std::string& engine, int packing, const char* regime, double change,
-         const char* verdict) {
-  return {{"engine", engine},
-          {"packing", packing},
-          {"status", "finished"},
-          {"regime", {{"name", regime}}},
-          {"steadiness",
-           {{{"quantity", "outer_pressure"},
-             {"verdict", verdict},
-             {"change", change},
-             {"half_width", 0.3},
-             {"excluded", std::abs(change) + 0.3}}}}};
+CouetteRun run(const std::string& engine, int packing, Regime regime, double change,
+               Drift verdict) {
+  CouetteRun run;
+  run.engine = engine;
+  run.packing = packing;
+  run.regime = RegimeRow{regime, "", {}, {}, {}, {}, {}};
+  run.steadiness = {{"outer_pressure", {verdict, change, 0.3, std::abs(change) + 0.3}}};
+  return run;
+}
+
+CouetteRun untold(const std::string& engine, int packing, Regime regime) {
+  return run(engine, packing, regime, 0.0, Drift::cannotTell);
 }
 
 TEST(Regimes, PairsSayOnWhichPackingsTheyDiffer) {
-  json runs = {
-      run("ours", 0, "flowing", 0, "cannot tell"), run("ours", 1, "blocked", 0, "cannot tell"),
-      run("peer", 0, "flowing", 0, "cannot tell"), run("peer", 1, "flowing", 0, "cannot tell"),
-      run("peer", 2, "flowing", 0, "cannot tell")};
-  const json table =
-      regimesOf(runs, {{"ours", "peer", "peer", ""}, {"ours", "nobody", "peer", ""}});
+  const std::vector<CouetteRun> runs = {
+      untold("ours", 0, Regime::flowing), untold("ours", 1, Regime::blocked),
+      untold("peer", 0, Regime::flowing), untold("peer", 1, Regime::flowing),
+      untold("peer", 2, Regime::flowing)};
+  const auto table = regimesOf(
+      runs, {{"ours", "peer", PairKind::peer, ""}, {"ours", "nobody", PairKind::peer, ""}});
   ASSERT_EQ(table.size(), 1u);
-  EXPECT_EQ(table[0]["packings"], 2);
-  EXPECT_EQ(table[0]["differ"], json({1}));
+  EXPECT_EQ(table[0].packings, 2);
+  EXPECT_EQ(table[0].differ, std::vector{1});
 }
 
 TEST(Steadiness, OverPackingsSeesWhatNoRunCanTell) {
   // Each run by itself: −0.4 ± 0.3 to ± 0.5, cannot tell. Four alike: −0.4 ± 0.05.
-  json runs;
+  std::vector<CouetteRun> runs;
   for (int k = 0; k < 4; ++k)
-    runs.push_back(run("ours", k, "flowing", -0.4 + 0.01 * k, "cannot tell"));
-  json row = steadinessOf(runs, {"ours"}, 0.95)[0];
-  EXPECT_EQ(row["verdict"], "drifts");
-  EXPECT_NEAR(row["change"].get<double>(), -0.385, 1e-12);
+    runs.push_back(run("ours", k, Regime::flowing, -0.4 + 0.01 * k, Drift::cannotTell));
+  const EngineDrift row = steadinessOf(runs, {"ours"}, 0.95)[0];
+  EXPECT_EQ(row.drift.verdict, Drift::drifts);
+  EXPECT_NEAR(row.drift.change.value(), -0.385, 1e-12);
   // t of 3 degrees of freedom at 1 − 0.05/3 is 4.857; sd/√4 of (0, 1, 2, 3)/100 is 0.00645.
-  EXPECT_NEAR(row["half_width"].get<double>(), 4.857 * 0.006455, 1e-4);
-  EXPECT_EQ(row["packings"], 4);
-  for (int k = 0; k < 4; ++k)
-    runs[static_cast<std::size_t>(k)]["steadiness"][0]["change"] = k % 2 ? 0.03 : -0.03;
-  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0]["verdict"], "no drift seen");
-  for (int k = 0; k < 4; ++k)
-    runs[static_cast<std::size_t>(k)]["steadiness"][0]["change"] = k % 2 ? 0.5 : -0.6;
-  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0]["verdict"], "cannot tell");
+  EXPECT_NEAR(row.drift.half.value(), 4.857 * 0.006455, 1e-4);
+  EXPECT_EQ(row.packings, 4);
+  const auto setChanges = [&](double odd, double even) {
+    for (std::size_t k = 0; k < 4; ++k) runs[k].steadiness[0].drift.change = k % 2 ? odd : even;
+  };
+  setChanges(0.03, -0.03);
+  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0].drift.verdict, Drift::notSeen);
+  setChanges(0.5, -0.6);
+  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0].drift.verdict, Drift::cannotTell);
 }
 
 TEST(Steadiness, OfFewPackingsIsWhatAllRunsSay) {
-  const auto verdict = [](const json& runs) {
-    return steadinessOf(runs, {"ours"}, 0.95)[0]["verdict"];
-  };
-  json runs = {run("ours", 0, "flowing", -0.5, "drifts"),
-               run("ours", 1, "flowing", -0.6, "drifts")};
-  EXPECT_EQ(verdict(runs), "drifts");
-  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0]["drifting"], json({0, 1}));
-  runs[1] = run("ours", 1, "flowing", 0.6, "drifts");
-  EXPECT_EQ(verdict(runs), "cannot tell") << "one falls, one rises";
-  runs[1] = run("ours", 1, "flowing", 0.0, "no drift seen");
-  EXPECT_EQ(verdict(runs), "cannot tell");
-  EXPECT_TRUE(steadinessOf(json::array(), {"ours"}, 0.95).empty());
+  std::vector<CouetteRun> runs = {run("ours", 0, Regime::flowing, -0.5, Drift::drifts),
+                                  run("ours", 1, Regime::flowing, -0.6, Drift::drifts)};
+  const auto verdict = [&] { return steadinessOf(runs, {"ours"}, 0.95)[0].drift.verdict; };
+  EXPECT_EQ(verdict(), Drift::drifts);
+  EXPECT_EQ(steadinessOf(runs, {"ours"}, 0.95)[0].drifting, (std::vector{0, 1}));
+  runs[1] = run("ours", 1, Regime::flowing, 0.6, Drift::drifts);
+  EXPECT_EQ(verdict(), Drift::cannotTell) << "one falls, one rises";
+  runs[1] = run("ours", 1, Regime::flowing, 0.0, Drift::notSeen);
+  EXPECT_EQ(verdict(), Drift::cannotTell);
+  EXPECT_TRUE(steadinessOf({}, {"ours"}, 0.95).empty());
 }
 
 /// Of packing 0 of that seed.
-json averaged(int seed) {
+RegimeRow averaged(int seed) {
   const Case setup =
       loadCase(CROSSGRAIN_TESTS "/runs/blocked.toml",
                {"averaging.rotations=0.25", fmt::format("preparation.seed={}", seed)})
@@ -150,21 +148,21 @@ json averaged(int seed) {
                     rotation);
     averages.add(engine->snapshot(ContactReport::instant));
   }
-  json result;
+  CouetteRun result;
   averages.describe({}, result);
-  return result;
+  return result.regime.value();
 }
 
 TEST(BlockedPacking, IsToldFromOneThatFlows) {
-  const json blocked = averaged(2)["regime"];
-  EXPECT_EQ(blocked["name"], "blocked") << blocked;
-  EXPECT_EQ(blocked["blocked_share"], 1.0);
+  const RegimeRow blocked = averaged(2);
+  EXPECT_EQ(blocked.regime, Regime::blocked) << blocked.reason;
+  EXPECT_EQ(blocked.blockedShare, 1.0);
   // The wheel is in contact, under pressure, and slips: it has not lost the disks.
-  EXPECT_GT(blocked["wheel_contacts"], 5.0);
-  EXPECT_GT(blocked["wheel_slip"], 0.9);
-  const json flowing = averaged(1)["regime"];
-  EXPECT_EQ(flowing["name"], "flowing") << flowing;
-  EXPECT_LT(flowing["blocked_share"], 0.5);
+  EXPECT_GT(blocked.wheelContacts.value(), 5.0);
+  EXPECT_GT(blocked.wheelSlip.value(), 0.9);
+  const RegimeRow flowing = averaged(1);
+  EXPECT_EQ(flowing.regime, Regime::flowing) << flowing.reason;
+  EXPECT_LT(flowing.blockedShare.value(), 0.5);
 }
 
 }  // namespace

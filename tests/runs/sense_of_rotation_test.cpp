@@ -16,7 +16,6 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 
 Packing mirrored(Packing packing) {
   for (auto* vectors : {&packing.disks.position, &packing.disks.velocity})
@@ -43,7 +42,7 @@ class SenseOfRotation : public testing::Test {
     run(opposite_, mirrored(packing_), other_, otherEnd_);
   }
 
-  static void run(const Case& setup, const Packing& packing, json& averages, Snapshot& last) {
+  static void run(const Case& setup, const Packing& packing, CouetteRun& averages, Snapshot& last) {
     const Scene scene = couetteScene(setup, packing, timeStep(setup));
     const auto engine = makeGrain();
     const Realised realised = engine->load(scene, {});
@@ -56,16 +55,15 @@ class SenseOfRotation : public testing::Test {
   }
 
   /// @param sign  of the mirrored numbers over the others
-  static void expectSame(const json& a, const json& b, double sign, const std::string& what) {
+  static void expectSame(const Numbers& a, const Numbers& b, double sign, const std::string& what) {
     ASSERT_EQ(a.size(), b.size()) << what;
     double scale = 0.0;
-    for (const json& value : a)
-      if (value.is_number()) scale = std::max(scale, std::abs(value.get<double>()));
+    for (const auto& value : a)
+      if (value) scale = std::max(scale, std::abs(*value));
     for (std::size_t k = 0; k < a.size(); ++k) {
-      ASSERT_EQ(a[k].is_number(), b[k].is_number()) << what << " " << k;
-      if (a[k].is_number()) {
-        EXPECT_NEAR(sign * b[k].get<double>(), a[k].get<double>(), close * scale)
-            << what << " " << k;
+      ASSERT_EQ(a[k].has_value(), b[k].has_value()) << what << " " << k;
+      if (a[k]) {
+        EXPECT_NEAR(sign * *b[k], *a[k], close * scale) << what << " " << k;
       }
     }
   }
@@ -75,7 +73,7 @@ class SenseOfRotation : public testing::Test {
 
   static inline Case as_, opposite_;
   static inline Packing packing_;
-  static inline json one_, other_;
+  static inline CouetteRun one_, other_;
   static inline Snapshot oneEnd_, otherEnd_;
 };
 
@@ -112,63 +110,60 @@ TEST_F(SenseOfRotation, ProfilesChangeTheirSignWhereTheyHaveOneAzimuthalIndex) {
                                       "stress_deviator",   "fabric_trace",    "coordination",
                                       "rotational_stress", "density",         "fabric_deviator"};
   std::size_t seen = 0;
-  for (std::size_t k = 0; k < one_["profiles"].size(); ++k) {
-    const json& a = one_["profiles"][k];
-    const json& b = other_["profiles"][k];
-    const std::string field = a["field"];
-    ASSERT_EQ(b["field"], field);
+  for (std::size_t k = 0; k < one_.profiles.size(); ++k) {
+    const Profile& a = one_.profiles[k];
+    const Profile& b = other_.profiles[k];
+    const std::string& field = a.field;
+    ASSERT_EQ(b.field, field);
     if (!flipped.contains(field) && !kept.contains(field)) continue;
     ++seen;
-    expectSame(a["mean"], b["mean"], flipped.contains(field) ? -1.0 : 1.0, field);
-    expectSame(a["stderr"], b["stderr"], 1.0, "error of " + field);
+    expectSame(a.mean, b.mean, flipped.contains(field) ? -1.0 : 1.0, field);
+    expectSame(a.standardError, b.standardError, 1.0, "error of " + field);
   }
   EXPECT_EQ(seen, flipped.size() + kept.size());
 }
 
 TEST_F(SenseOfRotation, TheWheelsTorqueTurnsAndThePressureDoesNot) {
-  for (const auto& [name, values] : one_["series"].items())
-    expectSame(values, other_["series"][name], name == "wheel_torque" ? -1.0 : 1.0, name);
+  for (const auto& [name, values] : *one_.series)
+    expectSame(values, valuesOf(*other_.series, name), name == "wheel_torque" ? -1.0 : 1.0, name);
 }
 
 TEST_F(SenseOfRotation, FitsAndNumbersThatAreMadeWithOmegaStay) {
-  ASSERT_GT(one_["fits"].size(), 6u);
+  ASSERT_GT(one_.fits.size(), 6u);
   std::size_t fitted = 0;
-  for (std::size_t k = 0; k < one_["fits"].size(); ++k) {
-    const json& a = one_["fits"][k];
-    const json& b = other_["fits"][k];
-    ASSERT_EQ(a["name"], b["name"]);
-    ASSERT_EQ(a["value"].is_number(), b["value"].is_number()) << a["name"];
-    if (!a["value"].is_number()) continue;
+  for (std::size_t k = 0; k < one_.fits.size(); ++k) {
+    const FitRow& a = one_.fits[k];
+    const FitRow& b = other_.fits[k];
+    ASSERT_EQ(a.name, b.name);
+    ASSERT_EQ(a.value.has_value(), b.value.has_value()) << a.name;
+    if (!a.value) continue;
     ++fitted;
-    EXPECT_NEAR(b["value"].get<double>(), a["value"].get<double>(),
-                1e-5 * std::abs(a["value"].get<double>()))
-        << a["name"];
+    EXPECT_NEAR(*b.value, *a.value, 1e-5 * std::abs(*a.value)) << a.name;
   }
   EXPECT_GT(fitted, 1u);  // a run this short refuses the others, either way the same ones
-  for (std::size_t k = 0; k < one_["head"].size(); ++k) {
-    const json& a = one_["head"][k];
-    const double sign = a["name"] == "stress_ratio_wheel" ? -1.0 : 1.0;  // σ_rφ/σ_rr
-    expectSame(json::array({a["value"]}), json::array({other_["head"][k]["value"]}), sign,
-               a["name"]);
+  for (std::size_t k = 0; k < one_.head.size(); ++k) {
+    const HeadNumber& a = one_.head[k];
+    const double sign = a.name == "stress_ratio_wheel" ? -1.0 : 1.0;  // σ_rφ/σ_rr
+    expectSame({a.value}, {other_.head[k].value}, sign, a.name);
   }
 }
 
 TEST_F(SenseOfRotation, DistributionsAreThoseInUnitsOfTheRimsVelocity) {
   std::size_t seen = 0;
-  for (std::size_t k = 0; k < one_["distributions"].size(); ++k) {
-    const json& a = one_["distributions"][k];
-    json b = other_["distributions"][k];
-    ASSERT_EQ(a["quantity"], b["quantity"]);
-    if (a["quantity"] == "contact_direction")  // α → −α
-      std::reverse(b["density"].begin(), b["density"].end());
-    const double cells = static_cast<double>(a["density"].size());
+  for (std::size_t k = 0; k < one_.distributions.size(); ++k) {
+    const Distribution& a = one_.distributions[k];
+    Distribution b = other_.distributions[k];
+    ASSERT_EQ(a.quantity, b.quantity);
+    if (a.quantity == "contact_direction")  // α → −α
+      std::ranges::reverse(b.density);
+    const double cells = static_cast<double>(a.density.size());
     double moved = 0.0, all = 0.0;
-    for (std::size_t cell = 0; cell < a["density"].size(); ++cell) {
-      moved += std::abs(a["density"][cell].get<double>() - b["density"][cell].get<double>());
-      all += std::abs(a["density"][cell].get<double>());
+    for (std::size_t cell = 0; cell < a.density.size(); ++cell) {
+      moved += std::abs(a.density[cell] - b.density[cell]);
+      all += std::abs(a.density[cell]);
     }
     // A value on the edge of a bin may fall to either side.
-    EXPECT_LT(moved, 1e-3 * all) << a["quantity"] << " " << a["ring"] << " of " << cells;
+    EXPECT_LT(moved, 1e-3 * all) << a.quantity << " " << a.ring.value_or(-1) << " of " << cells;
     ++seen;
   }
   EXPECT_GT(seen, 20u);

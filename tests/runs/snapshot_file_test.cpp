@@ -163,22 +163,15 @@ TEST_F(SnapshotFiles, WhatIsAbsentStaysAbsent) {
     file.save();
   }
   const auto results = averageSnapshots(setup_, path(), "test");
-  bool spin = false, stress = false, velocity = false;
-  for (const auto& profile : results["runs"][0]["profiles"]) {
-    spin |= profile["field"] == "spin";
-    stress |= profile["field"] == "stress_rr";
-    velocity |= profile["field"] == "azimuthal_velocity";
-  }
-  EXPECT_FALSE(spin);
-  EXPECT_FALSE(stress);
-  EXPECT_TRUE(velocity);
-  EXPECT_EQ(results["engines"][0]["name"], "mine");
+  const std::vector<Profile>& profiles = results.runs[0].profiles;
+  EXPECT_FALSE(profileOf(profiles, "spin"));
+  EXPECT_FALSE(profileOf(profiles, "stress_rr"));
+  EXPECT_EQ(results.engines[0].name, "mine");
   // v_φ of the disk at (0, 0.06) is 0.1: ring 4 of six between 0.03 and 0.075.
-  for (const auto& profile : results["runs"][0]["profiles"])
-    if (profile["field"] == "azimuthal_velocity") {
-      EXPECT_NEAR(profile["mean"][4].get<double>(), 0.1, 1e-12);
-      EXPECT_TRUE(profile["mean"][0].is_null());
-    }
+  const Profile* velocity = profileOf(profiles, "azimuthal_velocity");
+  ASSERT_TRUE(velocity);
+  EXPECT_NEAR(velocity->mean[4].value(), 0.1, 1e-12);
+  EXPECT_FALSE(velocity->mean[0]);
 }
 
 TEST_F(SnapshotFiles, WhatDoesNotFitIsRefusedInOneLine) {

@@ -49,28 +49,28 @@ class MadeUpClock final : public Engine {
   Stats stats_;
 };
 
-TimedLeg legOf(std::unique_ptr<MadeUpClock> clock) {
-  TimedLeg leg;
-  leg.load = [engine = clock.get()] {
+TimedVariant variantOf(std::unique_ptr<MadeUpClock> clock) {
+  TimedVariant variant;
+  variant.load = [engine = clock.get()] {
     engine->load({}, {});
     return 1.0;  // dt
   };
-  leg.engine = std::move(clock);
-  return leg;
+  variant.engine = std::move(clock);
+  return variant;
 }
 
-std::vector<TimedLeg> wholeAndWithout(double step, double without) {
-  std::vector<TimedLeg> legs;
-  legs.push_back(legOf(std::make_unique<MadeUpClock>(step, 40)));
-  legs.push_back(legOf(std::make_unique<MadeUpClock>(without, 0)));
-  return legs;
+std::vector<TimedVariant> wholeAndWithout(double step, double without) {
+  std::vector<TimedVariant> variants;
+  variants.push_back(variantOf(std::make_unique<MadeUpClock>(step, 40)));
+  variants.push_back(variantOf(std::make_unique<MadeUpClock>(without, 0)));
+  return variants;
 }
 
 const std::function<void(double)> ignored = [](double) {};
 
 TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
-  auto legs = wholeAndWithout(4e-4, 3e-4);
-  const auto times = timeSteps(legs, {0.2, 5}, ignored);
+  auto variants = wholeAndWithout(4e-4, 3e-4);
+  const auto times = timeSteps(variants, {0.2, 5}, ignored);
   ASSERT_EQ(times[0].seconds.size(), 5u);
   for (const double seconds : times[0].seconds) EXPECT_NEAR(seconds, 4e-4, 1e-12);
   const auto ratio = timeRatio(times[1], times[0]);
@@ -80,45 +80,47 @@ TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
 }
 
 TEST(StepTimes, LeaveOutWhatOtherProgramsHadOfTheCore) {
-  auto legs = wholeAndWithout(4e-4, 3e-4);
-  static_cast<MadeUpClock&>(*legs[0].engine).shareOfCore = 0.5;  // half as much CPU time as wall
-  static_cast<MadeUpClock&>(*legs[1].engine).shareOfCore = 1.9;  // two threads
-  const auto times = timeSteps(legs, {0.2, 2}, ignored);
+  auto variants = wholeAndWithout(4e-4, 3e-4);
+  static_cast<MadeUpClock&>(*variants[0].engine).shareOfCore =
+      0.5;  // half as much CPU time as wall
+  static_cast<MadeUpClock&>(*variants[1].engine).shareOfCore = 1.9;  // two threads
+  const auto times = timeSteps(variants, {0.2, 2}, ignored);
   EXPECT_NEAR(*shortestStep(times[0]), 2e-4, 1e-12);
   EXPECT_NEAR(*shortestStep(times[1]), 3e-4, 1e-12);
 }
 
 TEST(StepTimes, CountContactsWhereTheEngineDoes) {
-  auto legs = wholeAndWithout(4e-4, 3e-4);
-  const auto times = timeSteps(legs, {0.2, 2}, ignored);
+  auto variants = wholeAndWithout(4e-4, 3e-4);
+  const auto times = timeSteps(variants, {0.2, 2}, ignored);
   EXPECT_DOUBLE_EQ(*times[0].contacts, 40.0);
   EXPECT_FALSE(times[1].contacts);
 }
 
 TEST(StepTimes, StepAsOftenInAllLegsAndLongEnoughInTheFastest) {
-  auto legs = wholeAndWithout(4e-4, 1e-4);
-  timeSteps(legs, {0.2, 1}, ignored);
-  const Stats slow = legs[0].engine->stats(), fast = legs[1].engine->stats();
+  auto variants = wholeAndWithout(4e-4, 1e-4);
+  timeSteps(variants, {0.2, 1}, ignored);
+  const Stats slow = variants[0].engine->stats(), fast = variants[1].engine->stats();
   EXPECT_EQ(slow.steps, fast.steps);
   EXPECT_GE(fast.wallSeconds, 0.2);
 }
 
 TEST(StepTimes, TakeTheShortestRoundAndTheSpreadOfAll) {
-  std::vector<TimedLeg> legs;
-  legs.push_back(legOf(std::make_unique<MadeUpClock>(1e-4, 1)));
+  std::vector<TimedVariant> variants;
+  variants.push_back(variantOf(std::make_unique<MadeUpClock>(1e-4, 1)));
   // Load 0 is there for the estimate; each round is one more load.
-  legs.push_back(legOf(std::make_unique<MadeUpClock>(1e-4, 1, std::vector{3e-5, 0.0, 2e-5, 1e-5})));
-  const auto times = timeSteps(legs, {0.2, 4}, ignored);
+  variants.push_back(
+      variantOf(std::make_unique<MadeUpClock>(1e-4, 1, std::vector{3e-5, 0.0, 2e-5, 1e-5})));
+  const auto times = timeSteps(variants, {0.2, 4}, ignored);
   const auto ratio = timeRatio(times[1], times[0]);
   EXPECT_NEAR(ratio->value, 1.0, 1e-9);
   // Ratios 1.0, 1.1, 1.2, 1.3 in some order: sd = √(0.05/3), over √4.
   EXPECT_NEAR(*ratio->standardError, std::sqrt(0.05 / 3.0) / 2.0, 1e-9);
 }
 
-TEST(StepTimes, ALegThatBreaksDownLeavesTheOthers) {
-  auto legs = wholeAndWithout(4e-4, 3e-4);
-  static_cast<MadeUpClock&>(*legs[1].engine).failsAfter = 2;
-  const auto times = timeSteps(legs, {0.2, 3}, ignored);
+TEST(StepTimes, AVariantThatBreaksDownLeavesTheOthers) {
+  auto variants = wholeAndWithout(4e-4, 3e-4);
+  static_cast<MadeUpClock&>(*variants[1].engine).failsAfter = 2;
+  const auto times = timeSteps(variants, {0.2, 3}, ignored);
   EXPECT_EQ(times[0].seconds.size(), 3u);
   EXPECT_EQ(times[1].failure, "made up, at t = 3 s: broke down");
   EXPECT_TRUE(times[1].seconds.empty());
@@ -127,11 +129,11 @@ TEST(StepTimes, ALegThatBreaksDownLeavesTheOthers) {
 
 TEST(StepTimes, AreKeptAsJson) {
   const StepTimes times = {{1e-5, 1.0 / 3.0}, 7.5, "why"};
-  const StepTimes back = stepTimesFromJson(toJson(times));
+  const StepTimes back = readAs<StepTimes>(jsonOf(times));
   EXPECT_EQ(back.seconds, times.seconds);
   EXPECT_EQ(back.contacts, times.contacts);
   EXPECT_EQ(back.failure, times.failure);
-  EXPECT_FALSE(stepTimesFromJson(toJson(StepTimes{})).contacts);
+  EXPECT_FALSE(readAs<StepTimes>(jsonOf(StepTimes{})).contacts);
 }
 
 }  // namespace

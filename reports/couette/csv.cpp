@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <set>
+
+#include "reports/common/csv_row.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/couette/report.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+const std::optional<double> absent;
+
+std::string indexOf(const CouetteRun& run) {
+  return fmt::format("{}", run.packing);
+}
+
+/// @param bars  what the standard errors are of
+std::string profileRows(const CouetteFrame& frame, const std::string& engine,
+                        const std::string& packing, const std::string& bars,
+                        const std::vector<Profile>& profiles) {
+  const CouetteAveraging& when = frame.averaging;
+  std::string rows;
+  for (const Profile& profile : profiles)
+    for (std::size_t ring = 0; ring < frame.rings.r.size(); ++ring)
+      rows +=
+          row(engine, packing, profile.method, profile.field, ring + 1, at(frame.rings.r, ring),
+              at(frame.rings.rTilde, ring), at(profile.mean, ring), at(profile.standardError, ring),
+              at(profile.nEff, ring), profile.unit, bars, at(profile.dof, ring), when.fromRotation,
+              when.toRotation, when.preparedRotations);
+  return rows;
+}
+
+std::vector<std::string> seriesColumns(const std::vector<CouetteRun>& runs) {
+  std::vector<std::string> columns = {"wheel_torque", "outer_pressure", "kinetic_energy",
+                                      "coordination", "max_overlap",    "sliding_fraction"};
+  std::set<std::string> further, ledger;
+  for (const CouetteRun& run : runs)
+    for (const auto& [name, values] : run.series.value_or(RunSeries{}))
+      if (name != "t_s" && std::ranges::find(columns, name) == columns.end())
+        (name.starts_with("energy_") ? ledger : further).insert(name);
+  columns.insert(columns.end(), further.begin(), further.end());
+  columns.insert(columns.end(), ledger.begin(), ledger.end());
+  return columns;
+}
+
+std::string distributionRows(const std::string& engine, const std::string& packing,
+                             const std::string& bars,
+                             const std::vector<Distribution>& distributions) {
+  std::string rows;
+  for (const Distribution& distribution : distributions) {
+    const std::string place =
+        distribution.ring ? fmt::format("{}", *distribution.ring + 1) : std::string("all");
+    const auto edge = [&](std::size_t axis, std::size_t index) -> std::optional<double> {
+      if (axis >= distribution.axes.size()) return std::nullopt;
+      const Bins& bins = distribution.axes[axis];
+      return bins.low + static_cast<double>(index) * bins.width;
+    };
+    const auto across =
+        static_cast<std::size_t>(distribution.axes.empty() ? 1 : distribution.axes[0].count);
+    for (std::size_t k = 0; k < distribution.density.size(); ++k) {
+      const auto value = at(distribution.density, k);
+      if (!value || *value == 0.0) continue;
+      const std::size_t column = k % across, line = k / across;
+      rows +=
+          row(engine, packing, distribution.quantity, place, edge(0, column), edge(0, column + 1),
+              value, at(distribution.standardError, k), edge(1, line), edge(1, line + 1), bars);
+    }
+    if (const auto outside = finite(distribution.outside); outside && *outside > 0.0)
+      rows += row(engine, packing, distribution.quantity, place, absent, absent, outside, absent,
+                  absent, absent, bars);
+  }
+  return rows;
+}
+
+/// On how many packings; absent where nobody knows.
+std::optional<double> regimesDiffer(const std::vector<RegimesOfPair>& regimes,
+                                    const AgreementRow& row) {
+  for (const RegimesOfPair& pair : regimes)
+    if (pair.a == row.a && pair.b == row.b) return static_cast<double>(pair.differ.size());
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string profilesCsv(const CompareResults& results) {
+  std::string table =
+      "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
+      "from_rotation,to_rotation,prepared_rotations\n";
+  for (const CouetteRun& run : results.runs)
+    table += profileRows(results, run.engine, indexOf(run), "within_run", run.profiles);
+  for (const CouetteEnsemble& ensemble : results.ensemble)
+    table += profileRows(results, ensemble.engine, "all", "packings", ensemble.profiles);
+  return table;
+}
+
+std::string distributionsCsv(const CompareResults& results) {
+  std::string table =
+      "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n";
+  for (const CouetteRun& run : results.runs)
+    table += distributionRows(run.engine, indexOf(run), "within_run", run.distributions);
+  for (const CouetteEnsemble& ensemble : results.ensemble)
+    table += distributionRows(ensemble.engine, "all", "packings", ensemble.distributions);
+  return table;
+}
+
+std::string seriesCsv(const CompareResults& results) {
+  const std::vector<std::string> columns = seriesColumns(results.runs);
+  std::string table = "engine,packing,t_s";
+  for (const std::string& column : columns) table += "," + cell(column);
+  table += "\n";
+  for (const CouetteRun& run : results.runs) {
+    if (!run.series) continue;
+    const Numbers& times = valuesOf(*run.series, "t_s");
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      table += cell(run.engine) + "," + indexOf(run) + "," + cell(times[k]);
+      for (const std::string& column : columns)
+        table += "," + cell(at(valuesOf(*run.series, column), k));
+      table += "\n";
+    }
+  }
+  return table;
+}
+
+std::string agreementCsv(const CompareResults& results) {
+  std::string table =
+      "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,"
+      "more_packings,more_rotations,regimes_differ\n";
+  for (const AgreementRow& entry : results.agreement) {
+    const auto differ = regimesDiffer(results.regimes, entry);
+    table += row(entry.a, entry.b, entry.field, std::string("all"), absent, absent, absent, absent,
+                 absent, std::string(toString(entry.verdict)), entry.detects, absent, absent,
+                 std::optional<double>(entry.morePackings), entry.moreRotations, differ);
+    for (const AgreementRing& ring : entry.rings)
+      table +=
+          row(entry.a, entry.b, entry.field, ring.ring + 1, ring.difference, ring.standardError,
+              ring.low, ring.high, ring.margin, std::string(toString(ring.verdict)), ring.detects,
+              ring.withinShare, std::optional<double>(ring.packings), absent, absent, differ);
+  }
+  return table;
+}
+
+}  // namespace crossgrain::reports

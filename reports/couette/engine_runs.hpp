@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/common/figure.hpp"
+#include "reports/common/json_view.hpp"
+#include "results/compare.hpp"
+
+namespace crossgrain::reports {
+
+/// An engine's part of a study, or a variant's of an engine: its runs and their means. The study
+/// must outlive it.
+struct EngineRuns : EngineRow {
+  LineStyle style;                                ///< a mirror has its peer's, dashed and open
+  std::vector<const CouetteRun*> runs, finished;  ///< in the order of the results
+  const CouetteEnsemble* ensemble = nullptr;      ///< null with fewer than two finished runs
+
+  /// Of the ensemble, else of the only finished run; empty without one.
+  const std::vector<Profile>& profiles() const;
+  const std::vector<Distribution>& distributions() const;
+  const std::vector<FitRow>& fits() const;
+  const std::vector<HeadNumber>& head() const;
+  /// Of the first run that got as far as loading the scene, or null.
+  const Realised* realised() const;
+
+  /// Sets runs, finished and ensemble: of that engine, with that effect switched off (empty: none).
+  void takeRuns(const std::vector<CouetteRun>& all, const std::vector<CouetteEnsemble>& ensembles,
+                const std::string& engine, const std::string& without);
+};
+
+/// In the results' order: the reference first. Runs with an effect switched off are left out.
+std::vector<EngineRuns> engineRuns(const CouetteStudy& study,
+                                   const std::vector<CouetteEnsemble>& ensembles);
+inline std::vector<EngineRuns> engineRuns(const CompareResults& results) {
+  return engineRuns(results, results.ensemble);
+}
+
+/// {name, colour, dashed, hasData} for each.
+Json columnsView(const std::vector<EngineRuns>& engines);
+
+}  // namespace crossgrain::reports

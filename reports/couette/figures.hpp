@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/common/figure.hpp"
+#include "reports/couette/engine_runs.hpp"
+
+namespace crossgrain::reports {
+
+/// Whose curve of a field has nothing to say: it is drawn grey, behind the others, without a name.
+using IsFaint = std::function<bool(const EngineRuns&, const std::string& field)>;
+
+/// The parts of compareFigures. A check of a single number is no plot.
+std::vector<Figure> profileFigures(const CouetteFrame& frame,
+                                   const std::vector<EngineRuns>& engines,
+                                   const IsFaint& faint = {});
+std::vector<Figure> checkFigures(const CouetteFrame& frame, const std::vector<EngineRuns>& engines);
+std::vector<Figure> seriesFigures(const CouetteFrame& frame,
+                                  const std::vector<EngineRuns>& engines);
+
+std::vector<Figure> distributionFigures(const CouetteFrame& frame,
+                                        const std::vector<EngineRuns>& engines);
+
+/// What the bars of the profiles are, in words: over packings, or within one run.
+std::string barsInWords(const std::vector<EngineRuns>& engines);
+
+/// The radial axis of a cell, from the wheel to the ring; absent without a cell.
+std::optional<Range> rTildeRange(const CouetteFrame& frame);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "averaging/agreement.hpp"
+
+/// Engines held against each other.
+namespace crossgrain::inline results {
+
+/// Why two engines are held against each other.
+enum class PairKind {
+  peer,                  ///< both were named
+  mirrorModel,           ///< the in-house engine and its mirror of a peer
+  mirrorImplementation,  ///< a mirror and its peer
+  effect                 ///< an engine and itself without an effect
+};
+constexpr auto namesOf(PairKind) {
+  return std::array<std::string_view, 4>{"peer", "mirror_model", "mirror_implementation", "effect"};
+}
+
+/// On which scale a ring was tested: of values, or of their ratios.
+enum class TestScale { linear, logarithmic };
+constexpr auto namesOf(TestScale) {
+  return std::array<std::string_view, 2>{"linear", "logarithmic"};
+}
+
+/// One ring of one field, in the field's unit: a ratio as the difference that it makes.
+struct AgreementRing {
+  std::size_t ring = 0;                             ///< from 0
+  std::optional<double> difference, standardError;  ///< b − a
+  std::optional<double> low, high;                  ///< interval of the difference
+  std::optional<double> margin;                     ///< absent: relative, and there is nothing
+  std::optional<double> detects;      ///< the smallest true difference found in 9 of 10 repeats
+  std::optional<double> withinShare;  ///< of the variance, due to finite runs
+  TestScale scale = TestScale::linear;
+  std::optional<int> packings;  ///< that both have
+  Verdict verdict = Verdict::undecided;
+};
+
+/// The verdict on one field of two engines.
+struct AgreementRow {
+  std::string a, b;  ///< the reference first
+  PairKind kind = PairKind::peer;
+  std::string field;
+  std::optional<double>
+      margin;  ///< of the reference where marginRelative, else in the field's unit
+  bool marginRelative = false;
+  std::string marginWhy;
+  Verdict verdict = Verdict::undecided;
+  std::optional<int> morePackings;
+  std::optional<double> moreRotations;  ///< of each run, on the same packings
+  std::optional<double> detects;        ///< in the ring that shows it best
+  std::vector<AgreementRing> rings;
+};
+
+/// Where a command that judges has judged nothing: that is never a success by itself.
+struct NothingJudged {
+  std::string reason;      ///< ends the line "nothing was judged: …"
+  bool byRequest = false;  ///< one engine: there was nothing to hold it against
+};
+
+}  // namespace crossgrain::inline results

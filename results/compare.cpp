@@ -1,0 +1,61 @@
+#include "results/compare.hpp"
+
+#include "results/couette_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, AgreementRing& ring) {
+  io("ring", ring.ring);
+  io("difference", ring.difference);
+  io("stderr", ring.standardError);
+  io("low", ring.low);
+  io("high", ring.high);
+  io("margin", ring.margin);
+  io("detects", ring.detects);
+  io("within_share", ring.withinShare);
+  io("scale", ring.scale);
+  io("packings", ring.packings);
+  io("verdict", ring.verdict);
+}
+
+void fields(auto& io, AgreementRow& row) {
+  io("a", row.a);
+  io("b", row.b);
+  io("kind", row.kind);
+  io("field", row.field);
+  io("margin", row.margin);
+  io("margin_relative", row.marginRelative);
+  io("margin_why", row.marginWhy);
+  io("verdict", row.verdict);
+  io("more_packings", row.morePackings);
+  io("more_rotations", row.moreRotations);
+  io("detects", row.detects);
+  io("rings", row.rings);
+}
+
+void fields(auto& io, NothingJudged& nothing) {
+  io("reason", nothing.reason);
+  io("by_request", nothing.byRequest);
+}
+
+void fields(auto& io, CompareResults& results) {
+  const bool compared = results.head.kind != kindAverage;
+  fields(io, static_cast<CouetteStudy&>(results));
+  io.when(compared, "regimes", results.regimes);
+  io("steadiness", results.steadiness);
+  io.when(compared, "ensemble", results.ensemble);
+  io.when(compared, "agreement", results.agreement);
+  io.present("nothing_judged", results.nothingJudged);
+}
+
+Json toJson(const CouetteStudy& study) {
+  return jsonOf(study);
+}
+Json toJson(const CompareResults& results) {
+  return jsonOf(results);
+}
+CompareResults compareFromJson(const Json& json) {
+  return readAs<CompareResults>(json);
+}
+
+}  // namespace crossgrain::inline results

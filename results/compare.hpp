@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/agreement.hpp"
+#include "results/couette_frame.hpp"
+#include "results/engine_row.hpp"
+#include "results/run.hpp"
+
+namespace crossgrain::inline results {
+
+struct PackingRow {
+  std::size_t index = 0;
+  std::uint64_t seed = 0;
+  std::string hash;
+  bool fromCache = false;
+};
+
+/// Engines on the packings of a Couette case.
+struct CouetteStudy : CouetteFrame {
+  std::optional<double> elapsed;   ///< [s]
+  std::vector<EngineRow> engines;  ///< the reference first
+  std::vector<PackingRow> packings;
+  std::vector<CouetteRun> runs;
+};
+
+/// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.
+struct CompareResults : CouetteStudy {
+  std::vector<RegimesOfPair> regimes;
+  std::vector<EngineDrift> steadiness;
+  std::vector<CouetteEnsemble> ensemble;
+  std::vector<AgreementRow> agreement;
+  std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
+};
+
+Json toJson(const CouetteStudy& study);
+Json toJson(const CompareResults& results);
+/// @throws FieldError
+CompareResults compareFromJson(const Json& json);
+
+}  // namespace crossgrain::inline results

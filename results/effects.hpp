@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/compare.hpp"
+
+namespace crossgrain::inline results {
+
+/// How the change of a field, or of a ring, stands against the case's margin.
+enum class AgainstMargin { untold, agree, disagree, undecided };
+constexpr auto namesOf(AgainstMargin) {
+  return std::array<std::string_view, 4>{"", "agree", "disagree", "undecided"};
+}
+
+/// What standard errors are of.
+enum class BarKind { packings, withinRun };
+constexpr auto namesOf(BarKind) {
+  return std::array<std::string_view, 2>{"packings", "within_run"};
+}
+
+/// switched − whole case in one ring, in the field's unit.
+struct RingChange {
+  std::size_t ring = 0;             ///< from 0
+  std::optional<double> reference;  ///< with everything on, mean over packings
+  std::optional<double> change, standardError;
+  std::optional<double> p;          ///< adjusted; this and the next four: absent where not tested
+  std::optional<bool> resolved;     ///< significant
+  std::optional<double> low, high;  ///< the interval that `resolved` rests on
+  std::optional<double> smallest;   ///< change that would just have been resolved
+  AgainstMargin verdict = AgainstMargin::untold;
+};
+
+struct ChangedField {
+  std::string field, unit;
+  bool judged = false;
+  AgainstMargin verdict = AgainstMargin::untold;
+  std::vector<RingChange> rings;
+};
+
+/// What switching one thing off changes, over the packings that both have finished.
+struct EffectChanges {
+  std::size_t packings = 0;
+  BarKind bars = BarKind::packings;
+  std::vector<ChangedField> fields;
+};
+
+/// One engine with one effect switched off, or with everything on.
+struct EffectVariant {
+  std::string engine;
+  std::string effect;  ///< that is switched off; empty: everything is on
+  EngineStatus status = EngineStatus::ran;
+  std::string reason;
+  std::optional<double> step;                       ///< [s] of wall time
+  std::optional<double> contacts;                   ///< evaluated per step
+  std::optional<double> timeRatio, timeRatioError;  ///< of a step, over that with everything on
+  std::optional<std::string> precision;             ///< that was used
+  std::optional<std::vector<std::string>> effects;  ///< simulated
+  EffectChanges changes;
+
+  /// Whether anything is switched off.
+  bool isSwitched() const { return !effect.empty(); }
+};
+
+/// What was switched off, in a sentence.
+struct SwitchRow {
+  std::string effect, what;
+};
+
+/// How steps are timed.
+struct TimingPlan {
+  double seconds = 0.2;  ///< each variant steps for at least as long in each round
+  int rounds = 5;
+};
+
+struct EffectsResults : CouetteStudy {
+  std::vector<CouetteEnsemble> ensemble;
+  std::vector<SwitchRow> switches;
+  TimingPlan timing;
+  std::vector<EffectVariant> variants;  ///< of each engine first that with everything on
+};
+
+Json toJson(const EffectsResults& results);
+/// @throws FieldError
+EffectsResults effectsFromJson(const Json& json);
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,39 @@
+#include "results/rev.hpp"
+
+#include "results/couette_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, RevCurve& curve) {
+  io("method", curve.method);
+  io("field", curve.field);
+  io("unit", curve.unit);
+  io("r", curve.r);
+  io("width", curve.width);
+  io("mean", curve.mean);
+  io("stderr", curve.standardError);
+}
+
+void fields(auto& io, RevMeeting& meeting) {
+  io("method", meeting.method);
+  io("field", meeting.field);
+  io("near", meeting.near);
+  io("width", meeting.width);
+  io("difference", meeting.difference);
+}
+
+void fields(auto& io, RevResults& results) {
+  fields(io, static_cast<CouetteFrame&>(results));
+  io("engine", results.engine);
+  io("curves", results.curves);
+  io("meetings", results.meetings);
+}
+
+Json toJson(const RevResults& results) {
+  return jsonOf(results);
+}
+RevResults revFromJson(const Json& json) {
+  return readAs<RevResults>(json);
+}
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/couette_frame.hpp"
+#include "results/couette_numbers.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::inline results {
+
+/// One field under one weight about one radius, against ring width.
+struct RevCurve {
+  std::string method, field, unit;
+  double r = 0.0;             ///< [m]
+  std::vector<double> width;  ///< [d]
+  Numbers mean, standardError;
+};
+
+/// Where, next to a width, a method comes closest to slicing.
+struct RevMeeting {
+  std::string method, field;
+  double near = 0.0, width = 0.0;  ///< [d]
+  double difference = 0.0;         ///< root mean square over the radii, in units of slicing's
+};
+
+/// How large a representative element must be.
+struct RevResults : CouetteFrame {
+  std::string engine;  ///< whose snapshots
+  std::vector<RevCurve> curves;
+  std::vector<RevMeeting> meetings;
+};
+
+Json toJson(const RevResults& results);
+/// @throws FieldError
+RevResults revFromJson(const Json& json);
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,29 @@
+#include "results/run.hpp"
+
+#include <algorithm>
+
+#include "results/couette_fields.hpp"
+
+namespace crossgrain::inline results {
+
+Json toJson(const CouetteRun& run) {
+  return jsonOf(run);
+}
+CouetteRun runFromJson(const Json& json) {
+  return readAs<CouetteRun>(json);
+}
+
+const Profile* profileOf(const std::vector<Profile>& profiles, std::string_view field) {
+  const auto found = std::ranges::find(profiles, field, &Profile::field);
+  return found == profiles.end() ? nullptr : &*found;
+}
+
+const Profile* profileOf(const std::vector<Profile>& profiles, std::string_view method,
+                         std::string_view field) {
+  const auto found = std::ranges::find_if(profiles, [&](const Profile& profile) {
+    return profile.field == field && profile.method == method;
+  });
+  return found == profiles.end() ? nullptr : &*found;
+}
+
+}  // namespace crossgrain::inline results

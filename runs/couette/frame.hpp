@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "adapters/scene.hpp"
+#include "cases/case.hpp"
+#include "results/couette_frame.hpp"
+
+namespace crossgrain::inline runs {
+
+/// What results say of a Couette case whatever is done with it.
+/// @param disks  of one packing
+CouetteFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
+                          const Disks& disks);
+
+}  // namespace crossgrain::inline runs
