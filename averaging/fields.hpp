@@ -61,10 +61,13 @@ class BinView {
   SpringConstants springs_;
 };
 
-/// One field: its name and unit as in profiles.csv, its defining sum as text and as formula. Where
-/// there is nothing to measure the formula is not finite (0/0), and the field absent.
+/// One field: its name and unit as in profiles.csv, how people call and write it, its defining sum
+/// as text and as formula. Where there is nothing to measure the formula is not finite (0/0), and
+/// the field absent. All labels of reports come from here.
 struct FieldSpec {
   std::string_view name;
+  std::string_view words;  ///< "shear stress"; empty: the name
+  std::string_view symbol;  ///< "σ_rφ", "σ^dyn_rr": marks as in reports/common/labels.hpp; or empty
   std::string_view unit;
   std::string_view definition;
   Needs needs;

@@ -12,13 +12,6 @@
 
 namespace crossgrain::inline results {
 
-struct PackingRow {
-  std::size_t index = 0;
-  std::uint64_t seed = 0;
-  std::string hash;
-  bool fromCache = false;
-};
-
 /// Engines on the packings of a Couette case.
 struct CouetteStudy : CouetteFrame {
   std::optional<double> elapsed;   ///< [s]

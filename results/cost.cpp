@@ -1,20 +1,15 @@
 #include "results/cost.hpp"
 
 #include "results/cost_fields.hpp"
+#include "results/couette_fields.hpp"
 #include "results/engine_fields.hpp"
-#include "results/head_fields.hpp"
 
 namespace crossgrain::inline results {
 
 void fields(auto& io, CostResults& results) {
-  fields(io, results.head);
+  fields(io, static_cast<CouetteFrame&>(results));
   io("elapsed_s", results.elapsed);
-  io("effects", results.effects);
-  io("notes", results.notes);
   io("engines", results.engines);
-  io("cell", results.cell);
-  io("averaging", results.averaging);
-  io("rings", results.rings);
   io("packings", results.packings);
   io("budget_s", results.budget);
   io("budget_for_the_rest_s", results.budgetForTheRest);

@@ -9,8 +9,8 @@
 #include "results/cost_analysis.hpp"
 #include "results/cost_chaos.hpp"
 #include "results/cost_point.hpp"
+#include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
-#include "results/head.hpp"
 
 namespace crossgrain::inline results {
 
@@ -39,13 +39,10 @@ struct CostAverages {
 };
 
 /// What accuracy costs: results of kind "cost" (reports/README.md).
-struct CostResults {
-  ResultsHead head;
+struct CostResults : CouetteFrame {
   std::optional<double> elapsed;  ///< [s]
-  std::vector<std::string> effects, notes;
   std::vector<EngineRow> engines;
-  /// Those of the Couette cell, as its campaign tells them; nothing here looks into them.
-  nlohmann::json cell, averaging, rings, packings;
+  std::vector<PackingRow> packings;
 
   std::optional<double> budget;            ///< for all that was measured [s]
   std::optional<double> budgetForTheRest;  ///< for what did not fit, all else kept [s]

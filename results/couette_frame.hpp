@@ -39,6 +39,13 @@ struct RingPlaces {
   std::optional<double> width;  ///< [m]
 };
 
+struct PackingRow {
+  std::size_t index = 0;
+  std::uint64_t seed = 0;
+  std::string hash;
+  bool fromCache = false;
+};
+
 struct CouetteFrame {
   ResultsHead head;
   CouetteCell cell;

@@ -126,14 +126,12 @@ void addSummary(Json& view, const CollideResults& results) {
 
 /// What engines made of each variant's scenes.
 void addRealised(Json& view, const CollideResults& results) {
-  std::deque<Json> kept;
-  std::vector<RealisedOf> realised;
-  for (const CollisionVariant& variant : results.variants) {
-    const Json& effects = kept.emplace_back(jsonOf(variant.effects));
+  std::vector<RealisedScene> realised;
+  for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
       if (curve.realised)
-        realised.push_back({curve.engine, &kept.emplace_back(jsonOf(*curve.realised)), &effects});
-  }
+        realised.push_back(
+            {curve.engine, &*curve.realised, variant.effects ? &*variant.effects : nullptr});
   addDetails(view, realised);
 }
 

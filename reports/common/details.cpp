@@ -96,7 +96,8 @@ Json effectCell(const EffectTally& tally) {
   std::vector<std::string> words;
   if (tally.missing < tally.calledFor)
     words.push_back("✓ simulated" + partOf(tally.calledFor - tally.missing, tally.calledFor));
-  if (tally.missing > 0) words.push_back("✗ not simulated" + partOf(tally.missing, tally.calledFor));
+  if (tally.missing > 0)
+    words.push_back("✗ not simulated" + partOf(tally.missing, tally.calledFor));
   if (tally.unasked > 0)
     words.push_back("+ though not called for" + partOf(tally.unasked, tally.scenes));
   const bool differs = tally.missing + tally.unasked > 0;
@@ -166,20 +167,6 @@ void addDetails(Json& view, const std::vector<RealisedScene>& realised) {
   view["hasEffects"] = !view["effects"].empty();
   view["effectColumns"] = Json::array();
   for (const auto& [engine, entries] : engines) view["effectColumns"].push_back(engine);
-}
-
-void addDetails(Json& view, const std::vector<RealisedOf>& realised) {
-  std::list<Realised> scenes;
-  std::map<const Json*, Names> calledFor;  // a scene by its place
-  std::vector<RealisedScene> entries;
-  for (const RealisedOf& entry : realised) {
-    scenes.push_back(readAs<Realised>(*entry.realised));
-    const bool known = entry.calledFor->is_array();
-    if (known) calledFor[entry.calledFor] = readAs<Names>(*entry.calledFor);
-    entries.push_back(
-        {entry.engine, &scenes.back(), known ? &calledFor[entry.calledFor] : nullptr});
-  }
-  addDetails(view, entries);
 }
 
 }  // namespace crossgrain::reports

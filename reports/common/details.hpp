@@ -17,12 +17,4 @@ struct RealisedScene {
 /// Rows of the tables of deviations, pairs and effects, set in view.
 void addDetails(Json& view, const std::vector<RealisedScene>& realised);
 
-/// The same, as results.json has it.
-struct RealisedOf {
-  std::string engine;
-  const Json* realised;
-  const Json* calledFor;  ///< names of the effects that this scene calls for; no list: not known
-};
-void addDetails(Json& view, const std::vector<RealisedOf>& realised);
-
 }  // namespace crossgrain::reports

@@ -37,29 +37,4 @@ std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
   return styles;
 }
 
-std::vector<LineStyle> engineStyles(const Json& results) {
-  std::vector<EngineRow> rows;
-  for (const Json& entry : list(results, "engines"))
-    rows.push_back({text(entry, "name"), "", "", text(entry, "mirrors"), {}, ""});
-  return engineStyles(rows);
-}
-
-std::vector<EngineResults> engineResults(const Json& results) {
-  const std::vector<LineStyle> styles = engineStyles(results);
-  std::vector<EngineResults> engines;
-  for (const Json& entry : list(results, "engines")) {
-    EngineResults engine{text(entry, "name"),
-                         text(entry, "mirrors"),
-                         text(entry, "status"),
-                         styles[engines.size()],
-                         &entry,
-                         {}};
-    for (const Json& run : list(results, "runs"))
-      if (text(run, "engine") == engine.name && text(run, "status") == "finished")
-        engine.finished.push_back(&run);
-    engines.push_back(std::move(engine));
-  }
-  return engines;
-}
-
 }  // namespace crossgrain::reports

@@ -1,9 +1,13 @@
 #include "reports/common/labels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <kainjow/mustache.hpp>
+
+#include "averaging/fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -11,24 +15,6 @@ namespace {
 
 struct Label {
   std::string_view name, words, symbol;
-};
-
-constexpr std::array fieldLabels = {
-    Label{"volume_fraction", "volume fraction", "ν"},
-    Label{"azimuthal_velocity", "azimuthal velocity", "v<sub>φ</sub>"},
-    Label{"radial_velocity", "radial velocity", "v<sub>r</sub>"},
-    Label{"spin", "spin", "S"},
-    Label{"stress_rr", "radial stress", "σ<sub>rr</sub>"},
-    Label{"stress_pp", "hoop stress", "σ<sub>φφ</sub>"},
-    Label{"stress_rp", "shear stress", "σ<sub>rφ</sub>"},
-    Label{"stress_pr", "shear stress", "σ<sub>φr</sub>"},
-    Label{"dynamic_stress_rr", "dynamic stress", "σ<sup>dyn</sup><sub>rr</sub>"},
-    Label{"dynamic_stress_pp", "dynamic stress", "σ<sup>dyn</sup><sub>φφ</sub>"},
-    Label{"dynamic_stress_rp", "dynamic stress", "σ<sup>dyn</sup><sub>rφ</sub>"},
-    Label{"fabric_trace", "fabric", "tr F"},
-    Label{"fabric_deviator", "fabric", "dev F"},
-    Label{"coordination", "contacts per disk", "C"},
-    Label{"density", "density", "ρ"},
 };
 
 constexpr std::array headLabels = {
@@ -49,18 +35,10 @@ std::string escaped(std::string_view name) {
   return kainjow::mustache::html_escape(spaced(name));
 }
 
-template <class Table>
-const Label* find(const Table& table, std::string_view name) {
-  const auto found = std::ranges::find(table, name, &Label::name);
-  return found == table.end() ? nullptr : &*found;
-}
-
-template <class Table>
-std::string wordsAndSymbol(const Table& table, std::string_view name) {
-  const Label* label = find(table, name);
-  if (!label) return escaped(name);
-  std::string result(label->words);
-  return label->symbol.empty() ? result : result + " " + std::string(label->symbol);
+/// null where there is no such field, or none that people write in another way
+const FieldSpec* labelledField(std::string_view name) {
+  const auto found = std::ranges::find(fieldTable(), name, &FieldSpec::name);
+  return found == fieldTable().end() || found->words.empty() ? nullptr : &*found;
 }
 
 /// How many bytes from there on belong to an index: of ASCII letters, digits, − and Greek letters.
@@ -105,17 +83,57 @@ std::string spaced(std::string_view name) {
   return result;
 }
 
+std::string mathGnuplot(std::string_view words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const bool mark = (words[k] == '_' || words[k] == '^') && k > 0 && words[k - 1] != ' ';
+    const std::size_t length = mark ? indexLength(words.substr(k + 1)) : 0;
+    text += words[k];
+    if (length == 0) continue;
+    text += fmt::format("{{{}}}", words.substr(k + 1, length));
+    k += length;
+  }
+  return text;
+}
+
+std::string fieldWords(std::string_view field) {
+  const FieldSpec* spec = labelledField(field);
+  return spec ? std::string(spec->words) : spaced(field);
+}
+
 std::string fieldLabel(std::string_view field) {
-  return wordsAndSymbol(fieldLabels, field);
+  const FieldSpec* spec = labelledField(field);
+  return spec ? std::string(spec->words) + " " + mathHtml(spec->symbol) : escaped(field);
 }
 
 std::string fieldSymbol(std::string_view field) {
-  const Label* label = find(fieldLabels, field);
-  return label ? std::string(label->symbol) : escaped(field);
+  const FieldSpec* spec = labelledField(field);
+  return spec ? mathHtml(spec->symbol) : escaped(field);
+}
+
+std::string fieldPlotSymbol(std::string_view field) {
+  const FieldSpec* spec = labelledField(field);
+  return spec ? mathGnuplot(spec->symbol) : spaced(field);
+}
+
+std::string fieldAxis(std::string_view field) {
+  const std::string unit(fieldSpec(field).unit);
+  if (unit == "1") return fieldPlotSymbol(field);
+  std::string raised;
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const std::string_view rest = std::string_view(unit).substr(k);
+    const bool square = rest.starts_with("²"), cube = rest.starts_with("³");
+    raised += square ? "^{2}" : cube ? "^{3}" : std::string(1, unit[k]);
+    if (square || cube) ++k;  // two bytes
+  }
+  return fmt::format("{} [{}]", fieldPlotSymbol(field), raised);
 }
 
 std::string headLabel(std::string_view name) {
-  return wordsAndSymbol(headLabels, name);
+  const auto found = std::ranges::find(headLabels, name, &Label::name);
+  if (found == headLabels.end()) return escaped(name);
+  const std::string words(found->words);
+  return found->symbol.empty() ? words : words + " " + std::string(found->symbol);
 }
 
 }  // namespace crossgrain::reports

@@ -13,12 +13,22 @@ std::string fieldLabel(std::string_view field);
 /// The symbol alone: "σ<sub>rφ</sub>".
 std::string fieldSymbol(std::string_view field);
 
+/// Its words alone, plain text: "shear stress".
+std::string fieldWords(std::string_view field);
+
+/// Its symbol in gnuplot's enhanced text, and with the unit as an axis has it: "σ_{rφ} [N/m^{2}]".
+std::string fieldPlotSymbol(std::string_view field);
+std::string fieldAxis(std::string_view field);
+
 /// Of a number of the report's head: "kn_over_p" → "k<sub>n</sub>/p".
 std::string headLabel(std::string_view name);
 
 /// Escaped text in which "σ_rφ" has a subscript and "r^p" a superscript: ASCII letters and digits,
 /// minus signs and Greek letters after a mark that follows a letter.
 std::string mathHtml(std::string_view words);
+
+/// The same in gnuplot's enhanced text: "σ_{rφ}".
+std::string mathGnuplot(std::string_view words);
 
 /// Underscores as spaces.
 std::string spaced(std::string_view name);

@@ -130,14 +130,4 @@ Json pictureViews(const Illustrations& shown, Picture::Shows shows) {
   return views;
 }
 
-Json columnsView(const std::vector<EngineResults>& engines) {
-  Json columns = Json::array();
-  for (const EngineResults& engine : engines)
-    columns.push_back({{"name", engine.name},
-                       {"colour", engine.style.colour},
-                       {"dashed", engine.style.dashed},
-                       {"hasData", !engine.finished.empty()}});
-  return columns;
-}
-
 }  // namespace crossgrain::reports

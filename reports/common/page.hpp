@@ -28,9 +28,6 @@ Json figureViews(const Illustrations& shown, std::string_view prefix);
 /// Pictures of that kind.
 Json pictureViews(const Illustrations& shown, Picture::Shows shows);
 
-/// {name, colour, dashed, hasData} for each engine.
-Json columnsView(const std::vector<EngineResults>& engines);
-
 /// "1 field", "2 fields".
 std::string counted(std::size_t count, std::string_view noun);
 

@@ -165,14 +165,6 @@ std::optional<double> widestForce(const ScenePicture& picture) {
   return forces[static_cast<std::size_t>(place)];
 }
 
-Drawing forcesDrawing(const Json& picture, double widest, double width) {
-  return forcesDrawing(readAs<ScenePicture>(picture), widest, width);
-}
-
-std::optional<double> widestForce(const Json& picture) {
-  return widestForce(readAs<ScenePicture>(picture));
-}
-
 void writePicture(const Picture& picture, const std::filesystem::path& dir) {
   writeFile(dir / (picture.name + ".svg"), toSvg(picture.drawing, pictureSize, picture.title));
   writeFile(dir / (picture.name + ".pdf"), toPdf(picture.drawing, pictureSize));

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
 #include "reports/common/strokes.hpp"
 #include "results/scene_picture.hpp"
 
@@ -30,12 +29,10 @@ Drawing originsDrawing(const ScenePicture& picture, double inner, double diamete
 /// origin.
 /// @param width  of a full line, in radii of the largest disk
 Drawing forcesDrawing(const ScenePicture& picture, double widest, double width);
-Drawing forcesDrawing(const Json& picture, double widest, double width);
 
 /// The normal force of the widest line [N]: 99 % of the picture's contacts lie below. Absent
 /// without contacts.
 std::optional<double> widestForce(const ScenePicture& picture);
-std::optional<double> widestForce(const Json& picture);
 
 /// Writes name.svg and name.pdf.
 void writePicture(const Picture& picture, const std::filesystem::path& dir);

@@ -14,23 +14,14 @@ namespace crossgrain::reports {
 
 namespace {
 
-struct MeasureName {
-  std::string_view name, words, html, enhanced;
-};
+/// Of a collision; "Ψ_f" as labels.hpp writes symbols. Empty: not one of its measures.
+std::string collisionSymbol(const std::string& measure) {
+  return measure == "psi_f" ? "Ψ_f" : measure == "e_n" ? "e_n" : "";
+}
 
-constexpr std::array measureNames = {
-    MeasureName{"psi_f", "Ψ_f", "Ψ<sub>f</sub>", "Ψ_f"},
-    MeasureName{"e_n", "e_n", "e<sub>n</sub>", "e_n"},
-    MeasureName{"azimuthal_velocity", "azimuthal velocity", "azimuthal velocity v<sub>φ</sub>",
-                "azimuthal velocity v_φ"},
-    MeasureName{"volume_fraction", "volume fraction", "volume fraction ν", "volume fraction ν"},
-    MeasureName{"stress_rr", "radial stress", "radial stress σ<sub>rr</sub>",
-                "radial stress σ_{rr}"},
-};
-
-const MeasureName* nameOf(const std::string& measure) {
-  const auto found = std::ranges::find(measureNames, measure, &MeasureName::name);
-  return found == measureNames.end() ? nullptr : &*found;
+/// Whether a measure is a field that people write with a symbol of its own.
+bool isField(const std::string& measure) {
+  return fieldPlotSymbol(measure) != spaced(measure);
 }
 
 /// Whose reference positions are held against; empty of other measures.
@@ -66,19 +57,20 @@ std::string settingWords(const Advice& advice) {
 }
 
 std::string measureHtml(const std::string& measure) {
-  const MeasureName* name = nameOf(measure);
-  if (name) return std::string(name->html);
+  if (const std::string symbol = collisionSymbol(measure); !symbol.empty()) return mathHtml(symbol);
   return againstWhom(measure).empty() ? fieldLabel(measure) : mathHtml(plainWords(measure));
 }
 
 std::string measureEnhanced(const std::string& measure) {
-  const MeasureName* name = nameOf(measure);
-  return name ? std::string(name->enhanced) : plainWords(measure);
+  if (const std::string symbol = collisionSymbol(measure); !symbol.empty())
+    return mathGnuplot(symbol);
+  return isField(measure) ? fieldWords(measure) + " " + fieldPlotSymbol(measure)
+                          : plainWords(measure);
 }
 
 std::string measureWords(const std::string& measure) {
-  const MeasureName* name = nameOf(measure);
-  return name ? std::string(name->words) : plainWords(measure);
+  if (std::string symbol = collisionSymbol(measure); !symbol.empty()) return symbol;
+  return isField(measure) ? fieldWords(measure) : plainWords(measure);
 }
 
 std::string timeUnit(CostKind kind) {

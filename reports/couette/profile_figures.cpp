@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/state_view.hpp"
@@ -19,33 +20,24 @@ struct Scaled {
 
 /// One plot of one field. Axes: thesis-style r̃, or r/R_i where both axes are logarithmic.
 struct ProfilePlot {
-  std::string name, field, title, label;
+  std::string name, field;
+  std::string scales;  ///< of its axes, for the title; empty: linear ones
   bool logX = false, logY = false;
   std::optional<double> guide;  ///< exponent of a power law to compare the slope with
+
+  std::string title() const { return fieldWords(field) + scales; }
 };
 
 const std::vector<ProfilePlot>& profilePlots() {
   static const std::vector<ProfilePlot> plots = {
-      {"volume_fraction", "volume_fraction", "volume fraction", "ν", false, false, {}},
-      {"azimuthal_velocity",
-       "azimuthal_velocity",
-       "azimuthal velocity",
-       "v_{φ} [m/s]",
-       false,
-       false,
-       {}},
-      {"azimuthal_velocity_log",
-       "azimuthal_velocity",
-       "azimuthal velocity, log axis",
-       "v_{φ} [m/s]",
-       false,
-       true,
-       {}},
-      {"spin", "spin", "spin", "S [rad/s]", false, false, {}},
-      {"stress_rr", "stress_rr", "radial stress", "σ_{rr} [N/m^{2}]", false, false, {}},
-      {"stress_pp", "stress_pp", "hoop stress", "σ_{φφ} [N/m^{2}]", false, false, {}},
-      {"stress_rp", "stress_rp", "shear stress, log axes", "σ_{rφ} [N/m^{2}]", true, true, -2.0},
-      {"fabric_trace", "fabric_trace", "fabric", "tr F", false, false, {}},
+      {"volume_fraction", "volume_fraction", "", false, false, {}},
+      {"azimuthal_velocity", "azimuthal_velocity", "", false, false, {}},
+      {"azimuthal_velocity_log", "azimuthal_velocity", ", log axis", false, true, {}},
+      {"spin", "spin", "", false, false, {}},
+      {"stress_rr", "stress_rr", "", false, false, {}},
+      {"stress_pp", "stress_pp", "", false, false, {}},
+      {"stress_rp", "stress_rp", ", log axes", true, true, -2.0},
+      {"fabric_trace", "fabric_trace", "", false, false, {}},
   };
   return plots;
 }
@@ -59,8 +51,9 @@ Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
   if (turning && cell.diameter > 0.0 && plot.field == "spin")
     return {cell.diameter / (cell.omega * 2.0 * cell.innerRadius), "S d / (Ω D)"};
   // Shear stress follows the sense of rotation; a logarithmic axis shows no negative values.
-  if (turning && cell.omega < 0.0 && plot.field == "stress_rp") return {-1.0, "−" + plot.label};
-  return {1.0, plot.label};
+  if (turning && cell.omega < 0.0 && plot.field == "stress_rp")
+    return {-1.0, "−" + fieldAxis(plot.field)};
+  return {1.0, fieldAxis(plot.field)};
 }
 
 std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& engine,
@@ -159,7 +152,7 @@ Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engine
 
 /// A stress without the rotations that it was averaged over says little: cells drift.
 std::string captionOf(const CouetteFrame& frame, const ProfilePlot& plot, const Panel& panel) {
-  std::string caption = plot.title;
+  std::string caption = plot.title();
   caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
   const bool guided = std::ranges::any_of(
       panel.curves, [](const Curve& curve) { return curve.name.starts_with("slope "); });
@@ -212,7 +205,7 @@ std::vector<Figure> profileFigures(const CouetteFrame& frame,
     if (!hasPoints(panel)) continue;
     Figure figure;
     figure.name = "profile_" + plot.name;
-    figure.title = "Profile of the " + plot.title;
+    figure.title = "Profile of the " + plot.title();
     figure.caption = captionOf(frame, plot, panel);
     figure.panels.push_back(std::move(panel));
     figures.push_back(std::move(figure));

@@ -30,13 +30,8 @@ const std::array<MethodStyle, 5>& methodStyles() {
 }
 
 /// The fields that are drawn; the table and the CSV file have all.
-constexpr std::array<std::pair<const char*, const char*>, 6> drawnFields = {
-    {{"volume_fraction", "ν"},
-     {"azimuthal_velocity", "v_{φ} [m/s]"},
-     {"spin", "S [rad/s]"},
-     {"fabric_trace", "tr F"},
-     {"stress_rr", "σ_{rr} [N/m^{2}]"},
-     {"stress_pr", "σ_{φr} [N/m^{2}]"}}};
+constexpr std::array drawnFields = {"volume_fraction", "azimuthal_velocity", "spin",
+                                    "fabric_trace",    "stress_rr",          "stress_pr"};
 
 Curve drawnCurve(const RevCurve& curve, const MethodStyle& method) {
   Curve drawn{spaced(method.name), method.style, Draw::linesAndPoints, {}, 1.2};
@@ -47,7 +42,7 @@ Curve drawnCurve(const RevCurve& curve, const MethodStyle& method) {
   return drawn;
 }
 
-Figure fieldFigure(const RevResults& results, const std::string& field, const std::string& label) {
+Figure fieldFigure(const RevResults& results, const std::string& field) {
   std::set<double> radii;
   for (const RevCurve& curve : results.curves) radii.insert(curve.r);
   Figure figure{fmt::format("rev_{}", field),
@@ -59,7 +54,7 @@ Figure fieldFigure(const RevResults& results, const std::string& field, const st
     Panel panel;
     panel.title = fmt::format("r = {:.4g} m", r);
     panel.xLabel = "Δr / d";
-    panel.yLabel = label;
+    panel.yLabel = fieldAxis(field);
     panel.logX = true;
     for (const MethodStyle& method : methodStyles())
       for (const RevCurve& curve : results.curves)
@@ -87,7 +82,7 @@ std::string meetingOf(const RevResults& results, const char* field, const char* 
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Json meetingRows(const RevResults& results) {
   Json rows = Json::array();
-  for (const auto& [field, label] : drawnFields) {
+  for (const char* const field : drawnFields) {
     Json cells = Json::array();
     for (const char* method : {"centre", "line_gaussian", "line_heaviside"})
       for (const double near : {1.0, 2.0}) cells.push_back(meetingOf(results, field, method, near));
@@ -101,8 +96,8 @@ Json meetingRows(const RevResults& results) {
 
 std::vector<Figure> revFigures(const RevResults& results) {
   std::vector<Figure> figures;
-  for (const auto& [field, label] : drawnFields)
-    if (Figure figure = fieldFigure(results, field, label); !figure.panels.empty())
+  for (const char* const field : drawnFields)
+    if (Figure figure = fieldFigure(results, field); !figure.panels.empty())
       figures.push_back(std::move(figure));
   return figures;
 }

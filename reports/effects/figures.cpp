@@ -71,23 +71,9 @@ std::vector<double> decadesWithin(const Range& range) {
   return ticks;
 }
 
-/// The symbol of a field in gnuplot's enhanced text.
-std::string enhanced(const std::string& field) {
-  static constexpr std::array<std::pair<std::string_view, const char*>, 6> symbols = {
-      {{"azimuthal_velocity", "v_φ"},
-       {"volume_fraction", "ν"},
-       {"stress_rr", "σ_{rr}"},
-       {"stress_rp", "σ_{rφ}"},
-       {"spin", "S"},
-       {"fabric_trace", "tr F"}}};
-  for (const auto& [name, symbol] : symbols)
-    if (name == field) return symbol;
-  return spaced(field);
-}
-
 Panel changePanel(const Variants& variants, const std::string& field, const Range& range) {
   Panel panel = rowsOf(variants);
-  panel.title = "change of " + enhanced(field);
+  panel.title = "change of " + fieldPlotSymbol(field);
   panel.xLabel = "of the largest value [%]";
   panel.logX = true;
   panel.xRange = range;

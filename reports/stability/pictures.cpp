@@ -80,10 +80,9 @@ void addPlanes(const ScenePicture& picture, Drawing& drawing) {
 
 Picture pictureOf(const StabilityRun& run, std::size_t index) {
   const ScenePicture shown = centred(*run.picture);
-  const Json picture = jsonOf(shown);
-  const auto widest = widestForce(picture);
+  const auto widest = widestForce(shown);
   const std::string& variant = run.variant;
-  Drawing drawing = forcesDrawing(picture, widest.value_or(1.0), 0.35);
+  Drawing drawing = forcesDrawing(shown, widest.value_or(1.0), 0.35);
   drawing.halfWidth *= 1.08;
   addPlanes(shown, drawing);
   return {fmt::format("worst_{}", index),

@@ -209,8 +209,7 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
     if (isNamed(command.engines, engine.entry())) throwIfAllRefused(engine, sweeps.size());
 
   CollideResults results;
-  results.head = readAs<ResultsHead>(
-      resultsHead(std::string(kindCollide), variants.front(), command.commandLine));
+  results.head = headOf(kindCollide, variants.front(), command.commandLine);
   results.head.setup.variant.clear();
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     CollisionVariant& variant = results.variants.emplace_back(variantOf(sweeps[s]));

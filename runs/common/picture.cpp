@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "results/scene_picture_fields.hpp"
-
 namespace crossgrain::inline runs {
 
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
@@ -31,10 +29,6 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
     picture.contactForce = now.contacts->normalForce;
   }
   return picture;
-}
-
-Json pictureOf(const Scene& scene, const Snapshot& now, double rotation) {
-  return jsonOf(scenePicture(scene, now, rotation));
 }
 
 }  // namespace crossgrain::inline runs

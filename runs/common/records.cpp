@@ -14,32 +14,6 @@
 
 namespace crossgrain::inline runs {
 
-using nlohmann::json;
-
-json toJson(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json toJson(const std::vector<std::optional<double>>& values) {
-  json list = json::array();
-  for (const auto& value : values) list.push_back(toJson(value));
-  return list;
-}
-
-json statsJson(const Stats& stats) {
-  return jsonOf(stats);
-}
-
-std::optional<double> optionalNumber(const json& value) {
-  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-}
-
-std::vector<std::optional<double>> optionalNumbers(const json& list) {
-  std::vector<std::optional<double>> values;
-  for (const json& value : list) values.push_back(optionalNumber(value));
-  return values;
-}
-
 namespace {
 
 std::string cpuName() {
@@ -70,10 +44,6 @@ ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& 
   head.machine = {cpuName(), operatingSystem(), std::thread::hardware_concurrency()};
   head.setup = {setup.name, setup.variant, setup.file.string(), setup.resolvedToml};
   return head;
-}
-
-json resultsHead(const std::string& kind, const Case& setup, const std::string& command) {
-  return jsonOf(headOf(kind, setup, command));
 }
 
 }  // namespace crossgrain::inline runs

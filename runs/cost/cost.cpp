@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "results/schema.hpp"
 #include "runs/cost/analysis.hpp"
 #include "runs/cost/error_kind.hpp"
 #include "runs/cost/executor.hpp"
@@ -69,7 +70,12 @@ CostResults measureCost(const Case& setup, const CaseWith& caseWith, const CostR
 
   std::vector<CostPoint> points = execute(plan, study, kinds);
 
-  CostResults results = costFromJson(study.campaign.results("cost"));
+  CostResults results;
+  CouetteStudy couette = study.campaign.study(kindCost);
+  static_cast<CouetteFrame&>(results) = couette;
+  results.elapsed = couette.elapsed;
+  results.engines = std::move(couette.engines);
+  results.packings = std::move(couette.packings);
   results.points = std::move(points);
   results.budget = request.budget;
   results.budgetForTheRest = plan.budgetForTheRest;

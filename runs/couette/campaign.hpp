@@ -69,7 +69,6 @@ class Campaign {
 
   /// Results as far as they do not depend on what the runs are for.
   CouetteStudy study(std::string_view kind) const;
-  nlohmann::json results(std::string_view kind) const { return toJson(study(kind)); }
 
   auto engines() const { return engines_ | std::views::transform(&CampaignEngine::entry); }
   /// As of CampaignEngine.

@@ -69,7 +69,7 @@ void keepCurve(StabilityRun& row, const Recording& run, const std::vector<double
 
 ScenePicture pictureAt(const Recording& run, std::size_t sample) {
   const Snapshot& now = run.snapshots[sample];
-  auto picture = readAs<ScenePicture>(pictureOf(run.scene, now, 0.0));
+  ScenePicture picture = scenePicture(run.scene, now, 0.0);
   picture.planes.emplace();
   for (const Plane& plane : planesAt(run.scene, now.positionTime))
     picture.planes->push_back(

@@ -134,8 +134,7 @@ class Suite {
 
   StabilityResults results() const {
     StabilityResults results;
-    results.head = readAs<ResultsHead>(
-        resultsHead(std::string(kindStability), cases_.front(), command_.commandLine));
+    results.head = headOf(kindStability, cases_.front(), command_.commandLine);
     const bool one =
         std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
     results.head.setup = {one ? cases_.front().name : "hard cases", "",

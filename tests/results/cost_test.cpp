@@ -37,10 +37,10 @@ CostResults study() {
   results.notes = {"a note"};
   results.engines = {{"grain", "", "0.1.0", "", EngineStatus::ran, ""},
                      {"yade", "", "", "", EngineStatus::failed, "gone"}};
-  results.cell = {{"omega", 1.0}};
-  results.averaging = {{"prepared_rotations", nullptr}};
-  results.rings = {{"r", {0.1, 0.2}}};
-  results.packings = {{{"index", 0}, {"hash", "d8"}}};
+  results.cell.omega = 1.0;
+  results.averaging.method = "slicing";
+  results.rings.r = {0.1, 0.2};
+  results.packings = {{0, 1, "d8", true}};
   results.budget = 60.0;
   results.budgetForTheRest = 0.0;
   CostPoint left = point();

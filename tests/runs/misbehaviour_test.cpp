@@ -6,6 +6,7 @@
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "runs/collide/sweep.hpp"
+#include "results/schema.hpp"
 #include "runs/couette/campaign.hpp"
 #include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
@@ -136,7 +137,7 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   campaign.preparePackings();
   campaign.timeEngines();
   campaign.run(campaign.wholeCase());
-  const json results = campaign.results("compare");
+  const json results = toJson(campaign.study(kindCompare));
   ASSERT_EQ(results["runs"].size(), engines.size());
   for (const json& run : results["runs"]) {
     const auto name = run["engine"].get<std::string>();
