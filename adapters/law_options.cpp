@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace crossgrain {
@@ -63,6 +64,15 @@ std::span<const LawOption> lawOptions() {
              {"position_verlet", "velocity_verlet", "semi_implicit_euler"}),
   };
   return options;
+}
+
+std::span<const LawConstant> lawConstants() {
+  static constexpr std::array constants = {
+      LawConstant{"kn", &ContactLaw::kn}, LawConstant{"kn3", &ContactLaw::kn3},
+      LawConstant{"gn", &ContactLaw::gn}, LawConstant{"kt", &ContactLaw::kt},
+      LawConstant{"gt", &ContactLaw::gt}, LawConstant{"mu", &ContactLaw::mu},
+      LawConstant{"en", &ContactLaw::en}, LawConstant{"et0", &ContactLaw::et0}};
+  return constants;
 }
 
 std::string lawOptionValue(const ContactLaw& law, std::string_view name) {

@@ -23,6 +23,15 @@ struct LawOption {
 /// integrator.
 std::span<const LawOption> lawOptions();
 
+/// One constant of the law; case files and units: adapters/contact_law.hpp.
+struct LawConstant {
+  std::string_view name;  ///< as in the worker protocol
+  double ContactLaw::*value;
+};
+
+/// All of them. A law that has no use for one leaves it as it is.
+std::span<const LawConstant> lawConstants();
+
 /// The value that a law has for an option, by name. @throws std::invalid_argument if unknown
 std::string lawOptionValue(const ContactLaw& law, std::string_view name);
 

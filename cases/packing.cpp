@@ -48,8 +48,10 @@ std::string packingHash(const Case& setup, int index, double dt) {
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
     text += fmt::format("{} {};", option.name, option.values[option.get(law)]);
-  text += fmt::format("law {} {} {} {} {} {} {} {};", law.kn, law.kn3, law.gn, law.kt, law.gt,
-                      law.mu, law.en, law.et0);
+  text += "law";
+  for (const LawConstant& constant : lawConstants())
+    text += fmt::format(" {}", law.*constant.value);
+  text += ';';
   if (setup.bottom)
     text += fmt::format("bottom {} {} {} {} {} {};", setup.bottom->mu, setup.bottom->kb,
                         setup.bottom->gb, setup.bottom->tauM, setup.bottom->gravity,

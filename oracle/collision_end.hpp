@@ -90,7 +90,7 @@ struct CollisionEnd {
   /// v_t = 0 while the bound fell faster than the dashpot relaxes. Reset to the bound, the spring
   /// is caught by it again after a time ∝ v_t, so v_t grows from its rounding by a factor per
   /// reset: where that leads is a function of log dt. The outcome is one of a narrow family.
-  bool limitless = false;
+  bool noLimit = false;
 };
 
 /// The motion when the disks touch first.

@@ -61,7 +61,7 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
 
   State now = firstTouch(start);
   stillness_ = 1e-13 * start.vn * (1.0 + std::abs(start.psi));
-  limitless_ = jumpsAtTouch(start);
+  noLimit_ = jumpsAtTouch(start);
   enterPhase(now);
 
   std::array<double, dimension> error{};

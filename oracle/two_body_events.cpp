@@ -193,7 +193,7 @@ void TwoBodyProblem::chooseSpringPhase(State& s, const Kinematics& k) {
   if (phase_.tangential == Phase::Tangential::slip) {
     s.spring = slippedSpring(k);
     // A slip with a dashpot ends at v_t = 0.
-    limitless_ |= law_.gt > 0.0 && dashpotRate(s, k) > boundRate(s, k);
+    noLimit_ |= law_.gt > 0.0 && dashpotRate(s, k) > boundRate(s, k);
   }
   phase_.tangential = Phase::Tangential::stick;
   const double tested = testedForce(k, s.spring);

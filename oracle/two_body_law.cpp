@@ -166,7 +166,7 @@ State TwoBodyProblem::derivative(const State& s) const {
 CollisionEnd TwoBodyProblem::endAt(const State& s, const CollisionStart& start) const {
   const Kinematics k = kinematics(s);
   CollisionEnd end = endOf(pair_, start, {k.normalVelocity, k.sideways, {s.spinI, s.spinJ}});
-  end.limitless = limitless_;
+  end.noLimit = noLimit_;
   end.lost = {s.lostNormal, s.lostTangential, s.lostStiffening, s.lostSliding, storedEnergy(s)};
   return end;
 }

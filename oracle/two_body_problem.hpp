@@ -119,7 +119,7 @@ class TwoBodyProblem {
   double reach_, inverseMass_;
   Phase phase_;
   double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
-  bool limitless_ = false;  ///< CollisionEnd::limitless
+  bool noLimit_ = false;    ///< CollisionEnd::noLimit
 };
 
 }  // namespace crossgrain::inline oracle

@@ -22,8 +22,9 @@ Vec2 vec2From(const json& pair) {
 }
 
 json toJson(const ContactLaw& law) {
-  json out = {{"kn", law.kn}, {"kn3", law.kn3}, {"gn", law.gn}, {"kt", law.kt},
-              {"gt", law.gt}, {"mu", law.mu},   {"en", law.en}, {"et0", law.et0}};
+  json out;
+  for (const LawConstant& constant : lawConstants())
+    out[std::string(constant.name)] = law.*constant.value;
   for (const LawOption& option : lawOptions())
     out[std::string(option.name)] = lawOptionValue(law, option.name);
   return out;
@@ -31,14 +32,8 @@ json toJson(const ContactLaw& law) {
 
 ContactLaw lawFromJson(const json& in) {
   ContactLaw law;
-  law.kn = in.at("kn");
-  law.kn3 = in.at("kn3");
-  law.gn = in.at("gn");
-  law.kt = in.at("kt");
-  law.gt = in.at("gt");
-  law.mu = in.at("mu");
-  law.en = in.at("en");
-  law.et0 = in.at("et0");
+  for (const LawConstant& constant : lawConstants())
+    law.*constant.value = in.at(std::string(constant.name));
   for (const LawOption& option : lawOptions())
     setLawOption(law, option.name, in.at(std::string(option.name)).get<std::string>());
   return law;

@@ -58,9 +58,9 @@ CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes
   for (const CollisionQuantity& quantity : collisionQuantities())
     if (quantity.inFiles != CollisionQuantity::InFiles::no)
       table.columns[quantity.id] = columnOf(quantity, outcomes);
-  const auto limitless = [](const auto& outcome) { return outcome && outcome->end.limitless; };
-  if (std::ranges::any_of(outcomes, limitless))
-    for (const auto& outcome : outcomes) table.noLimit.push_back(limitless(outcome));
+  const auto noLimit = [](const auto& outcome) { return outcome && outcome->end.noLimit; };
+  if (std::ranges::any_of(outcomes, noLimit))
+    for (const auto& outcome : outcomes) table.noLimit.push_back(noLimit(outcome));
   return table;
 }
 
@@ -79,13 +79,13 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
 Outcomes referenceOf(const OracleCurve& oracle) {
   Outcomes outcomes = outcomesOf(oracle);
   for (auto& outcome : outcomes)
-    if (outcome && outcome->end.limitless) outcome.reset();
+    if (outcome && outcome->end.noLimit) outcome.reset();
   return outcomes;
 }
 
 std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
                           const OracleCurve& oracle, std::size_t k) {
-  if (!oracle.ends[k] || !oracle.ends[k]->limitless) return {};
+  if (!oracle.ends[k] || !oracle.ends[k]->noLimit) return {};
   return jumpsAtTouch(setup.law, collidingPair(setup), starts[k])
              ? "no limit of small time steps: the law jumps at this psi_i = mu gn/gt, sticking "
                "from the first touch on, and slipping, end elsewhere"

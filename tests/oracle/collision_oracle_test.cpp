@@ -120,8 +120,8 @@ TEST(CollisionOracle, SaysWhereTheLawHasNoLimitOfSmallSteps) {
     return high - low;
   };
   const CollisionStart settled{1.65, 1e-3}, unsettled{1.75, 1e-3};
-  EXPECT_FALSE(oracleOutcome(setup.law, collidingPair(setup), settled).limitless);
-  EXPECT_TRUE(oracleOutcome(setup.law, collidingPair(setup), unsettled).limitless);
+  EXPECT_FALSE(oracleOutcome(setup.law, collidingPair(setup), settled).noLimit);
+  EXPECT_TRUE(oracleOutcome(setup.law, collidingPair(setup), unsettled).noLimit);
   EXPECT_LT(spread(settled), 1e-4);
   EXPECT_GT(spread(unsettled), 1e-3);
 }
@@ -140,12 +140,12 @@ TEST(CollisionOracle, SaysWhereTheLawJumps) {
   EXPECT_NEAR(jump, 0.557333, 1e-6);
   for (const double sign : {1.0, -1.0}) {
     const CollisionEnd end = outcome(law, sign * jump);
-    EXPECT_TRUE(end.limitless);
+    EXPECT_TRUE(end.noLimit);
     const double written = std::round(jump * 1e6) * 1e-6;  // as a file has it
     EXPECT_TRUE(jumpsAtTouch(law, smallPair(), {sign * written, 1e-3}));
-    EXPECT_TRUE(outcome(law, sign * written).limitless);
+    EXPECT_TRUE(outcome(law, sign * written).noLimit);
     for (const double nearby : {1.0 - 1e-4, 1.0 + 1e-4})
-      EXPECT_FALSE(outcome(law, sign * nearby * jump).limitless) << nearby;
+      EXPECT_FALSE(outcome(law, sign * nearby * jump).noLimit) << nearby;
     // It does jump: the two sides, 2e-4 apart, end far apart.
     const double below = outcome(law, sign * (1.0 - 1e-4) * jump).psi,
                  above = outcome(law, sign * (1.0 + 1e-4) * jump).psi;
@@ -181,10 +181,10 @@ TEST(CollisionOracle, ALawThatStiffensJumpsWhereItsDashpotsMeet) {
   // γ_n(δ) = g_n·(3/2) k_n √(Rδ), γ_t(δ) = g_t k_t √(Rδ).
   const double jump = law.mu * 1.5 * law.gn * law.kn / (law.gt * law.kt);
   const auto at = [&](double psi) { return oracleOutcome(law, smallPair(), {psi, 1e-2}); };
-  EXPECT_TRUE(at(jump).limitless);
+  EXPECT_TRUE(at(jump).noLimit);
   EXPECT_TRUE(jumpsAtTouch(law, smallPair(), {jump, 1e-2}));
-  EXPECT_FALSE(at(jump * 1.0001).limitless);
-  EXPECT_FALSE(at(jump * 0.9999).limitless);
+  EXPECT_FALSE(at(jump * 1.0001).noLimit);
+  EXPECT_FALSE(at(jump * 0.9999).noLimit);
   EXPECT_GT(std::abs(at(jump * 1.0001).psi - at(jump * 0.9999).psi), 0.01);
 }
 

@@ -117,7 +117,7 @@ class TangentialMotion {
     if (law.tangential == TangentialLaw::spring) law_.gt = 0.0;
   }
 
-  bool limitless() const { return limitless_; }
+  bool noLimit() const { return noLimit_; }
 
   double after(double slip) {
     if (law_.tangential == TangentialLaw::none || law_.mu == 0.0) return slip;
@@ -204,7 +204,7 @@ class TangentialMotion {
       state.spring = -side_ * bound(t) / law_.kt;
       const double relaxing =
           law_.mu * (normal_.compressionRate(t) + law_.gt * compliance_ * normal_.compression(t));
-      limitless_ |= law_.gt > 0.0 && relaxing < 0.0;
+      noLimit_ |= law_.gt > 0.0 && relaxing < 0.0;
     }
     const double tested = trial(state);
     phase_ = Phase::stick;
@@ -236,7 +236,7 @@ class TangentialMotion {
   const NormalMotion& normal_;
   Phase phase_ = Phase::still;
   double side_ = 0.0;
-  bool limitless_ = false;
+  bool noLimit_ = false;
 };
 
 void requireDefaults(const LawConventions& how) {
@@ -262,7 +262,7 @@ CollisionEnd frozenNormalOutcome(const ContactLaw& law, const CollidingPair& pai
   for (const int side : {0, 1})
     after.spin[side] -= pair.radius[side] * impulse / pair.inertia[side];
   CollisionEnd end = endOf(pair, start, after);
-  end.limitless = tangential.limitless();
+  end.noLimit = tangential.noLimit();
   end.duration = normal.end();
   end.maxOverlap = normal.maxOverlap();
   return end;

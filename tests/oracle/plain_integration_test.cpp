@@ -118,7 +118,7 @@ TEST_P(PlainIntegration, FindsWhatTheOracleFinds) {
   // The spring of before the step has no limit with it, and none of its own here.
   if (reset == SpringReset::springOnly) law.conventions.springUpdate = SpringUpdate::midpoint;
   const CollisionEnd oracle = oracleOutcome(law, pair, {psi, vn, Approach::oblique});
-  ASSERT_FALSE(oracle.limitless);
+  ASSERT_FALSE(oracle.noLimit);
   const Outcome plain = integrate(law, pair, psi, vn);
   EXPECT_NEAR(plain.en, oracle.en, allowed);
   EXPECT_NEAR(plain.psi, oracle.psi, allowed);
@@ -127,7 +127,7 @@ TEST_P(PlainIntegration, FindsWhatTheOracleFinds) {
 // Reset to the bound, a slip ends where v_t = 0: found a step late, 5e-6 t_c, an error of second
 // order. Reset beside the dashpot it ends where f* falls below the bound, and while the bound rises
 // every other step sticks: first order (3e-4 at 16,000 steps). Where both could happen the former
-// has no limit (CollisionEnd::limitless), so those collisions take the latter.
+// has no limit (CollisionEnd::noLimit), so those collisions take the latter.
 INSTANTIATE_TEST_SUITE_P(
     , PlainIntegration,
     testing::Values(

@@ -64,14 +64,14 @@ CollisionStart randomStart(Draw& draw, const Case& setup) {
 
 TEST(RandomCollisions, OfTheOracleGainNoEnergyAndCloseTheAccount) {
   Draw draw(1);
-  int limitless = 0;
+  int noLimit = 0;
   double largestGain = 0.0;
   for (int k = 0; k < 1000; ++k) {
     const Case setup = randomCase(draw);
     const CollisionStart start = randomStart(draw, setup);
     const CollidingPair pair = collidingPair(setup);
     const CollisionEnd end = oracleOutcome(setup.law, pair, start);
-    limitless += end.limitless;
+    noLimit += end.noLimit;
     const EnergySplit& lost = *end.lost;
     ASSERT_TRUE(mayGain(setup.law) || end.energyAfter <= end.energyBefore * (1.0 + 1e-12))
         << "collision " << k << " gains " << end.energyAfter / end.energyBefore - 1.0;
@@ -82,11 +82,11 @@ TEST(RandomCollisions, OfTheOracleGainNoEnergyAndCloseTheAccount) {
     ASSERT_NEAR(sum, end.energyBefore, 1e-9 * end.energyBefore) << "collision " << k;
 
     const CollisionEnd odd = oracleOutcome(setup.law, pair, {-start.psi, start.vn, start.approach});
-    const double same = end.limitless ? 0.1 : 1e-9;
+    const double same = end.noLimit ? 0.1 : 1e-9;
     ASSERT_NEAR(odd.psi, -end.psi, same) << "collision " << k;
     ASSERT_NEAR(odd.en, end.en, same) << "collision " << k;
   }
-  RecordProperty("collisions_without_a_limit", limitless);
+  RecordProperty("collisions_without_a_limit", noLimit);
   RecordProperty("largest_gain", std::to_string(largestGain));
   EXPECT_GT(largestGain, 0.01) << "no law gains any more: mayGain() has become a loophole";
 }

@@ -7,7 +7,7 @@
 #include "adapters/box2d.hpp"
 #include "adapters/grain.hpp"
 #include "runs/collide/sweep.hpp"
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 
@@ -28,7 +28,7 @@ CollisionCurve swept(const Case& setup, const EngineEntry& entry, double stepsPe
                      bool watch) {
   const auto engine = entry.make();
   const auto starts = collisionStarts(setup);
-  return runSweep(*engine, entry, setup, test::contactTime / stepsPerContact, starts,
+  return runSweep(*engine, entry, setup, test::smallContactTime / stepsPerContact, starts,
                   oracleCurve(setup, starts), watch);
 }
 
@@ -125,7 +125,7 @@ TEST(ContactAccounts, OverlapApproachesTheOraclesAtTheSchemesOrder) {
 TEST(ContactAccounts, WithoutSlidingFlagsThereIsOnlyTheSum) {
   const Case setup = sweepCase();
   const auto starts = collisionStarts(setup);
-  const double dt = test::contactTime / 50.0;
+  const double dt = test::smallContactTime / 50.0;
   const Scene scene = collisionScene(setup, starts, dt);
   std::vector<double> sums[2];
   for (const bool flags : {false, true}) {
@@ -133,7 +133,7 @@ TEST(ContactAccounts, WithoutSlidingFlagsThereIsOnlyTheSum) {
     const Realised realised = engine->load(scene, {});
     for (const auto& account :
          watchContacts(*engine, {scene, collidingPair(setup), scene.law, realised, flags},
-                       2.0 * test::contactTime)) {
+                       2.0 * test::smallContactTime)) {
       ASSERT_TRUE(account);
       EXPECT_EQ(account->split.has_value(), flags);
       sums[flags ? 1 : 0].push_back(account->work.tangential);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 

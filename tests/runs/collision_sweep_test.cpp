@@ -6,7 +6,7 @@
 
 #include "adapters/grain.hpp"
 #include "results/collision_fields.hpp"
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 namespace {
 

@@ -7,20 +7,20 @@
 #include "runs/cost/settings.hpp"
 
 /// The small cell as `crossgrain cost` takes it.
-namespace test {
+namespace crossgrain::test {
 
 inline std::vector<std::string> costOverrides() {
   return {"cost.collision_steps=[200, 100, 50, 1.2]", "cost.psi_count=9", "cost.timed=1e-4",
           "cost.repeats=1"};
 }
 
-inline crossgrain::Case costCase(const std::string& fragment = {}) {
-  return crossgrain::loadCase(CROSSGRAIN_CASES "/cost/quick.toml", costOverrides(), fragment)
+inline Case costCase(const std::string& fragment = {}) {
+  return loadCase(CROSSGRAIN_CASES "/cost/quick.toml", costOverrides(), fragment)
       .front();
 }
 
-inline const crossgrain::CaseWith costCaseWith = [](const std::string& fragment) {
+inline const CaseWith costCaseWith = [](const std::string& fragment) {
   return costCase(fragment);
 };
 
-}  // namespace test
+}  // namespace crossgrain::test

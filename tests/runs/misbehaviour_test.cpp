@@ -10,7 +10,7 @@
 #include "runs/couette/campaign.hpp"
 #include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
-#include "tests/oracle/thesis_pair.hpp"
+#include "tests/support/pairs.hpp"
 
 // Engines that misbehave on purpose: each is one clear line that names engine, case, time and the
 // last good state, and the others go on.
@@ -168,11 +168,11 @@ TEST_F(Misbehaviour, OfASceneIsRefusedBeforeAnyEngineSeesIt) {
   const Vec2 place = scene.disks.position[0];
   scene.disks.position = {{0.5, -0.25}, {0.5, -0.25}};
   EXPECT_EQ(refusal(), "pair.toml: disk 0 and disk 1 have the same centre, (0.5, -0.25) m");
-  scene.disks.position[1].x() += 0.9 * ::test::radius;
+  scene.disks.position[1].x() += 0.9 * ::test::smallRadius;
   EXPECT_EQ(refusal(),
             "pair.toml: disk 0 and disk 1 overlap by 0.00407 m at the start, near (0.5, -0.25) m: "
             "more than the smaller radius, so that a centre lies inside");
-  scene.disks.position[1].x() += 0.2 * ::test::radius;
+  scene.disks.position[1].x() += 0.2 * ::test::smallRadius;
   EXPECT_EQ(refusal(), "none");
   scene.disks.position[0].y() = std::nan("");
   EXPECT_EQ(refusal(), "pair.toml: the position of disk 0 is not finite");
