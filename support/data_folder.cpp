@@ -18,7 +18,7 @@ fs::path dataFolder() {
 
 fs::path hereOrInstalled(const fs::path& path) {
   std::error_code unknown;
-  if (path.empty() || path.is_absolute() || fs::exists(path, unknown)) return path;
+  if (path.empty() || *path.begin() != "cases" || fs::exists(path, unknown)) return path;
   const fs::path installed = dataFolder() / path;
   return fs::exists(installed, unknown) ? installed : path;
 }

@@ -10,8 +10,8 @@ namespace crossgrain::inline support {
 /// of.
 std::filesystem::path dataFolder();
 
-/// A relative path that is not here but in dataFolder() under that name is meant to be that one:
-/// cases/hard works from anywhere. Others stay as they are.
+/// A path in cases/ that is not here is meant to be the one of dataFolder(): cases/hard works from
+/// anywhere. All others stay as they are.
 std::filesystem::path hereOrInstalled(const std::filesystem::path& path);
 
 }  // namespace crossgrain::inline support

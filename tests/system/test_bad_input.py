@@ -253,6 +253,14 @@ class Files(SystemTest):
             done = self.run_program(command, self.folder / "pipe.h5", COUETTE, "--out", self.out)
             self.assert_one_line(done, BAD_INPUT, "is a named pipe")
 
+    def test_only_cases_are_looked_for_where_they_are_installed(self):
+        """A folder of results is the one that was named, here, and no other."""
+        data = self.folder / "data"
+        (data / "out").mkdir(parents=True)
+        (data / "out/results.json").write_text("{}", encoding="utf-8")
+        done = self.run_program("report", "out", env={"CROSSGRAIN_DATA": str(data)})
+        self.assert_one_line(done, BAD_INPUT, "out/results.json: cannot be read")
+
     def test_a_file_that_opens_and_cannot_be_read(self):
         self.refuse("/proc/self/mem", "mem: cannot be read")
 
