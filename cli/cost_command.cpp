@@ -40,12 +40,11 @@ const std::vector<std::string> quickOverrides = {
     "cost.stiffness=[0.25]",
 };
 
-/// The case of the command line with a fragment merged in.
-Case caseWith(const CommandLine& line, const std::string& fragment) {
+Case costCase(const CommandLine& line) {
   std::vector<std::string> overrides;
   if (line.quick) overrides = quickOverrides;
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
-  return loadCase(line.inputs.front(), overrides, fragment).front();
+  return loadCase(line.inputs.front(), overrides).front();
 }
 
 /// "81 ran, 4 failed, 0 refused, 12 not measured"
@@ -62,15 +61,14 @@ std::string countsInWords(const std::vector<CostPoint>& points) {
 /// @param target accuracy to print a fragment for, 0.01 is 1 %
 int cost(const CommandLine& line, double budget, std::optional<double> target) {
   onlyCase(line, "cost");  // throws for a case that is none
-  const Case setup = caseWith(line, "");
+  const Case setup = costCase(line);
   CostRequest request{line.run, budget};
   if (!line.json && !line.run.quiet)
     request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
   if (target) request.targets.push_back(*target);
   RunStore store(line.run, "cost", soleCase(setup));
-  const CaseWith with = [&](const std::string& fragment) { return caseWith(line, fragment); };
-  if (line.run.dryRun) return told(costPlan(setup, with, request, store));
-  const CostResults results = measureCost(setup, with, request, store);
+  if (line.run.dryRun) return told(costPlan(setup, request, store));
+  const CostResults results = measureCost(setup, request, store);
   writeReport(results, line.run.out);
 
   if (line.json)

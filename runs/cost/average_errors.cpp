@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cases/loader.hpp"
 #include "runs/cost/kept.hpp"
 #include "runs/couette/run.hpp"
 #include "support/task_pool.hpp"
@@ -58,9 +59,9 @@ void AverageErrors::makeReferences() {
   const std::size_t count = campaign.packings().size();
   reference_.resize(count);
   campaign.progress().begin("reference of the averages", std::vector<double>(count, 1.0));
-  const Case fine = study_.caseWith(stepFragment(study_.setup, study_.inHouse.name,
-                                                 study_.inHouseEngine->capabilities(),
-                                                 study_.setup.cost.averageReference));
+  const Case fine = caseWith(study_.setup, stepFragment(study_.setup, study_.inHouse.name,
+                                                        study_.inHouseEngine->capabilities(),
+                                                        study_.setup.cost.averageReference));
   std::vector<Task> tasks;
   for (std::size_t k = 0; k < count; ++k)
     tasks.push_back(

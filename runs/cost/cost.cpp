@@ -57,10 +57,9 @@ void addEngines(CostResults& results, const CostStudy& study) {
 
 }  // namespace
 
-CostResults measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
-                        RunStore& store) {
+CostResults measureCost(const Case& setup, const CostRequest& request, RunStore& store) {
   checkEngineNames(setup);
-  CostStudy study(setup, caseWith, request.run, store);
+  CostStudy study(setup, request.run, store);
   const ErrorKinds kinds = errorKinds(study);
   study.prepare();
   for (const auto& kind : kinds) kind->prepare();
@@ -85,10 +84,9 @@ CostResults measureCost(const Case& setup, const CaseWith& caseWith, const CostR
   return results;
 }
 
-std::string costPlan(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
-                     RunStore& store) {
+std::string costPlan(const Case& setup, const CostRequest& request, RunStore& store) {
   checkEngineNames(setup);
-  CostStudy study(setup, caseWith, request.run, store);
+  CostStudy study(setup, request.run, store);
   study.ask();
   std::vector<PlannedWork> works = study.campaign.plan({});  // engines that refuse
   for (std::size_t e = 0; e < study.engines.size(); ++e)

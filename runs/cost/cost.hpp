@@ -23,15 +23,12 @@ struct CostRequest {
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
 /// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in the store
 /// at once. A setting that an engine fails at ends by itself.
-/// @param caseWith  the case that a fragment makes of `setup`
 /// @throws BadInput, UnsupportedScene, OutputError, Interrupted
-CostResults measureCost(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
-                        RunStore& store);
+CostResults measureCost(const Case& setup, const CostRequest& request, RunStore& store);
 
 /// Which settings that would measure, for people. Engines are asked what they can do; nothing is
 /// computed, so that neither the time nor what fits into a budget is known.
 /// @throws BadInput, UnsupportedScene, Interrupted
-std::string costPlan(const Case& setup, const CaseWith& caseWith, const CostRequest& request,
-                     RunStore& store);
+std::string costPlan(const Case& setup, const CostRequest& request, RunStore& store);
 
 }  // namespace crossgrain::inline runs

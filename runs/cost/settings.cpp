@@ -9,6 +9,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
+#include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "runs/common/engine_access.hpp"
@@ -63,13 +64,12 @@ struct SettingsSoFar {
   const Case& setup;
   std::string engine;
   const Capabilities& can;
-  const CaseWith& caseWith;
   const std::vector<double>& steps;  ///< per t_c
   std::vector<CostSetting> list = {};
 
   CostSetting& add(const std::string& knob, const std::string& setting,
                    const std::string& fragment) {
-    CostSetting one{knob, setting, fragment, caseWith(fragment), {}};
+    CostSetting one{knob, setting, fragment, caseWith(setup, fragment), {}};
     one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
     return list.emplace_back(std::move(one));
   }
@@ -200,12 +200,12 @@ std::string stepFragment(const Case& setup, const std::string& engine, const Cap
 }
 
 std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
-                                      const Capabilities& can, const CaseWith& caseWith) {
+                                      const Capabilities& can) {
   const Cost& cost = setup.cost;
   const auto& steps = kind == CostKind::collision    ? cost.collisionSteps
                       : kind == CostKind::trajectory ? cost.trajectorySteps
                                                      : cost.averageSteps;
-  SettingsSoFar settings{setup, engine, can, caseWith, steps};
+  SettingsSoFar settings{setup, engine, can, steps};
   settings.add("time_step", "the case's own", "");
   for (const auto& [name, add] : settingsOfKnobs) {
     const std::vector<CostKind>& kinds = findCostKnob(name)->kinds;

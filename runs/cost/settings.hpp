@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,6 @@ struct CostSetting {
   /// Whether it samples the runs of the case as it is differently, and needs none of its own.
   bool isSampling() const;
 };
-
-/// The case with a fragment merged into it, as the loader reads it. @throws BadInput
-using CaseWith = std::function<Case(const std::string& fragment)>;
 
 /// What the time step of an engine is set by: an engine with a step of its own does not follow the
 /// case's. @param steps  per contact time t_c
@@ -51,6 +47,6 @@ void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvalu
 /// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that
 /// does not exist
 std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
-                                      const Capabilities& can, const CaseWith& caseWith);
+                                      const Capabilities& can);
 
 }  // namespace crossgrain::inline runs

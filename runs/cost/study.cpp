@@ -30,10 +30,8 @@ Engine& Workers::of(std::size_t engine) {
   return *worker;
 }
 
-CostStudy::CostStudy(const Case& of, const CaseWith& with, const RunCommand& command,
-                     RunStore& store)
+CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
     : setup(of),
-      caseWith(with),
       jobs(command.jobs),
       campaign(setup, command, selectEngines(command.engines), store),
       workers(campaign, setup.run.timeout),
@@ -78,7 +76,7 @@ void CostStudy::listSettings(std::size_t engine, const Capabilities& can) {
   for (const CostKind kind : costKinds)
     if (std::ranges::find(setup.cost.kinds, kind) != setup.cost.kinds.end())
       engines[engine].settings[static_cast<std::size_t>(kind)] =
-          costSettings(setup, kind, entryOf(engine).name, can, caseWith);
+          costSettings(setup, kind, entryOf(engine).name, can);
 }
 
 void CostStudy::timeStart(std::size_t engine) {

@@ -40,8 +40,7 @@ struct TimedEngine {
 ///   prepare      of a real one
 struct CostStudy {
   /// @throws BadInput for a law without a contact time
-  CostStudy(const Case& setup, const CaseWith& caseWith, const RunCommand& command,
-            RunStore& store);
+  CostStudy(const Case& setup, const RunCommand& command, RunStore& store);
 
   /// Which settings there are and which packings there would be; computes nothing.
   void ask();
@@ -71,7 +70,6 @@ struct CostStudy {
   void keepFailure(const PlannedPoint& point, const std::string& reason) const;
 
   const Case& setup;
-  const CaseWith& caseWith;
   const int jobs;
   Campaign campaign;
   Workers workers;

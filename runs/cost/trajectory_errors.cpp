@@ -5,6 +5,7 @@
 #include <chrono>
 #include <set>
 
+#include "cases/loader.hpp"
 #include "runs/cost/kept.hpp"
 
 namespace crossgrain::inline runs {
@@ -18,7 +19,7 @@ void TrajectoryErrors::prepare() {
   chaos_ = keptOr(study_.campaign.store(), "chaos", study_.inHouseKey(0, "cost: chaos"), [&] {
     const Capabilities can = study_.inHouseEngine->capabilities();
     const auto at = [&](double steps) {
-      return study_.caseWith(stepFragment(study_.setup, study_.inHouse.name, can, steps));
+      return caseWith(study_.setup, stepFragment(study_.setup, study_.inHouse.name, can, steps));
     };
     const double steps = study_.setup.cost.trajectoryReference;
     const ChaosStudy chaos =
@@ -75,7 +76,7 @@ TrajectoryReference TrajectoryErrors::keptReference(const std::string& name, con
                                                     const Capabilities& can) const {
   return keptOr(study_.campaign.store(), "reference-trajectory-" + name, key, [&] {
     const auto at = [&](double steps) {
-      return study_.caseWith(fragment + stepFragment(study_.setup, entry.name, can, steps));
+      return caseWith(study_.setup, fragment + stepFragment(study_.setup, entry.name, can, steps));
     };
     const double steps = study_.setup.cost.trajectoryReference;
     return trajectoryReference(engine, entry, at(steps), at(steps / 2.0),

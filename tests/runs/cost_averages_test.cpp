@@ -61,8 +61,8 @@ TEST(CostAverages, EverySettingThatIsAnotherSamplingIsTaken) {
   std::vector<std::string> names;
   for (const Sampling& sampling : allSamplings(setup)) names.push_back(nameOf(sampling));
   int samplings = 0;
-  for (const CostSetting& setting : costSettings(setup, CostKind::averages, "grain",
-                                                 makeGrain()->capabilities(), test::costCaseWith)) {
+  for (const CostSetting& setting :
+       costSettings(setup, CostKind::averages, "grain", makeGrain()->capabilities())) {
     if (!setting.isSampling()) continue;
     EXPECT_NE(std::ranges::find(names, nameOf(samplingOf(setup, setting))), names.end())
         << setting.setting;

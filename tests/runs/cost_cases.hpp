@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cases/loader.hpp"
-#include "runs/cost/settings.hpp"
 
 /// The small cell as `crossgrain cost` takes it.
 namespace crossgrain::test {
@@ -15,12 +14,7 @@ inline std::vector<std::string> costOverrides() {
 }
 
 inline Case costCase(const std::string& fragment = {}) {
-  return loadCase(CROSSGRAIN_CASES "/cost/quick.toml", costOverrides(), fragment)
-      .front();
+  return loadCase(CROSSGRAIN_CASES "/cost/quick.toml", costOverrides(), fragment).front();
 }
-
-inline const CaseWith costCaseWith = [](const std::string& fragment) {
-  return costCase(fragment);
-};
 
 }  // namespace crossgrain::test

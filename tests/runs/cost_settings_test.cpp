@@ -21,7 +21,7 @@ using namespace crossgrain;
 
 std::vector<CostSetting> settingsOf(CostKind kind, const Case& setup, const Capabilities& can,
                                     const std::string& engine = "grain") {
-  return costSettings(setup, kind, engine, can, test::costCaseWith);
+  return costSettings(setup, kind, engine, can);
 }
 
 const CostSetting& find(const std::vector<CostSetting>& settings, const std::string& knob,
