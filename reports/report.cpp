@@ -7,7 +7,6 @@
 
 #include "reports/collide/report.hpp"
 #include "reports/common/gnuplot.hpp"
-#include "reports/common/json_view.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/cost/report.hpp"
@@ -142,7 +141,7 @@ void writeReport(const RevResults& results, const std::filesystem::path& dir) {
 
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
   checkSchema(results, "results");
-  const std::string kind = text(results, "kind");
+  const std::string kind = results.at("kind");
   if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
   if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
   if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);

@@ -56,15 +56,16 @@ std::string limitsOf(const CaseGroup& group) {
 
 Json caseViews(const CollideResults& results, const std::vector<CaseGroup>& groups,
                const Illustrations& shown) {
+  const Json figures = figureViews(shown, "collision_");
   Json views = Json::array();
   for (const CaseGroup& group : groups) {
     const std::string figure = fmt::format("collision_{}", views.size() + 1);
     Json curves = Json::array(), energies = Json::array();
-    for (Json& view : figureViews(shown, "collision_")) {
-      if (text(view, "file") == figure)
-        curves.push_back(std::move(view));
-      else if (text(view, "file") == figure + "_energy")
-        energies.push_back(std::move(view));
+    for (const Json& view : figures) {
+      if (view.at("file") == figure)
+        curves.push_back(view);
+      else if (view.at("file") == figure + "_energy")
+        energies.push_back(view);
     }
     Json mirrors = mirrorRows(group, results.engines);
     views.push_back({{"id", fmt::format("case_{}", views.size() + 1)},

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/collide/table.hpp"
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 
 /// The tables of the page on collisions, as views for its template.
 namespace crossgrain::reports {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 
 namespace crossgrain::reports {
 

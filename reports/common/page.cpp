@@ -101,13 +101,6 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
       {"machine", machine}};
 }
 
-Json commonView(const Json& results, const Illustrations& shown) {
-  Json view = commonView(readAs<ResultsHead>(results), number(results, "elapsed_s"), {}, shown);
-  view["notes"] = list(results, "notes");
-  view["hasNotes"] = !list(results, "notes").empty();
-  return view;
-}
-
 Json figureViews(const Illustrations& shown, std::string_view prefix) {
   Json views = Json::array();
   if (shown.missing) return views;

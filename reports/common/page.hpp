@@ -18,7 +18,6 @@ namespace crossgrain::reports {
 std::string render(const std::string& name, const Json& view);
 
 /// Heading, notes, machine, case text and command.
-Json commonView(const Json& results, const Illustrations& shown);
 Json commonView(const ResultsHead& head, std::optional<double> elapsed,
                 const std::vector<std::string>& notes, const Illustrations& shown);
 

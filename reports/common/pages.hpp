@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "reports/common/json_view.hpp"
 #include "reports/common/pictures.hpp"
+#include "reports/common/view.hpp"
 
 namespace crossgrain::reports {
 

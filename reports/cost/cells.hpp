@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 #include "reports/cost/points.hpp"
 
 /// What the tables of a study of cost are made of.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 #include "reports/cost/points.hpp"
 #include "results/cost.hpp"
 

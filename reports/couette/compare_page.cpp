@@ -71,9 +71,8 @@ Json numberCheckRows(const Engines& engines) {
                       {"expected", readable(at(check.reference, 0), check.referenceError)},
                       {"note", mathHtml(check.note.value_or(""))}});
     }
-  std::stable_sort(rows.begin(), rows.end(), [](const Json& a, const Json& b) {
-    return text(a, "check") < text(b, "check");
-  });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Json& a, const Json& b) { return a.at("check") < b.at("check"); });
   return rows;
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "reports/common/details.hpp"
-#include "reports/common/json_view.hpp"
 #include "reports/common/pages.hpp"
+#include "reports/common/view.hpp"
 #include "reports/couette/engine_runs.hpp"
 
 /// The parts of the comparison's page.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 #include "results/compare.hpp"
 
 namespace crossgrain::reports {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/json_view.hpp"
+#include "reports/common/view.hpp"
 #include "reports/couette/engine_runs.hpp"
 
 /// In what state runs were while they were averaged: regime, and steady or not.

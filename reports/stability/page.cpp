@@ -91,7 +91,7 @@ std::string limitsOf(const HardCase& variant) {
 Json pictureViewsOf(const Illustrations& shown, const std::string& name) {
   Json views = Json::array();
   for (Json& view : pictureViews(shown, Picture::Shows::worst)) {
-    const std::string title = text(view, "alt") + ",";
+    const std::string title = view.at("alt").get<std::string>() + ",";
     if (title.find(": " + name + ",") != std::string::npos) views.push_back(std::move(view));
   }
   return views;
@@ -116,8 +116,7 @@ Json casesOf(const StabilityResults& results, const std::vector<HardGroup>& grou
     const std::size_t index = views.size() + 1;
     Json figures = Json::array();
     for (Json& view : figureViews(shown, fmt::format("stability_{}", index)))
-      if (text(view, "file") == fmt::format("stability_{}", index))
-        figures.push_back(std::move(view));
+      if (view.at("file") == fmt::format("stability_{}", index)) figures.push_back(std::move(view));
     views.push_back({{"id", fmt::format("case_{}", index)},
                      {"name", spaced(group.name)},
                      {"tests", first.tests},
