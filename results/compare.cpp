@@ -48,9 +48,6 @@ void fields(auto& io, CompareResults& results) {
   io.present("nothing_judged", results.nothingJudged);
 }
 
-Json toJson(const CouetteStudy& study) {
-  return jsonOf(study);
-}
 Json toJson(const CompareResults& results) {
   return jsonOf(results);
 }

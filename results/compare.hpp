@@ -29,7 +29,6 @@ struct CompareResults : CouetteStudy {
   std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
 };
 
-Json toJson(const CouetteStudy& study);
 Json toJson(const CompareResults& results);
 /// @throws FieldError
 CompareResults compareFromJson(const Json& json);

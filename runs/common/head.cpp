@@ -1,4 +1,4 @@
-#include "runs/common/records.hpp"
+#include "runs/common/head.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -7,8 +7,6 @@
 #include <fstream>
 #include <thread>
 
-#include "results/engine_fields.hpp"
-#include "results/head_fields.hpp"
 #include "results/schema.hpp"
 #include "runs/common/version.hpp"
 

@@ -15,7 +15,7 @@ namespace crossgrain::inline runs {
 /// A piece of work whose result stays in the store, so that it is done once.
 /// @tparam Result  has fields(); or is JSON
 template <typename Result>
-struct KeptTaskOf {
+struct KeptTask {
   struct Outcome {
     Result result;
     bool finished;     ///< is kept; what failed is tried again by the next command
@@ -29,14 +29,13 @@ struct KeptTaskOf {
   /// @param progress  to be told the fraction done, 0 … 1
   std::function<Outcome(const std::function<void(double)>& progress)> work;
 };
-using KeptTask = KeptTaskOf<nlohmann::json>;
 
 /// Takes up the results that are there and does the rest, `jobs` at a time. All that are there are
 /// looked at before anything is done, so that what stands in the way does so at once.
 /// @returns the results in the order of the tasks
 /// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
 template <typename Result>
-std::vector<Result> doOrTakeUp(const std::vector<KeptTaskOf<Result>>& tasks, const RunStore& store,
+std::vector<Result> doOrTakeUp(const std::vector<KeptTask<Result>>& tasks, const RunStore& store,
                                Progress& progress, const std::string& stage, int jobs) {
   std::vector<Result> results(tasks.size());
   std::vector<double> weights;

@@ -10,7 +10,6 @@
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
 #include "runs/common/advance.hpp"
-#include "runs/common/records.hpp"
 #include "runs/cost/limits.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"

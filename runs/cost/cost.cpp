@@ -97,8 +97,8 @@ std::string costPlan(const Case& setup, const CostRequest& request, RunStore& st
         if (!settings[s].refusal.empty() ||
             (kind == CostKind::averages && settings[s].isSampling()))
           continue;
-        count(work,
-              study.isKept({e, kind, s, 0.0, {}}) ? std::optional(nlohmann::json()) : std::nullopt);
+        ++work.total;
+        work.finished += study.isKept({e, kind, s, 0.0, {}});
       }
       if (work.total > 0) works.push_back(work);
     }

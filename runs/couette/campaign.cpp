@@ -153,8 +153,8 @@ std::string runName(const EngineEntry& entry, const Variant& variant, int packin
 
 }  // namespace
 
-KeptTaskOf<CouetteRun>::Outcome Campaign::runOne(
-    const Variant& variant, int packing, const std::function<void(double)>& progress) const {
+KeptTask<CouetteRun>::Outcome Campaign::runOne(const Variant& variant, int packing,
+                                               const std::function<void(double)>& progress) const {
   const EngineEntry& entry = engines_[variant.engine].entry;
   const std::string name = runName(entry, variant, packing);
   CouetteRun run;
@@ -196,8 +196,8 @@ void Campaign::run(const std::vector<Variant>& variants) {
   runs_ = doOrTakeUp(tasksOf(variants), store_, progress_, "running engines", command_.jobs);
 }
 
-std::vector<KeptTaskOf<CouetteRun>> Campaign::tasksOf(const std::vector<Variant>& variants) const {
-  std::vector<KeptTaskOf<CouetteRun>> tasks;
+std::vector<KeptTask<CouetteRun>> Campaign::tasksOf(const std::vector<Variant>& variants) const {
+  std::vector<KeptTask<CouetteRun>> tasks;
   for (const Variant& variant : variants) {
     const CampaignEngine& own = engines_[variant.engine];
     for (int k = 0; k < packingCount(); ++k)

@@ -91,9 +91,9 @@ class Campaign {
  private:
   /// A file is one packing, however many a case would prepare.
   int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
-  std::vector<KeptTaskOf<CouetteRun>> tasksOf(const std::vector<Variant>& variants) const;
-  KeptTaskOf<CouetteRun>::Outcome runOne(const Variant& variant, int packing,
-                                         const std::function<void(double)>& progress) const;
+  std::vector<KeptTask<CouetteRun>> tasksOf(const std::vector<Variant>& variants) const;
+  KeptTask<CouetteRun>::Outcome runOne(const Variant& variant, int packing,
+                                       const std::function<void(double)>& progress) const;
   std::vector<EngineRow> engineRows() const;
 
   const Case& setup_;

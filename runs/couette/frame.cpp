@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cases/effect_switch.hpp"
-#include "runs/common/records.hpp"
+#include "runs/common/head.hpp"
 #include "runs/couette/run.hpp"
 
 namespace crossgrain::inline runs {

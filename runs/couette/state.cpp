@@ -6,7 +6,6 @@
 #include "averaging/regime.hpp"
 #include "averaging/statistics.hpp"
 #include "averaging/trend.hpp"
-#include "runs/common/records.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"
 

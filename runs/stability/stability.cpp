@@ -13,9 +13,9 @@
 #include "results/schema.hpp"
 #include "results/stability_fields.hpp"
 #include "runs/common/dry_run.hpp"
+#include "runs/common/head.hpp"
 #include "runs/common/kept_task.hpp"
 #include "runs/common/progress.hpp"
-#include "runs/common/records.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/stability/recorder.hpp"
 #include "runs/stability/run.hpp"
@@ -126,7 +126,7 @@ class Suite {
   }
 
   void run() {
-    std::vector<KeptTaskOf<StabilityRun>> tasks;
+    std::vector<KeptTask<StabilityRun>> tasks;
     for (std::size_t c = 0; c < cases_.size(); ++c)
       for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf(c, e));
     runs_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
@@ -164,10 +164,10 @@ class Suite {
     return *std::ranges::find(cases_, setup.name, &Case::name);
   }
 
-  KeptTaskOf<StabilityRun> taskOf(std::size_t c, std::size_t e) const {
+  KeptTask<StabilityRun> taskOf(std::size_t c, std::size_t e) const {
     const Case& setup = cases_[c];
     const EngineEntry& entry = engines_[e];
-    KeptTaskOf<StabilityRun> task;
+    KeptTask<StabilityRun> task;
     task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
                              setup.variant);
     task.name = task.label;
@@ -184,7 +184,7 @@ class Suite {
           runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)}, progress);
       const std::string verdict(nameOf(run.verdict));
       const bool finished = run.status != HardRunStatus::failed;
-      return KeptTaskOf<StabilityRun>::Outcome{std::move(run), finished, verdict};
+      return KeptTask<StabilityRun>::Outcome{std::move(run), finished, verdict};
     };
     return task;
   }
