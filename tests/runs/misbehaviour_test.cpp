@@ -5,8 +5,8 @@
 
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
-#include "runs/collide/sweep.hpp"
 #include "results/schema.hpp"
+#include "runs/collide/sweep.hpp"
 #include "runs/couette/campaign.hpp"
 #include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
@@ -18,7 +18,6 @@
 namespace {
 
 using namespace crossgrain;
-using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr double dt = 1e-5;
@@ -137,18 +136,16 @@ TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
   campaign.preparePackings();
   campaign.timeEngines();
   campaign.run(campaign.wholeCase());
-  const json results = toJson(campaign.study(kindCompare));
-  ASSERT_EQ(results["runs"].size(), engines.size());
-  for (const json& run : results["runs"]) {
-    const auto name = run["engine"].get<std::string>();
-    const auto reason = run["reason"].get<std::string>();
-    if (name == "grain") {
-      EXPECT_EQ(run["status"], "finished") << reason;
-      EXPECT_TRUE(run["series"].contains("energy_residual"));
+  const std::vector<CouetteRun> runs = campaign.study(kindCompare).runs;
+  ASSERT_EQ(runs.size(), engines.size());
+  for (const CouetteRun& run : runs) {
+    if (run.engine == "grain") {
+      EXPECT_EQ(run.status, RunStatus::finished) << run.reason;
+      EXPECT_TRUE(run.series.value().contains("energy_residual"));
       continue;
     }
-    EXPECT_EQ(run["status"], "failed") << name;
-    EXPECT_EQ(reason.rfind("packing 0: " + name + ", ", 0), 0u) << reason;
+    EXPECT_EQ(run.status, RunStatus::failed) << run.engine;
+    EXPECT_EQ(run.reason.rfind("packing 0: " + run.engine + ", ", 0), 0u) << run.reason;
   }
 }
 
