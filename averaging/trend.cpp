@@ -12,9 +12,9 @@ namespace crossgrain::inline averaging {
 
 namespace {
 
-constexpr std::size_t fewestSamples = 12;  ///< degrees 0 … 9 and some to spare
-constexpr double tausPerMode = 16.0;
-constexpr double fewestModes = 3.0, mostModes = 8.0;
+constexpr std::size_t fewestTrendSamples = 12;  ///< degrees 0 … 9 and some to spare
+constexpr double tausPerTrendMode = 16.0;
+constexpr double fewestTrendModes = 3.0, mostTrendModes = 8.0;
 constexpr int lastBend = 3;          ///< highest degree of what may belong to a drift
 constexpr double steepEnough = 4.0;  ///< intervals beside bends that an unresolved drift exceeds
 
@@ -59,12 +59,12 @@ Trend estimateTrend(std::span<const double> series) {
   const double n = static_cast<double>(series.size());
   Trend result;
   result.mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
-  if (series.size() < fewestSamples) return result;
+  if (series.size() < fewestTrendSamples) return result;
 
   if (const auto [low, high] = std::ranges::minmax(series); low == high) {
     // Nothing but rounding would be left to tell a line from.
     result.standardError = result.errorBesideBends = 0.0;
-    result.dof = fewestModes;
+    result.dof = fewestTrendModes;
     result.resolved = true;
     return result;
   }
@@ -79,15 +79,16 @@ Trend estimateTrend(std::span<const double> series) {
   result.change = span * rise;
 
   const double tau = estimateMean(rest).tau;
-  result.resolved = n >= tausPerMode * tau;
-  result.dof = std::clamp(std::floor(n / (tausPerMode * tau)), fewestModes, mostModes);
+  result.resolved = n >= tausPerTrendMode * tau;
+  result.dof =
+      std::clamp(std::floor(n / (tausPerTrendMode * tau)), fewestTrendModes, mostTrendModes);
   double scatter = 0.0, besideBends = 0.0;
-  for (int k = 0; k < static_cast<int>(mostModes); ++k) {
+  for (int k = 0; k < static_cast<int>(mostTrendModes); ++k) {
     const double coefficient = product(polynomials.next(), rest);
     const int degree = k + 2;
     if (k < static_cast<int>(result.dof)) scatter += coefficient * coefficient / result.dof;
-    if (degree > lastBend && degree <= lastBend + static_cast<int>(fewestModes))
-      besideBends += coefficient * coefficient / fewestModes;
+    if (degree > lastBend && degree <= lastBend + static_cast<int>(fewestTrendModes))
+      besideBends += coefficient * coefficient / fewestTrendModes;
   }
   result.standardError = span * std::sqrt(scatter);
   result.errorBesideBends = span * std::sqrt(besideBends);
@@ -104,7 +105,7 @@ RelativeDrift relativeDrift(std::span<const double> series, double confidence, d
   result.change = trend.change / scale;
   result.half = quantile * *trend.standardError / scale;
   if (!trend.resolved) {
-    const double beside = studentQuantile(confidence, fewestModes) * *trend.errorBesideBends;
+    const double beside = studentQuantile(confidence, fewestTrendModes) * *trend.errorBesideBends;
     result.half = std::min(*result.half, steepEnough * beside / scale);
   }
   result.excluded = std::abs(*result.change) + *result.half;

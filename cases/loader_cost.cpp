@@ -16,14 +16,14 @@ void readSettings(Reader in, Cost& cost) {
   in.finish();
 }
 
-void readKinds(Reader& in, std::vector<CostKind>& kinds) {
+void readKinds(Reader& in, std::vector<CostKind>& wanted) {
   std::vector<std::string> all, names;
   for (const CostKind kind : costKinds) all.push_back(toString(kind));
-  for (const CostKind kind : kinds) names.push_back(toString(kind));
+  for (const CostKind kind : wanted) names.push_back(toString(kind));
   in.read("kinds", names, all);
-  kinds.clear();
+  wanted.clear();
   for (const std::string& name : names)
-    kinds.push_back(
+    wanted.push_back(
         costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
 }
 

@@ -17,7 +17,7 @@ int average(const CommandLine& line) {
   return averaged(line, results.averaging);
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareAverage(CLI::App& app, CommandLine& line) {
   addSnapshots(app, line);
   return [&line] { return average(line); };
 }
@@ -27,6 +27,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 extern const Command averageCommand = {
     "average", "average snapshots of a file, of a run or of any other source",
     "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged",
-    declare};
+    declareAverage};
 
 }  // namespace crossgrain::inline cli

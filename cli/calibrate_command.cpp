@@ -282,7 +282,7 @@ int calibrate(const CommandLine& line, const Request& request) {
   return wanted ? fromWanted(request) : fromConstants(request);
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareCalibrate(CLI::App& app, CommandLine& line) {
   const auto request = std::make_shared<Request>();
   addOptions(app, line, *request);
   return [&line, request] { return calibrate(line, *request); };
@@ -297,6 +297,6 @@ extern const Command calibrateCommand = {
     "crossgrain calibrate --kn 352.1 --gn 0.19 --kt 267.1 --gt 0.15 --mu 0.44 --mass 0.275e-3 "
     "--radius 3.7e-3\n"
     "crossgrain calibrate cases/couette/quick.toml",
-    declare};
+    declareCalibrate};
 
 }  // namespace crossgrain::inline cli

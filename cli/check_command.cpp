@@ -139,7 +139,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   return allCan ? exitHeld : exitFellShort;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareCheck(CLI::App& app, CommandLine& line) {
   const auto options = std::make_shared<CheckOptions>();
   addCase(app, line);
   addEngines(app, line, "all");
@@ -157,6 +157,6 @@ extern const Command checkCommand = {
     "check", "who can run a case, what to expect of it, what it will take",
     "crossgrain check cases/couette/quick.toml --engines all\n"
     "  crossgrain check cases/couette/quick.toml --set cell.omega=0.1 --resolved",
-    declare};
+    declareCheck};
 
 }  // namespace crossgrain::inline cli

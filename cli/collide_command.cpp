@@ -63,7 +63,7 @@ int collide(const CommandLine& line) {
   return collideCases(variants, isFolder ? std::optional(input) : std::nullopt, line);
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareCollide(CLI::App& app, CommandLine& line) {
   addCase(app, line, "case file or folder of case files");
   addSelection(app, line);
   addRun(app, line);
@@ -76,6 +76,6 @@ extern const Command collideCommand = {
     "collide", "two-particle sweeps against the oracle",
     "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out\n"
     "crossgrain collide cases/collision -k glass --engines grain --out out",
-    declare};
+    declareCollide};
 
 }  // namespace crossgrain::inline cli

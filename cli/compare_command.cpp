@@ -58,7 +58,7 @@ int compare(const CommandLine& line, bool strict) {
   return judged;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareCompare(CLI::App& app, CommandLine& line) {
   const auto strict = std::make_shared<bool>(false);
   addCase(app, line);
   addRun(app, line);
@@ -72,6 +72,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 
 extern const Command compareCommand = {
     "compare", "run, average, cross-check",
-    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out", declare};
+    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out", declareCompare};
 
 }  // namespace crossgrain::inline cli

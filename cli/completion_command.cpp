@@ -81,7 +81,7 @@ complete -o default -F _crossgrain crossgrain
                      values);
 }
 
-Action declare(CLI::App& app, CommandLine&) {
+Action declareCompletion(CLI::App& app, CommandLine&) {
   return [&app] {
     fmt::print("{}", bashCompletion(*app.get_parent()));
     return exitHeld;
@@ -91,6 +91,6 @@ Action declare(CLI::App& app, CommandLine&) {
 }  // namespace
 
 extern const Command completionCommand = {"__completion", "write the completion for bash", "",
-                                          declare};
+                                          declareCompletion};
 
 }  // namespace crossgrain::inline cli

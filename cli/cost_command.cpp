@@ -83,7 +83,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
   return results.engineFailures.empty() ? exitHeld : exitEngineFailed;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareCost(CLI::App& app, CommandLine& line) {
   struct Own {
     std::optional<std::string> budget, target;
   };
@@ -107,6 +107,6 @@ extern const Command costCommand = {
     "cost", "error against time, for every engine and every knob that trades one for the other",
     "crossgrain cost cases/cost/quick.toml --engines all --out out --budget 10m\n"
     "crossgrain cost cases/cost/quick.toml --engines all --out out --want 1%",
-    declare};
+    declareCost};
 
 }  // namespace crossgrain::inline cli

@@ -58,7 +58,7 @@ int effects(const CommandLine& line) {
   return status;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareEffects(CLI::App& app, CommandLine& line) {
   addCase(app, line);
   addRun(app, line);
   addPackings(app, line);
@@ -69,6 +69,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 
 extern const Command effectsCommand = {
     "effects", "what each effect of a case costs and changes",
-    "crossgrain effects cases/couette/quick.toml --engines grain --out out", declare};
+    "crossgrain effects cases/couette/quick.toml --engines grain --out out", declareEffects};
 
 }  // namespace crossgrain::inline cli

@@ -66,7 +66,7 @@ int listEngines(const CommandLine& line) {
   return exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareEngines(CLI::App& app, CommandLine& line) {
   addFlag(app, "--json", line.json, "as JSON");
   return [&line] { return listEngines(line); };
 }
@@ -74,6 +74,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command enginesCommand = {"engines", "engines found, what they can do, their settings",
-                                       "crossgrain engines", declare};
+                                       "crossgrain engines", declareEngines};
 
 }  // namespace crossgrain::inline cli

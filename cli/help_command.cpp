@@ -26,7 +26,7 @@ int help(const CLI::App& program, const std::optional<std::string>& name) {
   return exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine&) {
+Action declareHelp(CLI::App& app, CommandLine&) {
   const auto name = std::make_shared<std::optional<std::string>>();
   app.add_option("command", *name, "one of those that crossgrain --help lists")
       ->type_name("COMMAND");
@@ -36,6 +36,6 @@ Action declare(CLI::App& app, CommandLine&) {
 }  // namespace
 
 extern const Command helpCommand = {"help", "the help of a command, as with --help",
-                                    "crossgrain help compare", declare};
+                                    "crossgrain help compare", declareHelp};
 
 }  // namespace crossgrain::inline cli

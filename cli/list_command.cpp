@@ -110,7 +110,7 @@ int list(const CommandLine& line, const std::string& subject, const fs::path& fo
   return exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareList(CLI::App& app, CommandLine& line) {
   const auto subject = std::make_shared<std::string>();
   addArgument(app, "what", *subject, "what is to be listed", "cases|fields|measures|keys");
   addInputs(app, line, "folder", "of the cases to be listed (default: cases, here or as installed)",
@@ -128,6 +128,6 @@ extern const Command listCommand = {
     "list", "cases, fields of profiles.csv, measures of hard cases, keys of case files",
     "crossgrain list cases\n"
     "crossgrain list keys --json",
-    declare};
+    declareList};
 
 }  // namespace crossgrain::inline cli

@@ -100,7 +100,7 @@ int writePages(const CLI::App& program, const fs::path& folder) {
   return exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine&) {
+Action declareManual(CLI::App& app, CommandLine&) {
   const auto folder = std::make_shared<std::string>();
   addArgument(app, "folder", *folder, "for the pages");
   return [&app, folder] { return writePages(*app.get_parent(), *folder); };
@@ -108,6 +108,6 @@ Action declare(CLI::App& app, CommandLine&) {
 
 }  // namespace
 
-extern const Command manualCommand = {"__manual", "write manual pages", "", declare};
+extern const Command manualCommand = {"__manual", "write manual pages", "", declareManual};
 
 }  // namespace crossgrain::inline cli

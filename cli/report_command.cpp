@@ -20,7 +20,7 @@ int rebuildReports(const CommandLine& line) {
   return exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareReport(CLI::App& app, CommandLine& line) {
   addInputs(app, line, "folder", "folders that hold a results.json", 1, anyNumber);
   return [&line] { return rebuildReports(line); };
 }
@@ -28,6 +28,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command reportCommand = {"report", "rebuild reports from results.json",
-                                      "crossgrain report out", declare};
+                                      "crossgrain report out", declareReport};
 
 }  // namespace crossgrain::inline cli

@@ -17,7 +17,7 @@ int rev(const CommandLine& line) {
   return averaged(line, results.averaging);
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareRev(CLI::App& app, CommandLine& line) {
   addSnapshots(app, line);
   addQuiet(app, line);
   return [&line] { return rev(line); };
@@ -27,6 +27,6 @@ Action declare(CLI::App& app, CommandLine& line) {
 
 extern const Command revCommand = {
     "rev", "every field against ring width, under every weight",
-    "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev", declare};
+    "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev", declareRev};
 
 }  // namespace crossgrain::inline cli

@@ -16,7 +16,7 @@ int serveEngine(const std::string& name) {
   return serve(*entry->make());
 }
 
-Action declare(CLI::App& app, CommandLine&) {
+Action declareServe(CLI::App& app, CommandLine&) {
   const auto engine = std::make_shared<std::string>();
   addArgument(app, "engine", *engine, "its name");
   return [engine] { return serveEngine(*engine); };
@@ -25,6 +25,6 @@ Action declare(CLI::App& app, CommandLine&) {
 }  // namespace
 
 extern const Command serveCommand = {"__serve", "speak the worker protocol on descriptors 3 and 4",
-                                     "", declare};
+                                     "", declareServe};
 
 }  // namespace crossgrain::inline cli

@@ -75,7 +75,7 @@ int stability(const CommandLine& line, SuitePart part) {
   return unstable > 0 ? exitFellShort : exitHeld;
 }
 
-Action declare(CLI::App& app, CommandLine& line) {
+Action declareStability(CLI::App& app, CommandLine& line) {
   const auto longCases = std::make_shared<bool>(false);
   addInputs(app, line, "case", "case files or folders of them (default: cases/hard)", 0, anyNumber);
   addSelection(app, line);
@@ -98,6 +98,6 @@ extern const Command stabilityCommand = {
     "crossgrain stability --engines all --out out              # all of cases/hard\n"
     "crossgrain stability -k pile --engines grain --out out\n"
     "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out",
-    declare};
+    declareStability};
 
 }  // namespace crossgrain::inline cli

@@ -1,26 +1,38 @@
-# Headers of libraries that cost more to read than most of our sources to compile are read once for
-# each set of flags: one for the program, one for its tests. Every source still includes what it uses.
+# What keeps a build from nothing short. Most of it is headers and templates that many sources share
+# (nlohmann's JSON, Eigen, fmt), so they are read once, compiled several sources at a time, and
+# optimised as little as what they are used for allows.
+
+option(CROSSGRAIN_UNITY_BUILD "Compile several sources of a library in one go" ON)
+set(CMAKE_UNITY_BUILD ${CROSSGRAIN_UNITY_BUILD})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+
+# One for the program, one for its tests. Every source still includes what it uses.
 option(CROSSGRAIN_PRECOMPILED_HEADERS "Read large headers of libraries once" ON)
 
 set(crossgrain_precompiled
   <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <string>
   <vector> <fmt/format.h> <fmt/ranges.h> <nlohmann/json.hpp> <Eigen/Core>)
 
-# add_precompiled_headers(NAME LIBRARIES … HEADERS …): what use_precompiled_headers(NAME …) reads.
+# GCC keeps the optimisation of precompiled headers for all that reads them: it must be the same.
+set(crossgrain_quick_to_build $<$<CONFIG:Release>:-O1>)
+
+# add_precompiled_headers(NAME LIBRARIES … HEADERS …): what quick_to_build(NAME …) reads.
 function(add_precompiled_headers name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;HEADERS")
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "// Exists for its precompiled headers.\n" @ONLY)
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${source})
   target_link_libraries(${name} PRIVATE crossgrain_options ${arg_LIBRARIES})
+  target_compile_options(${name} PRIVATE ${crossgrain_quick_to_build})
   target_precompile_headers(${name} PRIVATE ${crossgrain_precompiled} ${arg_HEADERS})
 endfunction()
 
-function(use_precompiled_headers name)
-  if(NOT CROSSGRAIN_PRECOMPILED_HEADERS)
-    return()
-  endif()
+# For what computes little: files, results, reports, commands. Step, averages and oracle keep -O2.
+function(quick_to_build headers)
   foreach(target ${ARGN})
-    target_precompile_headers(${target} REUSE_FROM ${name})
+    target_compile_options(${target} PRIVATE ${crossgrain_quick_to_build})
+    if(CROSSGRAIN_PRECOMPILED_HEADERS)
+      target_precompile_headers(${target} REUSE_FROM ${headers})
+    endif()
   endforeach()
 endfunction()

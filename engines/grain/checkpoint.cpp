@@ -125,7 +125,4 @@ void Core<Real>::restore(std::istream& in) {
       [&](auto& all) { readAny(in, all, mostPairs); }, [&](auto& all) { readSame(in, all); });
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

@@ -247,7 +247,4 @@ PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
           record ? placed.sliding.data() : nullptr};
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

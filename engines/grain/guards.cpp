@@ -62,7 +62,4 @@ void Core<Real>::reportTooDeep(std::size_t place, const std::string& partner, do
   throw std::runtime_error(text.str());
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

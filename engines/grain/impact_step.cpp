@@ -139,7 +139,4 @@ std::vector<Contact> Core<Real>::impactContacts() const {
   return contacts;
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

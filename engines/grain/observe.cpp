@@ -206,7 +206,4 @@ double Core<Real>::elasticEnergy() const {
   return energy;
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

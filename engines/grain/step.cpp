@@ -271,7 +271,4 @@ void Core<Real>::findReachedWallDisks() {
   }
 }
 
-template class Core<double>;
-template class Core<float>;
-
 }  // namespace grain

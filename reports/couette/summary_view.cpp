@@ -45,7 +45,7 @@ std::string partOf(const std::vector<std::string>& fields, std::size_t all, cons
   return fmt::format(", {} {}{}", fields.size(), verdict, names);
 }
 
-std::string inWords(const Tally& counts) {
+std::string countsInWords(const Tally& counts) {
   const std::size_t all = counts.agree.size() + counts.disagree.size() + counts.undecided.size();
   std::string words = fmt::format("{} of {} agree", counts.agree.size(), counted(all, "field")) +
                       partOf(counts.disagree, all, "disagree") +
@@ -75,8 +75,8 @@ std::string splitInWords(const Agreement& agreement, const EngineRuns& mirror,
   if (mirror.mirrors.empty() || !compared(agreement, mirror.name, mirror.mirrors)) return {};
   return fmt::format("{} mirrors {}. Model, against {}: {}. Implementation, against {}: {}.",
                      mirror.name, mirror.mirrors, reference,
-                     inWords(tally(agreement, reference, mirror.name)), mirror.mirrors,
-                     inWords(tally(agreement, mirror.name, mirror.mirrors)));
+                     countsInWords(tally(agreement, reference, mirror.name)), mirror.mirrors,
+                     countsInWords(tally(agreement, mirror.name, mirror.mirrors)));
 }
 
 std::string troubleInWords(const EngineRuns& engine) {
@@ -105,7 +105,7 @@ void addSummary(Json& view, const CompareResults& results, const Engines& engine
     disagree += counts.disagree.size();
     undecided += counts.undecided.size();
     sentences.push_back(
-        fmt::format("{} against {}: {}.", peer, engines.front().name, inWords(counts)));
+        fmt::format("{} against {}: {}.", peer, engines.front().name, countsInWords(counts)));
   }
   for (const EngineRuns& engine : engines)
     if (const std::string split = splitInWords(agreement, engine, engines.front().name);

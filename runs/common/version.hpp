@@ -2,10 +2,10 @@
 
 namespace crossgrain::inline runs {
 
-inline constexpr const char* programVersion = CROSSGRAIN_VERSION;
+extern const char* const programVersion;
 
 /// The source that this was built from, as far as git could tell when it was configured: runs of
 /// another build are not taken up.
-inline constexpr const char* programBuild = CROSSGRAIN_BUILD;
+extern const char* const programBuild;
 
 }  // namespace crossgrain::inline runs

@@ -15,7 +15,7 @@ namespace crossgrain::inline runs {
 
 namespace {
 
-constexpr double tolerance = 0.15;
+constexpr double measuringError = 0.15;
 constexpr std::size_t rings = 3;
 
 using ByPacking = std::map<int, Numbers>;
@@ -33,7 +33,9 @@ ByPacking velocitiesOf(const CouetteStudy& study, const std::string& engine) {
 struct Difference {
   double fraction = 0.0;
   double halfWidth = INFINITY;  ///< of the 95 % interval; infinite with fewer than two packings
-  bool holds() const { return std::abs(fraction) <= tolerance || std::abs(fraction) <= halfWidth; }
+  bool holds() const {
+    return std::abs(fraction) <= measuringError || std::abs(fraction) <= halfWidth;
+  }
 };
 
 std::optional<Difference> difference(const ByPacking& from, const ByPacking& to, std::size_t ring) {

@@ -51,15 +51,15 @@ std::vector<TestedChange> ringsOf(const PairedRuns& runs, const std::string& met
   };
   const auto whole = means(runs.whole), switched = means(runs.switched);
   const auto wholeError = errors(runs.whole), switchedError = errors(runs.switched);
-  std::vector<TestedChange> rings;
+  std::vector<TestedChange> tested;
   for (std::size_t ring = 0; ring < std::min(whole.size(), switched.size()); ++ring) {
     const auto mean = ensembleMean(whole[ring]);
-    rings.push_back({testOfNoChange(margin, whole[ring], switched[ring]),
-                     {whole[ring], switched[ring], 0.0, {}},
-                     mean ? std::optional(mean->mean) : std::nullopt,
-                     combined(wholeError[ring], switchedError[ring])});
+    tested.push_back({testOfNoChange(margin, whole[ring], switched[ring]),
+                      {whole[ring], switched[ring], 0.0, {}},
+                      mean ? std::optional(mean->mean) : std::nullopt,
+                      combined(wholeError[ring], switchedError[ring])});
   }
-  return rings;
+  return tested;
 }
 
 std::vector<TestedField> fieldsOf(const Case& setup, const PairedRuns& runs) {

@@ -11,15 +11,12 @@
 #include "reports/cost/report.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
+#include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 /// The y axis that a figure's script asks for: "LOW:HIGH".
 std::string yRangeOf(const Panel& panel) {

@@ -8,15 +8,12 @@
 #include "reports/report.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
+#include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
-
-bool has(const std::string& page, const std::string& words) {
-  return page.find(words) != std::string::npos;
-}
 
 /// One kind, one measure, one engine: 10 % in 1 s, 1 % in 10 s, a failure; analysed by hand.
 CostResults byHand() {

@@ -7,15 +7,12 @@
 #include "reports/effects/variants.hpp"
 #include "reports/report.hpp"
 #include "support/files.hpp"
+#include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
-
-bool has(const std::string& page, const std::string& words) {
-  return page.find(words) != std::string::npos;
-}
 
 std::string lineOf(const std::string& table, std::size_t line) {
   std::size_t begin = 0;

@@ -9,6 +9,7 @@
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/reports/temporary_folder.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using reports::has;
 
 /// One folder of results with its report, made once for all tests of a kind.
 struct Written {
@@ -41,10 +43,6 @@ const Written& single() {
 const Written& collided() {
   static const Written written(sample::collideResults());
   return written;
-}
-
-bool has(const std::string& page, const std::string& words) {
-  return page.find(words) != std::string::npos;
 }
 
 /// The page without its embedded images, whose base64 may spell anything.

@@ -5,11 +5,11 @@ namespace crossgrain::sample {
 
 namespace {
 
-constexpr std::size_t rings = 3;
+constexpr std::size_t effectRings = 3;
 
 Json profile(const char* field, const char* unit, double scale, double shift) {
   Json result = {{"method", "slicing"}, {"field", field}, {"unit", unit}};
-  for (std::size_t ring = 0; ring < rings; ++ring) {
+  for (std::size_t ring = 0; ring < effectRings; ++ring) {
     result["mean"].push_back(scale / static_cast<double>(ring + 1) + (ring == 1 ? shift : 0.0));
     result["stderr"].push_back(0.02 * scale);
     result["n_eff"].push_back(8.0);
@@ -36,11 +36,11 @@ Json run(const std::string& without, int packing, double shift) {
 /// The velocity's ring 2 changes by `change`; no other ring of the fields by more than its error.
 Json fields(double change, bool decided) {
   Json all = Json::array();
-  const std::tuple<const char*, const char*, double, double> shapes[] = {
+  const std::tuple<const char*, const char*, double, double> effectShapes[] = {
       {"azimuthal_velocity", "m/s", 0.02, change}, {"volume_fraction", "1", 0.8, 0.0}};
-  for (const auto& [name, unit, scale, shift] : shapes) {
+  for (const auto& [name, unit, scale, shift] : effectShapes) {
     Json field = {{"field", name}, {"unit", unit}, {"judged", true}, {"verdict", "undecided"}};
-    for (std::size_t ring = 0; ring < rings; ++ring) {
+    for (std::size_t ring = 0; ring < effectRings; ++ring) {
       const bool changed = ring == 1 && shift != 0.0;
       Json row = {{"ring", ring},
                   {"reference", scale / static_cast<double>(ring + 1)},

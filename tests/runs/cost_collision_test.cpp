@@ -13,15 +13,13 @@ namespace {
 
 using namespace crossgrain;
 
-const EngineEntry here{"grain", "", makeGrain, {}, {}, ""};
-
 std::vector<CostPoint> pointsOf(const std::string& knob, const std::string& setting) {
   const Case setup = test::costCase();
   const auto engine = makeGrain();
   for (const CostSetting& one :
        costSettings(setup, CostKind::collision, "grain", engine->capabilities()))
     if (one.knob == knob && one.setting == setting)
-      return measureCollision(*engine, here, one, collisionReference(setup));
+      return measureCollision(*engine, test::inHouse, one, collisionReference(setup));
   throw std::runtime_error("no such setting");
 }
 

@@ -16,8 +16,6 @@ namespace {
 
 using namespace crossgrain;
 
-const EngineEntry here{"grain", "", makeGrain, {}, {}, ""};
-
 std::vector<Separation> exponential(double rate, double noise) {
   std::vector<Separation> growing;
   for (int k = 0; k <= 100; ++k)
@@ -81,8 +79,8 @@ class LatticeInTheCell : public testing::Test {
   Track follow(const std::string& fragment, double time) {
     const Case setup = test::costCase(fragment);
     const auto engine = makeGrain();
-    return followPacking(*engine, here, setup, couetteScene(setup, packing_, timeStep(setup)),
-                         {time});
+    return followPacking(*engine, test::inHouse, setup,
+                         couetteScene(setup, packing_, timeStep(setup)), {time});
   }
 
   static double timeStep(const Case& setup) {
@@ -132,12 +130,13 @@ TEST_F(LatticeInTheCell, SeparationGrowsAndDoesSoAgain) {
   const auto engine = makeGrain();
   const Case fine = test::costCase("[run]\nsteps_per_contact = 200");
   const Case coarse = test::costCase("[run]\nsteps_per_contact = 100");
-  const ChaosStudy study = studyChaos(*engine, here, setup_, fine, coarse, packing_);
+  const ChaosStudy study = studyChaos(*engine, test::inHouse, setup_, fine, coarse, packing_);
   EXPECT_GT(study.separations.back().value, 1e3 * setup_.cost.perturbation);
   ASSERT_TRUE(study.growth.exponent);
   EXPECT_GT(*study.growth.exponent, 3.0 * *study.growth.standardError);
   EXPECT_GT(study.window.length, 0.0);
-  EXPECT_EQ(jsonOf(study), jsonOf(studyChaos(*engine, here, setup_, fine, coarse, packing_)));
+  EXPECT_EQ(jsonOf(study),
+            jsonOf(studyChaos(*engine, test::inHouse, setup_, fine, coarse, packing_)));
 }
 
 }  // namespace
