@@ -64,7 +64,7 @@ double criticalDifference(double standardError, double margin, double level, int
 }
 
 /// BinFraction of the differences' variance that stems from the runs' finite length.
-std::optional<double> withinShareOf(const PairedSample& sample, const EnsembleMean& mean) {
+std::optional<double> withinFractionOf(const PairedSample& sample, const EnsembleMean& mean) {
   double sum = 0.0;
   int count = 0;
   for (const auto& variance : sample.withinVariance)
@@ -90,7 +90,7 @@ PairedComparison describe(const PairedSample& sample, double alpha) {
   const double half = upperQuantile(alpha, result.packings) * *result.standardError;
   result.low = result.difference - half;
   result.high = result.difference + half;
-  result.withinShare = withinShareOf(sample, *mean);
+  result.withinFraction = withinFractionOf(sample, *mean);
   if (result.packings >= fewestPackings)
     result.pDisagree =
         pWithin(result.difference, *result.standardError, sample.margin, result.packings);
@@ -142,11 +142,11 @@ std::optional<int> packingsWanted(const PairedComparison& c, const Lacking& lack
 
 /// se²(1 − w + w/R) = (room/t)² solved for R.
 std::optional<double> longerRunsWanted(const PairedComparison& c, const Lacking& lack) {
-  if (c.packings < fewestPackings || !c.withinShare) return std::nullopt;
+  if (c.packings < fewestPackings || !c.withinFraction) return std::nullopt;
   const double ratio = lack.room / upperQuantile(lack.level, c.packings) / *c.standardError;
-  const double left = ratio * ratio - (1.0 - *c.withinShare);
-  if (!(left * longestRuns > *c.withinShare)) return std::nullopt;
-  return std::max(*c.withinShare / left, 1.0);
+  const double left = ratio * ratio - (1.0 - *c.withinFraction);
+  if (!(left * longestRuns > *c.withinFraction)) return std::nullopt;
+  return std::max(*c.withinFraction / left, 1.0);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ RegimeVerdict regimeOf(const RegimeFigures& figures) {
   return {Regime::flowing, fmt::format("layers take up {:.2g} of the wheel's rotation", shear)};
 }
 
-std::optional<double> blockedShare(std::span<const double> shear, std::size_t window) {
+std::optional<double> blockedFraction(std::span<const double> shear, std::size_t window) {
   const std::size_t windows = window == 0 ? 0 : shear.size() / window;
   if (windows == 0) return std::nullopt;
   std::size_t blocked = 0;

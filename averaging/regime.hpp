@@ -69,7 +69,7 @@ struct RegimeFigures {
   std::optional<double> wheelContacts;   ///< of the wheel's disks with others, at a time
   std::optional<WheelMotion> motion;     ///< see WheelMotion
   std::optional<double> inertialNumber;  ///< see inertialNumber()
-  std::optional<double> blockedShare;    ///< see blockedShare()
+  std::optional<double> blockedFraction;    ///< see blockedFraction()
 };
 
 /// A regime and what it was read from, in words.
@@ -84,6 +84,6 @@ RegimeVerdict regimeOf(const RegimeFigures& figures);
 /// The share of time in which the packing stood still: of windows of so many samples, those whose
 /// mean shear is below leastShear. Absent without a whole window.
 /// @param shear  WheelMotion::shear at equidistant times
-std::optional<double> blockedShare(std::span<const double> shear, std::size_t window);
+std::optional<double> blockedFraction(std::span<const double> shear, std::size_t window);
 
 }  // namespace crossgrain::inline averaging

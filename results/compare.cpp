@@ -12,7 +12,7 @@ void fields(auto& io, AgreementRing& ring) {
   io("high", ring.high);
   io("margin", ring.margin);
   io("detects", ring.detects);
-  io("within_share", ring.withinShare);
+  io("within_share", ring.withinFraction);
   io("scale", ring.scale);
   io("packings", ring.packings);
   io("verdict", ring.verdict);

@@ -96,7 +96,7 @@ void fields(auto& io, RegimeRow& regime) {
   io("wheel_slip", regime.wheelSlip);
   io("shear_share", regime.shearShare);
   io("inertial_number", regime.inertialNumber);
-  io("blocked_share", regime.blockedShare);
+  io("blocked_share", regime.blockedFraction);
 }
 
 void fields(auto& io, SeriesDrift& row) {

@@ -15,7 +15,7 @@ namespace crossgrain::inline results {
 struct RegimeRow {
   std::optional<Regime> regime;  ///< absent: the run does not show enough
   std::string reason;
-  std::optional<double> wheelContacts, wheelSlip, shearShare, inertialNumber, blockedShare;
+  std::optional<double> wheelContacts, wheelSlip, shearShare, inertialNumber, blockedFraction;
 };
 
 /// How a series changed over the averaged time (averaging/trend.hpp).

@@ -135,7 +135,7 @@ std::string agreementCsv(const CompareResults& results) {
       table +=
           row(entry.a, entry.b, entry.field, ring.ring + 1, ring.difference, ring.standardError,
               ring.low, ring.high, ring.margin, std::string(toString(ring.verdict)), ring.detects,
-              ring.withinShare, std::optional<double>(ring.packings), absent, absent, differ);
+              ring.withinFraction, std::optional<double>(ring.packings), absent, absent, differ);
   }
   return table;
 }

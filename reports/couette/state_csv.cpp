@@ -25,7 +25,7 @@ std::string regimesCsv(const CompareResults& results) {
     const RegimeRow& regime = *run.regime;
     table += row(run.engine, fmt::format("{}", run.packing),
                  std::string(regime.regime ? toString(*regime.regime) : ""), regime.wheelContacts,
-                 regime.wheelSlip, regime.shearShare, regime.inertialNumber, regime.blockedShare,
+                 regime.wheelSlip, regime.shearShare, regime.inertialNumber, regime.blockedFraction,
                  when.fromRotation, when.toRotation, when.preparedRotations, regime.reason);
   }
   return table;

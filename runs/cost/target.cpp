@@ -32,7 +32,7 @@ std::string whatDecides(const CostPoint& point, double target) {
     return fmt::format("a reference known to {:.1e}", distance - statistical);
   if (reference > 0.0 && distance > 0.0)
     return fmt::format("a reference known to better than {:.1e} and more simulated time", distance);
-  return "nothing: the error is the want";
+  return "nothing: the error is the target";
 }
 
 std::optional<double> lengthFor(const CostPoint& point, double target) {

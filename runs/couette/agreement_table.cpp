@@ -37,7 +37,7 @@ AgreementRing ringRow(std::size_t index, const TestedRing& ring, const PairedCom
   row.high = bound(high);
   row.margin = marginOf(ring, margin);
   if (detects) row.detects = std::abs(inUnit(ring, *detects));
-  row.withinShare = found.withinShare;
+  row.withinFraction = found.withinFraction;
   row.scale = ring.logarithmic ? TestScale::logarithmic : TestScale::linear;
   row.packings = found.packings;
   row.verdict = found.verdict;

@@ -33,11 +33,11 @@ RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
   const auto shear = meanOf(valuesOf(series, "shear_share"));
   if (slip && shear) figures.motion = WheelMotion{*slip, *shear};
   figures.inertialNumber = inertialNumber(ringsOf(setup), profiles, diskDensity(setup));
-  figures.blockedShare =
-      blockedShare(presentNumbers(valuesOf(series, "shear_share")), rimPassesADisk(setup, series));
+  figures.blockedFraction =
+      blockedFraction(presentNumbers(valuesOf(series, "shear_share")), rimPassesADisk(setup, series));
   const RegimeVerdict verdict = regimeOf(figures);
   return {verdict.regime, verdict.reason,         figures.wheelContacts, slip,
-          shear,          figures.inertialNumber, figures.blockedShare};
+          shear,          figures.inertialNumber, figures.blockedFraction};
 }
 
 std::vector<SeriesDrift> couetteSteadiness(const Case& setup, const RunSeries& series) {

@@ -215,7 +215,7 @@ TEST(ComparePaired, SaysWhetherLongerRunsWouldDecide) {
   sample.withinVariance.assign(4, 1.2);         // nine tenths of it
   const PairedComparison c = compareOne(sample);
   ASSERT_EQ(c.verdict, Verdict::undecided);
-  EXPECT_NEAR(c.withinShare.value(), 0.9, 1e-12);
+  EXPECT_NEAR(c.withinFraction.value(), 0.9, 1e-12);
   // 1 − w + w/R = (1/1.3587)² = 0.5417.
   EXPECT_NEAR(c.longerRuns.value(), 0.9 / (0.5417 - 0.1), 1e-3);
   sample.withinVariance.assign(4, 0.4);  // packings make the rest: no run is long enough

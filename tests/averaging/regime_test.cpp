@@ -102,13 +102,13 @@ TEST(Regime, WhatIsNotShownCannotBeTold) {
 TEST(BlockedShare, CountsWindows) {
   std::vector<double> shear(40, 0.3);
   for (int t = 10; t < 20; ++t) shear[static_cast<std::size_t>(t)] = 0.01;
-  EXPECT_EQ(blockedShare(shear, 10), 0.25);
+  EXPECT_EQ(blockedFraction(shear, 10), 0.25);
   // One fast jolt in an otherwise still window is a mean, not a sample.
   shear.assign(10, 0.0);
   shear[3] = 0.9;
-  EXPECT_EQ(blockedShare(shear, 10), 1.0);
-  EXPECT_FALSE(blockedShare(shear, 11));
-  EXPECT_FALSE(blockedShare({}, 0));
+  EXPECT_EQ(blockedFraction(shear, 10), 1.0);
+  EXPECT_FALSE(blockedFraction(shear, 11));
+  EXPECT_FALSE(blockedFraction({}, 0));
 }
 
 TEST(InertialNumber, ByHand) {

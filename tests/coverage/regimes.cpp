@@ -71,7 +71,7 @@ json regimeOfPacking(const Case& setup, int index) {
   // Windows in which the rim passes one disk.
   const double window = samples * 2.0 * disks.smallRadius /
                         (2.0 * std::numbers::pi * length * setup.cell.innerRadius);
-  figures.blockedShare = blockedShare(shear, static_cast<std::size_t>(std::lround(window)));
+  figures.blockedFraction = blockedFraction(shear, static_cast<std::size_t>(std::lround(window)));
   const RegimeVerdict verdict = regimeOf(figures);
   double outer = 0.0;
   for (const double p : pressure) outer += p / samples;
@@ -81,7 +81,7 @@ json regimeOfPacking(const Case& setup, int index) {
           {"wheel_slip", motion.slip},
           {"shear_share", motion.shear},
           {"inertial_number", toJson(figures.inertialNumber)},
-          {"blocked_share", toJson(figures.blockedShare)},
+          {"blocked_share", toJson(figures.blockedFraction)},
           {"outer_pressure", outer}};
 }
 

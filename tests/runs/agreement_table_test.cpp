@@ -132,7 +132,7 @@ TEST(AgreementTable, SaysWhatItDetectsAndWhetherLongerRunsWouldHelp) {
   const auto table = agreementOfPair(setup, runs);
   EXPECT_EQ(table[0].verdict, Verdict::undecided);
   const double share = 0.98 / (4.0 / 3.0);
-  EXPECT_NEAR(*ringOf(table).withinShare, share, 1e-12);
+  EXPECT_NEAR(*ringOf(table).withinFraction, share, 1e-12);
   // (1 − w + w/R) must be (1/1.3587)²: R times as long (see ComparePaired).
   const double longer = share / (std::pow(1.0 / 1.3587, 2) - (1.0 - share));
   EXPECT_NEAR(*table[0].moreRotations, (longer - 1.0) * 3.0, 0.01);

@@ -245,7 +245,7 @@ TEST(CostCheapest, SaysWhatWouldDecide) {
   EXPECT_EQ(row.decides, "a reference known to better than 2.0e-03 and more simulated time");
   point.referenceError.reset();
   point.error = 0.01;
-  EXPECT_EQ(ofSynthetic({point}, 0.01).decides, "nothing: the error is the want");
+  EXPECT_EQ(ofSynthetic({point}, 0.01).decides, "nothing: the error is the target");
 }
 
 TEST(CostCheapest, OfASinglePackingIsUndecided) {

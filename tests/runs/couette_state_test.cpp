@@ -45,7 +45,7 @@ TEST(CouetteRegime, IsReadFromTheSeries) {
   for (std::size_t k = 0; k < 200; ++k) changes["shear_share"][k] = 0.0;
   const RegimeRow regime = couetteRegime(setup, {}, changes);
   EXPECT_EQ(regime.regime, Regime::flowing);
-  EXPECT_NEAR(*regime.blockedShare, 0.5, 0.03);
+  EXPECT_NEAR(*regime.blockedFraction, 0.5, 0.03);
   // A file's snapshots may lack velocities' partners, contacts, walls.
   const RegimeRow unknown = couetteRegime(setup, {}, {});
   EXPECT_FALSE(unknown.regime);
@@ -156,13 +156,13 @@ RegimeRow averaged(int seed) {
 TEST(BlockedPacking, IsToldFromOneThatFlows) {
   const RegimeRow blocked = averaged(2);
   EXPECT_EQ(blocked.regime, Regime::blocked) << blocked.reason;
-  EXPECT_EQ(blocked.blockedShare, 1.0);
+  EXPECT_EQ(blocked.blockedFraction, 1.0);
   // The wheel is in contact, under pressure, and slips: it has not lost the disks.
   EXPECT_GT(blocked.wheelContacts.value(), 5.0);
   EXPECT_GT(blocked.wheelSlip.value(), 0.9);
   const RegimeRow flowing = averaged(1);
   EXPECT_EQ(flowing.regime, Regime::flowing) << flowing.reason;
-  EXPECT_LT(flowing.blockedShare.value(), 0.5);
+  EXPECT_LT(flowing.blockedFraction.value(), 0.5);
 }
 
 }  // namespace
