@@ -47,7 +47,8 @@ struct PairedComparison {
   std::optional<double> low, high;  ///< (1 − 2α) confidence interval of the difference
   std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for P < 4
   Verdict verdict = Verdict::undecided;
-  std::optional<double> withinFraction;  ///< of the differences' variance, due to finite runs, 0 … 1
+  std::optional<double>
+      withinFraction;               ///< of the differences' variance, due to finite runs, 0 … 1
   std::optional<int> morePackings;  ///< undecided: about how many would decide; absent: no telling
   /// Undecided: runs that many times as long would decide it on the same packings, as the within
   /// share shrinks with their length and the rest stays; absent: they would not, or no telling.

@@ -66,10 +66,10 @@ inline constexpr double leastShear = 0.1;
 
 /// Means over the averaged time. Absent is what the run has no data for.
 struct RegimeFigures {
-  std::optional<double> wheelContacts;   ///< of the wheel's disks with others, at a time
-  std::optional<WheelMotion> motion;     ///< see WheelMotion
-  std::optional<double> inertialNumber;  ///< see inertialNumber()
-  std::optional<double> blockedFraction;    ///< see blockedFraction()
+  std::optional<double> wheelContacts;    ///< of the wheel's disks with others, at a time
+  std::optional<WheelMotion> motion;      ///< see WheelMotion
+  std::optional<double> inertialNumber;   ///< see inertialNumber()
+  std::optional<double> blockedFraction;  ///< see blockedFraction()
 };
 
 /// A regime and what it was read from, in words.

@@ -35,7 +35,7 @@ struct AgreementRing {
   std::optional<double> difference, standardError;  ///< b − a
   std::optional<double> low, high;                  ///< interval of the difference
   std::optional<double> margin;                     ///< absent: relative, and there is nothing
-  std::optional<double> detects;      ///< the smallest true difference found in 9 of 10 repeats
+  std::optional<double> detects;         ///< the smallest true difference found in 9 of 10 repeats
   std::optional<double> withinFraction;  ///< of the variance, due to finite runs
   TestScale scale = TestScale::linear;
   std::optional<int> packings;  ///< that both have

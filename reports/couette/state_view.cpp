@@ -24,7 +24,8 @@ Json regimeCell(const CouetteRun* run) {
                                     readable(regime.wheelContacts), readable(regime.wheelSlip),
                                     readable(regime.shearShare), readable(regime.inertialNumber));
   // A run that is blocked throughout, or never, is told by its name.
-  if (const auto blocked = finite(regime.blockedFraction); blocked && *blocked > 0.0 && *blocked < 1.0)
+  if (const auto blocked = finite(regime.blockedFraction);
+      blocked && *blocked > 0.0 && *blocked < 1.0)
     figures += fmt::format("; stood still {} % of the time", readablePercent(*blocked));
   return {{"word", regime.regime ? toString(*regime.regime) : "cannot be told"},
           {"figures", figures},

@@ -33,10 +33,10 @@ RegimeRow couetteRegime(const Case& setup, const std::vector<Profile>& profiles,
   const auto shear = meanOf(valuesOf(series, "shear_share"));
   if (slip && shear) figures.motion = WheelMotion{*slip, *shear};
   figures.inertialNumber = inertialNumber(ringsOf(setup), profiles, diskDensity(setup));
-  figures.blockedFraction =
-      blockedFraction(presentNumbers(valuesOf(series, "shear_share")), rimPassesADisk(setup, series));
+  figures.blockedFraction = blockedFraction(presentNumbers(valuesOf(series, "shear_share")),
+                                            rimPassesADisk(setup, series));
   const RegimeVerdict verdict = regimeOf(figures);
-  return {verdict.regime, verdict.reason,         figures.wheelContacts, slip,
+  return {verdict.regime, verdict.reason,         figures.wheelContacts,  slip,
           shear,          figures.inertialNumber, figures.blockedFraction};
 }
 
