@@ -17,18 +17,19 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 KEPT = HERE / "same_bits.json"
-CASES = HERE.parents[1] / "cases"
+# Where the program runs, so that reasons name files alike wherever the sources are.
+ROOT = HERE.parents[1]
 
 BASELINE = {
     "GRAIN_INSTRUCTIONS": "baseline",
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX2_Usable,-FMA_Usable,-FMA4_Usable",
 }
-# Without YADE, whose bits are its package's.
-ENGINES = "grain,grain-as-yade,grain-as-box2d-penalty,box2d-penalty,box2d-impulse"
+# Without YADE, whose bits are its package's, and mirrors, which are grain.
+ENGINES = "grain,box2d-penalty,box2d-impulse"
 COMMANDS = {
-    "compare": ["compare", CASES / "couette/quick.toml", "--engines", "grain"],
-    "collide": ["collide", CASES / "collision", "--engines", ENGINES],
-    "stability": ["stability", CASES / "hard", "--engines", ENGINES, "--quick"],
+    "compare": ["compare", "cases/couette/quick.toml", "--engines", "grain"],
+    "collide": ["collide", "cases/collision", "--engines", ENGINES],
+    "stability": ["stability", "cases/hard", "--engines", ENGINES, "--quick"],
 }
 # What a list's items are called by.
 NAMES = ("name", "id", "case", "engine", "variant", "packing", "measure", "quantity")
@@ -71,13 +72,13 @@ def run(command, cache):
     """The fingerprints of one of COMMANDS."""
     with tempfile.TemporaryDirectory(prefix="crossgrain-bits-") as folder:
         done = subprocess.run(
-            [os.environ["CROSSGRAIN"], *map(str, COMMANDS[command]), "--out", "out", "--quiet"],
-            cwd=folder, env=os.environ | BASELINE | {"CROSSGRAIN_CACHE": str(cache)},
+            [os.environ["CROSSGRAIN"], *COMMANDS[command], "--out", folder, "--quiet"],
+            cwd=ROOT, env=os.environ | BASELINE | {"CROSSGRAIN_CACHE": str(cache)},
             capture_output=True, encoding="utf-8", check=False,
         )  # fmt: skip
         if done.returncode not in (0, 1):
             raise AssertionError(f"{command}: status {done.returncode}\n{done.stderr}")
-        return fingerprints(json.loads((pathlib.Path(folder) / "out/results.json").read_text()))
+        return fingerprints(json.loads((pathlib.Path(folder) / "results.json").read_text()))
 
 
 def main():
