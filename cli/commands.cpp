@@ -5,16 +5,16 @@
 namespace crossgrain::inline cli {
 
 // Each in a file of its name.
-extern const Command enginesCommand, listCommand, checkCommand, collideCommand, compareCommand,
-    effectsCommand, stabilityCommand, costCommand, averageCommand, revCommand, calibrateCommand,
-    reportCommand, helpCommand, manualCommand, completionCommand, serveCommand;
+extern const Command enginesCommand, listCommand, checkCommand, collideCommand, lockstepCommand,
+    compareCommand, effectsCommand, stabilityCommand, costCommand, averageCommand, revCommand,
+    calibrateCommand, reportCommand, helpCommand, manualCommand, completionCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand, &listCommand,    &checkCommand,      &collideCommand,
-      &compareCommand, &effectsCommand, &stabilityCommand,  &costCommand,
-      &averageCommand, &revCommand,     &calibrateCommand,  &reportCommand,
-      &helpCommand,    &manualCommand,  &completionCommand, &serveCommand};
+      &enginesCommand,    &listCommand,      &checkCommand,     &collideCommand, &lockstepCommand,
+      &compareCommand,    &effectsCommand,   &stabilityCommand, &costCommand,    &averageCommand,
+      &revCommand,        &calibrateCommand, &reportCommand,    &helpCommand,    &manualCommand,
+      &completionCommand, &serveCommand};
   return table;
 }
 

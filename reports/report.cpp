@@ -12,6 +12,7 @@
 #include "reports/cost/report.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/effects/report.hpp"
+#include "reports/lockstep/report.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -59,6 +60,9 @@ const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
 
 const Kind<EffectsResults> effectsKind = {
     {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+
+const Kind<LockstepResults> lockstepKind = {
+    {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage};
 
 const Kind<RevResults> revKind = {
     {{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}}, revFigures, noPictures, revPage};
@@ -123,6 +127,10 @@ void writeReport(const CostResults& results, const std::filesystem::path& dir) {
   write(costKind, results, toJson(results), dir);
 }
 
+void writeReport(const LockstepResults& results, const std::filesystem::path& dir) {
+  write(lockstepKind, results, toJson(results), dir);
+}
+
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
   write(stabilityKind, results, toJson(results), dir);
 }
@@ -145,6 +153,7 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
   if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
   if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
   if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
+  if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
   if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
   const CompareResults compared = compareFromJson(results);

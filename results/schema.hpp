@@ -12,6 +12,7 @@ inline constexpr std::string_view schemaVersion = "crossgrain-results-1";
 inline constexpr std::string_view kindCompare = "compare";
 inline constexpr std::string_view kindCollide = "collide";
 inline constexpr std::string_view kindEffects = "effects";
+inline constexpr std::string_view kindLockstep = "lockstep";
 inline constexpr std::string_view kindCost = "cost";
 inline constexpr std::string_view kindAverage = "average";
 inline constexpr std::string_view kindRev = "rev";

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "results/engine_fields.hpp"
+#include "results/lockstep.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, LockstepRules& rules) {
+  io("rounding", rules.rounding);
+  io("same_law", rules.sameLaw);
+  io("yardstick", rules.yardstick);
+  io("yardstick_change", rules.yardstickChange);
+}
+
+void fields(auto& io, LockstepStart& start) {
+  io("packing", start.packing);
+  io("time_s", start.time);
+  io("wheel_angle", start.wheelAngle);
+}
+
+void fields(auto& io, LockstepSeparation& separation) {
+  io("time_s", separation.time);
+  io("median", separation.median);
+  io("largest", separation.largest);
+  io("yardstick", separation.yardstick);
+  io("equivalent", separation.equivalent);
+}
+
+void fields(auto& io, ContactKinds& kinds) {
+  io("sticking", kinds.sticking);
+  io("sliding", kinds.sliding);
+  io("new", kinds.made);
+  io("opening", kinds.opened);
+  io("wall", kinds.wall);
+}
+
+void fields(auto& io, FirstExceedance& first) {
+  io("start", first.start);
+  io("after_s", first.after);
+  io("until_s", first.until);
+  io("disk", first.disk);
+  io("partner", first.partner);
+  io("contact", first.contact);
+}
+
+void fields(auto& io, LockstepForces& forces) {
+  io("contacts", forces.contacts);
+  io("missing", forces.missing);
+  io("extra", forces.extra);
+  io("normal", forces.normal);
+  io("tangential", forces.tangential);
+}
+
+void fields(auto& io, NamedTerm& term) {
+  io("name", term.name);
+  io("amount", term.amount);
+  io("unexplained", term.unexplained);
+}
+
+void fields(auto& io, LockstepRow& row) {
+  io("engine", row.engine);
+  io("verdict", row.verdict);
+  io("reason", row.reason);
+  io("equivalent", row.equivalent);
+  io("starts", row.starts);
+  io("failure", row.failure);
+  io("separations", row.separations);
+  io("track_time_s", row.trackTime);
+  io("track", row.track);
+  io("kinds", row.kinds);
+  io("first", row.first);
+  io("forces", row.forces);
+  io("term", row.term);
+  io("realised", row.realised);
+  io("wall_s", row.wallSeconds);
+}
+
+}  // namespace crossgrain::inline results

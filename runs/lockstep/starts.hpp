@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cases/packing.hpp"
+#include "results/lockstep.hpp"
+
+namespace crossgrain::inline runs {
+
+/// A state of the flow to start from, all springs relaxed.
+struct FlowState {
+  LockstepStart start;
+  Packing packing;  ///< disks and wheel as they are there
+};
+
+/// `count` states of the case's flow as the in-house engine has it: from each packing in turn, one
+/// in each of equal spans of time, at a random moment of it that follows from the case's seed.
+/// @param dt  the case's [s]
+std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
+                                          double dt, std::size_t count,
+                                          const std::function<void(double)>& progress);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,94 @@
+#include "runs/lockstep/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "runs/lockstep/rules.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+namespace {
+
+LockstepFrame frameOf(Snapshot&& seen) {
+  LockstepFrame frame;
+  frame.time = seen.positionTime;
+  frame.velocityTime = seen.velocityTime;
+  frame.position = std::move(seen.position);
+  if (seen.spin) frame.spin = std::move(*seen.spin);
+  frame.contacts = std::move(seen.contacts);
+  return frame;
+}
+
+double timeOf(std::uint64_t steps, double dt) {
+  return static_cast<double>(steps) * dt;
+}
+
+void takeTo(Engine& engine, std::uint64_t steps, double dt) {
+  const double wanted = timeOf(steps, dt);
+  if (std::abs(engine.advance(wanted) - wanted) > 0.5 * dt)
+    throw EngineFailure("stopped at another time than it was told to");
+}
+
+void requireFinite(const LockstepFrame& frame) {
+  for (const Vec2& place : frame.position)
+    if (!place.allFinite()) throw EngineFailure("a disk is at no finite place");
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> lockstepSteps(double dt) {
+  constexpr double perDecade = 12.0;
+  const auto nearest = [&](double time) {
+    return static_cast<std::uint64_t>(std::max(1ll, std::llround(time / dt)));
+  };
+  const std::uint64_t last = nearest(lockstepTimes.back());
+  std::set<std::uint64_t> steps;
+  for (const double time : lockstepTimes) steps.insert(nearest(time));
+  for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / perDecade))
+    steps.insert(static_cast<std::uint64_t>(std::llround(step)));
+  return {steps.begin(), steps.end()};
+}
+
+std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time) {
+  const auto distance = [&](std::uint64_t step) { return std::abs(timeOf(step, dt) - time); };
+  const auto found = std::ranges::min_element(steps, {}, distance);
+  return static_cast<std::size_t>(found - steps.begin());
+}
+
+LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
+                          const std::vector<std::uint64_t>& steps, bool contacts) {
+  LockstepWindow window;
+  for (const std::uint64_t step : steps) {
+    throwIfInterrupted();
+    takeTo(engine, step, dt);
+    Snapshot theirs = engine.snapshot(contacts ? ContactReport::instant : ContactReport::none);
+    const auto stepOfForces = static_cast<std::uint64_t>(std::llround(theirs.contactTime / dt));
+    window.engine.push_back(frameOf(std::move(theirs)));
+    requireFinite(window.engine.back());
+
+    // Forces of a step before are held against those that the mirror had then.
+    std::optional<Contacts> before;
+    if (contacts && stepOfForces < step) {
+      takeTo(mirror, stepOfForces, dt);
+      before = mirror.snapshot(ContactReport::instant).contacts;
+    }
+    takeTo(mirror, step, dt);
+    window.mirror.push_back(frameOf(mirror.snapshot(ContactReport::instant)));
+    if (before) window.mirror.back().contacts = std::move(before);
+  }
+  return window;
+}
+
+std::vector<LockstepFrame> followMirror(Engine& mirror, double dt,
+                                        const std::vector<std::uint64_t>& steps) {
+  std::vector<LockstepFrame> frames;
+  for (const std::uint64_t step : steps) {
+    throwIfInterrupted();
+    takeTo(mirror, step, dt);
+    frames.push_back(frameOf(mirror.snapshot(ContactReport::none)));
+  }
+  return frames;
+}
+
+}  // namespace crossgrain::inline runs

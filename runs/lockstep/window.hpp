@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "adapters/engine.hpp"
+
+namespace crossgrain::inline runs {
+
+/// What is compared of an engine after so many steps.
+struct LockstepFrame {
+  double time = 0.0;           ///< of the positions, since the start [s]
+  double velocityTime = 0.0;   ///< since the start [s]
+  std::vector<Vec2> position;  ///< of the disks [m]
+  std::vector<double> spin;    ///< [rad/s]; empty: nothing spins
+  std::optional<Contacts> contacts;
+};
+
+/// An engine and its mirror over one window, at the same steps; contacts are of the same instants.
+struct LockstepWindow {
+  std::vector<LockstepFrame> engine, mirror;
+};
+
+/// The steps after which both are looked at: the first, about twelve in each tenfold, and those
+/// nearest to lockstepTimes.
+std::vector<std::uint64_t> lockstepSteps(double dt);
+
+/// Which of lockstepSteps() is nearest to that time.
+std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time);
+
+/// Takes both, loaded and not yet advanced, through the window.
+/// @param contacts  whether the engine can tell the forces of an instant
+/// @throws EngineFailure, Interrupted
+LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
+                          const std::vector<std::uint64_t>& steps, bool contacts);
+
+/// The mirror alone, up to the last of the steps; no contacts.
+std::vector<LockstepFrame> followMirror(Engine& mirror, double dt,
+                                        const std::vector<std::uint64_t>& steps);
+
+}  // namespace crossgrain::inline runs
