@@ -24,9 +24,18 @@ double timeOf(std::uint64_t steps, double dt) {
   return static_cast<double>(steps) * dt;
 }
 
+/// @throws EngineFailure also for what an engine in this process throws, a mirror for one
 void takeTo(Engine& engine, std::uint64_t steps, double dt) {
   const double wanted = timeOf(steps, dt);
-  if (std::abs(engine.advance(wanted) - wanted) > 0.5 * dt)
+  double reached = 0.0;
+  try {
+    reached = engine.advance(wanted);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw EngineFailure(error.what());
+  }
+  if (std::abs(reached - wanted) > 0.5 * dt)
     throw EngineFailure("stopped at another time than it was told to");
 }
 

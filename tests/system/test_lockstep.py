@@ -1,0 +1,77 @@
+"""crossgrain lockstep: engines against their mirrors, from the command line to the report."""
+
+import csv
+import unittest
+
+from harness import BAD_INPUT, COLLISION, COUETTE, FELL_SHORT, HELD, SystemTest
+
+# Binding: columns that other programs read, in this order; further ones come after.
+COLUMNS = "engine,verdict,equivalent,time_s,median_d,largest_d,yardstick_d,equivalent_then".split(",")
+
+
+class Lockstep(SystemTest):
+    def lockstep(self, *arguments, engines="box2d-penalty", case=COUETTE):
+        return self.run_program(
+            "lockstep", case, "--engines", engines, "--out", self.out, "--quick", "--quiet",
+            "--starts=3", *arguments,
+        )  # fmt: skip
+
+    def rows(self):
+        with open(self.out / "lockstep.csv", encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_engines_that_are_what_they_declare(self):
+        done = self.lockstep(engines="yade,box2d-penalty,box2d-impulse")
+        self.assert_status(done, HELD)
+        rows = self.rows()
+        self.assertEqual(COLUMNS, list(rows[0])[: len(COLUMNS)])
+        last = {row["engine"]: row for row in rows}
+        self.assertEqual("same_law", last["yade"]["verdict"])
+        self.assertLess(float(last["yade"]["equivalent"]), 1e-3)
+        self.assertEqual("same_to_rounding", last["box2d-penalty"]["verdict"])
+        self.assertLess(float(last["box2d-penalty"]["largest_d"]), 1e-10)
+        self.assertEqual("not_measured", last["box2d-impulse"]["verdict"])
+        self.assertEqual("", last["box2d-impulse"]["largest_d"])
+        self.assertIn("another normal law", last["box2d-impulse"]["reason"])
+        self.assertIn("box2d-penalty: same to rounding over 3 starts", done.stdout)
+        page = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assertIn("are the laws that they declare; box2d-impulse was not measured", page)
+        self.assertIn("How far each engine is from its mirror", page)
+
+    def test_an_engine_with_another_law_is_told_by_name(self):
+        """25 times as stiff as the case, at a fifth of its step."""
+        done = self.lockstep(engines="grain-stiff")
+        self.assert_status(done, FELL_SHORT)
+        self.assertIn("grain-stiff: differs, like", done.stdout)
+
+    def test_it_goes_on_and_its_report_can_be_made_again(self):
+        self.assert_status(self.lockstep(), HELD)
+        runs = self.finished_runs()
+        self.assertEqual(["lockstep-box2d-penalty"], list(runs))
+        self.assert_status(self.lockstep(), HELD)
+        self.assertEqual(runs, self.finished_runs())
+        page = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assert_status(self.run_program("report", self.out), HELD)
+        self.assertEqual(page, (self.out / "report.html").read_text(encoding="utf-8"))
+
+    def test_dry_run(self):
+        done = self.lockstep("--dry-run", engines="grain,box2d-penalty")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"box2d-penalty +3 windows")
+        self.assertIn("mirrors are made of this engine", done.stdout)
+        self.assertFalse(self.out.exists())
+
+    def test_nothing_to_judge(self):
+        done = self.lockstep(engines="grain")
+        self.assert_status(done, FELL_SHORT)
+        self.assertIn("nothing was judged: no engine here has a mirror", done.stdout)
+
+    def test_bad_input(self):
+        for value in ("0", "2.5", "-1"):
+            done = self.lockstep(f"--starts={value}")
+            self.assert_one_line(done, BAD_INPUT, "--starts")
+        self.assert_one_line(self.lockstep(case=COLLISION), BAD_INPUT, "lockstep cannot run")
+
+
+if __name__ == "__main__":
+    unittest.main()
