@@ -11,6 +11,10 @@
 
 namespace crossgrain::inline cases {
 
+double rotationTime(const Case& setup) {
+  return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
+}
+
 int wallDiskCount(const Cell& cell, double radius) {
   return static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / cell.wallSpacing));
 }

@@ -14,6 +14,9 @@ inline constexpr const char* ringName = "ring";
 /// case blocks rotation, the packing's spins are dropped.
 Scene couetteScene(const Case& setup, const Packing& packing, double dt);
 
+/// Seconds of one rotation of the wheel.
+double rotationTime(const Case& setup);
+
 /// How many disks the wall of that radius has: 2π·radius/wall_spacing, rounded to the nearest, so
 /// that the real spacing is as near the wanted one as whole numbers allow. Wheel:
 /// `cell.innerRadius`, ring: `cell.outerRadius`.

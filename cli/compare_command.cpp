@@ -8,6 +8,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/couette/compare.hpp"
@@ -41,6 +42,9 @@ int compare(const CommandLine& line, bool strict) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else {
     fmt::print("{}\n", effectsInWords(effectsOf(setup)));
+    if (results.lockstep)
+      for (const LockstepRow& row : results.lockstep->rows)
+        fmt::print("{}\n", reports::sentenceOf(row, results.lockstep->rules));
     for (const AgreementRow& row : rows)
       if (row.a == results.engines.front().name)
         fmt::print("{:<16} {:<22} {}\n", row.b, row.field, toString(row.verdict));
@@ -54,7 +58,11 @@ int compare(const CommandLine& line, bool strict) {
   if (const auto& nothing = results.nothingJudged)
     judged = nothingWasJudged(line, nothing->reason, nothing->byRequest || line.quick, strict);
   if (failed > 0) return exitEngineFailed;
-  if (disagree > 0 || (strict && undecided > 0)) return exitFellShort;
+  // Another law than it declares is a disagreement, whatever profiles make of it.
+  const bool differs =
+      results.lockstep && std::ranges::count(results.lockstep->rows, LockstepVerdict::differs,
+                                             &LockstepRow::verdict) > 0;
+  if (differs || disagree > 0 || (strict && undecided > 0)) return exitFellShort;
   return judged;
 }
 

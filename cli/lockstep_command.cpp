@@ -9,7 +9,7 @@
 #include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
-#include "runs/lockstep/lockstep.hpp"
+#include "runs/couette/lockstep_job.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "support/bad_input.hpp"
 
@@ -28,7 +28,7 @@ std::size_t startsOf(const std::optional<double>& given) {
 
 int statusOf(const CommandLine& line, const LockstepResults& results) {
   bool judged = false, differs = false, failed = false;
-  for (const LockstepRow& row : results.rows) {
+  for (const LockstepRow& row : results.lockstep.rows) {
     judged |= row.verdict != LockstepVerdict::notMeasured;
     differs |= row.verdict == LockstepVerdict::differs;
     if (row.failure.empty()) continue;
@@ -50,8 +50,8 @@ int lockstep(const CommandLine& line, const std::optional<double>& given) {
   if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
   } else {
-    for (const LockstepRow& row : results.rows)
-      fmt::print("{}\n", reports::sentenceOf(row, results.rules));
+    for (const LockstepRow& row : results.lockstep.rows)
+      fmt::print("{}\n", reports::sentenceOf(row, results.lockstep.rules));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   return statusOf(line, results);

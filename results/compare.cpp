@@ -1,6 +1,7 @@
 #include "results/compare.hpp"
 
 #include "results/couette_fields.hpp"
+#include "results/lockstep_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -41,6 +42,7 @@ void fields(auto& io, NothingJudged& nothing) {
 void fields(auto& io, CompareResults& results) {
   const bool compared = results.head.kind != kindAverage;
   fields(io, static_cast<CouetteStudy&>(results));
+  io.present("lockstep", results.lockstep);
   io.when(compared, "regimes", results.regimes);
   io("steadiness", results.steadiness);
   io.when(compared, "ensemble", results.ensemble);

@@ -8,6 +8,7 @@
 #include "results/agreement.hpp"
 #include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
+#include "results/lockstep_findings.hpp"
 #include "results/run.hpp"
 
 namespace crossgrain::inline results {
@@ -22,6 +23,7 @@ struct CouetteStudy : CouetteFrame {
 
 /// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.
 struct CompareResults : CouetteStudy {
+  std::optional<LockstepFindings> lockstep;  ///< absent: nobody was held against a mirror
   std::vector<RegimesOfPair> regimes;
   std::vector<EngineDrift> steadiness;
   std::vector<CouetteEnsemble> ensemble;

@@ -7,9 +7,7 @@ namespace crossgrain::inline results {
 
 void fields(auto& io, LockstepResults& results) {
   fields(io, static_cast<CouetteStudy&>(results));
-  io("rules", results.rules);
-  io("starts", results.starts);
-  io("lockstep", results.rows);
+  io("lockstep", results.lockstep);
 }
 
 Json toJson(const LockstepResults& results) {

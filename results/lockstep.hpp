@@ -1,108 +1,12 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "results/compare.hpp"
 
-/// Engines held against their mirrors, step by step from the same starts. A mirror is the in-house
-/// engine with the conventions that an engine declares, on the scene that this engine runs.
 namespace crossgrain::inline results {
-
-enum class LockstepVerdict {
-  notMeasured,     ///< the reason says why
-  sameToRounding,  ///< no disk ever leaves the mirror's by more than LockstepRules::rounding
-  sameLaw,         ///< what is left is less than a change of the yardstick by sameLaw would do
-  differs
-};
-constexpr auto namesOf(LockstepVerdict) {
-  return std::array<std::string_view, 4>{"not_measured", "same_to_rounding", "same_law", "differs"};
-}
-
-/// What the verdicts rest on.
-struct LockstepRules {
-  double rounding = 0.0;         ///< [d]
-  double sameLaw = 0.0;          ///< change of the yardstick, as a fraction of it
-  double yardstickChange = 0.0;  ///< by which it was changed to see what that does, likewise
-  std::string yardstick;         ///< the constant: "kn"
-};
-
-/// One of the states that all engines start from.
-struct LockstepStart {
-  std::size_t packing = 0;  ///< index
-  double time = 0.0;        ///< since the hand-over [s]
-  double wheelAngle = 0.0;  ///< since the wheel was built [rad]
-};
-
-/// How far disks are from the mirror's, so long after the start: of each start the disk that is
-/// farthest.
-struct LockstepSeparation {
-  double time = 0.0;                 ///< since the start [s]
-  double median = 0.0;               ///< over the starts [d]
-  double largest = 0.0;              ///< [d]
-  std::optional<double> yardstick;   ///< median of what the yardstick's change does [d]
-  std::optional<double> equivalent;  ///< ε_eq, the largest over the starts; absent: nothing moved
-};
-
-/// Contacts of the mirror that the windows came upon, each counted once a window and kind.
-struct ContactKinds {
-  std::size_t sticking = 0, sliding = 0;
-  std::size_t made = 0, opened = 0;  ///< since the look before
-  std::size_t wall = 0;              ///< with a wall disk
-};
-
-/// Where an engine first leaves its mirror by more than rounding, over all starts.
-struct FirstExceedance {
-  std::size_t start = 0;               ///< index
-  double after = 0.0, until = 0.0;     ///< between these times since the start [s]
-  std::size_t disk = 0;                ///< that is farthest off
-  std::optional<std::size_t> partner;  ///< of its contact whose force is farthest off
-  std::string contact;                 ///< "sliding", "new, wall"; empty: it touches nothing
-};
-
-/// Forces of the first step, from the same positions and velocities.
-struct LockstepForces {
-  std::size_t contacts = 0;  ///< of the mirror, all starts
-  std::size_t missing = 0;   ///< that the engine does not have
-  std::size_t extra = 0;     ///< that the mirror does not have
-  double normal = 0.0;       ///< largest difference, in the largest normal force [-]
-  double tangential = 0.0;   ///< likewise
-};
-
-/// A single change of the mirror that would account for what was seen.
-struct NamedTerm {
-  std::string name;              ///< "kn", "tension = cut", "without gravity"
-  std::optional<double> amount;  ///< of a constant: relative change
-  double unexplained = 0.0;      ///< rms part of the separation that is left, 0 … 1
-};
-
-/// One engine against its mirror.
-struct LockstepRow {
-  std::string engine;
-  LockstepVerdict verdict = LockstepVerdict::notMeasured;
-  std::string reason;                ///< of not measured
-  std::optional<double> equivalent;  ///< ε_eq, over all times and starts
-  std::size_t starts = 0;            ///< that were followed to the end
-  std::string failure;               ///< of the first start that was not
-  std::vector<LockstepSeparation> separations;
-  std::vector<double> trackTime, track;  ///< largest separation over starts [s], [d]
-  ContactKinds kinds;
-  std::optional<FirstExceedance> first;
-  std::optional<LockstepForces> forces;
-  std::optional<NamedTerm> term;  ///< absent: same to rounding, or none fits
-  std::optional<Realised> realised;
-  double wallSeconds = 0.0;  ///< that it took in all [s]
-};
 
 /// Kind "lockstep".
 struct LockstepResults : CouetteStudy {
-  LockstepRules rules;
-  std::vector<LockstepStart> starts;
-  std::vector<LockstepRow> rows;
+  LockstepFindings lockstep;
 };
 
 Json toJson(const LockstepResults& results);

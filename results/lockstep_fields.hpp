@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/engine_fields.hpp"
-#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {
 
@@ -73,6 +73,12 @@ void fields(auto& io, LockstepRow& row) {
   io("term", row.term);
   io("realised", row.realised);
   io("wall_s", row.wallSeconds);
+}
+
+void fields(auto& io, LockstepFindings& findings) {
+  io("rules", findings.rules);
+  io("starts", findings.starts);
+  io("rows", findings.rows);
 }
 
 }  // namespace crossgrain::inline results

@@ -5,11 +5,13 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/couette/state_view.hpp"
+#include "reports/lockstep/view.hpp"
 
 namespace crossgrain::reports {
 
@@ -129,6 +131,8 @@ std::string comparePage(const CompareResults& results, const Illustrations& show
   const Engines engines = engineRuns(results);
   Json view = studyView(results, shown);
   addSummary(view, results, engines);
+  view["hasLockstep"] = results.lockstep.has_value();
+  if (results.lockstep) addLockstep(view, *results.lockstep);
   view["columns"] = columnsView(engines);
   addEngineTable(view, engines);
   addStates(view, results, engines);

@@ -33,9 +33,6 @@ void addAgreement(Json& view, const CompareResults& results,
 /// The verdict in a line (lead) and a sentence or two on each engine (sentences).
 void addSummary(Json& view, const CompareResults& results, const std::vector<EngineRuns>& engines);
 
-/// One row per packing: index, seed, hash, and where it came from.
-Json packingRows(const std::vector<PackingRow>& packings);
-
 /// Rings, weights and snapshots that the profiles are means over.
 std::string averagesInWords(const CouetteFrame& frame);
 

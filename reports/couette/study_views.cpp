@@ -7,16 +7,6 @@
 
 namespace crossgrain::reports {
 
-Json packingRows(const std::vector<PackingRow>& packings) {
-  Json rows = Json::array();
-  for (const PackingRow& packing : packings)
-    rows.push_back({{"index", fmt::format("{}", packing.index)},
-                    {"seed", fmt::format("{}", packing.seed)},
-                    {"hash", packing.hash},
-                    {"source", packing.fromCache ? "earlier, kept" : "for this run"}});
-  return rows;
-}
-
 std::string averagesInWords(const CouetteFrame& frame) {
   const std::string when = averagedRotations(frame.averaging);
   return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run{}.",

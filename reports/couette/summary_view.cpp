@@ -8,6 +8,7 @@
 #include "reports/couette/agreement_entries.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/state_view.hpp"
+#include "reports/lockstep/words.hpp"
 
 namespace crossgrain::reports {
 
@@ -98,6 +99,7 @@ void addSummary(Json& view, const CompareResults& results, const Engines& engine
   Json sentences = Json::array();
   std::size_t agree = 0, disagree = 0, undecided = 0;
   if (!engines.empty()) sentences.push_back(basisInWords(results, engines.front().name));
+  if (results.lockstep) sentences.push_back("Lockstep: " + leadOf(*results.lockstep));
   for (std::string& state : stateSentences(results, engines)) sentences.push_back(std::move(state));
   for (const std::string& peer : peersOf(agreement, engines)) {
     const Tally counts = tally(agreement, engines.front().name, peer);

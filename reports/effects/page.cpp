@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reports/common/numbers.hpp"
+#include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/effects/report.hpp"

@@ -42,7 +42,7 @@ std::string lockstepCsv(const LockstepResults& results) {
       "sticking,sliding,new,opening,wall,first_after_s,first_until_s,first_disk,first_partner,"
       "first_contact,forces_missing,forces_extra,normal_force_difference,"
       "tangential_force_difference,term,term_amount,term_unexplained,reason,wall_s\n";
-  for (const LockstepRow& row : results.rows) {
+  for (const LockstepRow& row : results.lockstep.rows) {
     for (const LockstepSeparation& at : row.separations) table += lineOf(row, &at);
     if (row.separations.empty()) table += lineOf(row, nullptr);
   }

@@ -1,11 +1,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/common/engines.hpp"
 #include "reports/lockstep/report.hpp"
+#include "reports/lockstep/words.hpp"
 
 namespace crossgrain::reports {
+
+namespace {
+
+/// Whole decades, from the smallest positive point or the level to the largest.
+Range decadesOf(const Panel& panel) {
+  double low = *panel.level, high = *panel.level;
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points)
+      if (point.y > 0.0) {
+        low = std::min(low, point.y);
+        high = std::max(high, point.y);
+      }
+  return {std::pow(10.0, std::floor(std::log10(low))), std::pow(10.0, std::ceil(std::log10(high)))};
+}
+
+}  // namespace
 
 std::vector<Figure> lockstepFigures(const LockstepResults& results) {
   const std::vector<LineStyle> styles = engineStyles(results.engines);
@@ -14,9 +32,9 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
   panel.yLabel = "largest separation from the mirror [d]";
   panel.logX = panel.logY = true;
   panel.key = Key::outside;
-  panel.level = results.rules.rounding;
+  panel.level = results.lockstep.rules.rounding;
   Curve yardstick{"", {"#808080", 2, true}, Draw::linesAndPoints, {}, 1.5};
-  for (const LockstepRow& row : results.rows) {
+  for (const LockstepRow& row : results.lockstep.rows) {
     const auto engine = std::ranges::find(results.engines, row.engine, &EngineRow::name);
     if (engine == results.engines.end() || row.track.empty()) continue;
     Curve curve{row.engine,
@@ -31,10 +49,12 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
       for (const LockstepSeparation& at : row.separations)
         if (at.yardstick) yardstick.points.push_back({at.time, *at.yardstick, {}});
   }
-  yardstick.name = fmt::format("mirror with {} +{:g} %", results.rules.yardstick,
-                               100.0 * results.rules.yardstickChange);
+  yardstick.name =
+      fmt::format("mirror with {} +{:g} %", constantSymbol(results.lockstep.rules.yardstick),
+                  100.0 * results.lockstep.rules.yardstickChange);
   if (!yardstick.points.empty()) panel.curves.push_back(std::move(yardstick));
   if (!hasPoints(panel)) return {};
+  panel.yRange = decadesOf(panel);
   Figure figure{
       "lockstep_separation",
       "How far each engine is from its mirror, over time",

@@ -2,10 +2,13 @@
 
 #include <string>
 
-#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 
 /// What lockstep found, in words; for the page and the command line alike.
 namespace crossgrain::reports {
+
+/// "kn" → "k_n", as everywhere in reports.
+std::string constantSymbol(const std::string& constant);
 
 /// "same to rounding", "same law", "differs, like 2.1 % of k_n", "not measured".
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules);
@@ -18,5 +21,8 @@ std::string firstInWords(const LockstepRow& row);
 
 /// One sentence on one engine.
 std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules);
+
+/// "yade and box2d-penalty are the laws that they declare; box2d-impulse was not measured."
+std::string leadOf(const LockstepFindings& findings);
 
 }  // namespace crossgrain::reports

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "runs/cost/kept.hpp"
 #include "runs/couette/run.hpp"

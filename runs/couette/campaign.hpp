@@ -73,6 +73,7 @@ class Campaign {
   auto engines() const { return engines_ | std::views::transform(&CampaignEngine::entry); }
   /// As of CampaignEngine.
   const std::string& refusal(std::size_t engine) const { return engines_[engine].refusal; }
+  const std::string& version(std::size_t engine) const { return engines_[engine].version; }
   const std::optional<Capabilities>& capabilities(std::size_t engine) const {
     return engines_[engine].can;
   }

@@ -10,8 +10,10 @@
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/couette/contact_notes.hpp"
+#include "runs/couette/lockstep_job.hpp"
 #include "runs/couette/state_table.hpp"
 #include "runs/couette/velocity_notes.hpp"
+#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -36,6 +38,11 @@ std::vector<ComparedPair> pairsOf(const auto& engines, const std::vector<std::st
   return pairs;
 }
 
+/// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
+bool hasMirror(const EngineEntry& entry) {
+  return entry.mirrors.empty() && entry.name != engineRegistry().front().name;
+}
+
 }  // namespace
 
 std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& store) {
@@ -49,9 +56,12 @@ CompareResults compareEngines(const Case& setup, const RunCommand& command, RunS
   Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
   campaign.askEngines();
   campaign.preparePackings();
+  LockstepFindings lockstep;
+  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, lockstepStarts, hasMirror);
   campaign.timeEngines();
   campaign.run(campaign.wholeCase());
-  CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}};
+  CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}};
+  if (!lockstep.rows.empty()) results.lockstep = std::move(lockstep);
   std::vector<std::string> names;
   for (const EngineRow& engine : results.engines) names.push_back(engine.name);
   const auto pairs = pairsOf(campaign.engines(), command.engines);

@@ -27,10 +27,6 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
-double rotationTime(const Case& setup) {
-  return 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
-}
-
 CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress) {
   const Case& setup = *task.setup;
   const Scene scene = couetteScene(setup, *task.packing, task.dt);

@@ -19,9 +19,6 @@ Rings ringsOf(const Case& setup);
 /// Weights of these names, with the case's kernel width.
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
 
-/// Seconds of one rotation of the wheel.
-double rotationTime(const Case& setup);
-
 /// What one engine on one packing is to do, and where its files go.
 struct CouetteTask {
   const Case* setup;

@@ -7,7 +7,6 @@
 
 #include "adapters/registry.hpp"
 #include "cases/couette.hpp"
-#include "runs/couette/run.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "support/interrupt.hpp"
 #include "support/random.hpp"

@@ -14,8 +14,8 @@ LockstepResults measured() {
   results.head.kind = "lockstep";
   results.elapsed = 9.5;
   results.engines = {{"yade", "", "1", "", EngineStatus::ran, ""}};
-  results.rules = {1e-10, 1e-3, 0.01, "kn"};
-  results.starts = {{1, 0.25, 3.5}};
+  results.lockstep.rules = {1e-10, 1e-3, 0.01, "kn"};
+  results.lockstep.starts = {{1, 0.25, 3.5}};
   LockstepRow row;
   row.engine = "yade";
   row.verdict = LockstepVerdict::sameLaw;
@@ -33,27 +33,27 @@ LockstepResults measured() {
   none.engine = "box2d-impulse";
   none.reason = "no mirror";
   none.failure = "gone";
-  results.rows = {row, none};
+  results.lockstep.rows = {row, none};
   return results;
 }
 
 TEST(LockstepDocument, ComesBackAsItWas) {
   const Json document = toJson(measured());
   EXPECT_EQ(toJson(lockstepFromJson(document)), document);
-  EXPECT_EQ(document.at("lockstep").at(0).at("verdict"), "same_law");
-  EXPECT_EQ(document.at("lockstep").at(0).at("first").at("partner"), 251);
-  EXPECT_TRUE(document.at("lockstep").at(1).at("term").is_null());
-  EXPECT_TRUE(document.at("lockstep").at(1).at("equivalent").is_null());
+  EXPECT_EQ(document.at("lockstep").at("rows").at(0).at("verdict"), "same_law");
+  EXPECT_EQ(document.at("lockstep").at("rows").at(0).at("first").at("partner"), 251);
+  EXPECT_TRUE(document.at("lockstep").at("rows").at(1).at("term").is_null());
+  EXPECT_TRUE(document.at("lockstep").at("rows").at(1).at("equivalent").is_null());
 }
 
 TEST(LockstepDocument, SaysWhereItIsWrong) {
   Json document = toJson(measured());
-  document["lockstep"][0]["kinds"]["new"] = "many";
+  document["lockstep"]["rows"][0]["kinds"]["new"] = "many";
   try {
     lockstepFromJson(document);
     FAIL() << "nothing was said";
   } catch (const FieldError& error) {
-    EXPECT_EQ(std::string(error.what()).find("lockstep.0.kinds.new: "), 0u) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("lockstep.rows.0.kinds.new: "), 0u) << error.what();
   }
 }
 

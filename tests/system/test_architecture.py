@@ -17,9 +17,9 @@ ORDER = [
     "engines/grain", "engines/box2d",
     "adapters", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
-    "reports/common", "reports/couette", "reports/collide", "reports/effects", "reports/cost", "reports/stability",
+    "reports/common", "reports/lockstep", "reports/couette", "reports/collide", "reports/effects", "reports/cost", "reports/stability",
     "reports",
-    "runs/common", "runs/couette", "runs/collide", "runs/stability", "runs/effects", "runs/cost", "runs/check",
+    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/stability", "runs/effects", "runs/cost", "runs/check",
     "cli",
 ]  # fmt: skip
 

@@ -1,0 +1,56 @@
+#include "runs/couette/lockstep_job.hpp"
+
+#include "results/schema.hpp"
+#include "runs/lockstep/lockstep.hpp"
+
+namespace crossgrain::inline runs {
+
+LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunCommand& command,
+                            std::size_t starts,
+                            const std::function<bool(const EngineEntry&)>& takesPart) {
+  std::vector<LockstepEngine> engines;
+  for (std::size_t e = 0; e < campaign.engines().size(); ++e)
+    if (campaign.refusal(e).empty() && takesPart(campaign.engines()[e]))
+      engines.push_back({campaign.engines()[e], campaign.version(e)});
+  if (engines.empty()) return {};
+  return holdAgainstMirrors(engines, setup,
+                            {campaign.packings(), campaign.dt(), starts, command.jobs},
+                            campaign.store(), campaign.progress());
+}
+
+LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,
+                            std::size_t starts) {
+  checkEngineSections(setup);
+  Campaign campaign(setup, command, selectEngines(command.engines), store);
+  campaign.askEngines();
+  campaign.preparePackings();
+  LockstepFindings findings =
+      lockstepOf(campaign, setup, command, starts, [](const EngineEntry&) { return true; });
+  LockstepResults results{campaign.study(kindLockstep), std::move(findings)};
+  for (EngineRow& engine : results.engines)
+    for (const LockstepRow& row : results.lockstep.rows)
+      if (row.engine == engine.name && !row.failure.empty()) {
+        engine.status = EngineStatus::failed;
+        engine.reason = row.failure;
+      }
+  return results;
+}
+
+std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,
+                         std::size_t starts) {
+  checkEngineSections(setup);
+  Campaign campaign(setup, command, selectEngines(command.engines), store);
+  campaign.askEngines();
+  campaign.lookForPackings();
+  std::vector<PlannedWork> works;
+  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
+    PlannedWork work{campaign.engines()[e].name, "windows", campaign.refusal(e)};
+    const auto& can = campaign.capabilities(e);
+    if (can && work.refusal.empty()) work.refusal = whyNoMirror(campaign.engines()[e], *can, setup);
+    if (work.refusal.empty()) work.total = starts;
+    works.push_back(work);
+  }
+  return dryRunInWords(campaign.planHead(), works, store, command);
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "results/lockstep.hpp"
+#include "runs/couette/campaign.hpp"
+
+namespace crossgrain::inline runs {
+
+/// Engines of a campaign, whose packings are there, against their mirrors.
+/// @param takesPart  which of those that can run the case
+LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunCommand& command,
+                            std::size_t starts,
+                            const std::function<bool(const EngineEntry&)>& takesPart);
+
+/// Holds each engine named against its mirror.
+/// @throws BadInput, UnsupportedScene (an engine named cannot run the case), OutputError,
+/// Interrupted
+LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,
+                            std::size_t starts);
+
+/// What that would run, for people.
+std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,
+                         std::size_t starts);
+
+}  // namespace crossgrain::inline runs
