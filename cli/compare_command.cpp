@@ -12,6 +12,7 @@
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/couette/compare.hpp"
+#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -29,7 +30,8 @@ int compare(const CommandLine& line, bool strict) {
   printWarnings(setup);
   RunStore store(line.run, "compare", soleCase(setup));
   if (line.run.dryRun) return told(comparePlan(setup, line.run, store));
-  const CompareResults results = compareEngines(setup, line.run, store);
+  const CompareResults results =
+      compareEngines(setup, line.run, store, line.quick ? quickLockstepStarts : lockstepStarts);
   writeReport(results, line.run.out);
 
   const std::vector<AgreementRow> rows = peerRows(results);

@@ -17,9 +17,9 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-std::size_t startsOf(const std::optional<double>& given) {
+std::size_t startsOf(const std::optional<double>& given, bool quick) {
   constexpr double most = 10000.0;
-  if (!given) return lockstepStarts;
+  if (!given) return quick ? quickLockstepStarts : lockstepStarts;
   if (*given != std::floor(*given) || *given < 1.0 || *given > most)
     throw BadInput(
         fmt::format("--starts: {:g} must be a whole number from 1 to {:g}", *given, most));
@@ -41,7 +41,7 @@ int statusOf(const CommandLine& line, const LockstepResults& results) {
 }
 
 int lockstep(const CommandLine& line, const std::optional<double>& given) {
-  const std::size_t starts = startsOf(given);
+  const std::size_t starts = startsOf(given, line.quick);
   const Case setup = onlyCase(line, "lockstep");
   RunStore store(line.run, "lockstep", soleCase(setup));
   if (line.run.dryRun) return told(lockstepPlan(setup, line.run, store, starts));
@@ -62,7 +62,8 @@ Action declareLockstep(CLI::App& app, CommandLine& line) {
   addRun(app, line);
   addPackings(app, line);
   const auto starts = std::make_shared<std::optional<double>>();
-  addNumber(app, "--starts", *starts, "states of the flow to start from; 16 unless given");
+  addNumber(app, "--starts", *starts,
+            "states of the flow to start from; 16 unless given, 4 with --quick");
   return [&line, starts] { return resumably(line.run, [&] { return lockstep(line, *starts); }); };
 }
 

@@ -13,7 +13,6 @@
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/couette/state_table.hpp"
 #include "runs/couette/velocity_notes.hpp"
-#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -52,12 +51,13 @@ std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& 
   return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), store, command);
 }
 
-CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store) {
+CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store,
+                              std::size_t starts) {
   Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
   campaign.askEngines();
   campaign.preparePackings();
   LockstepFindings lockstep;
-  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, lockstepStarts, hasMirror);
+  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
   campaign.timeEngines();
   campaign.run(campaign.wholeCase());
   CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}};

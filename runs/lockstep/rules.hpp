@@ -30,6 +30,7 @@ inline constexpr double termUnexplained = 0.5;
 
 /// Starts along the flow; what n windows do not show happens in less than 3/n of all, at 95 %.
 inline constexpr std::size_t lockstepStarts = 16;
+inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
 /// Starts lie within so many steps of the hand-over, so that finding them costs seconds.
 inline constexpr double startSteps = 40000;

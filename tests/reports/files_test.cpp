@@ -97,9 +97,10 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
   const auto message = [&] {
     return messageOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
   };
-  EXPECT_EQ(message(), file +
-                           ": cannot be read; a folder that compare, collide, effects, cost, "
-                           "stability, average or rev wrote has it");
+  EXPECT_EQ(message(),
+            file +
+                ": cannot be read; a folder that compare, collide, lockstep, effects, cost, "
+                "stability, average or rev wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");
@@ -107,10 +108,11 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
                            ": has schema \"crossgrain-results-9\", this crossgrain reads "
                            "\"crossgrain-results-1\"");
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
-  EXPECT_EQ(message(),
-            file +
-                ": has kind \"dance\", a report is made of one of \"compare\", "
-                "\"collide\", \"effects\", \"cost\", \"average\", \"rev\", \"stability\"");
+  EXPECT_EQ(
+      message(),
+      file +
+          ": has kind \"dance\", a report is made of one of \"compare\", "
+          "\"collide\", \"lockstep\", \"effects\", \"cost\", \"average\", \"rev\", \"stability\"");
 }
 
 }  // namespace
