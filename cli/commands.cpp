@@ -6,15 +6,16 @@ namespace crossgrain::inline cli {
 
 // Each in a file of its name.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, lockstepCommand,
-    compareCommand, effectsCommand, stabilityCommand, costCommand, averageCommand, revCommand,
-    calibrateCommand, reportCommand, helpCommand, manualCommand, completionCommand, serveCommand;
+    identifyCommand, compareCommand, effectsCommand, stabilityCommand, costCommand, averageCommand,
+    revCommand, calibrateCommand, reportCommand, helpCommand, manualCommand, completionCommand,
+    serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,    &listCommand,      &checkCommand,     &collideCommand, &lockstepCommand,
-      &compareCommand,    &effectsCommand,   &stabilityCommand, &costCommand,    &averageCommand,
-      &revCommand,        &calibrateCommand, &reportCommand,    &helpCommand,    &manualCommand,
-      &completionCommand, &serveCommand};
+      &enginesCommand,  &listCommand,       &checkCommand,     &collideCommand,   &lockstepCommand,
+      &identifyCommand, &compareCommand,    &effectsCommand,   &stabilityCommand, &costCommand,
+      &averageCommand,  &revCommand,        &calibrateCommand, &reportCommand,    &helpCommand,
+      &manualCommand,   &completionCommand, &serveCommand};
   return table;
 }
 

@@ -1,7 +1,16 @@
 #include "runs/couette/lockstep_job.hpp"
 
+#include <fmt/format.h>
+
+#include "adapters/suitability.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
 #include "results/schema.hpp"
 #include "runs/lockstep/lockstep.hpp"
+#include "runs/lockstep/rules.hpp"
+#include "runs/lockstep/starts.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -34,6 +43,27 @@ LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunSto
         engine.reason = row.failure;
       }
   return results;
+}
+
+Identification runIdentify(const Case& setup, const RunCommand& command) {
+  checkEngineSections(setup);
+  const EngineEntry entry = selectEngines(command.engines).front();
+  const ScratchFolder scratch;
+  const auto engine = startEngine(entry, scratch.path, setup.run.timeout);
+  if (!hasNormalLaw(engine->capabilities(), setup.law))
+    throw UnsupportedScene(
+        fmt::format("{} {}", entry.name, whyNoMirror(entry, engine->capabilities(), setup)));
+  const double dt = timeStep(setup);
+  Progress progress(command.quiet);
+  progress.begin("identifying " + entry.name, {1.0});
+  const auto inHouse = engineRegistry().front().make();
+  const auto packing = packingOf(setup, 0, dt, *inHouse, [&](double fraction) {
+    throwIfInterrupted();
+    progress.update(0, "preparing a packing", fraction);
+  });
+  const auto states = statesAlongTheFlow(setup, {packing}, dt, identifyStarts, [](double) {});
+  return identify(*engine, entry, setup, states, dt,
+                  [&](double fraction) { progress.update(0, entry.name, fraction); });
 }
 
 std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,

@@ -5,6 +5,7 @@
 
 #include "results/lockstep.hpp"
 #include "runs/couette/campaign.hpp"
+#include "runs/lockstep/identify.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -20,7 +21,11 @@ LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunComm
 LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,
                             std::size_t starts);
 
-/// What that would run, for people.
+/// Finds out what the one engine named does, on the case's first packing; keeps nothing.
+/// @throws BadInput, UnsupportedScene, EngineFailure, Interrupted
+Identification runIdentify(const Case& setup, const RunCommand& command);
+
+/// What lockstep would run, for people.
 std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,
                          std::size_t starts);
 

@@ -206,7 +206,7 @@ class Comparison {
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       throwIfInterrupted();
       Scene changed = scenes_[s];
-      change.apply(changed);
+      change.apply(changed, termChange);
       std::vector<LockstepFrame> moved;
       try {
         mirror_->load(changed, {});

@@ -32,6 +32,9 @@ inline constexpr double termUnexplained = 0.5;
 inline constexpr std::size_t lockstepStarts = 16;
 inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
+/// Enough contacts of every kind to tell conventions apart, and every trial runs from each.
+inline constexpr std::size_t identifyStarts = 6;
+
 /// Starts lie within so many steps of the hand-over, so that finding them costs seconds.
 inline constexpr double startSteps = 40000;
 

@@ -13,16 +13,14 @@
 namespace crossgrain::inline runs {
 namespace {
 
-constexpr double larger = 1.0 + termChange;
-
 void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
-  const auto add = [&](std::string name, std::function<void(Scene&)> apply) {
+  const auto add = [&](std::string name, std::function<void(Scene&, double)> apply) {
     changes.push_back({std::move(name), true, std::move(apply)});
   };
   for (const LawConstant& constant : lawConstants())
     if (scene.law.*constant.value != 0.0)
       add(std::string(constant.name),
-          [value = constant.value](Scene& changed) { changed.law.*value *= larger; });
+          [value = constant.value](Scene& changed, double by) { changed.law.*value *= 1.0 + by; });
   const std::pair<const char*, double BottomPlate::*> plate[] = {
       {"plate mu", &BottomPlate::mu},
       {"plate kb", &BottomPlate::kb},
@@ -31,19 +29,20 @@ void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
   if (scene.bottom)
     for (const auto& [name, value] : plate)
       if ((*scene.bottom).*value != 0.0)
-        add(name, [value = value](Scene& changed) { (*changed.bottom).*value *= larger; });
-  add("mass", [](Scene& changed) {
-    for (double& mass : changed.disks.mass) mass *= larger;
+        add(name,
+            [value = value](Scene& changed, double by) { (*changed.bottom).*value *= 1.0 + by; });
+  add("mass", [](Scene& changed, double by) {
+    for (double& mass : changed.disks.mass) mass *= 1.0 + by;
   });
   if (scene.rotation)
-    add("inertia", [](Scene& changed) {
-      for (double& inertia : changed.disks.inertia) inertia *= larger;
+    add("inertia", [](Scene& changed, double by) {
+      for (double& inertia : changed.disks.inertia) inertia *= 1.0 + by;
     });
-  add("velocity of walls", [](Scene& changed) {
+  add("velocity of walls", [](Scene& changed, double by) {
     for (WallBody& body : changed.bodies) {
-      body.motion.angularVelocity *= larger;
-      body.motion.velocity *= larger;
-      body.motion.frequency *= larger;
+      body.motion.angularVelocity *= 1.0 + by;
+      body.motion.velocity *= 1.0 + by;
+      body.motion.frequency *= 1.0 + by;
     }
   });
 }
@@ -61,7 +60,7 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
       if (value != lawOptionValue(scene.law, name))
         changes.push_back(
             {fmt::format("{} = {}", name, value), false,
-             [name, value](Scene& changed) { setLawOption(changed.law, name, value); }});
+             [name, value](Scene& changed, double) { setLawOption(changed.law, name, value); }});
   }
 }
 
@@ -69,7 +68,7 @@ void addMissingEffects(std::vector<MirrorChange>& changes, const Scene& scene, C
   for (const Effect effect : effectsOf(scene)) {
     const std::string name = toString(effect);
     can.effects[effect] = Support::never;
-    changes.push_back({"without " + name, false, [can, name](Scene& changed) {
+    changes.push_back({"without " + name, false, [can, name](Scene& changed, double) {
                          changed = adaptScene(can, changed, {name}).scene;
                        }});
     can.effects[effect] = Support::optional;

@@ -15,10 +15,11 @@ namespace crossgrain::inline runs {
 struct MirrorChange {
   std::string name;         ///< "kn", "tension = cut", "without gravity"
   bool isConstant = false;  ///< the response is linear in it: any amount can be told
-  std::function<void(Scene&)> apply;
+  /// `by`: of a constant the relative change; no matter to others.
+  std::function<void(Scene&, double by)> apply;
 };
 
-/// All that could be otherwise in this scene, constants larger by termChange.
+/// All that could be otherwise in this scene.
 /// @param can  of the in-house engine
 std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can);
 
@@ -38,7 +39,7 @@ std::optional<double> equivalentChange(double separation, std::vector<double> re
 
 /// How much of a separation a change accounts for: for a constant the amount that fits best, in
 /// least squares; another convention or a missing effect as it is.
-/// @param separation, response  of all starts, one after the other
+/// @param separation, response  of all starts, one after the other; a constant's to termChange
 NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,
                  const std::vector<double>& response);
 

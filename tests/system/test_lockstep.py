@@ -73,5 +73,27 @@ class Lockstep(SystemTest):
         self.assert_one_line(self.lockstep(case=COLLISION), BAD_INPUT, "lockstep cannot run")
 
 
+class Identify(SystemTest):
+    def identify(self, engine):
+        return self.run_program("identify", COUETTE, "--engines", engine, "--quiet")
+
+    def test_an_engine_that_is_what_it_declares(self):
+        done = self.identify("yade")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"(?m)^tension +cut +declares cut$")
+        self.assertRegex(done.stdout, r"(?m)^dashpot +outside +declares outside$")
+        self.assertRegex(done.stdout, r"(?m)^does not simulate bottom_friction, bottom_spin")
+        self.assertNotIn("<-", done.stdout)
+
+    def test_an_engine_that_has_no_mirror(self):
+        done = self.identify("grain-stiff")
+        self.assert_status(done, FELL_SHORT)
+        self.assertIn("nearest mirror tried, which is none", done.stdout)
+        self.assert_one_line(self.identify("box2d-impulse"), BAD_INPUT, "another normal law")
+
+    def test_takes_one_engine(self):
+        self.assert_one_line(self.identify("grain,yade"), BAD_INPUT, "identify takes one engine")
+
+
 if __name__ == "__main__":
     unittest.main()
