@@ -45,7 +45,7 @@ class Identify : public testing::Test {
     const auto engine = makeGrain();
     const auto nobody = [](double) {};
     const std::vector<Packing> packings = {packingOf(*setup_, 0, dt_, *engine, nobody)};
-    states_ = new std::vector(statesAlongTheFlow(*setup_, packings, dt_, identifyStarts, nobody));
+    states_ = new std::vector(statesAlongTheFlow(*setup_, packings, dt_, 3, nobody));
   }
   static void TearDownTestSuite() {
     delete setup_;
