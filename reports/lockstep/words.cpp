@@ -69,7 +69,7 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
     return fmt::format("{}: not measured: {}.", row.engine, row.reason);
   std::string words =
       fmt::format("{}: {} over {} starts", row.engine, verdictInWords(row, rules), row.starts);
-  if (!row.separations.empty())
+  if (row.separations.size() > 1)
     words += fmt::format(
         "; largest separation {} d after {}, {} d after {}", readable(row.separations[1].largest),
         milliseconds(row.separations[1].time), readable(row.separations.back().largest),
@@ -95,7 +95,7 @@ std::string leadOf(const LockstepFindings& findings) {
     else
       (row.verdict == LockstepVerdict::differs ? differ : same).push_back(row.engine);
   }
-  if (same.empty() && differ.empty()) return "Nothing was measured: no engine here has a mirror.";
+  if (same.empty() && differ.empty()) return "Nothing was measured.";
   std::vector<std::string> parts;
   const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
     if (!names.empty())

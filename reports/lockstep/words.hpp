@@ -22,7 +22,7 @@ std::string firstInWords(const LockstepRow& row);
 /// One sentence on one engine.
 std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules);
 
-/// "yade and box2d-penalty are the laws that they declare; box2d-impulse was not measured."
+/// "one and another are the laws that they declare; a third was not measured."
 std::string leadOf(const LockstepFindings& findings);
 
 }  // namespace crossgrain::reports

@@ -74,8 +74,7 @@ class Search {
       realised_ = loadScene(engine, entry, setup, scene);
       step_ = realised_.dt;
       until_.clear();
-      for (const double time : identifyTimes)
-        until_.push_back(static_cast<std::uint64_t>(std::max(1ll, std::llround(time / step_))));
+      for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));
       engine_.push_back(followMirror(engine, step_, until_));
       scene.precision = Precision::float64;
       scene.dt = step_;

@@ -46,14 +46,15 @@ void requireFinite(const LockstepFrame& frame) {
 
 }  // namespace
 
+std::uint64_t stepsUntil(double time, double dt) {
+  return static_cast<std::uint64_t>(std::max(1ll, std::llround(time / dt)));
+}
+
 std::vector<std::uint64_t> lockstepSteps(double dt) {
   constexpr double perDecade = 12.0;
-  const auto nearest = [&](double time) {
-    return static_cast<std::uint64_t>(std::max(1ll, std::llround(time / dt)));
-  };
-  const std::uint64_t last = nearest(lockstepTimes.back());
+  const std::uint64_t last = stepsUntil(lockstepTimes.back(), dt);
   std::set<std::uint64_t> steps;
-  for (const double time : lockstepTimes) steps.insert(nearest(time));
+  for (const double time : lockstepTimes) steps.insert(stepsUntil(time, dt));
   for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / perDecade))
     steps.insert(static_cast<std::uint64_t>(std::llround(step)));
   return {steps.begin(), steps.end()};

@@ -22,6 +22,9 @@ struct LockstepWindow {
   std::vector<LockstepFrame> engine, mirror;
 };
 
+/// The number of steps nearest to that time, one at least.
+std::uint64_t stepsUntil(double time, double dt);
+
 /// The steps after which both are looked at: the first, about twelve in each tenfold, and those
 /// nearest to lockstepTimes.
 std::vector<std::uint64_t> lockstepSteps(double dt);

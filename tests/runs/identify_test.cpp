@@ -12,30 +12,11 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "runs/lockstep/rules.hpp"
+#include "tests/runs/planted_engine.hpp"
 
 namespace {
 
 using namespace crossgrain;
-
-/// The in-house engine with another law than it says, on the quick cell.
-class Disguised : public Engine {
- public:
-  explicit Disguised(std::function<void(Scene&)> fault)
-      : fault_(std::move(fault)), own_(makeGrain()) {}
-  Capabilities capabilities() const override { return own_->capabilities(); }
-  Realised load(const Scene& scene, const Settings& settings) override {
-    Scene other = scene;
-    fault_(other);
-    return own_->load(other, settings);
-  }
-  double advance(double t) override { return own_->advance(t); }
-  Snapshot snapshot(ContactReport contacts) override { return own_->snapshot(contacts); }
-  Stats stats() const override { return own_->stats(); }
-
- private:
-  std::function<void(Scene&)> fault_;
-  std::unique_ptr<Engine> own_;
-};
 
 class Identify : public testing::Test {
  protected:
@@ -56,7 +37,7 @@ class Identify : public testing::Test {
     return identify(engine, entry, *setup_, *states_, dt_, [](double) {});
   }
   static Identification of(std::function<void(Scene&)> fault) {
-    Disguised engine(std::move(fault));
+    test::PlantedEngine engine(std::move(fault));
     return of(engine, {"disguised", "", makeGrain, {}, {}, ""});
   }
   static const FoundOption* optionOf(const Identification& found, const std::string& name) {

@@ -11,30 +11,11 @@
 #include "cases/time_step.hpp"
 #include "runs/lockstep/comparison.hpp"
 #include "runs/lockstep/rules.hpp"
+#include "tests/runs/planted_engine.hpp"
 
 namespace {
 
 using namespace crossgrain;
-
-/// The in-house engine on another scene than it is given.
-class Planted : public Engine {
- public:
-  explicit Planted(std::function<void(Scene&)> fault)
-      : fault_(std::move(fault)), own_(makeGrain()) {}
-  Capabilities capabilities() const override { return own_->capabilities(); }
-  Realised load(const Scene& scene, const Settings& settings) override {
-    Scene other = scene;
-    fault_(other);
-    return own_->load(other, settings);
-  }
-  double advance(double t) override { return own_->advance(t); }
-  Snapshot snapshot(ContactReport contacts) override { return own_->snapshot(contacts); }
-  Stats stats() const override { return own_->stats(); }
-
- private:
-  std::function<void(Scene&)> fault_;
-  std::unique_ptr<Engine> own_;
-};
 
 /// The quick cell, one packing, made once for all tests.
 class Lockstep : public testing::Test {
@@ -54,7 +35,7 @@ class Lockstep : public testing::Test {
   }
 
   static LockstepRow rowOf(std::function<void(Scene&)> fault) {
-    Planted engine(std::move(fault));
+    test::PlantedEngine engine(std::move(fault));
     const EngineEntry entry{"planted", "", makeGrain, {}, {}, ""};
     return holdAgainstMirror(engine, entry, *setup_, *states_, dt_, [](double) {});
   }
