@@ -140,6 +140,8 @@ struct LawConventions {
     }
     return leverArm;
   }
+
+  bool operator==(const LawConventions&) const = default;
 };
 
 /// Parameters of the law that the scene calls for; the same for all contacts.
@@ -163,6 +165,8 @@ struct ContactLaw {
   bool springs() const {
     return tangential == TangentialLaw::spring || tangential == TangentialLaw::springDashpot;
   }
+
+  bool operator==(const ContactLaw&) const = default;
 };
 
 /// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29):
@@ -175,6 +179,8 @@ struct BottomPlate {
   double tauM = 0.0;      ///< τ_M [-]
   double gravity = 9.81;  ///< g that presses a disk on the plate, normal to the plane [m/s²]
   bool spin = true;       ///< whether the plate also brakes spin
+
+  bool operator==(const BottomPlate&) const = default;
 };
 
 }  // namespace crossgrain

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "adapters/program_call.hpp"
 
 namespace crossgrain {
 
@@ -15,14 +16,16 @@ struct EngineEntry {
   std::string summary;  ///< one line for `crossgrain engines`
   /// Makes the engine in the calling process; empty for engines that are programs of their own.
   std::function<std::unique_ptr<Engine>()> make;
-  /// Argument vector of the worker program; empty: `crossgrain __serve NAME`.
-  std::function<std::vector<std::string>()> command;
+  /// The worker program; empty: `crossgrain __serve NAME`.
+  std::function<ProgramCall()> command;
   /// Why it cannot be run here, one line; empty if it can.
   std::function<std::string()> missing;
   /// A mirror is the in-house engine set to a peer's conventions: that peer's name, else empty.
   std::string mirrors;
   /// Of a mirror: the normal laws (lawOptionValue) of scenes in which it stands for that peer.
   std::vector<std::string> mirrorsNormal = {};
+  /// What the engine's settings are where the case says nothing.
+  Settings settings = {};
 };
 
 }  // namespace crossgrain

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "adapters/declared_law.hpp"
 #include "adapters/engine_entry.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
@@ -115,18 +116,6 @@ EnergyLedger translate(const grain::EnergyLedger& from) {
   return to;
 }
 
-/// Contacts that last 1/√factor as long, at the same restitution.
-void stiffen(ContactLaw& law, double factor) {
-  law.kn *= factor;
-  law.kn3 *= factor;
-  law.kt *= factor;
-  const double slower = law.damper == Damper::constant       ? std::sqrt(factor)
-                        : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
-                                                             : 1.0;
-  law.gn *= slower;
-  law.gt *= slower;
-}
-
 class GrainEngine : public Engine {
  public:
   GrainEngine(LawConventionSets conventions, double stiffness)
@@ -174,7 +163,7 @@ class GrainEngine : public Engine {
     if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
     if (!(stiffness > 0.0)) throw std::invalid_argument("the setting stiffness must be > 0");
-    stiffen(law, stiffness);
+    law = stiffened(law, stiffness);
 
     Scene own = scene;
     own.law = law;

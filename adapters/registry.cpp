@@ -1,6 +1,7 @@
 #include "adapters/registry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace crossgrain {
 
@@ -8,23 +9,47 @@ namespace crossgrain {
 EngineEntry grainEngine();
 EngineEntry yadeEngine();
 EngineEntry yadeMirror();
+EngineEntry lammpsEngine();
+EngineEntry lammpsMirror();
 EngineEntry box2dImpulseEngine();
 EngineEntry box2dImpulseMirror();
 EngineEntry stiffGrainEngine();
 EngineEntry box2dPenaltyEngine();
 EngineEntry box2dPenaltyMirror();
 
-const std::vector<EngineEntry>& engineRegistry() {
-  static const std::vector<EngineEntry> entries = {
-      grainEngine(), yadeEngine(),         box2dImpulseEngine(), box2dPenaltyEngine(),
-      yadeMirror(),  box2dPenaltyMirror(), box2dImpulseMirror(), stiffGrainEngine()};
-  return entries;
+namespace {
+
+std::deque<EngineEntry> builtIn() {
+  return {grainEngine(),        yadeEngine(),      box2dImpulseEngine(), box2dPenaltyEngine(),
+          lammpsEngine(),       yadeMirror(),      lammpsMirror(),       box2dPenaltyMirror(),
+          box2dImpulseMirror(), stiffGrainEngine()};
+}
+
+/// A deque: what was found in it stays where it is while engines are added.
+std::deque<EngineEntry>& entries() {
+  static std::deque<EngineEntry> all = builtIn();
+  return all;
+}
+
+}  // namespace
+
+const std::deque<EngineEntry>& engineRegistry() {
+  return entries();
+}
+
+std::size_t builtInEngines() {
+  static const std::size_t count = builtIn().size();
+  return count;
+}
+
+void addEngine(EngineEntry entry) {
+  entries().push_back(std::move(entry));
 }
 
 const EngineEntry* findEngine(const std::string& name) {
-  const auto& entries = engineRegistry();
-  const auto found = std::ranges::find(entries, name, &EngineEntry::name);
-  return found == entries.end() ? nullptr : &*found;
+  const auto& known = engineRegistry();
+  const auto found = std::ranges::find(known, name, &EngineEntry::name);
+  return found == known.end() ? nullptr : &*found;
 }
 
 }  // namespace crossgrain

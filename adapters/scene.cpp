@@ -1,5 +1,7 @@
 #include "adapters/scene.hpp"
 
+#include <fmt/format.h>
+
 namespace crossgrain {
 
 std::string toString(Precision precision) {
@@ -16,6 +18,14 @@ std::size_t Scene::planeCount() const {
   std::size_t count = 0;
   for (const WallBody& body : bodies) count += body.planes.size();
   return count;
+}
+
+std::string nameOfId(const Scene& scene, std::size_t id) {
+  const std::size_t disks = scene.disks.size();
+  if (id < disks) return fmt::format("disk {}", id);
+  const std::size_t walls = scene.wallDiskCount();
+  if (id < disks + walls) return fmt::format("wall disk {}", id - disks);
+  return fmt::format("plane {}", id - disks - walls);
 }
 
 }  // namespace crossgrain

@@ -65,4 +65,7 @@ struct Scene {
   std::size_t planeCount() const;
 };
 
+/// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0.
+std::string nameOfId(const Scene& scene, std::size_t id);
+
 }  // namespace crossgrain

@@ -23,11 +23,6 @@ struct AllDisks {
   }
 };
 
-/// "disk 3", "wall disk 12": as the user knows it.
-std::string nameOf(std::size_t id, std::size_t disks) {
-  return id < disks ? fmt::format("disk {}", id) : fmt::format("wall disk {}", id - disks);
-}
-
 std::optional<DeepStart> deepInPlane(const Scene& scene,
                                      const std::function<double(double, double)>& limit) {
   std::size_t number = 0;
@@ -38,7 +33,7 @@ std::optional<DeepStart> deepInPlane(const Scene& scene,
         const double overlap =
             radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
         if (overlap > limit(radius, radius))
-          return DeepStart{nameOf(i, scene.disks.size()), fmt::format("plane {}", number),
+          return DeepStart{nameOfId(scene, i), fmt::format("plane {}", number),
                            scene.disks.position[i], overlap, false};
       }
       ++number;
@@ -66,7 +61,7 @@ std::optional<DeepStart> deepStart(const Scene& scene,
     const double distance = (all.position[i] - all.position[j]).norm();
     const double overlap = all.radius[i] + all.radius[j] - distance;
     if (distance == 0.0 || overlap > limit(all.radius[i], all.radius[j]))
-      first = {nameOf(i, disks), nameOf(j, disks), all.position[i], overlap, distance == 0.0};
+      first = {nameOfId(scene, i), nameOfId(scene, j), all.position[i], overlap, distance == 0.0};
   });
   if (first) return first;
   return deepInPlane(scene, limit);
@@ -74,7 +69,7 @@ std::optional<DeepStart> deepStart(const Scene& scene,
 
 std::string whyNoStart(const Scene& scene) {
   if (const auto lost = firstNotFinite(scene))
-    return fmt::format("the position of {} is not finite", nameOf(*lost, scene.disks.size()));
+    return fmt::format("the position of {} is not finite", nameOfId(scene, *lost));
   const auto deep = deepStart(scene, [](double a, double b) { return std::min(a, b); });
   if (!deep) return {};
   const std::string who = fmt::format("{} and {}", deep->first, deep->second);

@@ -1,47 +1,20 @@
 #include "adapters/yade.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
-
 #include "adapters/engine_entry.hpp"
 #include "adapters/grain.hpp"
-#include "support/data_folder.hpp"
+#include "adapters/worker_script.hpp"
+#include "support/program.hpp"
 
 namespace crossgrain {
-namespace {
-
-std::filesystem::path script() {
-  return dataFolder() / "engines/yade/worker.py";
-}
-
-bool onPath(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream directories(path ? path : "");
-  for (std::string directory; std::getline(directories, directory, ':');)
-    if (::access((std::filesystem::path(directory) / program).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
-}  // namespace
-
-std::vector<std::string> yadeCommand() {
+ProgramCall yadeCommand() {
   // Without display, leave when the script ends, one thread: sums in one order.
-  return {"yade", "-n", "-x", "-j1", script().string()};
+  return std::vector<std::string>{"yade", "-n", "-x", "-j1", workerScript("yade").string()};
 }
 
 std::string yadeMissing() {
-  if (!onPath("yade"))
+  if (!isOnPath("yade"))
     return "there is no program 'yade' in PATH (Debian and Ubuntu: package yade)";
-  if (!std::filesystem::exists(script()))
-    return fmt::format(
-        "there is no {}; set CROSSGRAIN_DATA to the folder that holds "
-        "engines/yade/worker.py",
-        script().string());
-  return {};
+  return workerScriptMissing("yade");
 }
 
 EngineEntry yadeEngine() {

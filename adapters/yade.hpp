@@ -1,14 +1,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "adapters/program_call.hpp"
 
 namespace crossgrain {
 
 /// How to start the worker that runs a scene on YADE: YADE executes engines/yade/worker.py, which
 /// speaks the worker protocol.
 /// The script is in engines/yade of dataFolder().
-std::vector<std::string> yadeCommand();
+ProgramCall yadeCommand();
 
 /// Why YADE cannot be run here, one line; empty if it can.
 std::string yadeMissing();

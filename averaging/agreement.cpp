@@ -13,8 +13,6 @@ namespace crossgrain::inline averaging {
 namespace {
 
 constexpr int fewestPackings = 4;
-constexpr int mostPackings = 10000;
-constexpr double longestRuns = 1000.0;
 
 /// t of the upper tail `level`, P − 1 degrees of freedom.
 double upperQuantile(double level, int packings) {
@@ -92,13 +90,13 @@ PairedComparison describe(const PairedSample& sample, double alpha) {
   result.high = result.difference + half;
   result.withinFraction = withinFractionOf(sample, *mean);
   if (result.packings >= fewestPackings)
-    result.pDisagree =
-        pWithin(result.difference, *result.standardError, sample.margin, result.packings);
+    result.pDisagree = pWithin(result.difference, *result.standardError,
+                               sample.margin + sample.bias, result.packings);
   return result;
 }
 
-/// Turns the family's p-values into Holm's adjusted ones. @returns how many tests there were
-std::size_t adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
+/// Turns the family's p-values into Holm's adjusted ones.
+void adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
   std::vector<double*> tests;
   for (auto& comparison : family)
     if (comparison && comparison->pDisagree) tests.push_back(&*comparison->pDisagree);
@@ -108,45 +106,6 @@ std::size_t adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
     largest = std::max(largest, std::min(1.0, static_cast<double>(tests.size() - k) * *tests[k]));
     *tests[k] = largest;
   }
-  return tests.size();
-}
-
-/// What a comparison lacks for a verdict if mean and scatter stay as they are: the interval at
-/// `level` must fit into the room between mean and margin.
-struct Lacking {
-  double room;
-  double level;
-};
-
-Lacking lacking(const PairedComparison& c, double margin, double alpha, std::size_t tests) {
-  const bool couldAgree = std::abs(c.difference) < margin;
-  return {std::abs(margin - std::abs(c.difference)),
-          couldAgree ? alpha : alpha / static_cast<double>(std::max(tests, std::size_t{1}))};
-}
-
-std::optional<int> packingsWanted(const PairedComparison& c, const Lacking& lack) {
-  if (!c.standardError) return std::max(fewestPackings - c.packings, 0);
-  const double sd = *c.standardError * std::sqrt(c.packings);
-  const auto fits = [&](int n) {
-    return upperQuantile(lack.level, n) * sd / std::sqrt(n) <= lack.room;
-  };
-  if (!fits(mostPackings)) return std::nullopt;
-  int tooFew = std::max(c.packings, fewestPackings) - 1;
-  int enough = mostPackings;
-  while (enough - tooFew > 1) {
-    const int middle = tooFew + (enough - tooFew) / 2;
-    (fits(middle) ? enough : tooFew) = middle;
-  }
-  return std::max(enough - c.packings, 1);
-}
-
-/// se²(1 − w + w/R) = (room/t)² solved for R.
-std::optional<double> longerRunsWanted(const PairedComparison& c, const Lacking& lack) {
-  if (c.packings < fewestPackings || !c.withinFraction) return std::nullopt;
-  const double ratio = lack.room / upperQuantile(lack.level, c.packings) / *c.standardError;
-  const double left = ratio * ratio - (1.0 - *c.withinFraction);
-  if (!(left * longestRuns > *c.withinFraction)) return std::nullopt;
-  return std::max(*c.withinFraction / left, 1.0);
 }
 
 }  // namespace
@@ -173,20 +132,15 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
   std::vector<std::optional<PairedComparison>> result;
   for (const PairedSample& sample : family)
     result.push_back(anything(sample) ? std::optional(describe(sample, alpha)) : std::nullopt);
-  const std::size_t tests = adjustByHolm(result);
+  adjustByHolm(result);
   for (std::size_t k = 0; k < family.size(); ++k) {
     if (!result[k]) continue;
     PairedComparison& c = *result[k];
-    const double margin = family[k].margin;
+    const double margin = family[k].margin - family[k].bias;
     if (c.packings >= fewestPackings && *c.low >= -margin && *c.high <= margin)
       c.verdict = Verdict::agree;
     else if (c.pDisagree && *c.pDisagree <= alpha)
       c.verdict = Verdict::disagree;
-    else {
-      const Lacking lack = lacking(c, margin, alpha, tests);
-      c.morePackings = packingsWanted(c, lack);
-      c.longerRuns = longerRunsWanted(c, lack);
-    }
   }
   return result;
 }
@@ -228,28 +182,16 @@ std::optional<double> smallestSignificant(double standardError, int packings, st
 
 FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings) {
   FieldVerdict result;
-  bool telling = true, lengthTelling = true;
-  int most = 0;
-  double longest = 1.0;
   for (const auto& ring : rings) {
     if (!ring) continue;
     ++result.compared;
     result.agreeing += ring->verdict == Verdict::agree;
     result.disagreeing += ring->verdict == Verdict::disagree;
-    if (ring->verdict != Verdict::undecided) continue;
-    telling = telling && ring->morePackings;
-    most = std::max(most, ring->morePackings.value_or(0));
-    lengthTelling = lengthTelling && ring->longerRuns;
-    longest = std::max(longest, ring->longerRuns.value_or(1.0));
   }
   if (result.disagreeing > 0)
     result.verdict = Verdict::disagree;
   else if (result.compared > 0 && result.agreeing == result.compared)
     result.verdict = Verdict::agree;
-  else if (result.compared > 0) {
-    if (telling) result.morePackings = most;
-    if (lengthTelling) result.longerRuns = longest;
-  }
   return result;
 }
 

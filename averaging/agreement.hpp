@@ -33,6 +33,9 @@ struct PairedSample {
   std::vector<std::optional<double>> reference;  ///< per packing
   std::vector<std::optional<double>> other;      ///< per packing, in the same order
   double margin = 0.0;  ///< largest |other − reference| that still counts as agreement, ≥ 0
+  /// By how much the true difference may be another than that of these numbers, 0 … margin: it
+  /// narrows the margin of agreement and widens that of disagreement.
+  double bias = 0.0;
   /// Per packing the variance of other − reference that the two runs' finite length brings, the
   /// sum of their squared within-run errors; empty if nobody knows.
   std::vector<std::optional<double>> withinVariance;
@@ -48,11 +51,7 @@ struct PairedComparison {
   std::optional<double> pDisagree;  ///< that |µ| ≤ margin, Holm-adjusted; absent for P < 4
   Verdict verdict = Verdict::undecided;
   std::optional<double>
-      withinFraction;               ///< of the differences' variance, due to finite runs, 0 … 1
-  std::optional<int> morePackings;  ///< undecided: about how many would decide; absent: no telling
-  /// Undecided: runs that many times as long would decide it on the same packings, as the within
-  /// share shrinks with their length and the rest stays; absent: they would not, or no telling.
-  std::optional<double> longerRuns;
+      withinFraction;  ///< of the differences' variance, due to finite runs, 0 … 1
 };
 
 /// Verdicts on a family of tests (rings and fields of one comparison), α = 1 − confidence:
@@ -85,8 +84,6 @@ std::optional<double> smallestSignificant(double standardError, int packings, st
 struct FieldVerdict {
   Verdict verdict = Verdict::undecided;
   int compared = 0, agreeing = 0, disagreeing = 0;  ///< rings
-  std::optional<int> morePackings;                  ///< the most that any undecided ring asks for
-  std::optional<double> longerRuns;                 ///< likewise; absent if any of them cannot tell
 };
 
 /// Agree iff every compared ring agrees, disagree if any ring disagrees, else undecided.

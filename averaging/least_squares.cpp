@@ -1,7 +1,6 @@
 #include "averaging/least_squares.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
 #include <Eigen/Dense>
@@ -10,6 +9,7 @@
 #include <memory>
 
 #include "averaging/fits.hpp"
+#include "support/quiet_gsl.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -34,18 +34,6 @@ int residuals(const gsl_vector* at, void* data, gsl_vector* f) {
   }
   return GSL_SUCCESS;
 }
-
-/// GSL aborts the program on an error unless told otherwise; here errors are return values.
-class QuietGsl {
- public:
-  QuietGsl() : previous_(gsl_set_error_handler_off()) {}
-  ~QuietGsl() { gsl_set_error_handler(previous_); }
-  QuietGsl(const QuietGsl&) = delete;
-  QuietGsl& operator=(const QuietGsl&) = delete;
-
- private:
-  gsl_error_handler_t* previous_;
-};
 
 }  // namespace
 

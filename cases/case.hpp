@@ -43,6 +43,7 @@ struct Particles {
 
 /// Dilute lattice, random velocities, turning wheel, shrinking ring, then rotations (thesis §3.3).
 struct Preparation {
+  std::string engine;  ///< that prepares them; empty: the in-house one
   int packings = 4;
   std::uint64_t seed = 1;
   double dilation = 1.25;   ///< R_prepare / R_o
@@ -67,7 +68,14 @@ struct Averaging {
   double rotations = 1.0;         ///< averaged
   int snapshotsPerRotation = 400;
   double confidence = 0.95;
-  std::map<std::string, Margin> margins;  ///< by field name as in profiles.csv
+  std::map<std::string, Margin> margins;    ///< by field name as in profiles.csv
+  std::map<std::string, Margin> endpoints;  ///< by name (endpoints.hpp)
+};
+
+/// How `compare` adds packings (averaging/looks.hpp).
+struct Looks {
+  int count = 1;          ///< the most, each after as many packings more as a campaign begins with
+  double budget = 120.0;  ///< no further look begins that would end later [s]
 };
 
 struct RunOptions {
@@ -115,6 +123,7 @@ struct Case {
   Particles particles;
   Preparation preparation;
   Averaging averaging;
+  Looks looks;
   RunOptions run;
   Collision collision;
   Assembly assembly;

@@ -59,8 +59,8 @@ void cautionsOfFilling(const Case& setup, double volumeFraction, Lines& lines) {
 void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   constexpr int fewest = 4;
   const int packings = setup.particles.file ? 1 : setup.preparation.packings;
-  if (setup.averaging.margins.empty())
-    lines.emplace_back("no [averaging.margins]: compare will judge nothing");
+  if (setup.averaging.endpoints.empty())
+    lines.emplace_back("no [averaging.endpoints]: compare will judge nothing");
   if (packings < fewest)
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",

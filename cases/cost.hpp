@@ -21,6 +21,9 @@ struct Cost {
   double speed = 0.01;  ///< v_n [m/s]
   double psiMax = 4.0;
   int psiCount = 41;
+  /// Steps per t_c of an engine's own limit of small steps, where its law has no oracle; held
+  /// against itself at half of them.
+  double collisionReference = 6400.0;
 
   /// A packing over a window that is short against its chaos.
   std::vector<double> trajectorySteps = {400, 200, 100, 50, 20, 10, 5, 2};
@@ -33,6 +36,9 @@ struct Cost {
   /// The case's packings and averaging.
   std::vector<double> averageSteps = {100, 50, 20, 10, 5, 2};
   double averageReference = 200.0;
+  /// Steps at which averages are only bounded, over short windows.
+  std::vector<double> boundSteps = {1600, 800, 400, 200};
+  double boundReference = 3200.0;  ///< of those windows
 
   /// What knobs are set to, by the name of the knob: of each either texts or numbers.
   std::map<std::string, std::vector<std::string>> texts;

@@ -11,17 +11,17 @@ const std::vector<CostKnob>& costKnobs() {
   using enum CostKind;
   static const std::vector<CostKind> everywhere(costKinds.begin(), costKinds.end());
   static const std::vector<CostKnob> knobs = {
-      {.name = "time_step", .kinds = everywhere, .speaksForItself = true},
-      {.name = "integrator", .kinds = {collision, trajectory}, .speaksForItself = true},
-      {.name = "precision", .kinds = everywhere},
+      {.name = "time_step", .kinds = everywhere, .speaksForItself = true, .sameLaw = true},
+      {.name = "integrator", .kinds = everywhere, .speaksForItself = true, .sameLaw = true},
+      {.name = "precision", .kinds = everywhere, .sameLaw = true},
       {.name = "tangential",  // laws in place of the case's
        .key = "tangential",
        .texts = {"viscous", "coulomb", "spring"},
        .choices = {"none", "coulomb", "viscous", "spring", "spring_dashpot"},
        .kinds = {collision, averages}},
       {.name = "tension", .kinds = {collision, averages}},
-      {.name = "settings", .kinds = everywhere},  // an engine's own, [cost.settings.NAME]
-      {.name = "method",                          // of averaging
+      {.name = "settings", .kinds = everywhere, .sameLaw = true},  // [cost.settings.NAME]
+      {.name = "method",                                           // of averaging
        .key = "methods",
        .texts = {"slicing", "centre"},
        .choices = {weightNames.begin(), weightNames.end()},

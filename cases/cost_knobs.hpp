@@ -22,6 +22,8 @@ struct CostKnob {
   double least = 0.0;                                 ///< of the numbers; 0 itself is out
   std::vector<CostKind> kinds = {};                   ///< of error that it may change
   bool speaksForItself = false;                       ///< see below
+  /// Its settings leave the law as it is: what they change is how it is worked out.
+  bool sameLaw = false;
   bool sameRun = false;  ///< its settings sample the runs of the case as it is differently
 };
 

@@ -50,10 +50,12 @@ const std::array switchables = {
                                setup.law.soft() ? "[law]\ngn = 0.0\n" : "[law]\ne_n = 1.0\n"};
                }},
     Switchable{"friction", Effect::friction, nullptr,
-               [](const Case&) {
+               [](const Case& setup) {
+                 std::string law = "[law]\ntangential = \"none\"\nmu = 0.0\ngt = 0.0\n";
+                 if (setup.law.normal != NormalLaw::hertz) law += "kt = 0.0\n";  // else of young
                  return Change{
                      "No tangential force; with it go rotation, tangential springs and dashpots.",
-                     "[law]\ntangential = \"none\"\nmu = 0.0\nkt = 0.0\ngt = 0.0\n"};
+                     law};
                }},
     Switchable{"tangential_spring", Effect::tangentialSpring, nullptr, noTangentialSpring},
     Switchable{"tangential_damping", Effect::tangentialDamping, nullptr, noTangentialDamping},

@@ -22,7 +22,7 @@ namespace {
 // In the order of CaseKind.
 const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
 const std::vector<std::vector<std::string>> sectionsOfKinds = {
-    {"bottom", "cell", "particles", "preparation", "averaging", "cost"},
+    {"bottom", "cell", "particles", "preparation", "averaging", "looks", "cost"},
     {"collision"},
     {"bottom", "assembly"}};
 
@@ -136,12 +136,14 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader particles = root.section("particles");
   Reader preparation = root.section("preparation");
   Reader averaging = root.section("averaging");
+  Reader looks = root.section("looks");
   Reader cost = root.section("cost");
   readCell(cell, c.cell);
   readParticles(particles, c.cell, c.particles);
   readPlate(root, c);
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c, c.averaging);
+  readLooks(looks, c.looks);
   requireStep(run, c);
   readCost(cost, c.cost);
   checkDamping(law, c);

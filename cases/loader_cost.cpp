@@ -49,6 +49,7 @@ void readCost(Reader& in, Cost& cost) {
   in.read("speed", cost.speed, positive("m/s"));
   in.read("psi_max", cost.psiMax, positive());
   in.read("psi_count", cost.psiCount, between(2, 10'000));
+  in.read("collision_reference", cost.collisionReference, steps);
   in.read("trajectory_steps", cost.trajectorySteps, steps);
   in.read("trajectory_reference", cost.trajectoryReference, steps);
   in.read("perturbation", cost.perturbation, positive("d"));
@@ -57,6 +58,8 @@ void readCost(Reader& in, Cost& cost) {
   in.read("growth_time", cost.growthTime, positive("s"));
   in.read("average_steps", cost.averageSteps, steps);
   in.read("average_reference", cost.averageReference, steps);
+  in.read("bound_steps", cost.boundSteps, steps);
+  in.read("bound_reference", cost.boundReference, steps);
   readKnobs(in, cost);
   readSettings(in.section("settings"), cost);
   in.finish();

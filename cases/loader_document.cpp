@@ -36,6 +36,7 @@ const std::vector<std::vector<Way>> rivals = {
     {{"small", "large"}, {"volume_fraction", "large_number_share", "large_mass_share"}},
     {{"large_number_share"}, {"large_mass_share"}},
     {{"small_mass", "large_mass"}, {"density"}},
+    {{"gn"}, {"e_n"}},
 };
 
 toml::table parse(std::string_view text, const std::string& source) {
@@ -81,9 +82,19 @@ void dropRivals(toml::table& base, const toml::table& changes) {
     }
 }
 
+/// Constants of one normal law mean nothing in another: they go with it.
+void dropConstants(toml::table& base, const toml::table& changes) {
+  const auto normal = changes["normal"].value<std::string_view>();
+  if (!normal || *normal == base["normal"].value_or<std::string_view>("linear")) return;
+  for (const std::string_view key :
+       {"kn", "young", "poisson", "k2", "k3", "gn", "kt", "gt", "e_n", "e_t0"})
+    base.erase(key);
+}
+
 /// Moves, because a copied node of toml++ forgets where it came from.
 void merge(toml::table& base, toml::table&& changes) {
   dropRivals(base, changes);
+  dropConstants(base, changes);
   for (auto&& [key, node] : changes) {
     toml::table* const from = node.as_table();
     toml::table* const into = base.contains(key) ? base.get(key)->as_table() : nullptr;
@@ -227,6 +238,10 @@ std::string location(const toml::source_region& source) {
   const std::string name = file ? file->string() : source.path ? *source.path : std::string();
   if (isOverride(source) || !source.begin) return name + ": ";
   return fmt::format("{}:{}:{}: ", name, source.begin.line, source.begin.column);
+}
+
+toml::table readTomlFile(const fs::path& file) {
+  return parseFile(file, /*foreign=*/false);
 }
 
 CaseDocument readBaseDocument(const fs::path& file) {

@@ -25,6 +25,9 @@ std::vector<CaseDocument> readCaseDocuments(const std::filesystem::path& file,
                                             const std::vector<std::string>& overrides,
                                             const std::string& fragment = {});
 
+/// A file that is no case. @throws BadInput where it cannot be read or is no TOML
+toml::table readTomlFile(const std::filesystem::path& file);
+
 /// A document that was printed, with a fragment merged in. @throws BadInput
 CaseDocument documentOf(const std::string& printed, const std::string& variant,
                         const std::string& fragment);

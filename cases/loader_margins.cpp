@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "averaging/fields.hpp"
+#include "cases/endpoints.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/scales.hpp"
 #include "oracle/collision_quantities.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct Judged {
   std::string name;
   std::string_view unit;
+  std::optional<bool> byRatio = {};  ///< absent: as the margin is, relative or not
 };
 
 /// A share of one of the case's own scales, in the unit of the field.
@@ -54,6 +56,10 @@ Margin readMargin(Reader in, const Judged& field, const Case* setup) {
   if (!given)
     in.failMissing("relative", setup ? "or absolute, or share and of: a margin has one of them"
                                      : "or absolute: a margin has one of them");
+  if (field.byRatio && *field.byRatio != margin.relative)
+    in.fail(given, fmt::format("{} is compared by its {}: give {}", field.name,
+                               *field.byRatio ? "ratio" : "difference",
+                               *field.byRatio ? "relative" : "absolute, or share and of"));
   margin.why += why;
   return margin;
 }
@@ -77,6 +83,13 @@ std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup) {
   for (const FieldSpec& field : fieldTable())
     fields.push_back({std::string(field.name), field.unit});
   return readAll(std::move(in), fields, &setup);
+}
+
+std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup) {
+  std::vector<Judged> endpoints;
+  for (const EndpointSpec& endpoint : endpointTable())
+    endpoints.push_back({std::string(endpoint.name), endpoint.unit, endpoint.byRatio});
+  return readAll(std::move(in), endpoints, &setup);
 }
 
 std::map<std::string, Margin> readCollisionMargins(Reader in) {

@@ -95,6 +95,12 @@ void convert(const Value& value, std::string& target, std::span<const std::strin
                (isForeign(value.node.source()) ? "" : suggestion(target, choices)));
 }
 
+/// Of a text that may be anything.
+struct AnyText {};
+void convert(const Value& value, std::string& target, AnyText) {
+  convert(value, target);
+}
+
 template <typename Element, typename Constraint>
 void convertList(const Value& value, std::vector<Element>& target, const Constraint& constraint) {
   std::vector<Element> list;
@@ -216,6 +222,11 @@ void Reader::read(std::string_view key, std::vector<std::string>& target,
   std::set<std::string> seen;
   for (const std::string& name : target)
     if (!seen.insert(name).second) fail(key, fmt::format("\"{}\" is there twice", name));
+}
+
+void Reader::read(std::string_view key, std::vector<std::string>& target) {
+  if (const toml::node* const node = take(key))
+    convertList({*node, pathOf(key)}, target, AnyText{});
 }
 
 void Reader::requireText(std::string_view key, std::string& target, std::string_view otherwise) {

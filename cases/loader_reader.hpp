@@ -64,6 +64,9 @@ class Reader {
   void read(std::string_view key, std::vector<std::string>& target,
             std::span<const std::string> choices);
 
+  /// A list of texts, or one text.
+  void read(std::string_view key, std::vector<std::string>& target);
+
   /// As read(); a key that is absent is reported by finish().
   template <typename... Arguments>
   void require(std::string_view key, Arguments&&... arguments) {

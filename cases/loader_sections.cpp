@@ -9,7 +9,9 @@
 
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
+#include "adapters/registry.hpp"
 #include "averaging/weights.hpp"
+#include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -116,6 +118,12 @@ void readCell(Reader& in, Cell& cell) {
 }
 
 void readPreparation(Reader& in, Preparation& preparation) {
+  in.read("engine", preparation.engine);
+  if (in.has("engine") && !findEngine(preparation.engine)) {
+    std::vector<std::string> known;
+    for (const EngineEntry& entry : engineRegistry()) known.push_back(entry.name);
+    in.fail("engine", "there is no such engine" + suggestion(preparation.engine, known));
+  }
   in.read("packings", preparation.packings, between(1, 10'000));
   in.read("seed", preparation.seed, between(0, mostSeed));
   in.read("dilation", preparation.dilation, above(1.0));
@@ -135,11 +143,18 @@ void readAveraging(Reader& in, const Case& setup, Averaging& averaging) {
   in.read("snapshots_per_rotation", averaging.snapshotsPerRotation, between(1, 1'000'000));
   in.read("confidence", averaging.confidence, inside(0.0, 1.0));
   averaging.margins = readFieldMargins(in.section("margins"), setup);
+  averaging.endpoints = readEndpointMargins(in.section("endpoints"), setup);
   in.finish();
   if (averaging.methods.empty()) in.fail("method", "must not be empty");
   if (averaging.snapshotsPerRotation * averaging.rotations > mostSnapshots)
     in.fail("rotations", fmt::format("with {} snapshots_per_rotation: more than {} snapshots",
                                      averaging.snapshotsPerRotation, mostSnapshots));
+}
+
+void readLooks(Reader& in, Looks& looks) {
+  in.read("count", looks.count, between(1, 100));
+  in.read("budget", looks.budget, positive("s"));
+  in.finish();
 }
 
 void readRun(Reader& in, RunOptions& run) {
@@ -192,20 +207,22 @@ void readCollision(Reader& in, Collision& collision) {
   in.finish();
 }
 
-void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
-  for (const std::string& name : in.keys()) {
-    Reader engine = in.section(name);
-    Settings& settings = engines[name];
-    for (const std::string& key : engine.keys()) {
-      const toml::node& node = *engine.take(key);
-      if (const auto flag = node.value_exact<bool>())
-        settings[key] = *flag;
-      else if (const auto text = node.value_exact<std::string>())
-        settings[key] = *text;
-      else
-        engine.read(key, std::get<double>(settings[key] = 0.0), Range{});
-    }
+Settings readSettings(Reader engine) {
+  Settings settings;
+  for (const std::string& key : engine.keys()) {
+    const toml::node& node = *engine.take(key);
+    if (const auto flag = node.value_exact<bool>())
+      settings[key] = *flag;
+    else if (const auto text = node.value_exact<std::string>())
+      settings[key] = *text;
+    else
+      engine.read(key, std::get<double>(settings[key] = 0.0), Range{});
   }
+  return settings;
+}
+
+void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
+  for (const std::string& name : in.keys()) engines[name] = readSettings(in.section(name));
 }
 
 }  // namespace crossgrain::inline cases

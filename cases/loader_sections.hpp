@@ -23,14 +23,18 @@ void readParticles(Reader& in, const Cell& cell, Particles& particles);
 void readPreparation(Reader& in, Preparation& preparation);
 /// @param setup  whose cell, particles and law have been read: margins may be shares of its scales
 void readAveraging(Reader& in, const Case& setup, Averaging& averaging);
+void readLooks(Reader& in, Looks& looks);
 /// [averaging.margins] and [collision.margins].
 std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup);
+std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup);
 std::map<std::string, Margin> readCollisionMargins(Reader in);
 void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
 void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
+/// Settings of one engine: booleans, numbers, texts.
+Settings readSettings(Reader engine);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 
 }  // namespace crossgrain::inline cases

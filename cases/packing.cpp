@@ -7,18 +7,14 @@
 
 #include "adapters/law_options.hpp"
 #include "cases/couette.hpp"
+#include "cases/preparer.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/fingerprint.hpp"
 #include "support/hdf5_file.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
-
-std::uint64_t fnv1a(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
 
 std::vector<Vec2> asVectors(const std::vector<double>& values) {
   std::vector<Vec2> vectors;
@@ -67,6 +63,7 @@ std::string packingHash(const Case& setup, int index, double dt) {
   const Preparation& how = setup.preparation;
   text += fmt::format("prepare {} {} {} {} {}", how.seed, how.dilation, how.velocity,
                       how.shrinkTime, how.rotations);
+  if (const std::string who = preparerKey(setup); !who.empty()) text += "; engine " + who;
   if (index > 0) text += fmt::format("; stream {}", index);
   return fmt::format("{:016x}", fnv1a(text));
 }

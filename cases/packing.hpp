@@ -18,7 +18,8 @@ struct Packing {
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
 
-/// Fingerprint of everything that a prepared packing depends on.
+/// Fingerprint of everything that a prepared packing depends on, the engine that prepares it too.
+/// @throws as preparerKey()
 std::string packingHash(const Case& setup, int index, double dt);
 
 /// Fingerprint of a packing itself, for one that nobody prepared.

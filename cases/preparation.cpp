@@ -8,10 +8,13 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
+#include "cases/preparer.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/random.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -76,6 +79,24 @@ Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
   return scene;
 }
 
+/// The in-house engine can do every scene as it is; another one does it as the case lets it, with
+/// its own settings.
+void load(Engine& engine, const Case& setup, const Scene& scene) {
+  const EngineEntry* const entry = ownPreparer(setup);
+  if (!entry) {
+    engine.load(scene, {});
+    return;
+  }
+  const auto settings = setup.engines.find(entry->name);
+  try {
+    engine.load(adaptScene(engine.capabilities(), scene, setup.run.mayDiffer).scene,
+                settings == setup.engines.end() ? Settings() : settings->second);
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(fmt::format("{} cannot prepare packings of {}: {}", entry->name,
+                                       setup.file.string(), refusal.what()));
+  }
+}
+
 }  // namespace
 
 Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
@@ -89,7 +110,7 @@ Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
   const Scene scene = diluteScene(setup, packing.disks, dt);
   checkStart(scene, setup.particles,
              setup.file.string() + ": preparation.dilation leaves too little room");
-  engine.load(scene, {});
+  load(engine, setup, scene);
   const double rotation = 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
   const double end = setup.preparation.shrinkTime + setup.preparation.rotations * rotation;
   // Where the engine stops is part of what a packing is: other slices give other bits.
@@ -147,7 +168,14 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
       // A damaged file in the cache is prepared anew.
     }
   }
-  Packing packing = preparePacking(setup, index, dt, engine, progress);
+  Packing packing;
+  if (const EngineEntry* const other = ownPreparer(setup)) {
+    const ScratchFolder scratch;
+    packing =
+        preparePacking(setup, index, dt, *startPreparer(*other, setup, scratch.path), progress);
+  } else {
+    packing = preparePacking(setup, index, dt, engine, progress);
+  }
   try {
     writePacking(packing, file);
   } catch (const OutputError& error) {

@@ -25,10 +25,11 @@ double diskDensity(const Case& c) {
 }
 
 // d: diameter of a small disk; D = 2 R_i, as the thesis scales spins (Lätzel 2003, section 6.3).
-constexpr std::array<Scale, 7> table = {{
+constexpr std::array<Scale, 8> table = {{
     {"rim_speed", "m/s", "Ω R_i", rimSpeed},
     {"spin_scale", "rad/s", "Ω D/d, D = 2 R_i",
      [](const Case& c) { return 2.0 * rimSpeed(c) / diameter(c); }},
+    {"wheel_rate", "rad/s", "Ω", [](const Case& c) { return std::abs(c.cell.omega); }},
     {"shear_rate", "1/s", "Ω R_i/d", [](const Case& c) { return rimSpeed(c) / diameter(c); }},
     {"diameter", "m", "d", diameter},
     {"rim_pressure", "N/m²", "ρ (Ω R_i)²",

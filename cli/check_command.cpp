@@ -39,7 +39,7 @@ void printCell(const json& checked) {
       cell["wheel_disks"].get<std::size_t>(), cell["ring_disks"].get<std::size_t>());
   fmt::print("  per packing: {:.0f} steps of the case's dt, {:g} rotations; packings: {}\n",
              cell["steps"].get<double>(), cell["rotations"].get<double>(),
-             cell["packings"].get<int>());
+             fmt::join(cell["looks"].get<std::vector<int>>(), ", then "));
   fmt::print("  expected: {:.0f} to {:.0f} contacts", cell["expected_contacts"][0].get<double>(),
              cell["expected_contacts"][1].get<double>());
   if (cell["expected_pressure"].is_number())
@@ -47,11 +47,14 @@ void printCell(const json& checked) {
                cell["expected_pressure"].get<double>(),
                cell["expected_inertial_number"].get<double>());
   fmt::print("\n");
-  for (const json& margin : checked["margins"])
-    fmt::print("  margin: {} {:g} {}{}\n", margin["field"].get<std::string>(),
-               margin["value"].get<double>(),
-               margin["relative"] == true ? "of the reference" : margin["unit"].get<std::string>(),
-               margin["of"] == "" ? "" : ", a share of " + margin["of"].get<std::string>());
+  for (const auto& [list, what] : {std::pair("endpoints", "endpoint"), {"margins", "field"}})
+    for (const json& margin : checked[list]) {
+      const std::string unit = margin["relative"] == true ? "of the reference" : margin["unit"],
+                        scale = margin["of"];
+      fmt::print("  margin of {} {}: {:g}{}{}\n", what, margin[what].get<std::string>(),
+                 margin["value"].get<double>(), unit.empty() ? "" : " " + unit,
+                 scale.empty() ? "" : ", a share of " + scale);
+    }
 }
 
 /// "friction, rotation", "none"

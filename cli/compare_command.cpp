@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cases/effect_switch.hpp"
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "cli/units.hpp"
+#include "reports/couette/endpoint_words.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
@@ -19,40 +24,58 @@ namespace crossgrain::inline cli {
 namespace {
 
 /// Only the verdicts between engines that the user named decide the exit status.
-std::vector<AgreementRow> peerRows(const CompareResults& results) {
-  std::vector<AgreementRow> rows = results.agreement;
-  std::erase_if(rows, [](const AgreementRow& row) { return row.kind != PairKind::peer; });
+std::vector<EndpointRow> peerRows(const CompareResults& results) {
+  std::vector<EndpointRow> rows = results.endpoints.rows;
+  std::erase_if(rows, [](const EndpointRow& row) { return row.kind != PairKind::peer; });
   return rows;
 }
 
-int compare(const CommandLine& line, bool strict) {
+/// In words, before the reports' path.
+void tell(const CompareResults& results, const std::vector<EndpointRow>& rows,
+          std::ptrdiff_t failed) {
+  const auto count = [&](Answer answer) {
+    return std::ranges::count(rows, answer, &EndpointRow::answer);
+  };
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      fmt::print("{}\n", reports::sentenceOf(row, results.lockstep->rules));
+  for (const CarriedEngine& own : results.endpoints.carried)
+    fmt::print("{}\n", reports::sentenceOf(own));
+  for (const EndpointRow& row : rows)
+    if (row.a == results.engines.front().name)
+      fmt::print("{:<16} {:<26} {}\n", row.b, row.endpoint, reports::answerInWords(row));
+  for (const AlarmRow& alarm : results.endpoints.alarms)
+    fmt::print("ALARM: {}\n", reports::sentenceOf(alarm));
+  if (const LooksFindings& looks = results.endpoints.looks; looks.taken > 0)
+    fmt::print("{}\n", reports::sentenceOf(looks));
+  fmt::print("{} agree, {} borderline, {} disagree, {} undecided; {} of {} runs failed\n",
+             count(Answer::noDifference) + count(Answer::smallDifference),
+             count(Answer::borderline), count(Answer::disagree), count(Answer::undecided), failed,
+             results.runs.size());
+}
+
+int compare(const CommandLine& line, bool strict, const std::optional<std::string>& budget) {
   const Case setup = onlyCase(line, "compare");
   printWarnings(setup);
+  const double seconds = budget ? secondsOf(*budget) : setup.looks.budget;
   RunStore store(line.run, "compare", soleCase(setup));
   if (line.run.dryRun) return told(comparePlan(setup, line.run, store));
-  const CompareResults results =
-      compareEngines(setup, line.run, store, line.quick ? quickLockstepStarts : lockstepStarts);
+  const CompareResults results = compareEngines(
+      setup, line.run, store, line.quick ? quickLockstepStarts : lockstepStarts, seconds);
   writeReport(results, line.run.out);
 
-  const std::vector<AgreementRow> rows = peerRows(results);
-  const auto count = [&](Verdict verdict) {
-    return std::ranges::count(rows, verdict, &AgreementRow::verdict);
+  const std::vector<EndpointRow> rows = peerRows(results);
+  const auto any = [&](Answer answer) {
+    return std::ranges::find(rows, answer, &EndpointRow::answer) != rows.end();
   };
-  const auto disagree = count(Verdict::disagree), undecided = count(Verdict::undecided);
   const auto failed = std::ranges::count(results.runs, RunStatus::failed, &CouetteRun::status);
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else {
     fmt::print("{}\n", effectsInWords(effectsOf(setup)));
-    if (results.lockstep)
-      for (const LockstepRow& row : results.lockstep->rows)
-        fmt::print("{}\n", reports::sentenceOf(row, results.lockstep->rules));
-    for (const AgreementRow& row : rows)
-      if (row.a == results.engines.front().name)
-        fmt::print("{:<16} {:<22} {}\n", row.b, row.field, toString(row.verdict));
-    fmt::print("{} agree, {} disagree, {} undecided; {} of {} runs failed\nreport: {}\n",
-               count(Verdict::agree), disagree, undecided, failed, results.runs.size(),
-               (line.run.out / "report.html").string());
+    tell(results, rows, failed);
+    printOverview(reports::compareOverview(results));
+    fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   for (const CouetteRun& run : results.runs)
     if (run.status == RunStatus::failed) printFailure(run.reason);
@@ -60,22 +83,35 @@ int compare(const CommandLine& line, bool strict) {
   if (const auto& nothing = results.nothingJudged)
     judged = nothingWasJudged(line, nothing->reason, nothing->byRequest || line.quick, strict);
   if (failed > 0) return exitEngineFailed;
-  // Another law than it declares is a disagreement, whatever profiles make of it.
+  // Another law than it declares is a disagreement, whatever averages make of it.
   const bool differs =
       results.lockstep && std::ranges::count(results.lockstep->rows, LockstepVerdict::differs,
                                              &LockstepRow::verdict) > 0;
-  if (differs || disagree > 0 || (strict && undecided > 0)) return exitFellShort;
+  const bool alarmed =
+      std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
+  const bool open = any(Answer::undecided) || any(Answer::borderline);
+  if (differs || alarmed || any(Answer::disagree) || (strict && open)) return exitFellShort;
   return judged;
 }
 
 Action declareCompare(CLI::App& app, CommandLine& line) {
-  const auto strict = std::make_shared<bool>(false);
+  struct Options {
+    bool strict = false;
+    std::optional<std::string> budget;
+  };
+  const auto own = std::make_shared<Options>();
   addCase(app, line);
   addRun(app, line);
   addPackings(app, line);
-  addFlag(app, "--strict", *strict,
-          "undecided verdicts count as falling short, and so does nothing judged");
-  return [&line, strict] { return resumably(line.run, [&] { return compare(line, *strict); }); };
+  addText(app, "--budget", own->budget,
+          "no further look at more packings begins that would end later, e.g. 90s, 10m, 1h "
+          "(default: looks.budget of the case)",
+          "TIME");
+  addFlag(app, "--strict", own->strict,
+          "undecided and borderline verdicts count as falling short, and so does nothing judged");
+  return [&line, own] {
+    return resumably(line.run, [&] { return compare(line, own->strict, own->budget); });
+  };
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
+#include "reports/cost/overview.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/cost/advice.hpp"
@@ -29,12 +31,15 @@ const std::vector<std::string> quickOverrides = {
     "cost.timed=0.002",
     "cost.psi_count=9",
     "cost.collision_steps=[50, 10, 1.2]",
+    "cost.collision_reference=800",
     "cost.trajectory_steps=[50, 10]",
     "cost.trajectory_reference=400",
     "cost.window_most=5",
     "cost.growth_time=0.2",
     "cost.average_steps=[50, 10]",
     "cost.average_reference=100",
+    "cost.bound_steps=[200]",
+    "cost.bound_reference=400",
     "cost.snapshots=[4]",
     "cost.omega=[2]",
     "cost.stiffness=[0.25]",
@@ -75,9 +80,11 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else if (target)
     fmt::print("{}", adviceAsToml(advice(results.points, {*target}), results.points));
-  else
-    fmt::print("{}\nreport: {}\n", countsInWords(results.points),
-               (line.run.out / "report.html").string());
+  else {
+    fmt::print("{}{}\n", reports::costAccuracyText(results), countsInWords(results.points));
+    printOverview(reports::costOverview(results));
+    fmt::print("report: {}\n", (line.run.out / "report.html").string());
+  }
   for (const std::string& reason : results.engineFailures)
     fmt::print(stderr, "crossgrain: {}\n", BadInput(reason).what());
   return results.engineFailures.empty() ? exitHeld : exitEngineFailed;

@@ -6,6 +6,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/effects/overview.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/effects/effects.hpp"
@@ -47,6 +48,7 @@ int effects(const CommandLine& line) {
   else {
     fmt::print("{}\n", effectsInWords(effectsOf(setup)));
     for (const EffectVariant& variant : results.variants) printVariant(variant);
+    printOverview(reports::effectsOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   int status = exitHeld;

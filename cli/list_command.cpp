@@ -6,6 +6,7 @@
 
 #include "averaging/fields.hpp"
 #include "cases/case_files.hpp"
+#include "cases/endpoints.hpp"
 #include "cases/keys.hpp"
 #include "cli/option_groups.hpp"
 #include "stability/measures.hpp"
@@ -34,6 +35,14 @@ json listFields(const fs::path&) {
   json rows = json::array();
   for (const FieldSpec& field : fieldTable())
     rows.push_back({{"name", field.name}, {"unit", field.unit}, {"what", field.definition}});
+  return rows;
+}
+
+json listEndpoints(const fs::path&) {
+  json rows = json::array();
+  for (const EndpointSpec& endpoint : endpointTable())
+    rows.push_back(
+        {{"name", endpoint.name}, {"unit", endpoint.unit}, {"what", endpoint.definition}});
   return rows;
 }
 
@@ -66,6 +75,7 @@ const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all = {
       {"cases", listCases, {"name", "kind", "file", "what"}},
       {"fields", listFields, {"name", "unit", "what"}},
+      {"endpoints", listEndpoints, {"name", "unit", "what"}},
       {"measures", listMeasures, {"name", "unit", "what"}},
       {"keys", listKeys, {"section", "key", "unit", "default", "what"}}};
   return all;
@@ -112,7 +122,8 @@ int list(const CommandLine& line, const std::string& subject, const fs::path& fo
 
 Action declareList(CLI::App& app, CommandLine& line) {
   const auto subject = std::make_shared<std::string>();
-  addArgument(app, "what", *subject, "what is to be listed", "cases|fields|measures|keys");
+  addArgument(app, "what", *subject, "what is to be listed",
+              "cases|fields|endpoints|measures|keys");
   addInputs(app, line, "folder", "of the cases to be listed (default: cases, here or as installed)",
             0, 1);
   addFlag(app, "--json", line.json, "as JSON");
@@ -125,7 +136,7 @@ Action declareList(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command listCommand = {
-    "list", "cases, fields of profiles.csv, measures of hard cases, keys of case files",
+    "list", "cases, fields of profiles.csv, endpoints, measures of hard cases, keys of case files",
     "crossgrain list cases\n"
     "crossgrain list keys --json",
     declareList};

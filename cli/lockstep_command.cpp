@@ -6,6 +6,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
@@ -52,6 +53,7 @@ int lockstep(const CommandLine& line, const std::optional<double>& given) {
   } else {
     for (const LockstepRow& row : results.lockstep.rows)
       fmt::print("{}\n", reports::sentenceOf(row, results.lockstep.rules));
+    printOverview(reports::lockstepOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   return statusOf(line, results);

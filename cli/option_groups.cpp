@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "cases/engine_file.hpp"
+#include "runs/common/strangers.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 
@@ -37,13 +39,15 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-/// "grain, yade" is two names. @throws BadInput where nothing stands between two commas
+/// "grain, yade" is two names; that of a file adds the engine that it describes.
+/// @throws BadInput where nothing stands between two commas, or for the file
 void addNames(const std::string& list, std::vector<std::string>& names) {
   for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
     comma = list.find(',', from);
     names.push_back(trimmed(list.substr(from, comma - from)));
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
+    if (namesEngineFile(names.back())) names.back() = addStranger(loadEngineFile(names.back()));
   }
 }
 
@@ -81,7 +85,17 @@ void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const 
 }
 
 void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
-  std::string what = "engines by name, separated by commas, or all; the first is the reference";
+  app.add_option_function<std::vector<std::string>>(
+         "--engine",
+         [](const std::vector<std::string>& engines) {
+           for (const std::string& text : engines) addStranger(engineOfCommand(text));
+         },
+         "an engine of your own that --engines then may name: its worker, no shell reads it")
+      ->type_name("NAME='COMMAND …'")
+      ->allow_extra_args(false);
+  std::string what =
+      "engines by name or by the TOML file of your own, separated by commas, or all; the first is "
+      "the reference";
   if (usual) what += fmt::format(" (default: {})", usual);
   app.add_option_function<std::vector<std::string>>(
          "--engines",
@@ -134,8 +148,8 @@ void addSnapshots(CLI::App& app, CommandLine& line) {
   addResults(app, line);
 }
 
-void addRun(CLI::App& app, CommandLine& line) {
-  addEngines(app, line);
+void addRun(CLI::App& app, CommandLine& line, const char* usual) {
+  addEngines(app, line, usual);
   addResults(app, line);
   constexpr int mostJobs = 4096;
   app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")

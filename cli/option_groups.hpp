@@ -21,7 +21,7 @@ void addNumber(CLI::App& app, const std::string& name, std::optional<double>& nu
 void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
              const std::string& what, const std::string& type = "TEXT");
 
-/// An argument without a name that is required.
+/// An argument, or an option, that is required.
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
                  const std::string& type = "TEXT");
 
@@ -56,7 +56,8 @@ void addResults(CLI::App& app, CommandLine& line);
 void addSnapshots(CLI::App& app, CommandLine& line);
 
 /// Of all commands that run engines: --engines, results, --jobs, --quiet, --dry-run, --resume.
-void addRun(CLI::App& app, CommandLine& line);
+/// @param usual  engine where none is named; null: they must be
+void addRun(CLI::App& app, CommandLine& line, const char* usual = nullptr);
 
 void addQuiet(CLI::App& app, CommandLine& line);
 

@@ -5,6 +5,7 @@
 #include "cases/case.hpp"
 #include "cli/command.hpp"
 #include "results/couette_frame.hpp"
+#include "results/overview.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -13,6 +14,9 @@ void printFailure(const std::string& reason);
 
 /// What the commands that only average print. @returns an ExitStatus
 int averaged(const CommandLine& line, const CouetteAveraging& averaging);
+
+/// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
+void printOverview(const Overview& overview);
 
 /// Prints what --dry-run tells. @returns an ExitStatus
 int told(const std::string& plan);

@@ -10,7 +10,9 @@ namespace crossgrain::inline cli {
 const std::vector<Named>& exitStatuses() {
   static const std::vector<Named> all = {
       {"0", "held; what is undecided is counted in the output"},
-      {"1", "engines disagree, or something fell short or is unstable"},
+      {"1",
+       "engines disagree, or something fell short or is unstable (an engine short of the law "
+       "that it declares; short of the scene's only under --strict)"},
       {"2", "bad input: nothing was judged"},
       {"3", "an engine failed, or the disk is full (outranks 1)"},
       {"130", "interrupted"}};
@@ -25,6 +27,7 @@ const std::vector<Named>& environmentVariables() {
       {"CROSSGRAIN_DATA",
        "folder that holds cases/ and the scripts in engines/ (default: share/crossgrain where the "
        "program is installed, else its sources)"},
+      {"NO_COLOR", "set to anything: no colours on the terminal"},
       {"GRAIN_INSTRUCTIONS",
        "baseline, avx2 or avx512: instructions that the in-house engine uses "
        "(default: the best there are; all give the same bits)"},

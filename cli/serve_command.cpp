@@ -1,25 +1,34 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
+#include "adapters/grain.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
 #include "cli/option_groups.hpp"
+#include "runs/common/strangers.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
 
-int serveEngine(const std::string& name) {
+/// @param conventions  "tension=cut", "lever_arm=radius,contact_point": of a mirror that is made
+/// for
+///                     an engine of the user's
+int serveEngine(const std::string& name, const std::vector<std::string>& conventions) {
   const EngineEntry* entry = findEngine(name);
   if (!entry || !entry->make) throw BadInput(fmt::format("there is no engine '{}' to serve", name));
-  return serve(*entry->make());
+  if (conventions.empty()) return serve(*entry->make());
+  return serve(*makeGrainMirror(conventionsFromWords(conventions)));
 }
 
 Action declareServe(CLI::App& app, CommandLine&) {
   const auto engine = std::make_shared<std::string>();
+  const auto conventions = std::make_shared<std::vector<std::string>>();
   addArgument(app, "engine", *engine, "its name");
-  return [engine] { return serveEngine(*engine); };
+  app.add_option("conventions", *conventions, "that it is held to");
+  return [engine, conventions] { return serveEngine(*engine, *conventions); };
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
+#include "reports/stability/overview.hpp"
 #include "results/json_fields.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/resumable.hpp"
@@ -65,9 +66,10 @@ int stability(const CommandLine& line, SuitePart part) {
     for (const StabilityRun& run : runs)
       if (run.verdict > StabilityVerdict::stable) printVerdict(run);
     printRefusals(runs);
-    fmt::print("{} stable, {} degraded, {} unstable, {} refused\nreport: {}\n",
-               count(StabilityVerdict::stable), count(StabilityVerdict::degraded), unstable,
-               refused, (line.run.out / "report.html").string());
+    fmt::print("{} stable, {} degraded, {} unstable, {} refused\n", count(StabilityVerdict::stable),
+               count(StabilityVerdict::degraded), unstable, refused);
+    printOverview(reports::stabilityOverview(results));
+    fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   if (refused == std::ssize(runs))
     return nothingWasJudged(

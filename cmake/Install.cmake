@@ -18,16 +18,16 @@ install(CODE [[
 ]])
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
-install(DIRECTORY engines/yade DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
-        FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp")
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-set(crossgrain_libraries crossgrain_options crossgrain_support grain box2d_granular crossgrain_adapters
+set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
     crossgrain_cases crossgrain_results crossgrain_reports crossgrain_runs)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
-foreach(folder support adapters oracle stability averaging cases engines/grain engines/box2d results reports runs)
+foreach(folder support continuum adapters oracle stability averaging cases engines/grain engines/box2d results reports runs)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crossgrain/${folder}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "curated" EXCLUDE PATTERN "templates" EXCLUDE)
 endforeach()

@@ -50,8 +50,10 @@ constexpr std::array<CollisionQuantity, quantityCount> quantities = {{
     {Id::reboundAngle, "rebound_angle", "angle", "rad", 4, own<&End::reboundAngle>},
     {Id::spinI, "spin_i", "ω_i", "rad/s", 5, spin<0>, Scored::surfaceSpeedI},
     {Id::spinJ, "spin_j", "ω_j", "rad/s", 6, spin<1>, Scored::surfaceSpeedJ},
-    {Id::duration, "duration", "duration", "s", 7, own<&End::duration>},
-    {Id::maxOverlap, "max_overlap", "overlap", "m", 8, own<&End::maxOverlap>},
+    {Id::duration, "duration", "duration", "s", 7, own<&End::duration>,
+     Scored::byLargest},
+    {Id::maxOverlap, "max_overlap", "overlap", "m", 8, own<&End::maxOverlap>,
+     Scored::byLargest},
     {Id::energyLost, "energy_lost", "energy lost", "J", 0, energyLost, fraction, InFiles::no},
     {Id::lostNormalDamping, "lost_normal_damping", "normal", "J", 11, workOf<&ForceWork::normal>,
      fraction},
@@ -88,6 +90,7 @@ std::optional<double> CollisionQuantity::scoredValue(const CollisionOutcome& out
   if (!itself) return std::nullopt;
   switch (scored) {
     case Scored::asItIs:
+    case Scored::byLargest:
       return itself;
     case Scored::surfaceSpeedI:
       return pair.radius[0] * *itself / vn;

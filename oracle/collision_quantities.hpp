@@ -49,7 +49,7 @@ enum class QuantityId {
 
 /// One of them: what every table and file of collisions takes its names and columns from.
 struct CollisionQuantity {
-  enum class Scored { asItIs, surfaceSpeedI, surfaceSpeedJ, energyFraction, never };
+  enum class Scored { asItIs, byLargest, surfaceSpeedI, surfaceSpeedJ, energyFraction, never };
   enum class InFiles { exact, nineDigits, no };
 
   QuantityId id;
@@ -59,7 +59,8 @@ struct CollisionQuantity {
   int csvPlace;            ///< among the further columns of collisions.csv; 0: none of these
   /// Absent where the collision has none. [unit]
   std::optional<double> (*value)(const CollisionOutcome&);
-  /// What its errors are of: itself; a ω/v_n of disk i or j [-]; it in units of the energy before.
+  /// What its errors are of: itself; itself, always in units of the curve's largest, as it has a
+  /// zero of its own; a ω/v_n of disk i or j [-]; it in units of the energy before.
   Scored scored = Scored::asItIs;
   /// Nine digits are what the oracle's and the engines' errors leave of a number, and half the
   /// file. Not: it follows from others.

@@ -5,15 +5,28 @@
 #include <optional>
 #include <stdexcept>
 
+#include "reports/collide/overview.hpp"
 #include "reports/collide/report.hpp"
 #include "reports/common/gnuplot.hpp"
+#include "reports/common/overview.hpp"
+#include "reports/common/page.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
+#include "reports/conformance/report.hpp"
+#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
+#include "reports/effects/overview.hpp"
 #include "reports/effects/report.hpp"
+#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/report.hpp"
+#include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
+#include "reports/thesis/figures.hpp"
+#include "reports/thesis/reading_changes.hpp"
+#include "reports/thesis/regime_map.hpp"
+#include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
@@ -32,6 +45,7 @@ struct Kind {
   std::vector<Figure> (*figures)(const Results&);
   std::vector<Picture> (*pictures)(const Results&);
   std::string (*page)(const Results&, const Illustrations&);
+  Overview (*overview)(const Results&) = nullptr;  ///< null: its report opens with none
 };
 
 template <typename Results>
@@ -41,13 +55,15 @@ std::vector<Picture> noPictures(const Results&) {
 
 const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
                                            {"series.csv", seriesCsv},
+                                           {"endpoints.csv", endpointsCsv},
                                            {"agreement.csv", agreementCsv},
                                            {"regimes.csv", regimesCsv},
                                            {"steadiness.csv", steadinessCsv},
                                            {"distributions.csv", distributionsCsv}},
                                           compareFigures,
                                           comparePictures,
-                                          comparePage};
+                                          comparePage,
+                                          compareOverview};
 
 const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
                                            {"series.csv", seriesCsv},
@@ -58,11 +74,14 @@ const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
                                           noPictures,
                                           averagePage};
 
+const Kind<ConformanceResults> conformanceKind = {
+    {{"junit.xml", conformanceJunit}}, conformanceFigures, noPictures, conformancePage};
+
 const Kind<EffectsResults> effectsKind = {
-    {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage};
+    {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage, effectsOverview};
 
 const Kind<LockstepResults> lockstepKind = {
-    {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage};
+    {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage, lockstepOverview};
 
 const Kind<RevResults> revKind = {
     {{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}}, revFigures, noPictures, revPage};
@@ -71,15 +90,26 @@ const Kind<CollideResults> collideKind = {
     {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
     collideFigures,
     noPictures,
-    collidePage};
+    collidePage,
+    collideOverview};
 
 const Kind<StabilityResults> stabilityKind = {
     {{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
     stabilityFigures,
     stabilityPictures,
-    stabilityPage};
+    stabilityPage,
+    stabilityOverview};
 
-const Kind<CostResults> costKind = {{{"cost.csv", costCsv}}, costFigures, noPictures, costPage};
+const Kind<CostResults> costKind = {
+    {{"cost.csv", costCsv}}, costFigures, noPictures, costPage, costOverview};
+
+const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
+                                         {"history.csv", historyCsv},
+                                         {"regime_map.csv", regimeMapCsv},
+                                         {"readings.csv", readingsCsv}},
+                                        thesisFigures,
+                                        noPictures,
+                                        thesisPage};
 
 const Kind<CompareResults>& kindOf(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageKind : compareKind;
@@ -101,9 +131,14 @@ std::optional<std::string> draw(const std::vector<Figure>& figures,
 
 /// @param document  results.json
 template <typename Results>
-void write(const Kind<Results>& kind, const Results& results, const Json& document,
+void write(const Kind<Results>& kind, const Results& results, Json document,
            const std::filesystem::path& dir) {
   makeDirectory(dir);
+  if (kind.overview) {
+    const Overview overview = kind.overview(results);
+    document["overview"] = toJson(overview);
+    writeFile(dir / "summary.md", overviewMarkdown(overview, titleOf(results.head)));
+  }
   writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
 
@@ -121,6 +156,10 @@ void write(const Kind<Results>& kind, const Results& results, const Json& docume
 
 void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
   write(collideKind, results, toJson(results), dir);
+}
+
+void writeReport(const ConformanceResults& results, const std::filesystem::path& dir) {
+  write(conformanceKind, results, toJson(results), dir);
 }
 
 void writeReport(const CostResults& results, const std::filesystem::path& dir) {
@@ -147,15 +186,22 @@ void writeReport(const RevResults& results, const std::filesystem::path& dir) {
   write(revKind, results, toJson(results), dir);
 }
 
+void writeReport(const ThesisResults& results, const std::filesystem::path& dir) {
+  write(thesisKind, results, toJson(results), dir);
+}
+
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
   checkSchema(results, "results");
   const std::string kind = results.at("kind");
   if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
+  if (kind == kindConformance)
+    return write(conformanceKind, conformanceFromJson(results), results, dir);
   if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
   if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
   if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
   if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
+  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
   const CompareResults compared = compareFromJson(results);
   write(kindOf(compared), compared, results, dir);
 } catch (const FieldError& error) {

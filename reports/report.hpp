@@ -4,18 +4,20 @@
 #include <nlohmann/json.hpp>
 
 #include "results/collision.hpp"
+#include "results/conformance.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
 #include "results/lockstep.hpp"
 #include "results/rev.hpp"
 #include "results/stability.hpp"
+#include "results/thesis.hpp"
 
 namespace crossgrain {
 
 /// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
 /// The kind of report follows from results["kind"], "compare", "collide", "lockstep",
-/// "effects", "cost", "stability", "average" or "rev"; the layout of results is in
-/// reports/README.md.
+/// "effects", "cost", "stability", "thesis", "conformance", "average" or "rev"; the layout of
+/// results is in reports/README.md.
 ///
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are
@@ -24,12 +26,14 @@ namespace crossgrain {
 ///         BadInput for JSON that is no such document
 void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
 void writeReport(const CollideResults& results, const std::filesystem::path& dir);
+void writeReport(const ConformanceResults& results, const std::filesystem::path& dir);
 void writeReport(const CostResults& results, const std::filesystem::path& dir);
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
 void writeReport(const CompareResults& results, const std::filesystem::path& dir);
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir);
 void writeReport(const LockstepResults& results, const std::filesystem::path& dir);
 void writeReport(const RevResults& results, const std::filesystem::path& dir);
+void writeReport(const ThesisResults& results, const std::filesystem::path& dir);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

@@ -15,7 +15,7 @@ namespace crossgrain::inline results {
 /// Why two engines are held against each other.
 enum class PairKind {
   peer,                  ///< both were named
-  mirrorModel,           ///< the in-house engine and its mirror of a peer
+  mirrorModel,           ///< the reference and a mirror of a peer
   mirrorImplementation,  ///< a mirror and its peer
   effect                 ///< an engine and itself without an effect
 };
@@ -52,9 +52,7 @@ struct AgreementRow {
   bool marginRelative = false;
   std::string marginWhy;
   Verdict verdict = Verdict::undecided;
-  std::optional<int> morePackings;
-  std::optional<double> moreRotations;  ///< of each run, on the same packings
-  std::optional<double> detects;        ///< in the ring that shows it best
+  std::optional<double> detects;  ///< in the ring that shows it best
   std::vector<AgreementRing> rings;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <variant>
 
 #include "adapters/engine.hpp"
 #include "results/collision_score.hpp"
@@ -31,12 +30,11 @@ struct CollisionCurve {
   std::string reason;
   std::optional<Realised> realised;
   std::optional<Stats> stats;
-  CollisionPoints points;  ///< none of what was refused or failed
-  CurveScore score;
+  CollisionPoints points;                 ///< none of what was refused or failed
+  CurveScore score;                       ///< against the scene's law
+  std::optional<DeclaredScore> declared;  ///< absent where the engine declares the scene's law
+  std::optional<SchemeScore> ownScheme;   ///< looked at at the largest time step of a variant
 };
-
-/// The value of a law's option, or a constant of it.
-using LawValue = std::variant<std::string, double>;
 
 /// A point of the sweep at which the law has no limit of small time steps.
 struct NoLimitPoint {
@@ -55,7 +53,7 @@ struct StickingLimit {
 struct CollisionVariant {
   std::string name;  ///< the case's; empty: that of the head
   std::string variant;
-  std::map<std::string, LawValue> law;              ///< options and constants that matter to it
+  LawWords law;                                     ///< options and constants that matter to it
   std::optional<std::vector<std::string>> effects;  ///< that it calls for; absent: not known
   std::optional<double> closedEn;                   ///< e_n in closed form
   StickingLimit sticking;

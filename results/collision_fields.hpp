@@ -2,9 +2,26 @@
 
 #include "results/collision.hpp"
 #include "results/engine_fields.hpp"
+#include "results/head_fields.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {
+
+template <>
+inline Json jsonOf(const LawValue& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+template <>
+inline void readFrom(const Json& json, LawValue& value) {
+  if (json.is_string())
+    value = json.get<std::string>();
+  else if (json.is_number())
+    value = json.get<double>();
+  else if (json.is_null())
+    value = std::numeric_limits<double>::quiet_NaN();
+  else
+    detail::expected("a text or a number", json);
+}
 
 template <typename T>
 void fields(auto& io, PerQuantity<T>& values) {
@@ -62,6 +79,22 @@ void fields(auto& io, CurveScore& score) {
   io("e_n_error", enError);
 }
 
+void fields(auto& io, DeclaredScore& declared) {
+  io("law", declared.law);
+  io("reference", declared.reference);
+  io("score", declared.score);
+  io("oracle_reason", declared.oracleReason);
+}
+
+void fields(auto& io, SchemeScore& own) {
+  io("scheme", own.scheme);
+  io("position", own.position);
+  io("velocity", own.velocity);
+  io("limit", own.limit);
+  io("held", own.held);
+  io("reason", own.reason);
+}
+
 /// Kept by itself, with the others of its engine and variant, as soon as it is there.
 void fields(auto& io, CollisionCurve& curve) {
   io("engine", curve.engine);
@@ -73,6 +106,63 @@ void fields(auto& io, CollisionCurve& curve) {
   io.present("stats", curve.stats);
   io("points", curve.points);
   io("score", curve.score);
+  io("declared", curve.declared);
+  io.present("own_scheme", curve.ownScheme);
+}
+
+void fields(auto& io, NoLimitPoint& point) {
+  io("psi_i", point.psi);
+  io("v_n", point.vn);
+  io("psi_f", point.psiAfter);
+  io("reason", point.reason);
+}
+
+void fields(auto& io, StickingLimit& sticking) {
+  io("e_t0", sticking.et0);
+}
+
+void fields(auto& io, CollisionVariant& variant) {
+  io("case", variant.name);
+  io("variant", variant.variant);
+  io("law", variant.law);
+  io.present("effects", variant.effects);
+  io("e_n_closed", variant.closedEn);
+  io("sticking", variant.sticking);
+  io("sliding_constant", variant.slidingConstant);
+  io("oracle", variant.oracle);
+  io("oracle_reason", variant.oracleReason);
+  io("reference", variant.reference);
+  io("no_limit", variant.noLimit);
+  io("curves", variant.curves);
+}
+
+void fields(auto& io, FittedOrder& fit) {
+  io("order", fit.order);
+  io("stderr", fit.standardError);
+}
+
+/// Ψ_f's stands there twice, so that it is found at once.
+void fields(auto& io, ConvergenceOrder& order) {
+  io("engine", order.engine);
+  io("case", order.name);
+  io("variant", order.variant);
+  io("error_at", order.errorAt);
+  io("quantities", order.of);
+  std::optional<double> ofPsi, standardError;
+  if (const auto& psi = order.of[QuantityId::psiF]) {
+    ofPsi = psi->order;
+    standardError = psi->standardError;
+  }
+  io("order", ofPsi);
+  io("stderr", standardError);
+}
+
+void fields(auto& io, CollideResults& results) {
+  fields(io, results.head);
+  io.present("elapsed_s", results.elapsed);
+  io("engines", results.engines);
+  io("variants", results.variants);
+  io("orders", results.orders);
 }
 
 }  // namespace crossgrain::inline results

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "results/collision_table.hpp"
 
@@ -40,6 +41,45 @@ constexpr auto namesOf(CurveVerdict) {
 struct CurveScore {
   CurveVerdict verdict = CurveVerdict::notJudged;
   PerQuantity<QuantityScore> of;  ///< those that engine and oracle both have
+};
+
+/// The value of a law's option, or a constant of it.
+using LawValue = std::variant<std::string, double>;
+/// Options and constants of a law by their names.
+using LawWords = std::map<std::string, LawValue>;
+
+/// What the law that an engine declares is known by.
+enum class DeclaredReference {
+  none,
+  oracle,
+  /// The in-house engine with that law at that time step: the law has no limit of small steps, or
+  /// what the curve is short of the oracle by is due to conventions of time stepping and the step
+  mirror,
+  itself  ///< it has no limit of small steps, and the curve is the in-house engine's own: the law
+};
+constexpr auto namesOf(DeclaredReference) {
+  return std::array<std::string_view, 4>{"none", "oracle", "mirror", "itself"};
+}
+
+/// A curve against the law that its engine declares: the scene's, with the conventions that the
+/// engine has in place of those it lacks.
+struct DeclaredScore {
+  LawWords law;  ///< in what it is another law than the scene's
+  DeclaredReference reference = DeclaredReference::none;
+  CurveScore score;
+  std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
+};
+
+/// A head-on impact, step by step, against the discrete oracle of the engine's own scheme: what
+/// deviates by more than rounding is no truncation.
+struct SchemeScore {
+  std::string scheme;  ///< Realised::integrator
+  /// Largest of all steps, of positions by the smaller diameter and velocities by the approach's;
+  /// absent where there is no discrete oracle.
+  std::optional<double> position, velocity;
+  std::optional<double> limit;  ///< of both; absent: not judged
+  std::optional<bool> held;
+  std::string reason;  ///< why there is none, or it was not judged
 };
 
 /// An order of convergence p, error ∝ dt^p.

@@ -1,6 +1,7 @@
 #include "results/compare.hpp"
 
 #include "results/couette_fields.hpp"
+#include "results/endpoints_fields.hpp"
 #include "results/lockstep_fields.hpp"
 
 namespace crossgrain::inline results {
@@ -28,8 +29,6 @@ void fields(auto& io, AgreementRow& row) {
   io("margin_relative", row.marginRelative);
   io("margin_why", row.marginWhy);
   io("verdict", row.verdict);
-  io("more_packings", row.morePackings);
-  io("more_rotations", row.moreRotations);
   io("detects", row.detects);
   io("rings", row.rings);
 }
@@ -47,6 +46,7 @@ void fields(auto& io, CompareResults& results) {
   io("steadiness", results.steadiness);
   io.when(compared, "ensemble", results.ensemble);
   io.when(compared, "agreement", results.agreement);
+  io.when(compared, "endpoints", results.endpoints);
   io.present("nothing_judged", results.nothingJudged);
 }
 

@@ -7,6 +7,7 @@
 
 #include "results/agreement.hpp"
 #include "results/couette_frame.hpp"
+#include "results/endpoints.hpp"
 #include "results/engine_row.hpp"
 #include "results/lockstep_findings.hpp"
 #include "results/run.hpp"
@@ -27,7 +28,8 @@ struct CompareResults : CouetteStudy {
   std::vector<RegimesOfPair> regimes;
   std::vector<EngineDrift> steadiness;
   std::vector<CouetteEnsemble> ensemble;
-  std::vector<AgreementRow> agreement;
+  std::vector<AgreementRow> agreement;         ///< ring by ring: where a difference is
+  EndpointFindings endpoints;                  ///< what carries the verdicts
   std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
 };
 

@@ -15,6 +15,7 @@ void fields(auto& io, CostResults& results) {
   io("budget_for_the_rest_s", results.budgetForTheRest);
   io("points", results.points);
   io("references", results.references);
+  io("models", results.models);
   io.present("trajectory", results.trajectory);
   io("averages", results.averages);
   io("startup", results.startup);
@@ -24,6 +25,7 @@ void fields(auto& io, CostResults& results) {
   io("fronts", results.fronts);
   io("cheapest", results.cheapest);
   io("advice", results.advice);
+  io("cells", results.cells);
 }
 
 Json toJson(const CostResults& results) {

@@ -22,6 +22,16 @@ struct CostReference {
   std::string note;
 };
 
+/// How far an engine's own limit of small steps lies from what the case's law gives: no time step
+/// lessens it.
+struct CostModel {
+  std::string engine;
+  CostKind kind = CostKind::collision;
+  std::string measure;
+  double error = 0.0;            ///< in the unit of the points' errors
+  double low = 0.0, high = 0.0;  ///< between which it lies
+};
+
 /// What it takes before the first step [s].
 struct Startup {
   std::string engine;
@@ -34,8 +44,17 @@ struct StatisticalFall {
   double rotations = 0.0;
   double statistical = 0.0;
 };
+/// What changing a constant does to an average, of the in-house engine over all packings, in the
+/// unit of the points' errors.
+struct CostResponse {
+  std::string measure, constant;
+  double change = 0.0;                    ///< of the constant, relative
+  std::optional<double> response, bound;  ///< as measured; the upper end of its interval
+};
+
 struct CostAverages {
   std::vector<StatisticalFall> falls;
+  std::vector<CostResponse> responses;
 };
 
 /// What accuracy costs: results of kind "cost" (reports/README.md).
@@ -48,6 +67,7 @@ struct CostResults : CouetteFrame {
   std::optional<double> budgetForTheRest;  ///< for what did not fit, all else kept [s]
   std::vector<CostPoint> points;           ///< by kind, engine and setting
   std::vector<CostReference> references;
+  std::vector<CostModel> models;
   std::optional<ChaosStudy> trajectory;  ///< if trajectories were compared
   CostAverages averages;
   std::vector<Startup> startup;
@@ -61,6 +81,7 @@ struct CostResults : CouetteFrame {
   std::vector<Front> fronts;
   std::vector<Cheapest> cheapest;
   std::vector<Advice> advice;
+  std::vector<CostCell> cells;
 };
 
 nlohmann::json toJson(const CostResults& results);

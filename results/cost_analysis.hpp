@@ -122,4 +122,35 @@ struct Advice {
   }
 };
 
+/// What an engine's error is told against.
+enum class CostBasis {
+  own,   ///< its own limit of small steps: what is left is discretisation
+  scene  ///< the case's law: its model included
+};
+constexpr auto namesOf(CostBasis) {
+  return std::array<std::string_view, 2>{"own", "scene"};
+}
+inline constexpr std::array costBases = {CostBasis::own, CostBasis::scene};
+
+/// Which setting of an engine reaches an accuracy in one kind of error, in all its measures, for
+/// the least time.
+struct CostCell {
+  std::string engine;
+  CostKind kind = CostKind::collision;
+  CostBasis basis = CostBasis::own;
+  double target = 0.0;  ///< 0.01 is 1 %
+  CostVerdict verdict = CostVerdict::notMeasured;
+  std::string knob = {}, setting = {};     ///< as of Advice
+  std::optional<double> wallSeconds = {};  ///< of that setting [s]
+  std::optional<std::size_t> point = {};   ///< its measured figure: the measure that decides
+  /// Not reached, of the case's law: place in CostResults::models of a model error that alone lies
+  /// above the target.
+  std::optional<std::size_t> model = {};
+  std::string decides = {};  ///< as of Advice
+
+  bool decided() const {
+    return verdict == CostVerdict::reached || verdict == CostVerdict::notReached;
+  }
+};
+
 }  // namespace crossgrain::inline results

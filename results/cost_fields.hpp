@@ -20,6 +20,10 @@ void fields(auto& io, CostPoint& point) {
   io("statistical", point.statistical);
   io("systematic", point.systematic);
   io("reference_error", point.referenceError);
+  io("low", point.low);
+  io("high", point.high);
+  io("equivalent", point.equivalent);
+  io("bound", point.bound);
   io("wall_s", point.wallSeconds);
   io("cpu_s", point.cpuSeconds);
   io("steps", point.steps);
@@ -90,6 +94,20 @@ void fields(auto& io, Advice& advice) {
   io("cheapest", advice.cheapest);
 }
 
+void fields(auto& io, CostCell& cell) {
+  io("engine", cell.engine);
+  io("error_kind", cell.kind);
+  io("basis", cell.basis);
+  io("want", cell.target);
+  io("verdict", cell.verdict);
+  io("knob", cell.knob);
+  io("setting", cell.setting);
+  io("wall_s", cell.wallSeconds);
+  io("point", cell.point);
+  io("model", cell.model);
+  io("decides", cell.decides);
+}
+
 void fields(auto& io, Separation& at) {
   io("t_s", at.time);
   io("separation", at.value);
@@ -120,6 +138,15 @@ void fields(auto& io, CostReference& reference) {
   io("note", reference.note);
 }
 
+void fields(auto& io, CostModel& model) {
+  io("engine", model.engine);
+  io("error_kind", model.kind);
+  io("measure", model.measure);
+  io("error", model.error);
+  io("low", model.low);
+  io("high", model.high);
+}
+
 void fields(auto& io, Startup& startup) {
   io("engine", startup.engine);
   io("start_s", startup.start);
@@ -133,8 +160,17 @@ void fields(auto& io, StatisticalFall& fall) {
   io("statistical", fall.statistical);
 }
 
+void fields(auto& io, CostResponse& response) {
+  io("measure", response.measure);
+  io("constant", response.constant);
+  io("change", response.change);
+  io("response", response.response);
+  io("bound", response.bound);
+}
+
 void fields(auto& io, CostAverages& averages) {
   io("falls", averages.falls);
+  io("responses", averages.responses);
 }
 
 }  // namespace crossgrain::inline results

@@ -46,6 +46,12 @@ struct CostPoint {
   /// they cannot be told apart [-].
   std::optional<double> statistical, systematic;
   std::optional<double> referenceError;  ///< what the reference itself is uncertain by [-]
+  /// Of averages: ends of the error's confidence interval, all rings and measures together [-].
+  std::optional<double> low, high;
+  /// Of averages at a setting that leaves the law as it is: how far it lies from small steps of the
+  /// same engine, as the change of k_n that would part two runs as far (ε_eq) [-], and what that
+  /// changes averages by at most (B) [-].
+  std::optional<double> equivalent, bound;
 
   /// Of the advance alone, per unit that all points of one kind and measure share: a sweep of
   /// collisions, the trajectory's window, one rotation [s].
@@ -58,8 +64,16 @@ struct CostPoint {
   bool ran() const { return status == CostStatus::ran; }
 };
 
-/// A point's error with what it is uncertain by. Absent without an error.
+/// A point's error with what it is uncertain by. Absent without an error and a bound.
 std::optional<MeasuredError> measuredError(const CostPoint& point);
+
+/// Whether a measure's error is told against its engine's own limit of small steps, whose law may
+/// be another than the scene's: "psi_f_own", "position_rms_own".
+bool isOwn(const std::string& measure);
+/// "psi_f" → "psi_f_own"
+std::string ownOf(const std::string& measure);
+/// "psi_f_own" → "psi_f"; of positions, whose name says whom they are held against, what they are.
+std::string sceneOf(const std::string& measure);
 
 /// What a point counts with on a front and in plots. Absent unless it ran and its error says
 /// anything.

@@ -23,18 +23,32 @@ void fields(auto& io, Stats& stats) {
   io("counters", stats.counters);
 }
 
-/// As the worker protocol says it.
+/// What the worker protocol says of a type, its errors as those of a file.
+template <typename T>
+T readAsProtocol(const Json& json, T (*read)(const Json&)) {
+  try {
+    return read(json);
+  } catch (const std::exception& error) {
+    throw FieldError(std::string(": ") + error.what());
+  }
+}
+
 template <>
 inline Json jsonOf(const Realised& realised) {
   return crossgrain::toJson(realised);
 }
 template <>
 inline void readFrom(const Json& json, Realised& realised) {
-  try {
-    realised = realisedFromJson(json);
-  } catch (const std::exception& error) {
-    throw FieldError(std::string(": ") + error.what());
-  }
+  realised = readAsProtocol(json, realisedFromJson);
+}
+
+template <>
+inline Json jsonOf(const Capabilities& capabilities) {
+  return crossgrain::toJson(capabilities);
+}
+template <>
+inline void readFrom(const Json& json, Capabilities& capabilities) {
+  capabilities = readAsProtocol(json, capabilitiesFromJson);
 }
 
 }  // namespace crossgrain::inline results

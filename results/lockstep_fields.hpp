@@ -23,6 +23,7 @@ void fields(auto& io, LockstepSeparation& separation) {
   io("median", separation.median);
   io("largest", separation.largest);
   io("yardstick", separation.yardstick);
+  io("rounding", separation.rounding);
   io("equivalent", separation.equivalent);
 }
 
@@ -41,6 +42,7 @@ void fields(auto& io, FirstExceedance& first) {
   io("disk", first.disk);
   io("partner", first.partner);
   io("contact", first.contact);
+  io("touching", first.touching);
 }
 
 void fields(auto& io, LockstepForces& forces) {
@@ -62,7 +64,9 @@ void fields(auto& io, LockstepRow& row) {
   io("verdict", row.verdict);
   io("reason", row.reason);
   io("equivalent", row.equivalent);
+  io("resolution", row.resolution);
   io("starts", row.starts);
+  io("same_to_its_precision", row.precise);
   io("failure", row.failure);
   io("separations", row.separations);
   io("track_time_s", row.trackTime);

@@ -16,11 +16,15 @@ namespace crossgrain::inline results {
 enum class LockstepVerdict {
   notMeasured,     ///< the reason says why
   sameToRounding,  ///< no disk ever leaves the mirror's by more than LockstepRules::rounding
-  sameLaw,         ///< what is left is less than a change of the yardstick by sameLaw would do
+  /// Not double precision is declared, and no disk ever leaves the mirror's by more than rounding
+  /// to what is declared, once in every step, may do: LockstepSeparation::rounding.
+  sameToPrecision,
+  sameLaw,  ///< what is left is less than a change of the yardstick by sameLaw would do
   differs
 };
 constexpr auto namesOf(LockstepVerdict) {
-  return std::array<std::string_view, 4>{"not_measured", "same_to_rounding", "same_law", "differs"};
+  return std::array<std::string_view, 5>{"not_measured", "same_to_rounding",
+                                         "same_to_its_precision", "same_law", "differs"};
 }
 
 /// What the verdicts rest on.
@@ -41,11 +45,15 @@ struct LockstepStart {
 /// How far disks are from the mirror's, so long after the start: of each start the disk that is
 /// farthest.
 struct LockstepSeparation {
-  double time = 0.0;                 ///< since the start [s]
-  double median = 0.0;               ///< over the starts [d]
-  double largest = 0.0;              ///< [d]
-  std::optional<double> yardstick;   ///< median of what the yardstick's change does [d]
-  std::optional<double> equivalent;  ///< ε_eq, the largest over the starts; absent: nothing moved
+  double time = 0.0;                ///< since the start [s]
+  double median = 0.0;              ///< over the starts [d]
+  double largest = 0.0;             ///< [d]
+  std::optional<double> yardstick;  ///< median of what the yardstick's change does [d]
+  /// What rounding to the declared precision may do, the median over the starts [d]; absent of
+  /// double precision.
+  std::optional<double> rounding;
+  /// ε_eq, the largest over the starts; absent: nothing moved, or nothing is beyond `rounding`.
+  std::optional<double> equivalent;
 };
 
 /// Contacts of the mirror that the windows came upon, each counted once a window and kind.
@@ -55,13 +63,14 @@ struct ContactKinds {
   std::size_t wall = 0;              ///< with a wall disk
 };
 
-/// Where an engine first leaves its mirror by more than rounding, over all starts.
+/// Where an engine first leaves its mirror by more than rounding in its precision, over all starts.
 struct FirstExceedance {
   std::size_t start = 0;               ///< index
   double after = 0.0, until = 0.0;     ///< between these times since the start [s]
   std::size_t disk = 0;                ///< that is farthest off
   std::optional<std::size_t> partner;  ///< of its contact whose force is farthest off
   std::string contact;                 ///< "sliding", "new, wall"; empty: it touches nothing
+  std::size_t touching = 0;            ///< how many contacts it has, or its partner if more
 };
 
 /// Forces of the first step, from the same positions and velocities.
@@ -86,8 +95,12 @@ struct LockstepRow {
   LockstepVerdict verdict = LockstepVerdict::notMeasured;
   std::string reason;                ///< of not measured
   std::optional<double> equivalent;  ///< ε_eq, over all times and starts
-  std::size_t starts = 0;            ///< that were followed to the end
-  std::string failure;               ///< of the first start that was not
+  /// Of same to its precision: the smallest change of the yardstick that would show beyond
+  /// rounding; absent: none of those tried.
+  std::optional<double> resolution;
+  std::size_t starts = 0;   ///< that were followed to the end
+  std::size_t precise = 0;  ///< of those, that are same to its precision; 0 of double precision
+  std::string failure;      ///< of the first start that was not
   std::vector<LockstepSeparation> separations;
   std::vector<double> trackTime, track;  ///< largest separation over starts [s], [d]
   ContactKinds kinds;

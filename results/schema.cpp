@@ -20,8 +20,8 @@ void checkSchema(const nlohmann::json& results, const std::string& where) {
     throw BadInput(fmt::format("{}: has schema \"{}\", this crossgrain reads \"{}\"", where, schema,
                                schemaVersion));
   const std::string kind = word("kind");
-  const auto known = {kindCompare, kindCollide, kindLockstep, kindEffects,
-                      kindCost,    kindAverage, kindRev,      kindStability};
+  const auto known = {kindCompare, kindCollide, kindLockstep,  kindEffects, kindCost,
+                      kindAverage, kindRev,     kindStability, kindThesis,  kindConformance};
   if (std::ranges::find(known, kind) == known.end())
     throw BadInput(fmt::format("{}: has kind \"{}\", a report is made of one of \"{}\"", where,
                                kind, fmt::join(known, "\", \"")));
@@ -37,7 +37,7 @@ nlohmann::json readResultsFile(const std::filesystem::path& file) {
   if (!in)
     throw BadInput(
         fmt::format("{}: cannot be read; a folder that compare, collide, lockstep, effects, "
-                    "cost, stability, average or rev wrote has it",
+                    "cost, stability, thesis, conformance, average or rev wrote has it",
                     file.string()));
   nlohmann::json results;
   try {

@@ -282,13 +282,14 @@ Curve escaped(const Recording& run) {
   });
 }
 
-/// Of one collision case: |e_n − oracle's|, known once the disks have parted; 1 where they do not.
+/// Of one collision case: |e_n − oracle's of the law that the engine runs|, known once the disks
+/// have parted; 1 where they do not.
 Curve restitutionError(const Recording& run) {
   if (run.collisions.empty()) return {};
   Curve curve(run.snapshots.size(), 0.0);
   for (std::size_t k = 0; k < run.collisions.size(); ++k) {
     const CollisionStart& start = run.collisions[k];
-    const double expected = oracleOutcome(run.scene.law, pairOf(run.scene, k), start).en;
+    const double expected = oracleOutcome(run.law, pairOf(run.scene, k), start).en;
     const auto end = collisionEnd(run.scene, run.snapshots.back(), k, start);
     curve.back() = std::max(curve.back(), end ? std::abs(end->en - expected) : 1.0);
   }

@@ -19,6 +19,8 @@ struct Recording {
   Placement placement;              ///< of the scene, against the original it is a copy of
   /// Where the scene is nothing but collisions side by side, what they start from, in its order.
   std::vector<CollisionStart> collisions = {};
+  /// Of the contacts, as the engine says that it runs them (lawAsRun()).
+  ContactLaw law = {};
 };
 
 /// The length that displacements are told in: a diameter of the smallest disk [m].

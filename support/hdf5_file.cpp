@@ -138,7 +138,9 @@ void Hdf5File::writeArray(const std::string& path, const void* values, hid_t typ
   const Handle space(H5Screate_simple(columns > 1 ? 2 : 1, size, nullptr));
   const Handle links(H5Pcreate(H5P_LINK_CREATE));
   H5Pset_create_intermediate_group(links, 1);
-  const Handle set(H5Dcreate2(file_, path.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT));
+  const Handle how(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(how, false);  // the same content is the same bytes at any time
+  const Handle set(H5Dcreate2(file_, path.c_str(), type, space, links, how, H5P_DEFAULT));
   check(set < 0 ? -1 : H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
 }
 

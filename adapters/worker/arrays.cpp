@@ -1,11 +1,13 @@
 #include "adapters/worker/arrays.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -64,14 +66,16 @@ nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
   return list_;
 }
 
+// O_NONBLOCK: opening a pipe would wait for who writes to it.
 ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json& list)
-    : file_(file.filename().string()) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw std::runtime_error(fmt::format("there is no array file {}", file.string()));
-  bytes_.resize(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
-  if (!in) throw std::runtime_error(fmt::format("cannot read {}", file.string()));
+    : file_(file.filename().string()),
+      in_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+  if (in_.get() < 0)
+    throw std::runtime_error(fmt::format("there is no array file {}", file.string()));
+  struct stat status {};
+  if (::fstat(in_.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw std::runtime_error(fmt::format("{} is not a regular file", file_));
+  const auto length = static_cast<std::size_t>(status.st_size);
 
   for (const nlohmann::json& item : list) {
     const auto name = item.at("name").get<std::string>();
@@ -85,10 +89,10 @@ ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json
     if (size == 0)
       throw std::runtime_error(fmt::format("{}: {} has the type '{}' (it is one of: f64, i32, u8)",
                                            file_, name, entry.type));
-    if (entry.offset > bytes_.size() || entry.count > (bytes_.size() - entry.offset) / size)
+    if (entry.offset > length || entry.count > (length - entry.offset) / size)
       throw std::runtime_error(
           fmt::format("{} is too short: {} needs {} × {} bytes from byte {}, the file has {} bytes",
-                      file_, name, entry.count, size, entry.offset, bytes_.size()));
+                      file_, name, entry.count, size, entry.offset, length));
     arrays_[name] = entry;
   }
 }
@@ -108,7 +112,15 @@ std::vector<Value> ArrayReader::read(const std::string& name, const char* type,
     throw std::runtime_error(fmt::format("{}: {} is {} × {}, expected {} × {}", file_, name,
                                          entry.count, entry.type, count, type));
   std::vector<Value> values(count);
-  if (count > 0) std::memcpy(values.data(), bytes_.data() + entry.offset, count * sizeof(Value));
+  const auto bytes = std::as_writable_bytes(std::span(values));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got = ::pread(in_.get(), bytes.data() + done, bytes.size() - done,
+                                static_cast<off_t>(entry.offset + done));
+    if (got > 0)
+      done += static_cast<std::size_t>(got);
+    else if (got == 0 || errno != EINTR)
+      throw std::runtime_error(fmt::format("cannot read {} of {}", name, file_));
+  }
   return values;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/vec2.hpp"
+#include "adapters/worker/descriptor.hpp"
 
 namespace crossgrain {
 
@@ -37,10 +38,12 @@ class ArrayWriter {
 };
 
 /// Reads an array file; nothing in it is trusted. Every failure is a std::runtime_error that names
-/// the file, the array and what was expected.
+/// the file, the array and what was expected. Memory is taken for the arrays that are asked for
+/// alone, however long the file is.
 class ArrayReader {
  public:
-  /// Checks the list against the length of the file.
+  /// Checks the list against the length of the file, which must be a regular one: a pipe or a
+  /// device might never end.
   ArrayReader(const std::filesystem::path& file, const nlohmann::json& list);
 
   bool has(const std::string& name) const { return arrays_.contains(name); }
@@ -65,8 +68,8 @@ class ArrayReader {
   std::vector<Value> read(const std::string& name, const char* type, std::size_t count) const;
 
   std::string file_;
+  Descriptor in_;
   std::map<std::string, Entry> arrays_;
-  std::vector<std::byte> bytes_;
 };
 
 }  // namespace crossgrain

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "adapters/law_options.hpp"
 #include "adapters/worker/json_names.hpp"
 
 namespace crossgrain {
@@ -33,6 +34,15 @@ json unlessNone(double constant) {
 double orNone(const json& in, const char* key) {
   const auto found = in.find(key);
   return found == in.end() || found->is_null() ? 0.0 : found->get<double>();
+}
+
+/// @throws std::exception naming an option or a value that no law has
+void checkLawOptions(const Capabilities& can) {
+  ContactLaw law;
+  for (const auto& [name, values] : can.lawOptions) {
+    if (values.empty()) throw std::runtime_error(fmt::format("law_options: {} has no value", name));
+    for (const std::string& value : values) setLawOption(law, name, value);
+  }
 }
 
 json toJson(const SettingValue& value) {
@@ -76,9 +86,11 @@ json toJson(const Capabilities& can) {
 Capabilities capabilitiesFromJson(const json& in) {
   Capabilities can;
   can.version = in.at("version");
+  for (const Effect effect : allEffects) can.effects[effect] = Support::never;  // if missing
   for (const auto& [name, support] : in.at("effects").items())
     can.effects[effectFromName(name)] = valueOf<Support>(support, supportNames);
   in.at("law_options").get_to(can.lawOptions);
+  checkLawOptions(can);
   for (const json& name : in.at("precisions"))
     can.precisions.push_back(valueOf<Precision>(name, precisionNames));
   can.instantContacts = in.at("instant_contacts");

@@ -74,8 +74,16 @@ std::string bodyArray(std::size_t body, const char* what) {
   return fmt::format("bodies.{}.{}", body, what);
 }
 
+/// For each disk or wall that contacts can be of. Disks that do not overlap much have three in the
+/// mean, since lines that join neighbours do not cross; more than this is no packing, and is not
+/// read.
+constexpr std::size_t mostContacts = 100;
+
 Contacts contactsFrom(const ArrayReader& arrays, std::size_t ids) {
-  const std::size_t count = arrays.count("contacts.i");
+  const std::size_t count = arrays.count("contacts.i"), most = mostContacts * ids;
+  if (count > most)
+    throw std::runtime_error(
+        fmt::format("it lists {} contacts, more than {} of {} bodies", count, most, ids));
   Contacts contacts;
   contacts.i = arrays.i32("contacts.i", count);
   contacts.j = arrays.i32("contacts.j", count);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,32 +18,11 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
-#include <utility>
+
+#include "adapters/worker/descriptor.hpp"
 
 namespace crossgrain {
 namespace {
-
-/// A descriptor that closes itself and is never inherited by an exec'd program: a sibling that held
-/// our end of a worker's pipe would keep that worker from seeing its end.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-  void reset() {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = -1;
-  }
-
- private:
-  int fd_;
-};
 
 [[noreturn]] void systemFailure(const std::string& what, int error) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
@@ -50,6 +30,7 @@ class Descriptor {
 
 struct ChildSide {
   int requests, replies, log, nothing, failure;
+  const char* folder;  ///< empty: where the parent is
   pid_t parent;
 };
 
@@ -64,6 +45,10 @@ struct ChildSide {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
+  rlimit file{};
+  ::getrlimit(RLIMIT_FSIZE, &file);
+  file.rlim_cur = std::min<rlim_t>(longestFile, file.rlim_max);
+  ::setrlimit(RLIMIT_FSIZE, &file);
 
   // First out of the way of 0 … 4, then into place; dup2 clears close-on-exec.
   const int requests = ::fcntl(side.requests, F_DUPFD_CLOEXEC, 10);
@@ -74,7 +59,7 @@ struct ChildSide {
   if (::dup2(nothing, 0) >= 0 && ::dup2(log, 1) >= 0 && ::dup2(log, 2) >= 0 &&
       ::dup2(requests, 3) >= 0 && ::dup2(replies, 4) >= 0) {
     ::close_range(5, UINT_MAX, CLOSE_RANGE_CLOEXEC);  // what libraries opened without the flag
-    ::execvpe(argv[0], argv, environment);
+    if (*side.folder == '\0' || ::chdir(side.folder) == 0) ::execvpe(argv[0], argv, environment);
   }
   const int error = errno;
   [[maybe_unused]] const ssize_t written = ::write(failure, &error, sizeof error);
@@ -89,16 +74,24 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
   return all;
 }
 
-/// This process' environment, with another HOME where its own cannot be used.
-std::vector<std::string> environmentWithHome(const std::filesystem::path& otherwise) {
+/// This process' environment and what the call adds, with another HOME where its own cannot be
+/// used.
+std::vector<std::string> environmentOf(const ProgramCall& call,
+                                       const std::filesystem::path& otherwise) {
   const char* home = std::getenv("HOME");
   std::error_code missing;
   const bool usable =
       home && std::filesystem::is_directory(home, missing) && ::access(home, W_OK | X_OK) == 0;
   std::vector<std::string> variables;
-  for (char** each = environ; *each; ++each)
-    if (usable || !std::string_view(*each).starts_with("HOME=")) variables.emplace_back(*each);
-  if (!usable) variables.push_back("HOME=" + otherwise.string());
+  for (char** each = environ; *each; ++each) {
+    const std::string_view variable = *each;
+    const std::string name(variable.substr(0, variable.find('=')));
+    if ((usable || name != "HOME") && !call.environment.contains(name))
+      variables.emplace_back(variable);
+  }
+  for (const auto& [name, value] : call.environment) variables.push_back(name + "=" + value);
+  if (!usable && !call.environment.contains("HOME"))
+    variables.push_back("HOME=" + otherwise.string());
   return variables;
 }
 
@@ -127,9 +120,9 @@ std::string describeExit(const siginfo_t& info) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log) {
-  const std::vector<std::string> variables = environmentWithHome(log.parent_path());
-  const std::vector<char*> arguments = pointers(argv), environment = pointers(variables);
+ChildProcess::ChildProcess(const ProgramCall& call, const std::filesystem::path& log) {
+  const std::vector<std::string> variables = environmentOf(call, log.parent_path());
+  const std::vector<char*> arguments = pointers(call.argv), environment = pointers(variables);
 
   // A socket for the requests, because writing to it can be kept from raising SIGPIPE.
   int request[2], reply[2], failure[2];
@@ -145,8 +138,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::file
   Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (nothing.get() < 0) systemFailure("/dev/null", errno);
 
-  const ChildSide side{requestTheirs.get(), replyTheirs.get(),   logFile.get(),
-                       nothing.get(),       failureTheirs.get(), ::getpid()};
+  const ChildSide side{requestTheirs.get(), replyTheirs.get(),   logFile.get(), nothing.get(),
+                       failureTheirs.get(), call.folder.c_str(), ::getpid()};
   pid_ = ::fork();
   if (pid_ < 0) systemFailure("fork", errno);
   if (pid_ == 0) becomeChild(side, arguments.data(), environment.data());
@@ -159,7 +152,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const std::file
   while (count < 0 && errno == EINTR);
   if (count > 0) {
     kill();
-    systemFailure(fmt::format("cannot start {}", argv[0]), error);
+    systemFailure(fmt::format("cannot start {}", call.argv[0]), error);
   }
   in_ = requestOurs.release();
   out_ = replyOurs.release();
@@ -186,15 +179,16 @@ void ChildProcess::sendLine(const std::string& line, Clock::time_point deadline)
   }
 }
 
-std::string ChildProcess::receiveLine(Clock::time_point deadline) {
+std::string ChildProcess::receiveLine(Clock::time_point deadline, std::size_t longest) {
   std::size_t searched = 0;
   for (;;) {
     const std::size_t end = received_.find('\n', searched);
-    if (end != std::string::npos) {
+    if (end != std::string::npos && end <= longest) {
       std::string line = received_.substr(0, end);
       received_.erase(0, end + 1);
       return line;
     }
+    if (received_.size() > longest) throw ProcessBabble("its line does not end");
     searched = received_.size();
     await(out_, POLLIN, deadline);
     char buffer[65536];

@@ -3,10 +3,14 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "adapters/program_call.hpp"
 
 namespace crossgrain {
 
@@ -19,6 +23,15 @@ struct ProcessTimeout : std::runtime_error {
 struct ProcessEnded : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// The child's line is longer than it may be.
+struct ProcessBabble : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// No file that a child writes grows beyond this [bytes], its log included: a child that prints
+/// without end fills no disk. The contacts of 30 million disks fit in.
+inline constexpr std::uint64_t longestFile = std::uint64_t{4} << 30;
 
 /// A child process that is spoken to in lines: it reads them from descriptor 3 and answers on
 /// descriptor 4. Its input is empty, its output and error go to a log file.
@@ -33,10 +46,10 @@ class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Starts argv[0], looked up in PATH, without a shell. Where HOME is no folder that can be
-  /// written, the child's is the folder of its log: there are programs that do not start without.
+  /// Starts the program without a shell. Where HOME is no folder that can be written, the child's
+  /// is the folder of its log: there are programs that do not start without.
   /// @throws std::runtime_error if it cannot be started: why
-  ChildProcess(const std::vector<std::string>& argv, const std::filesystem::path& log);
+  ChildProcess(const ProgramCall& call, const std::filesystem::path& log);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -44,8 +57,10 @@ class ChildProcess {
   /// @throws ProcessTimeout, ProcessEnded
   void sendLine(const std::string& line, Clock::time_point deadline);
 
-  /// The next line without its end. @throws ProcessTimeout, ProcessEnded
-  std::string receiveLine(Clock::time_point deadline);
+  /// The next line without its end.
+  /// @param longest  that it may be [bytes]; little more than that is ever kept
+  /// @throws ProcessTimeout, ProcessEnded, ProcessBabble
+  std::string receiveLine(Clock::time_point deadline, std::size_t longest);
 
   /// The child's descriptor 3 comes to its end.
   void closeInput();

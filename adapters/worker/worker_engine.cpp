@@ -1,12 +1,8 @@
 #include "adapters/worker/worker_engine.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <deque>
-#include <fstream>
-
+#include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
 
@@ -32,10 +28,6 @@ class ScratchFile {
   std::filesystem::path path_;
 };
 
-std::string shortened(const std::string& text, std::size_t length) {
-  return text.size() <= length ? text : text.substr(0, length) + " …";
-}
-
 }  // namespace
 
 template <typename Read>
@@ -47,19 +39,20 @@ std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Rea
   } catch (const EngineFailure&) {
     throw;
   } catch (const std::exception& error) {
-    fail(fmt::format("its answer to {} is unusable: {}", what, error.what()));
+    fail(fmt::format("its answer to {} is unusable: {}", what,
+                     asOneLine(error.what(), longestReason)));
   }
 }
 
-WorkerEngine::WorkerEngine(std::string name, const std::vector<std::string>& argv,
-                           std::filesystem::path scratch, double timeout)
+WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
+                           double timeout)
     : name_(std::move(name)),
       scratch_(std::filesystem::absolute(scratch)),
       log_(scratch_ / (name_ + ".log")),
       timeout_(timeout) {
   try {
     std::filesystem::create_directories(scratch_);
-    process_ = std::make_unique<ChildProcess>(argv, log_);
+    process_ = std::make_unique<ChildProcess>(call, log_);
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -71,6 +64,7 @@ WorkerEngine::WorkerEngine(std::string name, const std::vector<std::string>& arg
           fmt::format("it speaks protocol {}, this program speaks {}", spoken, protocolVersion));
     return capabilitiesFromJson(reply.at("capabilities"));
   });
+  if (!call.stamp.empty()) capabilities_.version += fmt::format(" ({})", call.stamp);
 }
 
 WorkerEngine::~WorkerEngine() {
@@ -96,7 +90,14 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
                   {"file", file.path().string()}};
   request["arrays"] = arrays.write(file.path());
   const json reply = ask(request, "load");
-  return understand("load", [&] { return realisedFromJson(reply.at("realised")); });
+  return understand("load", [&] {
+    Realised realised = realisedFromJson(reply.at("realised"));
+    // Less than this is no step but a mistake, and a run of such steps would never end.
+    if (!(realised.dt >= 1e-6 * scene.dt))
+      throw std::runtime_error(fmt::format("dt = {:g} s is no time step, with {:g} s in the scene",
+                                           realised.dt, scene.dt));
+    return realised;
+  });
 }
 
 double WorkerEngine::advance(double t) {
@@ -137,7 +138,7 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
   const json reply = exchange(request, what);
   return understand(what, [&]() -> json {
     if (reply.at("ok").get<bool>()) return reply;
-    const auto reason = reply.at("what").get<std::string>();
+    const std::string reason = asOneLine(reply.at("what"), longestReason);
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
     throw EngineFailure(failure(reason));
   });
@@ -150,16 +151,19 @@ json WorkerEngine::exchange(const json& request, const std::string& what) const 
   std::string line;
   try {
     process_->sendLine(request.dump(), deadline);
-    line = process_->receiveLine(deadline);
+    line = process_->receiveLine(deadline, longestAnswer);
   } catch (const ProcessTimeout&) {
     fail(fmt::format("no answer within {} s to {}", timeout_, what));
   } catch (const ProcessEnded&) {
     fail(howItEnded(what));
+  } catch (const ProcessBabble&) {
+    fail(fmt::format("its answer to {} is longer than {} MiB", what, longestAnswer >> 20));
   }
-  json reply = json::parse(line, nullptr, false);
-  if (!reply.is_object())
-    fail(fmt::format("its answer to {} is not a JSON object: '{}'", what, shortened(line, 60)));
-  return reply;
+  try {
+    return parseAnswer(line);
+  } catch (const std::exception& error) {
+    fail(fmt::format("its answer to {} {}", what, error.what()));
+  }
 }
 
 std::string WorkerEngine::where() const {
@@ -177,29 +181,8 @@ std::string WorkerEngine::howItEnded(const std::string& what) const {
   const bool ended = process_->waitForExit(1s);
   const std::string how =
       ended ? fmt::format("ended ({})", process_->exitText()) : "closed its descriptors";
-  const std::string words = lastWords();
+  const std::string words = lastWords(log_);
   return fmt::format("{} during {}{}{}", how, what, words.empty() ? "" : "; ", words);
-}
-
-std::string WorkerEngine::lastWords() const {
-  constexpr std::size_t lines = 3, longest = 200;
-  std::ifstream in(log_);
-  std::deque<std::string> last;
-  std::string error;  // of Python: the line after the indented ones says what it was
-  bool inTraceback = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty()) continue;
-    if (inTraceback && line[0] != ' ') {
-      error = shortened(line, longest);
-      inTraceback = false;
-    }
-    if (line.starts_with("Traceback (most recent call last)")) inTraceback = true;
-    last.push_back(shortened(line, longest));
-    if (last.size() > lines) last.pop_front();
-  }
-  if (!error.empty()) return "its error: " + error;
-  if (last.empty()) return {};
-  return fmt::format("the end of its log: {}", fmt::join(last, " | "));
 }
 
 void WorkerEngine::fail(const std::string& what) const {

@@ -24,12 +24,12 @@ namespace crossgrain {
 class WorkerEngine final : public Engine {
  public:
   /// Starts the worker and asks what it can do.
-  /// @param argv     the command, run without a shell in the current directory
+  /// @param call     the program; its stamp becomes part of the version
   /// @param scratch  directory for array files and the log NAME.log; made if there is none
   /// @param timeout  longest wait for one answer [s]
   /// @throws EngineFailure
-  WorkerEngine(std::string name, const std::vector<std::string>& argv,
-               std::filesystem::path scratch, double timeout);
+  WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
+               double timeout);
   ~WorkerEngine() override;
 
   Capabilities capabilities() const override { return capabilities_; }
@@ -55,8 +55,6 @@ class WorkerEngine final : public Engine {
   /// One line: engine, scene, time, what went wrong, and when all was well last.
   std::string failure(const std::string& what) const;
   std::string howItEnded(const std::string& what) const;
-  /// "the end of its log: …", or the error that a traceback there ends with; empty without a log.
-  std::string lastWords() const;
 
   std::string name_;
   std::filesystem::path scratch_;

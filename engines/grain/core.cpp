@@ -81,11 +81,14 @@ Core<Real>::Core(Setup setup)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");
   const MotionEffects effects = motionEffects(setup);
   motion_ = kernels_.motion[indexOf(effects)];
-  const std::size_t variant =
-      indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation});
-  const bool special = hasThesisConventions(law_) && !setup.generalKernels;
-  contacts_ = special ? kernels_.contacts[variant] : kernels_.generalContacts;
-  planes_ = special ? kernels_.planes[variant] : kernels_.generalPlanes;
+  contacts_ = kernels_.generalContacts;
+  planes_ = kernels_.generalPlanes;
+  if (const auto set = conventionSet(law_); set && !setup.generalKernels) {
+    const std::size_t variant =
+        indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation}, *set);
+    if (kernels_.contacts[variant] != nullptr) contacts_ = kernels_.contacts[variant];
+    if (kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
+  }
 
   buildWalls(std::move(setup.walls));
   allocate(setup.disks, effects);

@@ -13,17 +13,35 @@
 namespace grain {
 namespace {
 
-template <class Real, std::size_t Index>
-constexpr auto effectsLaw() {
-  constexpr ContactEffects e = contactEffects(Index);
-  // Without friction nothing turns: one kernel for both.
-  constexpr bool rotation = e.rotation && e.tangential != Tangential::none;
-  return static_cast<EffectsLaw<Real, e.tangential, e.cutTension, e.normalDamping, rotation>*>(
-      nullptr);
+/// Without friction nothing turns: one kernel for both.
+constexpr ContactEffects meaningful(ContactEffects e) {
+  e.rotation = e.rotation && e.tangential != Tangential::none;
+  return e;
 }
 
 template <class Real, std::size_t Index>
-using LawAt = std::remove_pointer_t<decltype(effectsLaw<Real, Index>())>;
+using LawAt =
+    EffectsLaw<Real, meaningful(contactEffects(Index)), conventionSets[Index / effectVariants]>;
+
+/// Conventions other than the thesis' are compiled for the effects of its cell, tension or not: the
+/// compiler's time goes with each.
+constexpr bool compiled(std::size_t index) {
+  const ContactEffects e = contactEffects(index);
+  return index < effectVariants ||
+         (e.tangential == Tangential::springDashpot && e.normalDamping && e.rotation);
+}
+
+template <class Real, std::size_t Index>
+constexpr ContactKernel<Real> contactKernelAt() {
+  if constexpr (compiled(Index)) return &contactKernel<LawAt<Real, Index>, Real>;
+  return nullptr;
+}
+
+template <class Real, std::size_t Index>
+constexpr PlaneKernel<Real> planeKernelAt() {
+  if constexpr (compiled(Index)) return &planeKernel<LawAt<Real, Index>, Real>;
+  return nullptr;
+}
 
 /// A plate's torque needs both a plate and spins.
 constexpr std::size_t meaningful(std::size_t index) {
@@ -35,11 +53,11 @@ constexpr std::size_t meaningful(std::size_t index) {
 template <class Real, std::size_t... C, std::size_t... M>
 Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>) {
   return {GRAIN_TEXT(GRAIN_SET),
-          {&contactKernel<LawAt<Real, C>, Real>...},
+          {contactKernelAt<Real, C>()...},
           &contactKernel<GeneralLaw<Real>, Real>,
           {&motionKernel<Real, meaningful(M)>...},
           {&kickKernel<Real, false>, &kickKernel<Real, true>},
-          {&planeKernel<LawAt<Real, C>, Real>...},
+          {planeKernelAt<Real, C>()...},
           &planeKernel<GeneralLaw<Real>, Real>};
 }
 

@@ -103,25 +103,21 @@ template <class Real>
 using PlaneKernel = std::size_t (*)(const GeneralLaw<Real>&, const ContactView<Real>&,
                                     const PlaneView<Real>&, std::size_t begin, std::size_t end);
 
-/// The effects that decide which kernels a scene runs.
-struct ContactEffects {
-  Tangential tangential;
-  bool cutTension, normalDamping, rotation;
-};
-
 struct MotionEffects {
   bool rotation, predict, gravity, plate, plateSpin;
 };
 
-inline constexpr std::size_t contactVariants = 5 * 2 * 2 * 2;
+inline constexpr std::size_t effectVariants = 5 * 2 * 2 * 2;
+inline constexpr std::size_t contactVariants = std::size(conventionSets) * effectVariants;
 inline constexpr std::size_t motionVariants = 2 * 2 * 2 * 2 * 2;
 
-constexpr std::size_t indexOf(const ContactEffects& e) {
-  return ((static_cast<std::size_t>(e.tangential) * 2 + e.cutTension) * 2 + e.normalDamping) * 2 +
-         e.rotation;
+/// @param set  of conventionSets
+constexpr std::size_t indexOf(const ContactEffects& e, std::size_t set) {
+  const std::size_t tangential = set * 5 + static_cast<std::size_t>(e.tangential);
+  return ((tangential * 2 + e.cutTension) * 2 + e.normalDamping) * 2 + e.rotation;
 }
 constexpr ContactEffects contactEffects(std::size_t index) {
-  return {static_cast<Tangential>(index / 8), index / 4 % 2 == 1, index / 2 % 2 == 1,
+  return {static_cast<Tangential>(index / 8 % 5), index / 4 % 2 == 1, index / 2 % 2 == 1,
           index % 2 == 1};
 }
 constexpr std::size_t indexOf(const MotionEffects& e) {
@@ -136,11 +132,12 @@ constexpr MotionEffects motionEffects(std::size_t index) {
 template <class Real>
 struct Kernels {
   const char* instructions;  ///< "x86-64-v3", …
+  /// Null: that combination runs the general one.
   ContactKernel<Real> contacts[contactVariants];
   ContactKernel<Real> generalContacts;
   MotionKernel<Real> motion[motionVariants];
-  KickKernel<Real> kick[2];  ///< without and with rotation
-  PlaneKernel<Real> planes[contactVariants];
+  KickKernel<Real> kick[2];                   ///< without and with rotation
+  PlaneKernel<Real> planes[contactVariants];  ///< likewise
   PlaneKernel<Real> generalPlanes;
 };
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <iterator>
+#include <optional>
+
 #include "engines/grain/law.hpp"
 
 namespace grain {
@@ -12,52 +16,73 @@ struct LawConstants {
   Real halfStep;  ///< dt/2 of implicit damping; 0 where nothing is implied, at t = 0 [s]
 };
 
-/// Every option at run time: the reference that each specialised law must match to the bit, and
-/// what runs the conventions of other engines.
-template <class Real>
-struct GeneralLaw : LawConstants<Real> {
-  Normal normal;
-  Damper damper;
-  History history;
+/// The effects of a scene that decide which kernels it runs.
+struct ContactEffects {
   Tangential tangential;
-  Bound bound;
-  Lever lever, velocityLever;
-  PlaneLever planeLever;
-  Stretch stretch;
-  bool cutTension, normalDamping, implicitDamping, dashpotOutsideBound, resetSpringOnly, rotation;
+  bool cutTension, normalDamping, rotation;
 };
 
-/// The thesis' conventions with the effects of a scene as constants: what the scene does not call
-/// for is not compiled.
-template <class Real, Tangential T, bool CutTension, bool NormalDamping, bool Rotation>
+/// What engines differ in that simulate the same effects of the linear law.
+struct Conventions {
+  History history = History::displacement;
+  Bound bound = Bound::compression;
+  Lever lever = Lever::radius, velocityLever = Lever::radius;
+  PlaneLever planeLever = PlaneLever::surface;  ///< of levers that are not the radius
+  Stretch stretch = Stretch::after;
+  bool implicitDamping = false, dashpotOutsideBound = false, resetSpringOnly = false;
+
+  bool operator==(const Conventions&) const = default;
+};
+
+/// Those that have kernels of their own; any others run the general ones, at a third of the speed.
+inline constexpr Conventions conventionSets[] = {{},  // the thesis'
+                                                 // YADE's, whose mirror carries its packings.
+                                                 {.history = History::force,
+                                                  .lever = Lever::overlapMiddle,
+                                                  .velocityLever = Lever::overlapMiddle,
+                                                  .stretch = Stretch::before,
+                                                  .dashpotOutsideBound = true}};
+
+/// Every option at run time: the reference that each specialised law must match to the bit, and
+/// what runs laws and conventions that have no kernels of their own.
+template <class Real>
+struct GeneralLaw : LawConstants<Real>, Conventions {
+  Normal normal;
+  Damper damper;
+  Tangential tangential;
+  bool cutTension, normalDamping, rotation;
+};
+
+/// The linear law under some conventions, with the effects of a scene as constants: what the scene
+/// does not call for is not compiled.
+template <class Real, ContactEffects E, Conventions C>
 struct EffectsLaw : LawConstants<Real> {
-  static constexpr Tangential tangential = T;
-  static constexpr bool cutTension = CutTension;
-  static constexpr bool normalDamping = NormalDamping;
-  static constexpr bool rotation = Rotation;
+  static constexpr Tangential tangential = E.tangential;
+  static constexpr bool cutTension = E.cutTension;
+  static constexpr bool normalDamping = E.normalDamping;
+  static constexpr bool rotation = E.rotation;
   static constexpr Normal normal = Normal::linear;
   static constexpr Damper damper = Damper::constant;
-  static constexpr History history = History::displacement;
-  static constexpr Bound bound = Bound::compression;
-  static constexpr Lever lever = Lever::radius;
-  static constexpr Lever velocityLever = Lever::radius;
-  static constexpr PlaneLever planeLever = PlaneLever::surface;
-  static constexpr Stretch stretch = Stretch::after;
-  static constexpr bool implicitDamping = false;
-  static constexpr bool dashpotOutsideBound = false;
-  static constexpr bool resetSpringOnly = false;
+  static constexpr History history = C.history;
+  static constexpr Bound bound = C.bound;
+  static constexpr Lever lever = C.lever;
+  static constexpr Lever velocityLever = C.velocityLever;
+  static constexpr PlaneLever planeLever = C.planeLever;
+  static constexpr Stretch stretch = C.stretch;
+  static constexpr bool implicitDamping = C.implicitDamping;
+  static constexpr bool dashpotOutsideBound = C.dashpotOutsideBound;
+  static constexpr bool resetSpringOnly = C.resetSpringOnly;
 
   explicit EffectsLaw(const GeneralLaw<Real>& general) : LawConstants<Real>(general) {}
 };
 
-/// Whether EffectsLaw has the law's conventions, so that only effects remain to be chosen.
+/// Which of conventionSets a law has, so that only effects remain to be chosen; absent: none.
 template <class Real>
-bool hasThesisConventions(const GeneralLaw<Real>& law) {
-  return law.normal == Normal::linear && law.damper == Damper::constant &&
-         law.history == History::displacement && law.bound == Bound::compression &&
-         law.lever == Lever::radius && law.velocityLever == Lever::radius &&
-         law.stretch == Stretch::after && !law.implicitDamping && !law.dashpotOutsideBound &&
-         !law.resetSpringOnly;
+std::optional<std::size_t> conventionSet(const GeneralLaw<Real>& law) {
+  if (law.normal != Normal::linear || law.damper != Damper::constant) return std::nullopt;
+  for (std::size_t set = 0; set < std::size(conventionSets); ++set)
+    if (static_cast<const Conventions&>(law) == conventionSets[set]) return set;
+  return std::nullopt;
 }
 
 /// Whether a law asks for the compliances of ContactMotion.
@@ -91,7 +116,9 @@ GeneralLaw<Real> generalLaw(const Law& law, double dt, bool rotation) {
   to.bound = law.bound;
   to.lever = law.lever;
   to.velocityLever = law.velocityLever.value_or(law.lever);
-  to.planeLever = law.planeLever;
+  // A lever that is the radius is that on planes, too.
+  if (to.lever != Lever::radius || to.velocityLever != Lever::radius)
+    to.planeLever = law.planeLever;
   to.stretch = law.stretch;
   to.cutTension = law.cutTension;
   to.normalDamping = law.gn > 0.0;

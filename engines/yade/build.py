@@ -3,7 +3,7 @@ of YADE's own (hubs, clumps) come after them."""
 
 import math
 
-from protocol import Unsupported
+from crossgrain_worker import Unsupported
 from yade import (
     Bo1_Sphere_Aabb,
     Bo1_Wall_Aabb,

@@ -1,6 +1,6 @@
 """What YADE's contact laws have in common."""
 
-from protocol import Unsupported
+from crossgrain_worker import Unsupported
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one tells a reader nothing
 

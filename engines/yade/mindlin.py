@@ -13,7 +13,7 @@ from yade import (
 
 from contacts import dot, xy
 from law import Law
-from protocol import Unsupported
+from crossgrain_worker import Unsupported
 
 
 class Mindlin(Law):

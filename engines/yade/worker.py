@@ -12,7 +12,8 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
 sys.dont_write_bytecode = True
 
 import numpy as np
@@ -20,11 +21,11 @@ import yade.config
 from yade import O, utils
 
 import build
-import protocol
+import crossgrain_worker
 from contacts import read_contacts, xy, z
+from crossgrain_walls import Body
 from law import representative_pairs
 from mindlin import Mindlin
-from motion import Body
 from viscoelastic import Viscoelastic
 
 LAWS = {"linear": Viscoelastic, "hertz": Mindlin}
@@ -88,7 +89,7 @@ class Yade:
     def load(self, scene, arrays, settings):
         normal = scene["law"]["normal"]
         if normal not in LAWS:
-            raise protocol.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
+            raise crossgrain_worker.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
         self.law = LAWS[normal](scene["law"])
         self.bodies = [
             Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
@@ -280,4 +281,4 @@ class Yade:
 
 
 close_yades_servers()
-protocol.serve(Yade())
+crossgrain_worker.serve(Yade())

@@ -41,11 +41,23 @@ std::string furtherCells(const CollisionTable& points, const CollisionTable& ref
   return cells;
 }
 
-/// The first cells of all rows of a curve.
+/// The first cells of all rows of a curve, and the last ones.
 struct RowHead {
   const std::string &engine, &name, &variant;
   std::optional<double> dt;
+  std::string verdicts;
 };
+
+/// Of the whole curve: how it came out; against the scene's law, the one that its engine declares,
+/// and its own scheme.
+std::string verdictCells(const CollisionCurve& curve) {
+  const bool ran = curve.points.size() > 0;
+  std::string cells = row(
+      std::string(nameOf(outcomeOf(curve))), std::string(ran ? nameOf(curve.score.verdict) : ""),
+      std::string(ran ? nameOf(declaredScore(curve).verdict) : ""), ownDeviation(curve));
+  cells.pop_back();
+  return cells;
+}
 
 std::string rowOf(const RowHead& head, const CollisionTable& points,
                   const CollisionTable& reference, std::size_t k, const std::string& status,
@@ -55,7 +67,8 @@ std::string rowOf(const RowHead& head, const CollisionTable& points,
           points.at(QuantityId::en, k), points.at(QuantityId::psiF, k),
           reference.at(QuantityId::en, k), reference.at(QuantityId::psiF, k), head.dt, status);
   line.pop_back();
-  return line + furtherCells(points, reference, k) + "," + cell(reason) + "\n";
+  return line + furtherCells(points, reference, k) + "," + cell(reason) + "," + head.verdicts +
+         "\n";
 }
 
 }  // namespace
@@ -63,11 +76,12 @@ std::string rowOf(const RowHead& head, const CollisionTable& points,
 std::string collisionsCsv(const CollideResults& results) {
   std::string table =
       "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
-      furtherColumns() + ",reason\n";
+      furtherColumns() + ",reason,outcome,verdict_scene,verdict_declared,own_scheme\n";
   for (const CollisionVariant& variant : results.variants) {
     const std::string name = caseOf(results, variant);
     for (const CollisionCurve& curve : variant.curves) {
-      const RowHead head{curve.engine, name, variant.variant, finite(curve.dt)};
+      const RowHead head{curve.engine, name, variant.variant, finite(curve.dt),
+                         verdictCells(curve)};
       const CollisionPoints& points = curve.points;
       for (std::size_t k = 0; k < points.size(); ++k)
         table += rowOf(head, points, variant.reference, k,

@@ -156,7 +156,7 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
 Panel panelOver(const CollisionVariant& variant, const char* yLabel) {
   Panel panel;
   panel.name = variant.variant;
-  panel.xLabel = "Ψ_{i}";
+  panel.xLabel = "slide before Ψ_{i}";
   panel.yLabel = yLabel;
   panel.key = Key::none;
   panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};

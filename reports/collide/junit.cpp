@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "reports/collide/report.hpp"
+#include "reports/collide/table.hpp"
 #include "reports/common/numbers.hpp"
 #include "results/json_fields.hpp"
 
@@ -42,15 +44,51 @@ std::string errorOf(const QuantityScore& score) {
       score.limit.value_or(0.0), why.empty() ? "" : " (" + why + ")");
 }
 
-JUnitCase judgedSweep(const CollisionCurve& curve, const std::string& sweep, QuantityId quantity) {
-  JUnitCase one{"", fmt::format("{}: {}", sweep, collisionQuantity(quantity).name)};
-  const auto& score = curve.score.of[quantity];
+/// One quantity against one law.
+JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& score) {
+  JUnitCase one{"", name};
   if (score && score->held) {
     one.outcome = *score->held ? Outcome::passed : Outcome::failed;
     if (one.outcome == Outcome::failed) one.message = errorOf(*score);
   } else {
     one.outcome = Outcome::skipped;
     one.message = "not measured, or not known of the reference";
+  }
+  return one;
+}
+
+/// Whether what a curve is short of the scene's law by is its model's: it holds to the law that it
+/// declares, or is that law.
+bool isOfTheModel(const DeclaredScore& declared, QuantityId quantity) {
+  const auto& own = declared.score.of[quantity];
+  return declared.reference == DeclaredReference::itself || (own && own->held == true);
+}
+
+/// Against the scene's law; where the engine declares another one, also against that.
+std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::string& sweep,
+                                   QuantityId quantity) {
+  const std::string name = fmt::format("{}: {}", sweep, collisionQuantity(quantity).name);
+  JUnitCase scene = judged(name, curve.score.of[quantity]);
+  if (!curve.declared) return {scene};
+  const DeclaredScore& declared = *curve.declared;
+  if (scene.outcome == Outcome::failed && isOfTheModel(declared, quantity)) {
+    scene.outcome = Outcome::skipped;
+    scene.message = "model difference: " + scene.message;
+  }
+  if (declared.reference == DeclaredReference::itself) return {scene};
+  return {scene, judged(name + ", declared law", declared.score.of[quantity])};
+}
+
+JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {
+  JUnitCase one{"", sweep + ": own scheme"};
+  const std::string figures = fmt::format("deviates by {:.2g} d and {:.2g} of the speed",
+                                          own.position.value_or(0.0), own.velocity.value_or(0.0));
+  if (!own.held) {
+    one.outcome = Outcome::skipped;
+    one.message = figures + ", " + own.reason;
+  } else if (!*own.held) {
+    one.outcome = Outcome::failed;
+    one.message = fmt::format("{} against a limit of {:g}", figures, own.limit.value_or(0.0));
   }
   return one;
 }
@@ -64,7 +102,8 @@ std::vector<JUnitCase> sweepCases(const CollisionVariant& variant, const Collisi
     return {{"", curve.engine, Outcome::skipped, curve.reason}};
   std::vector<JUnitCase> cases;
   for (const QuantityId quantity : judgedQuantities(variant))
-    cases.push_back(judgedSweep(curve, sweep, quantity));
+    std::ranges::move(judgedSweep(curve, sweep, quantity), std::back_inserter(cases));
+  if (ownDeviation(curve)) cases.push_back(judgedScheme(*curve.ownScheme, sweep));
   if (curve.status == SweepStatus::incomplete)
     cases.push_back({"", sweep + ": all pairs part", Outcome::failed, curve.reason});
   if (cases.empty())

@@ -5,10 +5,12 @@
 #include <deque>
 #include <map>
 
+#include "reports/collide/overview.hpp"
 #include "reports/collide/report.hpp"
 #include "reports/collide/scores.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
 #include "results/engine_fields.hpp"
 
@@ -29,6 +31,27 @@ std::string lawOf(const CaseGroup& group) {
     if (auto words = lawWords(option, value)) shared.push_back(std::move(*words));
   }
   return mathHtml(fmt::format("Law of all variants: {}.", fmt::join(shared, ", ")));
+}
+
+/// Empty, or HTML: in what the laws that engines declare are others than the scene's, over all
+/// variants.
+std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
+  std::vector<std::string> laws;
+  for (const EngineRow& engine : results.engines) {
+    if (runsBesideItsPeer(results, engine.name)) continue;  // its peer's law
+    std::vector<std::string> words;
+    for (const CollisionVariant* variant : group.variants)
+      for (const CollisionCurve* curve : curvesOf(*variant, engine.name)) {
+        if (!curve->declared) continue;
+        for (const auto& [name, value] : curve->declared->law) {
+          std::string word = lawWords(name, value).value_or(spaced(name));
+          if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
+        }
+      }
+    if (!words.empty()) laws.push_back(fmt::format("{}: {}", engine.name, fmt::join(words, ", ")));
+  }
+  if (laws.empty()) return {};
+  return mathHtml(fmt::format("Declared instead: {}.", fmt::join(laws, "; ")));
 }
 
 /// Empty, or which points were not judged because the law has no limit of small time steps there.
@@ -54,6 +77,32 @@ std::string limitsOf(const CaseGroup& group) {
   return mathHtml(fmt::format("Not judged: {}.", fmt::join(places, "; ")));
 }
 
+Json engineRows(const std::vector<EngineRow>& engines) {
+  const std::vector<LineStyle> styles = engineStyles(engines);
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < engines.size(); ++k)
+    rows.push_back({{"name", engines[k].name},
+                    {"colour", styles[k].colour},
+                    {"dashed", styles[k].dashed},
+                    {"version", engines[k].version},
+                    {"status", nameOf(engines[k].status)},
+                    {"mirrors", engines[k].mirrors},
+                    {"summary", engines[k].summary},
+                    {"reason", engines[k].reason}});
+  return rows;
+}
+
+/// Those that have a point in the case: the legend names no others.
+Json drawnEngines(const CollideResults& results, const CaseGroup& group) {
+  Json drawn = Json::array();
+  for (Json& row : engineRows(results.engines))
+    if (std::ranges::any_of(group.variants, [&](const CollisionVariant* variant) {
+          return coarsestCurve(*variant, row.at("name")) != nullptr;
+        }))
+      drawn.push_back(std::move(row));
+  return drawn;
+}
+
 Json caseViews(const CollideResults& results, const std::vector<CaseGroup>& groups,
                const Illustrations& shown) {
   const Json figures = figureViews(shown, "collision_");
@@ -71,9 +120,11 @@ Json caseViews(const CollideResults& results, const std::vector<CaseGroup>& grou
     views.push_back({{"id", fmt::format("case_{}", views.size() + 1)},
                      {"name", group.name},
                      {"law", lawOf(group)},
+                     {"declared", declaredOf(results, group)},
                      {"limits", limitsOf(group)},
                      {"curves", std::move(curves)},
                      {"energies", std::move(energies)},
+                     {"drawn", drawnEngines(results, group)},
                      {"variants", variantRows(results, group)},
                      {"hasMirrors", !mirrors.empty()},
                      {"mirrors", std::move(mirrors)},
@@ -81,21 +132,6 @@ Json caseViews(const CollideResults& results, const std::vector<CaseGroup>& grou
                      {"scores", scoreRows(group)}});
   }
   return views;
-}
-
-Json engineRows(const std::vector<EngineRow>& engines) {
-  const std::vector<LineStyle> styles = engineStyles(engines);
-  Json rows = Json::array();
-  for (std::size_t k = 0; k < engines.size(); ++k)
-    rows.push_back({{"name", engines[k].name},
-                    {"colour", styles[k].colour},
-                    {"dashed", styles[k].dashed},
-                    {"version", engines[k].version},
-                    {"status", nameOf(engines[k].status)},
-                    {"mirrors", engines[k].mirrors},
-                    {"summary", engines[k].summary},
-                    {"reason", engines[k].reason}});
-  return rows;
 }
 
 void addSummary(Json& view, const CollideResults& results) {
@@ -109,10 +145,15 @@ void addSummary(Json& view, const CollideResults& results) {
   if (judged == 0)
     view["lead"] = fmt::format("Nothing was judged: {}.", nothingJudged(results));
   else
-    view["lead"] =
-        fmt::format("{} of {} held to the oracle within {} limit{}.", all.held,
-                    counted(judged, "judged sweep"), judged == 1 ? "its" : "their",
-                    all.notJudged == 0 ? "" : fmt::format("; {} not judged", all.notJudged));
+    view["lead"] = fmt::format(
+        "{} of {} held within {} limits{}; {} fell short{}.", all.held,
+        counted(judged, "judged sweep"), judged == 1 ? "its" : "their",
+        all.modelDifference == 0
+            ? ""
+            : fmt::format("; {} differ by their model: they hold to the law that their engine "
+                          "declares, but not to the scene's",
+                          all.modelDifference),
+        all.fellShort, all.notJudged == 0 ? "" : fmt::format("; {} not judged", all.notJudged));
   view["sentences"] = Json::array();
   for (const EngineRow& engine : results.engines) {
     if (!engine.mirrors.empty()) continue;
@@ -142,6 +183,7 @@ std::string collidePage(const CollideResults& results, const Illustrations& show
   const std::vector<CaseGroup> groups = casesOf(results);
   Json view = commonView(results.head, results.elapsed, {}, shown);
   addSummary(view, results);
+  addOverview(view, collideOverview(results), results.engines);
   view["engines"] = engineRows(results.engines);
   view["matrix"] = matrixRows(groups, results.engines);
   view["cases"] = caseViews(results, groups, shown);

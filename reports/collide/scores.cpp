@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/collide/tally.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
@@ -14,64 +15,6 @@
 namespace crossgrain::reports {
 
 namespace {
-
-/// Two digits are enough of an error.
-std::string shortly(std::optional<double> value) {
-  if (!finite(value)) return absentText;
-  return readableSetting(std::strtod(fmt::format("{:.2g}", *value).c_str(), nullptr));
-}
-
-/// How an engine did in some variants.
-struct Tally {
-  int held = 0, judged = 0, refused = 0, failed = 0;
-  double worst = 0.0;           ///< error/limit of what fell short furthest
-  std::string_view worstName;   ///< its symbol
-  std::string refusal, reason;  ///< the first
-
-  std::string cssClass() const {
-    if (failed > 0) return "disagree";
-    return judged == 0 ? "undecided" : held == judged ? "agree" : "disagree";
-  }
-};
-
-/// The clause that says what is lacking, of "X cannot run FILE: CLAUSE; HINT".
-std::string clauseOf(const std::string& refusal) {
-  const auto colon = refusal.find(": ");
-  const std::string rest = colon == std::string::npos ? refusal : refusal.substr(colon + 2);
-  return rest.substr(0, rest.find("; "));
-}
-
-Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine) {
-  Tally tally;
-  for (const CollisionVariant* variant : variants)
-    for (const CollisionCurve* curve : curvesOf(*variant, engine)) {
-      const SweepOutcome outcome = outcomeOf(*curve);
-      const bool refused = outcome == SweepOutcome::refused;
-      tally.held += outcome == SweepOutcome::held;
-      tally.judged += outcome == SweepOutcome::held || outcome == SweepOutcome::fellShort;
-      tally.refused += refused;
-      tally.failed += outcome == SweepOutcome::failed;
-      if (refused && tally.refusal.empty()) tally.refusal = clauseOf(curve->reason);
-      if (!refused && tally.reason.empty()) tally.reason = curve->reason;
-      for (const CollisionQuantity& quantity : scoredQuantities()) {
-        const auto& score = curve->score.of[quantity.id];
-        if (!score || !score->limit || score->max <= *score->limit * std::max(tally.worst, 1.0))
-          continue;
-        tally.worst = score->max / *score->limit;
-        tally.worstName = quantity.label;
-      }
-    }
-  return tally;
-}
-
-/// "✓ 24 of 24", "✗ 5 of 7", "– refused".
-std::string headline(const Tally& tally) {
-  if (tally.judged > 0)
-    return fmt::format("{} {} of {}", tally.held == tally.judged ? "✓" : "✗", tally.held,
-                       tally.judged);
-  if (tally.failed > 0) return "✗ failed";
-  return tally.refused > 0 ? "– refused" : absentText;
-}
 
 std::string orderOf(const CollideResults& results, const CollisionVariant& variant,
                     const std::string& engine, QuantityId quantity) {
@@ -103,6 +46,7 @@ Json variantCell(const CollideResults& results, const CollisionVariant& variant,
                     shortly(curve->score.of[quantity]->max) +
                     (order == absentText ? "" : ", order " + order));
   }
+  if (tally.ownDeviation) lines.push_back("own scheme " + shortly(tally.ownDeviation));
   if (!tally.refusal.empty()) lines.push_back(mathHtml(tally.refusal));
   if (!tally.reason.empty()) lines.push_back(mathHtml(tally.reason));
   return {{"text", headline(tally)}, {"class", tally.cssClass()}, {"lines", std::move(lines)}};
@@ -183,16 +127,43 @@ Json scoreCell(const std::optional<QuantityScore>& score) {
           {"rms", shortly(score->rms)}};
 }
 
+/// Held to the own scheme, by how much.
+Json schemeCell(const std::optional<SchemeScore>& own) {
+  if (!own) return {{"class", ""}, {"text", ""}};
+  if (!own->position) return {{"class", ""}, {"text", absentText}};
+  const bool held = own->held.value_or(false);
+  return {{"class", !own->held ? ""
+                    : held     ? "agree"
+                               : "disagree"},
+          {"text", (!own->held ? ""
+                    : held     ? "✓ "
+                               : "✗ ") +
+                       shortly(std::max(*own->position, own->velocity.value_or(0.0)))}};
+}
+
 /// Class and mark.
 std::pair<const char*, const char*> styleOf(SweepOutcome outcome) {
   switch (outcome) {
     case SweepOutcome::held:
       return {"agree", "✓"};
+    case SweepOutcome::modelDifference:
+      return {"degraded", "≠"};
     case SweepOutcome::fellShort:
       return {"disagree", "✗"};
     default:
       return {"undecided", "–"};
   }
+}
+
+/// By which of both laws a curve is scored, and what that one is known by.
+struct ScoredBy {
+  const CurveScore& score;
+  const char* words;
+};
+std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
+  if (!curve.declared) return {{curve.score, "both"}};
+  const bool mirror = curve.declared->reference == DeclaredReference::mirror;
+  return {{curve.score, "scene's"}, {curve.declared->score, mirror ? "declared*" : "declared"}};
 }
 
 }  // namespace
@@ -204,12 +175,10 @@ Json matrixRows(const std::vector<CaseGroup>& groups, const std::vector<EngineRo
     for (const EngineRow& engine : engines) {
       const Tally tally = tallyOf(group.variants, engine.name);
       Json lines = Json::array();
-      if (tally.worst > 1.0)
-        lines.push_back(
-            mathHtml(fmt::format("{} {} × its limit", tally.worstName, shortly(tally.worst))));
+      for (const std::string& line : shortfalls(tally)) lines.push_back(mathHtml(line));
       if (tally.refused > 0)
-        lines.push_back(
-            mathHtml(tally.judged > 0 ? fmt::format("{} refused", tally.refused) : tally.refusal));
+        lines.push_back(mathHtml(tally.judged() > 0 ? fmt::format("{} refused", tally.refused)
+                                                    : tally.refusal));
       if (!tally.reason.empty()) lines.push_back(mathHtml(tally.reason));
       cells.push_back(
           {{"text", headline(tally)}, {"class", tally.cssClass()}, {"lines", std::move(lines)}});
@@ -275,21 +244,25 @@ Json scoreRows(const CaseGroup& group) {
   const auto scored = scoredIn(group);
   Json rows = Json::array();
   for (const CollisionVariant* variant : group.variants)
-    for (const CollisionCurve& curve : variant->curves) {
-      Json cells = Json::array();
-      if (curve.points.size() > 0)
-        for (const CollisionQuantity* quantity : scored)
-          cells.push_back(scoreCell(curve.score.of[quantity->id]));
-      const SweepOutcome outcome = outcomeOf(curve);
-      const auto [cssClass, mark] = styleOf(outcome);
-      rows.push_back({{"variant", variant->variant},
-                      {"engine", curve.engine},
-                      {"dt", dtOf(&curve)},
-                      {"verdict", fmt::format("{} {}", mark, nameOf(outcome))},
-                      {"class", cssClass},
-                      {"reason", cells.empty() ? curve.reason : ""},
-                      {"cells", std::move(cells)}});
-    }
+    for (const CollisionCurve& curve : variant->curves)
+      for (const ScoredBy& law : lawsOf(curve)) {
+        const bool first = &law.score == &curve.score;
+        Json cells = Json::array();
+        if (curve.points.size() > 0)
+          for (const CollisionQuantity* quantity : scored)
+            cells.push_back(scoreCell(law.score.of[quantity->id]));
+        const SweepOutcome outcome = outcomeOf(curve);
+        const auto [cssClass, mark] = styleOf(outcome);
+        rows.push_back({{"variant", first ? variant->variant : ""},
+                        {"engine", first ? curve.engine : ""},
+                        {"dt", first ? dtOf(&curve) : ""},
+                        {"law", curve.points.size() > 0 ? law.words : ""},
+                        {"verdict", first ? fmt::format("{} {}", mark, nameOf(outcome)) : ""},
+                        {"class", first ? cssClass : ""},
+                        {"own", first ? schemeCell(curve.ownScheme) : schemeCell({})},
+                        {"reason", cells.empty() ? curve.reason : ""},
+                        {"cells", std::move(cells)}});
+      }
   return rows;
 }
 

@@ -1,40 +1,106 @@
 #include "reports/common/engines.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "adapters/registry.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
+
+const std::array<std::string, 7> enginesColours = {"#000000", "#d55e00", "#0072b2", "#009e73",
+                                                   "#cc79a7", "#e69f00", "#56b4e9"};
+/// Filled disk, square, triangle, diamond. Not the other triangle, whose open one stands for an
+/// upper bound in plots of cost.
+constexpr std::array filledMarks = {7, 5, 9, 13};
+
+/// Darker ones, for engines that this build does not know; each with all filledMarks.
+const std::array<std::string, 5> strangersColours = {"#882255", "#332288", "#117733", "#999933",
+                                                     "#661100"};
+constexpr std::size_t strangersStyles = strangersColours.size() * filledMarks.size();
 
 /// The open mark that goes with a filled one.
 int openMark(int pointType) {
   return pointType - 1;
 }
 
+/// Engines of this build that are no mirrors: their place among themselves.
+std::optional<std::size_t> placeOf(const std::string& name) {
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < builtInEngines(); ++k) {
+    const EngineEntry& entry = engineRegistry()[k];
+    if (!entry.mirrors.empty()) continue;
+    if (entry.name == name) return place;
+    ++place;
+  }
+  return std::nullopt;
+}
+
+/// The peer that a mirror of this build is of; empty of others.
+std::string peerOf(const std::string& name) {
+  for (std::size_t k = 0; k < builtInEngines(); ++k)
+    if (engineRegistry()[k].name == name) return engineRegistry()[k].mirrors;
+  return {};
+}
+
+/// FNV-1a: the same on every machine.
+std::size_t hashOf(const std::string& name) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return static_cast<std::size_t>(hash % strangersStyles);
+}
+
+LineStyle strangersStyle(std::size_t number) {
+  return {strangersColours[number % strangersColours.size()],
+          filledMarks[number / strangersColours.size() % filledMarks.size()], false};
+}
+
+LineStyle asMirror(LineStyle style) {
+  style.pointType = openMark(style.pointType);
+  style.dashed = true;
+  return style;
+}
+
+/// Who gives an engine its colour: its peer, of a mirror, else itself.
+std::string ownerOf(const EngineRow& engine) {
+  if (!engine.mirrors.empty()) return engine.mirrors;
+  const std::string peer = peerOf(engine.name);
+  return peer.empty() ? engine.name : peer;
+}
+
 }  // namespace
 
 LineStyle engineStyle(std::size_t index) {
-  static const std::array<std::string, 7> colours = {"#000000", "#d55e00", "#0072b2", "#009e73",
-                                                     "#cc79a7", "#e69f00", "#56b4e9"};
-  static const std::array marks = {7, 5, 9, 13, 11};  // filled: disk, square, triangles, diamond
-  return {colours[index % colours.size()], marks[index % marks.size()], false};
+  return {enginesColours[index % enginesColours.size()], filledMarks[index % filledMarks.size()],
+          false};
 }
 
 std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
-  std::vector<LineStyle> styles(engines.size());
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < engines.size(); ++k)
-    if (engines[k].mirrors.empty()) styles[k] = engineStyle(next++);
-  for (std::size_t k = 0; k < engines.size(); ++k) {
-    const std::string& peer = engines[k].mirrors;
-    if (peer.empty()) continue;
-    std::size_t p = 0;
-    while (p < engines.size() && engines[p].name != peer) ++p;
-    styles[k] = p < engines.size() ? styles[p] : engineStyle(next++);
-    styles[k].pointType = openMark(styles[k].pointType);
-    styles[k].dashed = true;
+  std::map<std::string, LineStyle> styles;  // by owner
+  std::vector<bool> taken(strangersStyles, false);
+  for (const EngineRow& engine : engines) {
+    const std::string owner = ownerOf(engine);
+    if (styles.contains(owner)) continue;
+    if (const auto place = placeOf(owner)) {
+      styles[owner] = engineStyle(*place);
+      continue;
+    }
+    std::size_t number = hashOf(owner);
+    for (std::size_t tried = 0; taken[number] && tried < strangersStyles; ++tried)
+      number = (number + 1) % strangersStyles;
+    taken[number] = true;
+    styles[owner] = strangersStyle(number);
   }
-  return styles;
+  std::vector<LineStyle> result;
+  for (const EngineRow& engine : engines) {
+    const std::string owner = ownerOf(engine);
+    result.push_back(owner == engine.name ? styles[owner] : asMirror(styles[owner]));
+  }
+  return result;
 }
 
 }  // namespace crossgrain::reports

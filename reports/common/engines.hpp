@@ -7,10 +7,14 @@
 
 namespace crossgrain::reports {
 
-/// Colours by Okabe and Ito (2008), told apart with any colour vision; marks differ too.
+/// Colours by Okabe and Ito (2008), told apart with any colour vision; marks differ too. Of what is
+/// no engine, by its place.
 LineStyle engineStyle(std::size_t index);
 
-/// Of engines in the order of the report. A mirror has its peer's colour, dashed and open.
+/// Of engines in the order of the report, in every report alike: engines of this build by their
+/// place in the registry, others by their name. A mirror has its peer's colour, dashed and open.
+/// Strangers whose names lead to one style have the next that is free, in that order, so that no
+/// two of a report look alike.
 std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines);
 
 }  // namespace crossgrain::reports

@@ -51,6 +51,7 @@ struct Panel {
   std::vector<std::string> columns;  ///< names along the x axis, at x = 0, 1, …
   std::optional<Range> shaded;       ///< part of the x axis
   std::optional<double> shadedTo;    ///< the y axis from its lower end up to there
+  std::optional<Range> band;         ///< part of the y axis
   std::optional<double> level;       ///< a thin horizontal line
   std::vector<Curve> curves;
   Key key = Key::outside;

@@ -107,7 +107,7 @@ std::string barsElement(const std::string& source, const std::string& colour, bo
 
 std::string labelsElement(const std::string& source, const LineStyle& style) {
   return fmt::format(
-      ", {} using 1:2:5 with labels noenhanced left offset char 0.7,0.35 font ',10' textcolor rgb "
+      ", {} using 1:2:5 with labels noenhanced left offset char 0.7,0.35 font ',12' textcolor rgb "
       "'{}' notitle",
       source, style.colour);
 }
@@ -116,6 +116,18 @@ std::string blocksElement(const std::string& source, const std::string& colour) 
   return fmt::format(
       "{} using 1:2:(0):1:($2-0.3):($2+0.3) with boxxyerror fill solid 0.75 noborder {} notitle",
       source, colour);
+}
+
+/// Whether anything of a curve lies within the panel: a key names nothing else.
+bool isSeen(const Panel& panel, const Curve& curve) {
+  const auto y = yRange(panel);
+  const auto within = [](const std::optional<Range>& range, double value) {
+    return !range || (value >= range->low && value <= range->high);
+  };
+  return std::ranges::any_of(curve.points, [&](const Point& point) {
+    return drawable(panel, point) && within(panel.xRange, point.x) &&
+           (!panel.rows.empty() || within(y, point.y));
+  });
 }
 
 std::string titleOf(const std::string& name) {
@@ -140,7 +152,7 @@ std::string lookOf(const Curve& curve, bool across) {
 }
 
 std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
-                         bool across) {
+                         bool across, bool seen) {
   const std::string source = fmt::format("'{}' index {}", data, index);
   const std::string colour = fmt::format("lc rgb '{}'", curve.style.colour);
   if (curve.draw == Draw::blocks)
@@ -149,7 +161,7 @@ std::string plotElements(const std::string& data, std::size_t index, const Curve
                            : "");
   if (curve.draw == Draw::tiles) return tilesElement(source, colour, curve.name);
   const std::string look = lookOf(curve, across);
-  const std::string title = titleOf(curve.name);
+  const std::string title = titleOf(seen ? curve.name : std::string());
   return (hasBars(curve) ? barsElement(source, colour, across) : std::string()) +
          fmt::format("{} using 1:2 with {} {} {}", source, look, colour, title) +
          (hasLabels(curve) ? labelsElement(source, curve.style) : std::string());
@@ -221,6 +233,11 @@ std::string furniture(const Panel& panel) {
         "  set object 2 rectangle from graph 0, graph 0 to graph 1, first {} behind fillcolor rgb "
         "'#e6e6e6' fillstyle solid noborder\n",
         *panel.shadedTo);
+  if (panel.band)
+    lines += fmt::format(
+        "  set object 3 rectangle from graph 0, first {} to graph 1, first {} behind fillcolor rgb "
+        "'#dcebf5' fillstyle solid noborder\n",
+        panel.band->low, panel.band->high);
   if (panel.level)
     lines += fmt::format(
         "  set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead back lc rgb '#888888' "
@@ -245,8 +262,9 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
   script += furniture(panel);
   script += "  plot ";
   for (std::size_t k = 0; k < panel.curves.size(); ++k)
-    script += (k == 0 ? "" : ", \\\n    ") +
-              plotElements(data, firstBlock + k, panel.curves[k], !panel.rows.empty());
+    script += (k == 0 ? "" : ", \\\n    ") + plotElements(data, firstBlock + k, panel.curves[k],
+                                                          !panel.rows.empty(),
+                                                          isSeen(panel, panel.curves[k]));
   return script + "\n";
 }
 
@@ -265,7 +283,9 @@ std::string keyAbove(const Figure& figure) {
   std::string entries;
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves) {
-      if (curve.name.empty() || std::ranges::find(names, curve.name) != names.end()) continue;
+      if (curve.name.empty() || !isSeen(panel, curve) ||
+          std::ranges::find(names, curve.name) != names.end())
+        continue;
       names.push_back(curve.name);
       entries +=
           fmt::format("{}2 with {} lc rgb '{}' title {} noenhanced", entries.empty() ? "" : ", ",

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <kainjow/mustache.hpp>
+#include <regex>
 
 #include "averaging/fields.hpp"
 
@@ -77,6 +78,12 @@ std::string mathHtml(std::string_view words) {
   return html;
 }
 
+std::string symbolsHtml(const std::string& words) {
+  static const std::regex symbol(
+      "(^|[ (/,=])([a-zA-Z]|µ|Ψ|γ|ω|σ|ε|ν)_((?:[a-z]|φ){1,2}[0-9]?)(?![a-zA-Z_0-9])");
+  return std::regex_replace(kainjow::mustache::html_escape(words), symbol, "$1$2<sub>$3</sub>");
+}
+
 std::string spaced(std::string_view name) {
   std::string result(name);
   std::ranges::replace(result, '_', ' ');
@@ -117,8 +124,10 @@ std::string fieldPlotSymbol(std::string_view field) {
 }
 
 std::string fieldAxis(std::string_view field) {
-  const std::string unit(fieldSpec(field).unit);
-  if (unit == "1") return fieldPlotSymbol(field);
+  const std::string unit(fieldSpec(field).unit), symbol = fieldPlotSymbol(field);
+  const std::string words = fieldWords(field);
+  const std::string name = symbol == words ? words : words + " " + symbol;
+  if (unit == "1") return name;
   std::string raised;
   for (std::size_t k = 0; k < unit.size(); ++k) {
     const std::string_view rest = std::string_view(unit).substr(k);
@@ -126,7 +135,7 @@ std::string fieldAxis(std::string_view field) {
     raised += square ? "^{2}" : cube ? "^{3}" : std::string(1, unit[k]);
     if (square || cube) ++k;  // two bytes
   }
-  return fmt::format("{} [{}]", fieldPlotSymbol(field), raised);
+  return fmt::format("{} [{}]", name, raised);
 }
 
 std::string headLabel(std::string_view name) {

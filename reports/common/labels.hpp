@@ -16,7 +16,7 @@ std::string fieldSymbol(std::string_view field);
 /// Its words alone, plain text: "shear stress".
 std::string fieldWords(std::string_view field);
 
-/// Its symbol in gnuplot's enhanced text, and with the unit as an axis has it: "σ_{rφ} [N/m^{2}]".
+/// Its symbol in gnuplot's enhanced text, and as an axis has it: "shear stress σ_{rφ} [N/m^{2}]".
 std::string fieldPlotSymbol(std::string_view field);
 std::string fieldAxis(std::string_view field);
 
@@ -27,7 +27,11 @@ std::string headLabel(std::string_view name);
 /// minus signs and Greek letters after a mark that follows a letter.
 std::string mathHtml(std::string_view words);
 
-/// The same in gnuplot's enhanced text: "σ_{rφ}".
+/// Escaped text in which only symbols of one letter, "k_n" and "t_c", have what is below the line:
+/// for sentences, in which names that people gave may have such marks too.
+std::string symbolsHtml(const std::string& words);
+
+/// mathHtml() in gnuplot's enhanced text: "σ_{rφ}".
 std::string mathGnuplot(std::string_view words);
 
 /// Underscores as spaces.

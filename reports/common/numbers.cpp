@@ -82,12 +82,6 @@ std::string readableCount(std::optional<double> value) {
   return finite(value) ? fixed(*value, 0) : absentText;
 }
 
-std::string morePackings(double count) {
-  constexpr double beyondBudget = 100.0;
-  if (count > beyondBudget) return fmt::format("more than {:.0f} more packings", beyondBudget);
-  return fmt::format("about {:.0f} more packing{}", count, count == 1.0 ? "" : "s");
-}
-
 std::string readable(std::optional<double> value, std::optional<double> error) {
   if (!finite(value) || !finite(error) || *error == 0.0) return readable(value);
   const int magnitude = exponentOf(std::max(std::abs(*value), std::abs(*error)), 3);
@@ -111,6 +105,12 @@ std::string readableDuration(std::optional<double> seconds) {
   const auto whole = std::llround(*seconds);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string shortDuration(std::optional<double> seconds) {
+  if (!finite(seconds) || *seconds <= 0.0 || *seconds >= 0.9995) return readableDuration(seconds);
+  if (*seconds >= 0.9995e-3) return readable(1e3 * *seconds) + " ms";
+  return readable(1e6 * *seconds) + " µs";
 }
 
 }  // namespace crossgrain::reports

@@ -26,9 +26,6 @@ std::string readableSetting(std::optional<double> value);
 /// A count, with spaces between thousands.
 std::string readableCount(std::optional<double> value);
 
-/// "about 9 more packings"; what is beyond any budget is "more than 100 more packings".
-std::string morePackings(double count);
-
 /// Value and standard error, both to the error's second digit: 0.242 ± 0.013.
 std::string readable(std::optional<double> value, std::optional<double> error);
 
@@ -37,5 +34,8 @@ std::string readableDifference(std::optional<double> value, std::optional<double
 
 /// 0.42 s, 12.3 s, 4 min 12 s, 1 h 02 min.
 std::string readableDuration(std::optional<double> seconds);
+
+/// The same with shorter units for what is below a second: 45.1 µs, 2.38 ms.
+std::string shortDuration(std::optional<double> seconds);
 
 }  // namespace crossgrain::reports

@@ -1,6 +1,7 @@
 #include "reports/common/packings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace crossgrain::reports {
 
@@ -12,6 +13,19 @@ Json packingRows(const std::vector<PackingRow>& packings) {
                     {"hash", packing.hash},
                     {"source", packing.fromCache ? "earlier, kept" : "for this run"}});
   return rows;
+}
+
+std::string indicesInWords(const std::vector<int>& indices) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < indices.size();) {
+    std::size_t end = k + 1;
+    while (end < indices.size() && indices[end] == indices[end - 1] + 1) ++end;
+    if (end - k < 3) end = k + 1;
+    parts.push_back(end - k == 1 ? fmt::format("{}", indices[k])
+                                 : fmt::format("{} to {}", indices[k], indices[end - 1]));
+    k = end;
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace crossgrain::reports

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
 #include "reports/common/base64.hpp"
+#include "reports/common/headings.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/svg.hpp"
@@ -37,12 +40,40 @@ mustache::data toMustache(const Json& view) {
   return words.empty() ? mustache::data{false} : mustache::data{words};
 }
 
+/// Sentences of the masthead as HTML.
+Json withSymbols(Json view) {
+  for (const char* key : {"lead", "sentences", "notes"}) {
+    if (!view.contains(key)) continue;
+    Json& words = view[key];
+    if (words.is_string()) words = symbolsHtml(words.get<std::string>());
+    if (!words.is_array()) continue;
+    for (Json& sentence : words)
+      if (sentence.is_string()) sentence = symbolsHtml(sentence.get<std::string>());
+  }
+  return view;
+}
+
+/// Of a plot: as wide as its letters need to stay readable, and no wider than they look well.
+/// Pictures have no letters.
+void addWidths(Json& view, const std::string& svg) {
+  const std::size_t at = svg.find("width=\"");
+  if (at == std::string::npos) return;
+  const double width = std::strtod(svg.c_str() + at + std::string_view("width=\"").size(), nullptr);
+  if (!(width > 0.0)) return;
+  constexpr double smallest = 12.0, readableOnes = 11.0;  // letters in figure_script.cpp [px]
+  constexpr double column = 640.0;                        // of a figure beside another [px]
+  view["least"] = fmt::format("{:.0f}", std::ceil(width * readableOnes / smallest));
+  view["most"] = fmt::format("{:.0f}", 1.35 * width);
+  view["wide"] = width > column;
+}
+
 /// The caption is HTML.
 Json imageView(const Illustrations& shown, const std::string& file, const std::string& alt,
                const std::string& caption) {
   const auto svg = readFile(shown.plots / (file + ".svg"));
   if (!svg) return nullptr;
-  return {{"file", file}, {"alt", alt}, {"caption", caption}, {"image", base64(compactSvg(*svg))}};
+  return {{"file", file},  {"alt", alt},  {"caption", caption}, {"image", base64(compactSvg(*svg))},
+          {"wide", false}, {"least", ""}, {"most", ""}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -50,6 +81,10 @@ std::string joined(const std::vector<std::string>& parts) {
   for (const std::string& part : parts)
     if (!part.empty()) result += (result.empty() ? "" : " · ") + part;
   return result;
+}
+
+std::string headingOf(const CaseHead& setup) {
+  return setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
 }
 
 std::string machineInWords(const Machine& machine) {
@@ -60,7 +95,7 @@ std::string machineInWords(const Machine& machine) {
 }  // namespace
 
 std::string render(const std::string& name, const Json& view) {
-  mustache::data data = toMustache(view);
+  mustache::data data = toMustache(withSymbols(view));
   for (const auto& [part, content] : templates())
     if (part.starts_with("part_"))
       data.set(part, mustache::data{mustache::partial{[&content = content] { return content; }}});
@@ -68,25 +103,27 @@ std::string render(const std::string& name, const Json& view) {
   std::string result = page.render(data);
   if (!page.is_valid())
     throw std::logic_error(fmt::format("template {}: {}", name, page.error_message()));
-  return result;
+  return withAnchors(result);
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+std::string titleOf(const ResultsHead& head) {
+  return fmt::format("crossgrain {}: {}", head.kind, headingOf(head.setup));
+}
+
 Json commonView(const ResultsHead& head, std::optional<double> elapsed,
                 const std::vector<std::string>& notes, const Illustrations& shown) {
   const CaseHead& setup = head.setup;
-  const std::string heading =
-      setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
   const std::string machine = machineInWords(head.machine);
   const bool averages = head.kind == kindAverage || head.kind == kindRev;
   return {
       {"style", templates().at("style.css")},
-      {"title", "crossgrain " + head.kind + ": " + heading},
+      {"title", titleOf(head)},
       {"kicker", "crossgrain " + head.kind},
-      {"heading", heading},
+      {"heading", headingOf(setup)},
       {"meta", joined({head.started, elapsed ? "took " + readableDuration(elapsed) : std::string(),
                        "crossgrain " + head.version, machine})},
       {"notes", notes},
@@ -107,8 +144,10 @@ Json figureViews(const Illustrations& shown, std::string_view prefix) {
   for (const Figure& figure : shown.figures)
     if (figure.name.starts_with(prefix))
       if (Json view = imageView(shown, figure.name, figure.title, mathHtml(figure.caption));
-          !view.is_null())
+          !view.is_null()) {
+        addWidths(view, *readFile(shown.plots / (figure.name + ".svg")));
         views.push_back(std::move(view));
+      }
   return views;
 }
 

@@ -17,6 +17,9 @@ namespace crossgrain::reports {
 /// @throws std::logic_error if a template is malformed
 std::string render(const std::string& name, const Json& view);
 
+/// "crossgrain compare: CASE, VARIANT"
+std::string titleOf(const ResultsHead& head);
+
 /// Heading, notes, machine, case text and command.
 Json commonView(const ResultsHead& head, std::optional<double> elapsed,
                 const std::vector<std::string>& notes, const Illustrations& shown);

@@ -9,14 +9,14 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<CostEngine>;
+using CostEngines = std::vector<CostEngine>;
 
 std::optional<double> stepsOf(const CostPoint& point) {
   return point.stepsPerContact;
 }
 
 /// Time steps only: the two parts of an error that has both.
-Panel partsPanel(const CostPoints& all, const Engines& engines, const CostMeasure& measure) {
+Panel partsPanel(const CostPoints& all, const CostEngines& engines, const CostMeasure& measure) {
   CostPoints points = pointsOf(all, measure);
   std::erase_if(points, [](const CostPoint& point) {
     return !point.ran() || point.knob != "time_step" || !point.statistical;
@@ -57,7 +57,7 @@ Curve rootLine(const std::vector<Point>& points, const LineStyle& style) {
 
 }  // namespace
 
-Figure costPartsFigure(const CostPoints& points, const Engines& engines) {
+Figure costPartsFigure(const CostPoints& points, const CostEngines& engines) {
   Figure figure;
   figure.name = "cost_parts";
   figure.title = "Systematic and statistical part of averages";
@@ -65,7 +65,7 @@ Figure costPartsFigure(const CostPoints& points, const Engines& engines) {
       "The two parts of an average's error, at the time steps. Filled, joined: the systematic "
       "part, ± the statistical one; longer runs do not lessen it. Open, dashed: the statistical "
       "part.";
-  for (const CostMeasure& measure : measuresIn(points))
+  for (const CostMeasure& measure : measuresDrawn(points))
     if (measure.kind == CostKind::averages)
       figure.panels.push_back(partsPanel(points, engines, measure));
   if (drawsMark(figure, openTriangle))
@@ -74,7 +74,7 @@ Figure costPartsFigure(const CostPoints& points, const Engines& engines) {
   return figure;
 }
 
-Figure costFallsFigure(const CostResults& results, const Engines& engines) {
+Figure costFallsFigure(const CostResults& results, const CostEngines& engines) {
   Figure figure;
   figure.name = "cost_falls";
   figure.title = "Statistical part against simulated time";

@@ -11,7 +11,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<CostEngine>;
+using CostEngines = std::vector<CostEngine>;
 
 std::optional<double> wallOf(const CostPoint& point) {
   return point.wallSeconds;
@@ -71,7 +71,7 @@ void addEngine(Panel& panel, const CostPoints& points, const CostEngine& engine,
   addCurves(panel, {std::move(marks), std::move(chance), failures(panel, points, engine, axis)});
 }
 
-Panel costPanel(const CostPoints& all, const Engines& engines, const CostMeasure& measure,
+Panel costPanel(const CostPoints& all, const CostEngines& engines, const CostMeasure& measure,
                 const CostAxis& axis, Curve behind) {
   const CostPoints points = pointsOf(all, measure);
   Panel panel = errorPanel(points, measure.name, axis);
@@ -122,13 +122,13 @@ std::string barsInWords(const CostPoints& points, CostKind kind) {
 
 }  // namespace
 
-Figure costTimeFigure(const CostResults& results, const Engines& engines, CostKind kind) {
+Figure costTimeFigure(const CostResults& results, const CostEngines& engines, CostKind kind) {
   const CostPoints& points = results.points;
   const CostAxis axis{wallOf, fmt::format("wall time of {} [s]", timeUnit(kind))};
   Figure figure;
   figure.name = "cost_" + toString(kind);
   figure.title = "Error against time: " + toString(kind);
-  for (const CostMeasure& measure : measuresIn(points))
+  for (const CostMeasure& measure : measuresDrawn(points))
     if (measure.kind == kind)
       figure.panels.push_back(
           costPanel(points, engines, measure, axis, frontCurve(results, measure, axis)));
@@ -140,7 +140,7 @@ Figure costTimeFigure(const CostResults& results, const Engines& engines, CostKi
   return figure;
 }
 
-Figure costContactsFigure(const CostPoints& points, const Engines& engines) {
+Figure costContactsFigure(const CostPoints& points, const CostEngines& engines) {
   Figure figure;
   figure.name = "cost_contacts";
   figure.title = "Error against contact evaluations";
@@ -151,7 +151,7 @@ Figure costContactsFigure(const CostPoints& points, const Engines& engines) {
       "engines is the method, not the code's speed.";
   CostPoints steps = points;
   std::erase_if(steps, [](const CostPoint& point) { return !schemeOf(point); });
-  const auto measures = measuresIn(steps);
+  const auto measures = measuresDrawn(steps);
   for (const CostKind kind : kindsIn(steps)) {
     const auto measure = std::ranges::find(measures, kind, &CostMeasure::kind);
     Panel panel = costPanel(steps, engines, *measure,
@@ -165,7 +165,7 @@ Figure costContactsFigure(const CostPoints& points, const Engines& engines) {
 
 std::vector<Figure> costFigures(const CostResults& results) {
   const CostPoints& points = results.points;
-  const Engines engines = costEngines(results);
+  const CostEngines engines = costEngines(results);
   std::vector<Figure> figures;
   for (const CostKind kind : kindsIn(points)) {
     figures.push_back(costTimeFigure(results, engines, kind));

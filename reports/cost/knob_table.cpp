@@ -23,7 +23,7 @@ Json knobRow(const CostPoints& points, CostKind kind, const CostEngine& engine,
   line["setting"] = settingWords(setting.knob, setting.setting);
   line["cells"] = Json::array();
   bool any = false;
-  for (const CostMeasure& measure : measuresIn(points)) {
+  for (const CostMeasure& measure : measuresDrawn(points)) {
     if (measure.kind != kind) continue;
     Json shown = {{"text", absentText}, {"was", ""}};
     for (const CostPoint& point : points) {
@@ -52,7 +52,7 @@ Json knobGroups(const CostResults& results, const std::vector<CostEngine>& engin
   Json groups = Json::array();
   for (const CostKind kind : kindsIn(points)) {
     Json measures = Json::array(), lines = Json::array();
-    for (const CostMeasure& measure : measuresIn(points))
+    for (const CostMeasure& measure : measuresDrawn(points))
       if (measure.kind == kind) measures.push_back(measureHtml(measure.name));
     for (const CostEngine& engine : engines)
       for (std::size_t k = 0; k < settings.size(); ++k)

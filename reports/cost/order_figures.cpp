@@ -7,7 +7,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-using Engines = std::vector<CostEngine>;
+using CostEngines = std::vector<CostEngine>;
 
 std::optional<double> dtOf(const CostPoint& point) {
   return point.dt;
@@ -56,7 +56,8 @@ void addScheme(Panel& panel, const CostPoints& all, const OrderFit& fit, const C
   addCurves(panel, {std::move(line), std::move(used), std::move(left)});
 }
 
-Panel orderPanel(const CostResults& results, const Engines& engines, const CostMeasure& measure) {
+Panel orderPanel(const CostResults& results, const CostEngines& engines,
+                 const CostMeasure& measure) {
   CostPoints steps = pointsOf(results.points, measure);
   std::erase_if(steps, [](const CostPoint& point) { return !schemeOf(point); });
   Panel panel = errorPanel(steps, measure.name, stepAxis());
@@ -76,14 +77,14 @@ Panel orderPanel(const CostResults& results, const Engines& engines, const CostM
 
 }  // namespace
 
-Figure costOrderFigure(const CostResults& results, const Engines& engines, CostKind kind) {
+Figure costOrderFigure(const CostResults& results, const CostEngines& engines, CostKind kind) {
   Figure figure;
   figure.name = "cost_orders_" + toString(kind);
   figure.title = "Order of convergence: " + toString(kind);
   figure.caption =
       "Error against the time step. Filled: the points that an order was fitted to; open: left "
       "out.";
-  for (const CostMeasure& measure : measuresIn(results.points))
+  for (const CostMeasure& measure : measuresDrawn(results.points))
     if (measure.kind == kind) figure.panels.push_back(orderPanel(results, engines, measure));
   if (draws(figure, [](const Curve& curve) { return curve.style == claimedStyle; }))
     figure.caption += " Grey, dashed: the order that is claimed, through the middle of the fit.";

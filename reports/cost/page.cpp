@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
+#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/cost/tables.hpp"
 #include "reports/cost/words.hpp"
@@ -13,16 +16,6 @@
 namespace crossgrain::reports {
 
 namespace {
-
-/// The finest accuracy that some engine reaches, else the coarsest wanted.
-std::string leadOf(const CostResults& results) {
-  const auto targets = costTargets(results);
-  if (targets.empty()) return "Nothing was measured.";
-  double finest = targets.front();
-  for (const Advice& one : results.advice)
-    if (one.cheapest) finest = std::min(finest, one.target);
-  return targetInWords(results, finest);
-}
 
 std::string countsOf(const CostResults& results) {
   const auto count = [&](CostStatus status) {
@@ -51,11 +44,9 @@ std::string trajectoryInWords(const CostResults& results) {
       window.why.empty() ? "" : ": " + window.why);
 }
 
-Json sentencesOf(const CostResults& results, const std::string& lead) {
+Json sentencesOf(const CostResults& results) {
   Json sentences = Json::array();
-  for (const double target : costTargets(results))
-    if (const std::string words = targetInWords(results, target); words != lead)
-      sentences.push_back(words);
+  for (const std::string& words : accuracyInWords(results)) sentences.push_back(words);
   for (const std::string& finding : unmetOrders(results)) sentences.push_back(finding);
   if (const std::string words = trajectoryInWords(results); !words.empty())
     sentences.push_back(words);
@@ -92,7 +83,7 @@ Json kindViews(const CostResults& results, const Illustrations& shown) {
         for (Json& figure : figureViews(shown, name)) figures.push_back(std::move(figure));
     views.push_back({{"kind", toString(kind)},
                      {"id", "kind-" + toString(kind)},
-                     {"what", errorOf(kind)},
+                     {"what", mathHtml(errorOf(kind))},
                      {"figures", figures}});
   }
   return views;
@@ -103,11 +94,16 @@ Json kindViews(const CostResults& results, const Illustrations& shown) {
 std::string costPage(const CostResults& results, const Illustrations& shown) {
   const std::vector<CostEngine> engines = costEngines(results);
   Json view = commonView(results.head, results.elapsed, results.notes, shown);
-  const std::string lead = leadOf(results);
-  view["lead"] = lead;
-  view["sentences"] = sentencesOf(results, lead);
+  view["lead"] = decidedInWords(results);
+  view["sentences"] = sentencesOf(results);
+  addOverview(view, costOverview(results), results.engines);
+  view["accuracies"] = accuracyTargets(results);
+  view["accuracy"] = accuracyGroups(results, engines);
   view["wants"] = Json::array();
   for (const double target : costTargets(results)) view["wants"].push_back(targetText(target));
+  view["together"] = Json::array();
+  for (const double target : costTargets(results))
+    view["together"].push_back(targetInWords(results, target));
   view["advice"] = adviceRows(results, engines);
   view["cheapest"] = cheapestGroups(results, engines);
   view["kinds"] = kindViews(results, shown);

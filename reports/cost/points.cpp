@@ -42,6 +42,14 @@ std::vector<CostMeasure> measuresIn(const CostPoints& points) {
   return measures;
 }
 
+std::vector<CostMeasure> measuresDrawn(const CostPoints& points) {
+  auto measures = measuresIn(points);
+  std::erase_if(measures, [](const CostMeasure& measure) {
+    return measure.kind == CostKind::averages && isOwn(measure.name);
+  });
+  return measures;
+}
+
 std::vector<CostEngine> costEngines(const CostResults& results) {
   const std::vector<LineStyle> styles = engineStyles(results.engines);
   std::vector<CostEngine> engines;

@@ -28,6 +28,8 @@ struct CostMeasure {
 
 /// In the order of the points, kinds together.
 std::vector<CostMeasure> measuresIn(const CostPoints& points);
+/// Those that have panels and columns: of averages not also those against engines' own limits.
+std::vector<CostMeasure> measuresDrawn(const CostPoints& points);
 std::vector<CostKind> kindsIn(const CostPoints& points);
 
 /// An engine that has points.

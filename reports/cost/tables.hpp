@@ -10,6 +10,19 @@
 /// The tables of a study of cost, as views for the page, and what they say in sentences.
 namespace crossgrain::reports {
 
+/// "Which setting … is decided for 31 of 36 against …"
+std::string decidedInWords(const CostResults& results);
+
+/// The engine that reaches a target of the case's law for the least time; null: none does.
+const CostCell* cheapestOf(const CostResults& results, CostKind kind, double target);
+
+/// A sentence on each target: in each kind of error the engine that reaches it for the least time.
+std::vector<std::string> accuracyInWords(const CostResults& results);
+
+/// A group per kind of error: a row per engine and basis, a target per column.
+Json accuracyGroups(const CostResults& results, const std::vector<CostEngine>& engines);
+Json accuracyTargets(const CostResults& results);
+
 /// The accuracies that settings were looked for, coarsest first.
 std::vector<double> costTargets(const CostResults& results);
 

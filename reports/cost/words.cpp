@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "cases/cost_knobs.hpp"
 #include "reports/common/labels.hpp"
@@ -32,6 +33,8 @@ std::string againstWhom(const std::string& measure) {
   return whom == "own" ? "itself" : whom;
 }
 
+constexpr const char* ofOwn = ", against its own limit";
+
 /// What all three ways of telling an unknown measure share.
 std::string plainWords(const std::string& measure) {
   const std::string whom = againstWhom(measure);
@@ -48,6 +51,16 @@ std::string settingWords(const std::string& knob, const std::string& setting) {
                                    : spaced(knob) + " " + setting;
 }
 
+std::string plainSetting(const std::string& knob, const std::string& setting) {
+  std::string words = settingWords(knob, setting);
+  const auto isLetter = [&](std::size_t k) {
+    return k < words.size() && std::isalpha(static_cast<unsigned char>(words[k])) != 0;
+  };
+  for (std::size_t k = 2; k < words.size(); ++k)
+    if (words[k] == '_' && isLetter(k - 1) && isLetter(k - 2)) words[k] = ' ';
+  return words;
+}
+
 std::string settingWords(const CostPoint& point) {
   return settingWords(point.knob, point.setting);
 }
@@ -57,11 +70,15 @@ std::string settingWords(const Advice& advice) {
 }
 
 std::string measureHtml(const std::string& measure) {
+  if (const std::string scene = sceneOf(measure); scene != measure)
+    return measureHtml(scene) + ofOwn;
   if (const std::string symbol = collisionSymbol(measure); !symbol.empty()) return mathHtml(symbol);
   return againstWhom(measure).empty() ? fieldLabel(measure) : mathHtml(plainWords(measure));
 }
 
 std::string measureEnhanced(const std::string& measure) {
+  if (const std::string scene = sceneOf(measure); scene != measure)
+    return measureEnhanced(scene) + ofOwn;
   if (const std::string symbol = collisionSymbol(measure); !symbol.empty())
     return mathGnuplot(symbol);
   return isField(measure) ? fieldWords(measure) + " " + fieldPlotSymbol(measure)
@@ -69,8 +86,14 @@ std::string measureEnhanced(const std::string& measure) {
 }
 
 std::string measureWords(const std::string& measure) {
+  if (const std::string scene = sceneOf(measure); scene != measure)
+    return measureWords(scene) + ofOwn;
   if (std::string symbol = collisionSymbol(measure); !symbol.empty()) return symbol;
   return isField(measure) ? fieldWords(measure) : plainWords(measure);
+}
+
+std::string kindWords(CostKind kind) {
+  return kind == CostKind::collision ? "collisions" : toString(kind);
 }
 
 std::string timeUnit(CostKind kind) {
@@ -93,10 +116,20 @@ std::string percentText(std::optional<double> fraction) {
 
 std::string errorText(const CostPoint& point) {
   if (!point.ran()) return statusText(point.status);
+  if (!point.error && point.bound) return "at most " + percentText(point.bound);
   const std::string error = percentText(point.error);
   if (point.error && measuredError(point)->saysNothing())
     return error + ", of one packing: no statistical error";
   return error + (point.statistical ? " ± " + percentText(point.statistical) : "");
+}
+
+std::string intervalText(const CostPoint& point) {
+  const auto error = measuredError(point);
+  if (!point.ran() || !error || error->saysNothing()) return errorText(point);
+  if (error->boundCounts()) return fmt::format("at most {} (bound)", percentText(error->high()));
+  const std::string low = percentText(error->low()), high = percentText(error->high());
+  if (low == high) return percentText(error->value);
+  return fmt::format("{} ({} to {})", percentText(error->value), low, high);
 }
 
 std::string targetText(double target) {

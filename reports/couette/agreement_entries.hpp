@@ -5,23 +5,28 @@
 
 #include "reports/couette/engine_runs.hpp"
 
-/// Finding rows of a comparison's agreement. A pair is the same whichever engine is named first.
+/// Finding rows of a comparison. A pair is the same whichever engine is named first.
 namespace crossgrain::reports {
 
 using Agreement = std::vector<AgreementRow>;
+using Endpoints = std::vector<EndpointRow>;
 
-/// Every field that is compared, in the order of the results.
+/// Every field that is compared ring by ring, and every endpoint, in the order of the results.
 std::vector<std::string> fieldsOf(const Agreement& agreement);
+std::vector<std::string> endpointsOf(const Endpoints& endpoints);
 
-/// The row of that pair and field, or null.
+/// The row of that pair and field, or of that endpoint; or null.
 const AgreementRow* rowOf(const Agreement& agreement, const std::string& a, const std::string& b,
                           const std::string& field);
+const EndpointRow* rowOf(const Endpoints& endpoints, const std::string& a, const std::string& b,
+                         const std::string& endpoint);
 
-/// Whether the pair is compared in any field.
-bool compared(const Agreement& agreement, const std::string& a, const std::string& b);
+/// All rows of a pair.
+std::vector<const EndpointRow*> rowsOf(const Endpoints& endpoints, const std::string& a,
+                                       const std::string& b);
 
 /// Engines that are compared with the reference in their own name.
-std::vector<std::string> peersOf(const Agreement& agreement,
+std::vector<std::string> peersOf(const Endpoints& endpoints,
                                  const std::vector<EngineRuns>& engines);
 
 }  // namespace crossgrain::reports

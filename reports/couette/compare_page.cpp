@@ -5,10 +5,12 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/figures.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/couette/state_view.hpp"
 #include "reports/lockstep/view.hpp"
@@ -116,6 +118,8 @@ void addFitsAndNumberChecks(Json& view, const Engines& engines) {
 void addFigures(Json& view, const Engines& engines, const Illustrations& shown) {
   view["bars"] = barsInWords(engines);
   view["profiles"] = figureViews(shown, "profile_");
+  view["differences"] = figureViews(shown, "difference_");
+  view["hasDifferences"] = !view["differences"].empty();
   view["checks"] = figureViews(shown, "check_");
   view["hasChecks"] = !view["checks"].empty() || view["hasNumberChecks"] == Json(true);
   view["series"] = figureViews(shown, "series_");
@@ -131,6 +135,7 @@ std::string comparePage(const CompareResults& results, const Illustrations& show
   const Engines engines = engineRuns(results);
   Json view = studyView(results, shown);
   addSummary(view, results, engines);
+  addOverview(view, compareOverview(results), results.engines);
   view["hasLockstep"] = results.lockstep.has_value();
   if (results.lockstep) addLockstep(view, *results.lockstep);
   view["columns"] = columnsView(engines);
@@ -146,7 +151,7 @@ std::string comparePage(const CompareResults& results, const Illustrations& show
   view["packings"] = packingRows(results.packings);
   view["files"] =
       "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv, "
-      "regimes.csv, steadiness.csv and agreement.csv.";
+      "regimes.csv, steadiness.csv, endpoints.csv and agreement.csv (ring by ring).";
   return render("report_compare.html", view);
 }
 

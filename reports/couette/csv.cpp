@@ -74,11 +74,17 @@ std::string distributionRows(const std::string& engine, const std::string& packi
 }
 
 /// On how many packings; absent where nobody knows.
-std::optional<double> regimesDiffer(const std::vector<RegimesOfPair>& regimes,
-                                    const AgreementRow& row) {
+std::optional<double> regimesDiffer(const std::vector<RegimesOfPair>& regimes, const std::string& a,
+                                    const std::string& b) {
   for (const RegimesOfPair& pair : regimes)
-    if (pair.a == row.a && pair.b == row.b) return static_cast<double>(pair.differ.size());
+    if (pair.a == a && pair.b == b) return static_cast<double>(pair.differ.size());
   return std::nullopt;
+}
+
+/// Where a ring's interval lies, which is no verdict.
+std::string placeOf(Verdict ring) {
+  if (ring == Verdict::agree) return "within";
+  return ring == Verdict::disagree ? "beyond" : "open";
 }
 
 }  // namespace
@@ -122,20 +128,36 @@ std::string seriesCsv(const CompareResults& results) {
   return table;
 }
 
+std::string endpointsCsv(const CompareResults& results) {
+  std::string table =
+      "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
+      "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
+      "regimes_differ\n";
+  for (const EndpointRow& entry : results.endpoints.rows) {
+    const auto margin = entry.marginRelative && entry.reference
+                            ? std::optional(entry.margin * std::abs(*entry.reference))
+                            : std::optional(entry.margin);
+    table += row(entry.a, entry.b, std::string(nameOf(entry.kind)), entry.endpoint, entry.unit,
+                 margin, std::string(nameOf(entry.answer)), entry.difference, entry.low, entry.high,
+                 entry.distance, entry.distanceLow, entry.distanceHigh,
+                 std::optional<double>(entry.look), static_cast<std::size_t>(entry.packings),
+                 static_cast<std::size_t>(entry.lost), std::optional<double>(entry.needs),
+                 std::optional<double>(entry.needsAtMost), entry.carrierA, entry.carrierB,
+                 entry.bound, regimesDiffer(results.regimes, entry.a, entry.b));
+  }
+  return table;
+}
+
 std::string agreementCsv(const CompareResults& results) {
   std::string table =
-      "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,"
-      "more_packings,more_rotations,regimes_differ\n";
+      "a,b,field,ring,difference,stderr,low,high,margin,place,detects,within_share,packings,"
+      "regimes_differ\n";
   for (const AgreementRow& entry : results.agreement) {
-    const auto differ = regimesDiffer(results.regimes, entry);
-    table += row(entry.a, entry.b, entry.field, std::string("all"), absent, absent, absent, absent,
-                 absent, std::string(toString(entry.verdict)), entry.detects, absent, absent,
-                 std::optional<double>(entry.morePackings), entry.moreRotations, differ);
+    const auto differ = regimesDiffer(results.regimes, entry.a, entry.b);
     for (const AgreementRing& ring : entry.rings)
-      table +=
-          row(entry.a, entry.b, entry.field, ring.ring + 1, ring.difference, ring.standardError,
-              ring.low, ring.high, ring.margin, std::string(toString(ring.verdict)), ring.detects,
-              ring.withinFraction, std::optional<double>(ring.packings), absent, absent, differ);
+      table += row(entry.a, entry.b, entry.field, ring.ring + 1, ring.difference,
+                   ring.standardError, ring.low, ring.high, ring.margin, placeOf(ring.verdict),
+                   ring.detects, ring.withinFraction, std::optional<double>(ring.packings), differ);
   }
   return table;
 }

@@ -7,6 +7,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/couette/engine_cost.hpp"
 
 namespace crossgrain::reports {
 
@@ -14,33 +15,6 @@ namespace {
 
 using Engines = std::vector<EngineRuns>;
 using Cell = std::function<std::string(const EngineRuns&)>;
-
-/// Sums over an engine's finished runs.
-struct Cost {
-  std::optional<double> steps, wall, cpu, simulated;  ///< [-], [s], [s], [s]
-};
-
-void addTo(std::optional<double>& sum, std::optional<double> value) {
-  if (value) sum = sum.value_or(0.0) + *value;
-}
-
-Cost costOf(const EngineRuns& engine) {
-  Cost cost;
-  for (const CouetteRun* run : engine.finished) {
-    if (!run->stats) continue;
-    const auto steps = static_cast<double>(run->stats->steps);
-    addTo(cost.steps, steps);
-    addTo(cost.wall, finite(run->stats->wallSeconds));
-    addTo(cost.cpu, finite(run->stats->cpuSeconds));
-    if (run->realised) addTo(cost.simulated, finite(steps * run->realised->dt));
-  }
-  return cost;
-}
-
-std::optional<double> quotient(std::optional<double> a, std::optional<double> b) {
-  if (!a || !b || *b == 0.0) return std::nullopt;
-  return *a / *b;
-}
 
 Json tableRow(const std::string& label, const std::string& unit, const Engines& engines,
               const Cell& cell) {
@@ -110,7 +84,9 @@ Json counterRows(const Engines& engines) {
       for (const CouetteRun* run : engine.finished) {
         if (!run->stats) continue;
         const auto counter = run->stats->counters.find(name);
-        if (counter != run->stats->counters.end()) addTo(sum, finite(counter->second));
+        const auto value =
+            counter == run->stats->counters.end() ? std::nullopt : finite(counter->second);
+        if (value) sum = sum.value_or(0.0) + *value;
       }
       return readableCount(sum);
     }));
@@ -132,15 +108,13 @@ Json costRows(const Engines& engines) {
   rows.push_back(tableRow("CPU time", "", engines,
                           [](const auto& e) { return readableDuration(costOf(e).cpu); }));
   rows.push_back(tableRow("wall time per step", "µs", engines, [](const EngineRuns& engine) {
-    const Cost cost = costOf(engine);
+    const EngineCost cost = costOf(engine);
     const auto perStep = quotient(cost.wall, cost.steps);
     return readable(perStep ? std::optional(*perStep * 1e6) : std::nullopt);
   }));
   rows.push_back(
-      tableRow("CPU time per simulated second", "s", engines, [](const EngineRuns& engine) {
-        const Cost cost = costOf(engine);
-        return readable(quotient(cost.cpu, cost.simulated));
-      }));
+      tableRow("CPU time per simulated second", "s", engines,
+               [](const EngineRuns& engine) { return readable(costOf(engine).cpuPerSecond()); }));
   for (Json& row : counterRows(engines)) rows.push_back(std::move(row));
   return rows;
 }

@@ -17,6 +17,9 @@ using IsFaint = std::function<bool(const EngineRuns&, const std::string& field)>
 std::vector<Figure> profileFigures(const CouetteFrame& frame,
                                    const std::vector<EngineRuns>& engines,
                                    const IsFaint& faint = {});
+/// difference_FIELD: engines minus the reference, ring by ring, in margins, with the margin's band.
+std::vector<Figure> differenceFigures(const CompareResults& results,
+                                      const std::vector<EngineRuns>& engines);
 std::vector<Figure> checkFigures(const CouetteFrame& frame, const std::vector<EngineRuns>& engines);
 std::vector<Figure> seriesFigures(const CouetteFrame& frame,
                                   const std::vector<EngineRuns>& engines);

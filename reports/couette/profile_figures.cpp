@@ -47,12 +47,13 @@ const std::vector<ProfilePlot>& profilePlots() {
 Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
   const double rim = cell.omega * cell.innerRadius;
   const bool turning = rim != 0.0;
-  if (turning && plot.field == "azimuthal_velocity") return {1.0 / rim, "v_{φ} / (Ω R_{i})"};
+  if (turning && plot.field == "azimuthal_velocity")
+    return {1.0 / rim, "velocity v_{φ} / (Ω R_{i})"};
   if (turning && cell.diameter > 0.0 && plot.field == "spin")
-    return {cell.diameter / (cell.omega * 2.0 * cell.innerRadius), "S d / (Ω D)"};
+    return {cell.diameter / (cell.omega * 2.0 * cell.innerRadius), "spin S d / (Ω D)"};
   // Shear stress follows the sense of rotation; a logarithmic axis shows no negative values.
   if (turning && cell.omega < 0.0 && plot.field == "stress_rp")
-    return {-1.0, "−" + fieldAxis(plot.field)};
+    return {-1.0, "− " + fieldAxis(plot.field)};
   return {1.0, fieldAxis(plot.field)};
 }
 

@@ -59,10 +59,11 @@ std::string regimesCsv(const CompareResults& results);
 /// over the averaged time, in units of the mean.
 std::string steadinessCsv(const CompareResults& results);
 
-/// a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,packings,
-/// more_packings,more_rotations,regimes_differ
-/// ring "all" is the verdict on the field. regimes_differ counts the packings on which the two are
-/// in different regimes.
+/// The verdicts; columns in reports/README.md. regimes_differ counts the packings on which the two
+/// are in different regimes.
+std::string endpointsCsv(const CompareResults& results);
+
+/// Ring by ring where differences are, without a verdict.
 std::string agreementCsv(const CompareResults& results);
 
 /// engine,method,field,r_m,width_over_d,mean,stderr,unit

@@ -46,8 +46,8 @@ Figure fieldFigure(const RevResults& results, const std::string& field) {
   std::set<double> radii;
   for (const RevCurve& curve : results.curves) radii.insert(curve.r);
   Figure figure{fmt::format("rev_{}", field),
-                fmt::format("{} against ring width", spaced(field)),
-                fmt::format("{}: rings of width Δr about each radius.", spaced(field)),
+                fmt::format("{} against ring width", fieldWords(field)),
+                fmt::format("{}: rings of width Δr about each radius.", fieldWords(field)),
                 {},
                 2};
   for (const double r : radii) {

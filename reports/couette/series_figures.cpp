@@ -157,6 +157,7 @@ std::vector<Figure> checkFigures(const CouetteFrame& frame,
 std::vector<Figure> compareFigures(const CompareResults& results) {
   const std::vector<EngineRuns> engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
+  for (auto& figure : differenceFigures(results, engines)) figures.push_back(std::move(figure));
   for (auto& figure : checkFigures(results, engines)) figures.push_back(std::move(figure));
   for (auto& figure : seriesFigures(results, engines)) figures.push_back(std::move(figure));
   for (auto& figure : distributionFigures(results, engines)) figures.push_back(std::move(figure));

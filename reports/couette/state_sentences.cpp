@@ -8,6 +8,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/packings.hpp"
 #include "reports/couette/state_view.hpp"
 
 namespace crossgrain::reports {
@@ -75,7 +76,7 @@ void addRegimes(Names& sentences, const Engines& engines) {
       sentences.push_back(
           alike.size() == 1 && many
               ? fmt::format("All {} packings {}.", group.size(), does)
-              : fmt::format("Packing{} {} {}.", many ? "s" : "", fmt::join(group, ", "), does));
+              : fmt::format("Packing{} {} {}.", many ? "s" : "", indicesInWords(group), does));
     }
   Names mixed;
   for (const EngineRuns& engine : engines) {

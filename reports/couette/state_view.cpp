@@ -9,6 +9,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/packings.hpp"
 
 namespace crossgrain::reports {
 
@@ -57,8 +58,7 @@ Json pairRows(const std::vector<RegimesOfPair>& pairs) {
         {{"pair", pair.a + " – " + pair.b},
          {"same", fmt::format("{} of {}", pair.packings - static_cast<int>(pair.differ.size()),
                               pair.packings)},
-         {"differ", pair.differ.empty() ? std::string(absentText)
-                                        : fmt::format("{}", fmt::join(pair.differ, ", "))}});
+         {"differ", pair.differ.empty() ? std::string(absentText) : indicesInWords(pair.differ)}});
   return rows;
 }
 
@@ -77,7 +77,7 @@ Json steadinessCell(const EngineDrift* row) {
     word += fmt::format(" down to {} %", readablePercent(row->drift.excluded.value_or(0.0)));
   std::string figures = changeInWords(row->drift);
   if (!row->drifting.empty())
-    figures += fmt::format("; by themselves drift: {}", fmt::join(row->drifting, ", "));
+    figures += fmt::format("; by themselves drift: {}", indicesInWords(row->drifting));
   return {{"word", word}, {"figures", figures}};
 }
 

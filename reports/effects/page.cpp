@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/effects/overview.hpp"
 #include "reports/effects/report.hpp"
 #include "reports/effects/views.hpp"
 
@@ -169,6 +171,7 @@ std::string effectsPage(const EffectsResults& results, const Illustrations& show
   const Engines engines = engineRuns(results, results.ensemble);
   Json view = studyView(results, shown);
   addEffectSummary(view, results, engines);
+  addOverview(view, effectsOverview(results), results.engines);
   view["columns"] = columnsView(engines);
   addEngineTable(view, engines);
   addTroubles(view, engines);

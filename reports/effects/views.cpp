@@ -25,19 +25,19 @@ std::string signedRoughly(double percent) {
   return (percent < 0.0 ? "−" : "+") + digits;
 }
 
-std::optional<double> percent(std::optional<double> fraction) {
+std::optional<double> inPercent(std::optional<double> fraction) {
   return fraction ? std::optional(100.0 * *fraction) : std::nullopt;
 }
 
 /// "−20 % (−25 to −15 %)": with the interval that the verdict rests on; else with one standard
 /// error, which is called so.
 std::string changePercent(const FieldChange& change) {
-  const auto value = percent(change.change);
+  const auto value = inPercent(change.change);
   if (change.low && change.high)
     return fmt::format("{} % ({} to {} %)", signedRoughly(*value),
                        signedRoughly(100.0 * *change.low), signedRoughly(100.0 * *change.high));
   if (!change.error) return readableDifference(value, {}) + " %";
-  return readableDifference(value, percent(change.error)) + " % (one standard error)";
+  return readableDifference(value, inPercent(change.error)) + " % (one standard error)";
 }
 
 bool measured(const VariantSummary& variant) {
@@ -49,7 +49,8 @@ std::string ringName(const FieldChange& change) {
 }
 
 std::string changeInWords(const FieldChange& change) {
-  return fmt::format("{} in {}, {}", spaced(change.field), ringName(change), changePercent(change));
+  return fmt::format("{} in {}, {}", fieldWords(change.field), ringName(change),
+                     changePercent(change));
 }
 
 std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
@@ -71,7 +72,7 @@ std::string detectableInWords(const VariantSummary& variant) {
   }
   if (!least) return {};
   const auto one = [](const FieldChange& change) {
-    return fmt::format("{} % ({})", roughly(100.0 * *change.detectable), spaced(change.field));
+    return fmt::format("{} % ({})", roughly(100.0 * *change.detectable), fieldWords(change.field));
   };
   return least == most ? one(*least) : one(*least) + " to " + one(*most);
 }
@@ -98,10 +99,11 @@ bool costsTime(const VariantSummary& variant) {
 
 std::string costInWords(const VariantSummary& variant) {
   if (!variant.saved) return "was not timed";
-  const std::string part = readable(percent(std::abs(*variant.saved)), percent(variant.savedError));
+  const std::string part =
+      readable(inPercent(std::abs(*variant.saved)), inPercent(variant.savedError));
   if (!measured(variant))
     return fmt::format("costs nothing measurable ({} % of a step)",
-                       readableDifference(percent(variant.saved), percent(variant.savedError)));
+                       readableDifference(inPercent(variant.saved), inPercent(variant.savedError)));
   return (*variant.saved > 0.0
               ? fmt::format("takes {} % of a step", part)
               : fmt::format("saves time: a step without it takes {} % longer", part)) +
@@ -158,7 +160,7 @@ Json fieldCell(const FieldChange* change) {
 Json tableRow(const VariantSummary& variant, const std::vector<std::string>& fields) {
   Json row = {{"label", effectLabel(variant.effect)},
               {"refused", ""},
-              {"saved", readable(percent(variant.saved), percent(variant.savedError))},
+              {"saved", readable(inPercent(variant.saved), inPercent(variant.savedError))},
               {"step", readable(variant.step ? std::optional(*variant.step * 1e6) : std::nullopt)},
               {"contacts", readableCount(variant.contacts)},
               {"cells", Json::array()}};

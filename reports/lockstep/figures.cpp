@@ -23,6 +23,14 @@ Range decadesOf(const Panel& panel) {
   return {std::pow(10.0, std::floor(std::log10(low))), std::pow(10.0, std::ceil(std::log10(high)))};
 }
 
+/// What rounding to the declared precision may do; no points of double precision.
+Curve roundingOf(const LockstepRow& row) {
+  Curve curve{"rounding of " + row.engine, {"#808080", 3, true}, Draw::linesAndPoints, {}, 1.0};
+  for (const LockstepSeparation& at : row.separations)
+    if (at.rounding) curve.points.push_back({at.time, *at.rounding, {}});
+  return curve;
+}
+
 }  // namespace
 
 std::vector<Figure> lockstepFigures(const LockstepResults& results) {
@@ -45,6 +53,8 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
     for (std::size_t k = 0; k < std::min(row.track.size(), row.trackTime.size()); ++k)
       curve.points.push_back({row.trackTime[k], row.track[k], {}});
     panel.curves.push_back(std::move(curve));
+    if (Curve rounding = roundingOf(row); !rounding.points.empty())
+      panel.curves.push_back(std::move(rounding));
     if (yardstick.points.empty())
       for (const LockstepSeparation& at : row.separations)
         if (at.yardstick) yardstick.points.push_back({at.time, *at.yardstick, {}});
@@ -59,8 +69,9 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
       "lockstep_separation",
       "How far each engine is from its mirror, over time",
       "Of all disks and starts the one that is farthest off; an engine whose positions are "
-      "its mirror's to the bit has no line. Thin: what counts as rounding. Grey: what a "
-      "known change of the law does, the median over the starts.",
+      "its mirror's to the bit has no line. Thin: what counts as rounding of double "
+      "precision. Grey: what a known change of the law does, and what rounding to another "
+      "precision may do, the medians over the starts.",
       {panel}};
   figure.panelWidth = 760;
   figure.png = true;

@@ -2,8 +2,10 @@
 #include <fmt/ranges.h>
 
 #include "reports/common/details.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
+#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/report.hpp"
 #include "reports/lockstep/view.hpp"
 #include "reports/lockstep/words.hpp"
@@ -20,6 +22,7 @@ std::string lockstepPage(const LockstepResults& results, const Illustrations& sh
     if (row.realised) realised.push_back({row.engine, &*row.realised, &results.effects});
   }
   addLockstep(view, results.lockstep);
+  addOverview(view, lockstepOverview(results), results.engines);
   view["figures"] = figureViews(shown, "lockstep_");
   addDetails(view, realised);
   view["packings"] = packingRows(results.packings);

@@ -14,6 +14,7 @@ namespace {
 const char* markOf(LockstepVerdict verdict) {
   switch (verdict) {
     case LockstepVerdict::sameToRounding:
+    case LockstepVerdict::sameToPrecision:
     case LockstepVerdict::sameLaw:
       return "✓";
     case LockstepVerdict::differs:
@@ -27,6 +28,7 @@ const char* markOf(LockstepVerdict verdict) {
 const char* classOf(LockstepVerdict verdict) {
   switch (verdict) {
     case LockstepVerdict::sameToRounding:
+    case LockstepVerdict::sameToPrecision:
     case LockstepVerdict::sameLaw:
       return "agree";
     case LockstepVerdict::differs:
@@ -80,6 +82,8 @@ Json rowsOf(const LockstepFindings& findings, std::size_t times) {
                  {"starts", readableCount(static_cast<double>(row.starts))},
                  {"kinds", kindCells(row)},
                  {"first", orDash(firstInWords(row))},
+                 {"resolution", mathHtml(resolutionInWords(row, findings.rules))},
+                 {"open", openInLaw(row, findings.rules)},
                  {"forces", forcesInWords(row)},
                  {"term", mathHtml(orDash(termInWords(row)))},
                  {"reason", row.verdict == LockstepVerdict::notMeasured ? row.reason : ""}};

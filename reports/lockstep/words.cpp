@@ -8,25 +8,21 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 namespace {
-
-/// "a, b and c"
-std::string listed(const std::vector<std::string>& names) {
-  if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
-}
-
-std::string percent(double fraction) {
-  return fmt::format("{} %", readable(100.0 * fraction));
-}
 
 std::string milliseconds(double time) {
   return fmt::format("{} ms", readable(1e3 * time));
 }
 
 }  // namespace
+
+std::string percentInWords(double fraction) {
+  return fmt::format("{} %", readable(100.0 * fraction));
+}
 
 std::string constantSymbol(const std::string& constant) {
   const std::pair<const char*, const char*> symbols[] = {
@@ -37,9 +33,30 @@ std::string constantSymbol(const std::string& constant) {
   return found == std::end(symbols) ? constant : found->second;
 }
 
+std::string plainSymbol(const std::string& constant) {
+  std::string symbol = constantSymbol(constant);
+  for (const auto& [mark, below] : {std::pair("_n", "ₙ"), std::pair("_t", "ₜ")})
+    if (const std::size_t at = symbol.find(mark); at != std::string::npos)
+      symbol.replace(at, 2, below);
+  return symbol;
+}
+
+std::string constantWords(const std::string& constant) {
+  const std::pair<const char*, const char*> words[] = {
+      {"kn", "the normal stiffness"},   {"kn3", "the cubic normal stiffness"},
+      {"gn", "the normal damping"},     {"kt", "the tangential stiffness"},
+      {"gt", "the tangential damping"}, {"mu", "the coefficient of friction"},
+      {"en", "the normal restitution"}, {"et0", "the tangential restitution"}};
+  const auto* const found =
+      std::ranges::find(words, constant, [](const auto& pair) { return std::string(pair.first); });
+  return found == std::end(words) ? constant : found->second;
+}
+
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules) {
   if (row.verdict != LockstepVerdict::differs) return spaced(nameOf(row.verdict));
-  return fmt::format("differs, like {} of {}", percent(row.equivalent.value_or(NAN)),
+  const double equivalent = row.equivalent.value_or(NAN);
+  return fmt::format("differs, like {} of {}",
+                     equivalent > 1.0 ? "more than all" : percentInWords(equivalent),
                      constantSymbol(rules.yardstick));
 }
 
@@ -47,10 +64,10 @@ std::string termInWords(const LockstepRow& row) {
   if (!row.term) return {};
   const NamedTerm& term = *row.term;
   const std::string amount = term.amount ? fmt::format(" {}{}", *term.amount < 0.0 ? "−" : "+",
-                                                       percent(std::abs(*term.amount)))
+                                                       percentInWords(std::abs(*term.amount)))
                                          : std::string();
   return fmt::format("{}{} (leaves {} of the separation)", constantSymbol(term.name), amount,
-                     percent(term.unexplained));
+                     percentInWords(term.unexplained));
 }
 
 std::string firstInWords(const LockstepRow& row) {
@@ -64,6 +81,23 @@ std::string firstInWords(const LockstepRow& row) {
   return words;
 }
 
+std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
+  if (rules.yardstick != "en" || row.term || !row.first || row.first->touching < 2) return {};
+  return fmt::format(
+      "one of the two touches {} at once, and in which order they collide the law of rigid disks "
+      "leaves "
+      "open",
+      row.first->touching);
+}
+
+std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.verdict != LockstepVerdict::sameToPrecision) return {};
+  return row.resolution && *row.resolution < 1.0
+             ? fmt::format("{} of {} would show", percentInWords(*row.resolution),
+                           constantSymbol(rules.yardstick))
+             : fmt::format("no change of {} would show", constantSymbol(rules.yardstick));
+}
+
 std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
   if (row.verdict == LockstepVerdict::notMeasured)
     return fmt::format("{}: not measured: {}.", row.engine, row.reason);
@@ -75,27 +109,36 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
         milliseconds(row.separations[1].time), readable(row.separations.back().largest),
         milliseconds(row.separations.back().time));
   if (row.verdict == LockstepVerdict::sameLaw)
-    words += fmt::format(" (as {} of {} would)", percent(row.equivalent.value_or(NAN)),
+    words += fmt::format(" (as {} of {} would)", percentInWords(row.equivalent.value_or(NAN)),
                          constantSymbol(rules.yardstick));
+  if (const std::string resolution = resolutionInWords(row, rules); !resolution.empty())
+    words += fmt::format(" ({})", resolution);
   if (const std::string term = termInWords(row); !term.empty())
     words += fmt::format("; what is off: {}", term);
   else if (row.verdict == LockstepVerdict::differs)
     words += "; no single term accounts for it";
+  if (row.verdict != LockstepVerdict::sameToPrecision && row.precise > 0)
+    words += fmt::format("; {} starts of them stay the same to its precision", row.precise);
   if (row.verdict == LockstepVerdict::differs && row.first)
     words += fmt::format("; first seen {}", firstInWords(row));
+  if (const std::string open = openInLaw(row, rules);
+      row.verdict == LockstepVerdict::differs && !open.empty())
+    words += fmt::format("; {}", open);
   if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
   return words + '.';
 }
 
 std::string leadOf(const LockstepFindings& findings) {
-  std::vector<std::string> same, differ, open;
+  std::vector<std::string> same, differ, ordered, open;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == LockstepVerdict::notMeasured)
       open.push_back(row.engine);
+    else if (row.verdict == LockstepVerdict::differs && !openInLaw(row, findings.rules).empty())
+      ordered.push_back(row.engine);
     else
       (row.verdict == LockstepVerdict::differs ? differ : same).push_back(row.engine);
   }
-  if (same.empty() && differ.empty()) return "Nothing was measured.";
+  if (same.empty() && differ.empty() && ordered.empty()) return "Nothing was measured.";
   std::vector<std::string> parts;
   const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
     if (!names.empty())
@@ -103,6 +146,8 @@ std::string leadOf(const LockstepFindings& findings) {
   };
   add(same, "is the law that it declares", "are the laws that they declare");
   add(differ, "is another law than it declares", "are other laws than they declare");
+  add(ordered, "parts from its mirror where disks touch several at once",
+      "part from their mirrors where disks touch several at once");
   add(open, "was not measured", "were not measured");
   return fmt::format("{}.", fmt::join(parts, "; "));
 }

@@ -10,7 +10,17 @@ namespace crossgrain::reports {
 /// "kn" → "k_n", as everywhere in reports.
 std::string constantSymbol(const std::string& constant);
 
-/// "same to rounding", "same law", "differs, like 2.1 % of k_n", "not measured".
+/// The same in plain text: "kₙ".
+std::string plainSymbol(const std::string& constant);
+
+/// "kn" → "the normal stiffness"; what is no constant as it is: "tension = cut".
+std::string constantWords(const std::string& constant);
+
+/// "2.10 %"
+std::string percentInWords(double fraction);
+
+/// "same to rounding", "same law", "same to its precision", "differs, like 2.1 % of k_n", "not
+/// measured". No engine is off by more than all of a constant: beyond that it is "more than all".
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules);
 
 /// "k_n, +0.01 % (leaves 0.3 % of the separation)"; empty: no term was named.
@@ -18,6 +28,13 @@ std::string termInWords(const LockstepRow& row);
 
 /// Where and when it was first seen: "between 0.4 ms and 0.52 ms, disk 17 with 203 (new, wall)".
 std::string firstInWords(const LockstepRow& row);
+
+/// What that contact says of the cause, where the law leaves something open: rigid disks that touch
+/// several at once. Empty: nothing.
+std::string openInLaw(const LockstepRow& row, const LockstepRules& rules);
+
+/// Of same to its precision: "0.51 % of k_n would show". Empty of other verdicts.
+std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules);
 
 /// One sentence on one engine.
 std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules);

@@ -75,6 +75,18 @@ const HardCase* worstVariant(const StabilityResults& results, const HardGroup& g
   return shown;
 }
 
+/// The limit as a line that the key names, over the time that is drawn.
+void addLimit(Panel& panel, double limit) {
+  double first = INFINITY, last = -INFINITY;
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points) {
+      first = std::min(first, point.x);
+      last = std::max(last, point.x);
+    }
+  panel.curves.push_back(
+      {"limit", {"#888888", 0, true}, Draw::lines, {{first, limit, {}}, {last, limit, {}}}, 1.5});
+}
+
 /// The variant that somebody fared worst in, over time.
 std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& group,
                               std::size_t index) {
@@ -92,6 +104,7 @@ std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& 
       panel.curves.push_back(curveOf(*run, styles[e], panel.logY));
   std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   if (panel.curves.empty()) return std::nullopt;
+  if (panel.level) addLimit(panel, *panel.level);
   Figure figure;
   figure.name = fmt::format("stability_{}", index);
   figure.title = fmt::format("{} over time, {}", spaced(shown->measure), group.name);

@@ -6,7 +6,9 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
+#include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
 #include "results/json_fields.hpp"
@@ -192,6 +194,7 @@ std::string stabilityPage(const StabilityResults& results, const Illustrations& 
   const std::vector<HardGroup> groups = hardGroups(results);
   Json view = commonView(results.head, results.elapsed, {}, shown);
   addSummary(view, results);
+  addOverview(view, stabilityOverview(results), results.engines);
   view["engines"] = engineRows(results.engines);
   view["map"] = figureViews(shown, "stability_map");
   view["matrix"] = matrixOf(results, groups);

@@ -34,16 +34,20 @@ const StabilityRun* runOf(const StabilityResults& results, const std::string& en
   return found == results.runs.end() ? nullptr : &*found;
 }
 
+bool isWorse(const StabilityRun& run, const StabilityRun& than) {
+  const auto badness = [](const StabilityRun& one) {
+    const double value = one.value.value_or(0.0);
+    return std::pair(one.verdict, one.limit > 0.0 ? value / one.limit : value);
+  };
+  return badness(run) > badness(than);
+}
+
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
                              const HardGroup& group) {
   const StabilityRun* worst = nullptr;
-  const auto badness = [](const StabilityRun& run) {
-    const double value = run.value.value_or(0.0);
-    return std::pair(run.verdict, run.limit > 0.0 ? value / run.limit : value);
-  };
   for (const HardCase* variant : group.variants) {
     const StabilityRun* run = runOf(results, engine, *variant);
-    if (run && (!worst || badness(*run) > badness(*worst))) worst = run;
+    if (run && (!worst || isWorse(*run, *worst))) worst = run;
   }
   return worst;
 }

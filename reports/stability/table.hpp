@@ -42,7 +42,10 @@ inline std::optional<double> stepOf(const StabilityRun& run) {
 const StabilityRun* runOf(const StabilityResults& results, const std::string& engine,
                           const HardCase& variant);
 
-/// Its worst run in a case, by verdict and then by value/limit; null without one.
+/// By verdict, then by value/limit.
+bool isWorse(const StabilityRun& run, const StabilityRun& than);
+
+/// Its worst run in a case; null without one.
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
                              const HardGroup& group);
 

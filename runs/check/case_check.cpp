@@ -12,6 +12,7 @@
 #include "cases/cell_estimates.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/endpoints.hpp"
 #include "cases/preparation.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
@@ -19,6 +20,7 @@
 #include "runs/common/brief_timing.hpp"
 #include "runs/common/case_suitability.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/couette/endpoint_table.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -122,20 +124,24 @@ json cellFigures(const Case& setup, const Scene& scene, double fraction) {
           {"wheel_disks", scene.bodies.front().diskRadius.size()},
           {"ring_disks", scene.bodies.back().diskRadius.size()},
           {"packings", packingsOf(setup)},
+          {"looks", looksOf(setup).packings},
           {"rotations", setup.averaging.settleRotations + setup.averaging.rotations},
           {"steps", stepsOf(setup, scene.dt)}};
 }
 
-json marginsOf(const Case& setup) {
+/// Those of what is listed that has one, in that order; each named under `what`.
+json marginsOf(const auto& list, const std::map<std::string, Margin>& margins, const char* what) {
   json rows = json::array();
-  for (const FieldSpec& field : fieldTable()) {
-    const auto found = setup.averaging.margins.find(std::string(field.name));
-    if (found == setup.averaging.margins.end()) continue;
+  for (const auto& judged : list) {
+    const auto found = margins.find(std::string(judged.name));
+    if (found == margins.end()) continue;
     const Margin& margin = found->second;
-    rows.push_back({{"field", field.name},
+    rows.push_back({{what, judged.name},
                     {"value", margin.value},
                     {"relative", margin.relative},
-                    {"unit", margin.relative ? "" : std::string(field.unit)},
+                    {"unit", margin.relative || judged.unit == "-" || judged.unit == "1"
+                                 ? ""
+                                 : std::string(judged.unit)},
                     {"of", margin.scale},
                     {"why", margin.why}});
   }
@@ -216,7 +222,8 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   }
   if (!couette) return result;
   result["cell"] = cellFigures(setup, scene, fraction);
-  result["margins"] = marginsOf(setup);
+  result["endpoints"] = marginsOf(endpointTable(), setup.averaging.endpoints, "endpoint");
+  result["margins"] = marginsOf(fieldTable(), setup.averaging.margins, "field");
   if (timed) result["prediction"] = predictionOf(setup, asked, result["engines"], scratch);
   return result;
 }

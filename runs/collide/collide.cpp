@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "adapters/law_options.hpp"
-#include "adapters/pair_table.hpp"
 #include "cases/time_step.hpp"
 #include "results/head_fields.hpp"
 #include "results/schema.hpp"
 #include "runs/collide/engine_sweeps.hpp"
+#include "runs/collide/law_words.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/head.hpp"
 #include "runs/common/progress.hpp"
@@ -22,23 +21,6 @@
 namespace crossgrain::inline runs {
 
 namespace {
-
-/// Options that matter to the law, and constants that it has.
-std::map<std::string, LawValue> lawInWords(const ContactLaw& law) {
-  std::map<std::string, LawValue> options;
-  for (const LawOption& option : lawOptions())
-    if (mattersTo(law, option.name))
-      options[std::string(option.name)] = std::string(option.values[option.get(law)]);
-  const PairCoefficients has = coefficientsOf(law);
-  const std::pair<const char*, double> constants[] = {
-      {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
-  for (const auto& [name, value] : constants)
-    if (value > 0.0) options[name] = value;
-  if (!law.soft()) options["e_n"] = law.en;
-  if (!law.soft() && has.mu > 0.0) options["e_t0"] = law.et0;
-  if (law.normal == NormalLaw::polynomial) options["kn3"] = law.kn3;
-  return options;
-}
 
 /// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
 CollisionTable fineOracle(const Case& setup) {
@@ -61,8 +43,11 @@ std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
                                        const std::vector<std::string>& names) {
   std::vector<EngineEntry> engines = selectEngines(names);
   for (const Case& setup : variants) checkEngineSections(setup);
-  if (std::ranges::any_of(variants, [](const Case& setup) { return setup.run.mirrors; }))
-    for (const EngineEntry& mirror : mirrorsOf(engines)) engines.push_back(mirror);
+  for (const EngineEntry& mirror : mirrorsOf(engines))
+    if (std::ranges::any_of(variants, [&](const Case& setup) {
+          return setup.run.mirrors && standsForItsPeer(mirror, setup.law);
+        }))
+      engines.push_back(mirror);
   return engines;
 }
 

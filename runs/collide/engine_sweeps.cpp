@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "results/collision_fields.hpp"
+#include "runs/collide/own_scheme.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -59,13 +60,16 @@ void EngineSweeps::runRest(const std::vector<CollisionCase>& cases,
 std::vector<CollisionCurve> EngineSweeps::run(const CollisionCase& each,
                                               const std::function<void()>& oneIsDone) {
   std::vector<CollisionCurve> list;
+  DeclaredOracles declared;
   for (const double dt : each.steps) {
     throwIfInterrupted();
     try {
       if (!worker_)
         worker_ = startEngine(entry_, store_.scratch(entry_.name), each.setup->run.timeout);
-      CollisionCurve curve = runSweep(*worker_, entry_, *each.setup, dt, each.starts, each.oracle,
-                                      dt == std::ranges::max(each.steps));
+      const bool largest = dt == std::ranges::max(each.steps);
+      CollisionCurve curve =
+          runSweep(*worker_, entry_, *each.setup, dt, each.starts, each.oracle, largest, &declared);
+      if (largest) curve.ownScheme = schemeScore(*worker_, entry_, *each.setup, dt);
       // An engine that keeps its own step has nothing new to say at another of the case's.
       if (std::ranges::find(list, curve.dt, &CollisionCurve::dt) == list.end())
         list.push_back(std::move(curve));

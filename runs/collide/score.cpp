@@ -20,10 +20,18 @@ ErrorUnit errorUnit(const std::vector<double>& oracle) {
 
 namespace {
 
+ErrorUnit errorUnitOf(const CollisionQuantity& quantity, const std::vector<double>& oracle) {
+  using enum CollisionQuantity::Scored;
+  if (quantity.scored == energyFraction) return {ErrorUnitKind::energyBefore, 1.0};
+  if (quantity.scored == byLargest) return {ErrorUnitKind::magnitude, std::ranges::max(oracle)};
+  return errorUnit(oracle);
+}
+
 /// Absent where engine and oracle have no collision in common that has this quantity.
 std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQuantity& quantity,
                                            const std::vector<CollisionStart>& starts,
-                                           const Outcomes& found, const Outcomes& oracle) {
+                                           const Outcomes& found, const Outcomes& oracle,
+                                           const CurveScore* units) {
   const CollidingPair pair = collidingPair(setup);
   std::vector<double> expected;
   double largest = 0.0, squares = 0.0;
@@ -42,9 +50,9 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
     ++count;
   }
   if (count == 0) return std::nullopt;
-  const ErrorUnit unit = quantity.scored == CollisionQuantity::Scored::energyFraction
-                             ? ErrorUnit{ErrorUnitKind::energyBefore, 1.0}
-                             : errorUnit(expected);
+  const QuantityScore* given = units && units->of[quantity.id] ? &*units->of[quantity.id] : nullptr;
+  const ErrorUnit unit =
+      given ? ErrorUnit{given->unitIs, given->unit} : errorUnitOf(quantity, expected);
   QuantityScore score;
   score.max = largest / unit.value;
   score.rms = std::sqrt(squares / count) / unit.value;
@@ -61,11 +69,12 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
 }  // namespace
 
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
-                      const Outcomes& found, const Outcomes& oracle) {
+                      const Outcomes& found, const Outcomes& oracle, const CurveScore* units) {
   CurveScore score;
   bool judged = false, held = std::ranges::all_of(found, [](const auto&o) { return bool(o); });
   for (const CollisionQuantity& quantity : scoredQuantities()) {
-    auto& one = score.of[quantity.id] = scoreQuantity(setup, quantity, starts, found, oracle);
+    auto& one = score.of[quantity.id] =
+        scoreQuantity(setup, quantity, starts, found, oracle, units);
     if (!one || !one->held) continue;
     judged = true;
     held = held && *one->held;

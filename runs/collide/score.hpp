@@ -27,8 +27,10 @@ ErrorUnit errorUnit(const std::vector<double>& oracle);
 /// For each quantity that both the engine and the oracle have, its largest and rms error over the
 /// whole curve; and whether it held, within the case's margins, where there are any. A sweep holds
 /// where every quantity with a margin does and no pair is missing.
+/// @param units  a score whose units are taken, where it has them: margins are of the scene's curve
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
-                      const Outcomes& found, const Outcomes& oracle);
+                      const Outcomes& found, const Outcomes& oracle,
+                      const CurveScore* units = nullptr);
 
 /// The order of convergence p of each quantity's rms error ∝ dt^p, from two or more time steps;
 /// absent where there is none. Case and variant are left to be filled in.

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <string>
 
-#include "adapters/law_options.hpp"
+#include "adapters/declared_law.hpp"
+#include "adapters/registry.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/collision_flight.hpp"
 #include "runs/collide/contact_account.hpp"
+#include "runs/collide/law_words.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -23,6 +25,15 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
     }
   }
   return curve;
+}
+
+const OracleCurve& DeclaredOracles::of(const Case& setup,
+                                       const std::vector<CollisionStart>& starts) {
+  const auto found =
+      std::ranges::find(known_, setup.law, [](const auto& one) { return one.first; });
+  if (found != known_.end()) return *found->second;
+  known_.emplace_back(setup.law, std::make_unique<OracleCurve>(oracleCurve(setup, starts)));
+  return *known_.back().second;
 }
 
 namespace {
@@ -96,14 +107,12 @@ std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& 
 namespace {
 
 /// The sweep's outcomes; those of a run that is watched also with overlaps and work.
-Outcomes runOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
-                     const Scene& scene, const Realised& realised,
+/// @param law  as the engine runs it
+Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup, const Scene& scene,
+                     const ContactLaw& law, const Realised& realised,
                      const std::vector<CollisionStart>& starts, bool watch) {
   const double end = sweepEnd(setup, scene.dt, realised.dt);
-  const Capabilities can = engine.capabilities();
-  const WatchedRun watched{scene, collidingPair(setup),
-                           sceneFor(can, entry, setup, scene).scene.law, realised,
-                           can.slidingFlags};
+  const WatchedRun watched{scene, collidingPair(setup), law, realised, can.slidingFlags};
   std::vector<std::optional<ContactAccount>> accounts(starts.size());
   if (watch && can.instantContacts)
     accounts = watchContacts(engine, watched, end);
@@ -122,14 +131,88 @@ Outcomes runOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup
   return outcomes;
 }
 
+/// What the in-house engine makes of the sweep under the law that another declares, at the step
+/// that it takes.
+Outcomes mirrorOutcomes(const Case& setup, const Scene& asRun, const ContactLaw& law, double dt,
+                        const std::vector<CollisionStart>& starts, bool watch) {
+  const auto mirror = engineRegistry().front().make();
+  Scene scene = asRun;
+  scene.law = law;
+  scene.dt = dt;
+  scene.precision = Precision::float64;
+  const Realised realised = mirror->load(scene, {});
+  return runOutcomes(*mirror, mirror->capabilities(), setup, scene, law, realised, starts, watch);
+}
+
+/// One engine's curve and how it came about.
+struct SweptCurve {
+  const Case& setup;
+  const std::vector<CollisionStart>& starts;
+  const Scene& asRun;
+  const Realised& realised;
+  const Outcomes& found;
+  bool watch;
+  const CurveScore& score;  ///< against the scene's law
+};
+
+/// Against the oracle. Integrator, damping velocity and spring update are conventions that no
+/// solution in continuous time has, and others have no limit of small steps at all: where the curve
+/// is short of the oracle, or there is none, the in-house engine decides, with the same conventions
+/// at the same step. Absent where it is the scene's law.
+std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const EngineEntry& entry,
+                                           const std::optional<ContactLaw>& law,
+                                           DeclaredOracles& oracles) {
+  DeclaredScore score;
+  if (!law) {
+    score.oracleReason = "it has another normal law, whose constants it does not tell";
+    return score;
+  }
+  score.law = lawDifference(*law, swept.setup.law);
+  if (score.law.empty()) return std::nullopt;
+  Case declared = swept.setup;
+  declared.law = *law;
+  const OracleCurve& oracle = oracles.of(declared, swept.starts);
+  score.oracleReason = oracle.reason;
+  const bool known = std::ranges::any_of(oracle.ends, [](const auto& end) { return bool(end); });
+  if (known) {
+    score.reference = DeclaredReference::oracle;
+    score.score =
+        scoreSweep(declared, swept.starts, swept.found, referenceOf(oracle), &swept.score);
+    if (score.score.verdict != CurveVerdict::fellShort) return score;
+  }
+  if (!entry.mirrors.empty()) {  // it would be held against itself
+    if (!known) score.reference = DeclaredReference::itself;
+    return score;
+  }
+  if (!law->soft()) return score;
+  CurveScore beside = scoreSweep(
+      declared, swept.starts, swept.found,
+      mirrorOutcomes(declared, swept.asRun, *law, swept.realised.dt, swept.starts, swept.watch),
+      &swept.score);
+  if (known && beside.verdict != CurveVerdict::held) return score;
+  score.reference = DeclaredReference::mirror;
+  score.score = std::move(beside);
+  return score;
+}
+
 }  // namespace
+
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Scene& scene, const Realised& realised,
+                       const std::vector<CollisionStart>& starts, bool watch) {
+  const Capabilities can = engine.capabilities();
+  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
+  return runOutcomes(engine, can, setup, scene, law, realised, starts, watch);
+}
 
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                         const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
-                        bool watch) {
+                        bool watch, DeclaredOracles* declared) {
   const Scene scene = collisionScene(setup, starts, dt);
   const Realised realised = loadScene(engine, entry, setup, scene);
-  const Outcomes found = runOutcomes(engine, entry, setup, scene, realised, starts, watch);
+  const Capabilities can = engine.capabilities();
+  const Scene asRun = sceneFor(can, entry, setup, scene).scene;
+  const Outcomes found = runOutcomes(engine, can, setup, scene, asRun.law, realised, starts, watch);
   CollisionCurve curve;
   curve.engine = entry.name;
   curve.dt = realised.dt;
@@ -151,6 +234,10 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
     curve.points.reason.push_back(reason);
   }
   curve.score = scoreSweep(setup, starts, found, referenceOf(oracle));
+  if (declared)
+    curve.declared = scoreDeclared(
+        {setup, starts, asRun, realised, found, watch, curve.score}, entry,
+        declaredLaw(can, asRun, realised, collidingPair(setup).reducedMass()), *declared);
   return curve;
 }
 

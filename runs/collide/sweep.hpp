@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -18,6 +20,17 @@ struct OracleCurve {
   std::string reason;  ///< why there is none
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
+
+/// Oracles of the laws that an engine declares for the starts of one case. The case's time steps
+/// share them.
+class DeclaredOracles {
+ public:
+  /// @param setup  the same at each call, but for its law
+  const OracleCurve& of(const Case& setup, const std::vector<CollisionStart>& starts);
+
+ private:
+  std::vector<std::pair<ContactLaw, std::unique_ptr<OracleCurve>>> known_;
+};
 
 /// Long enough for every collision of a sweep to be over: contacts last about t_c, a rigid engine's
 /// a few of its own steps [s].
@@ -37,12 +50,19 @@ std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& 
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
 CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
 
+/// What became of each collision of a scene of collisionScene() that the engine has just loaded.
+/// @param watch  the contacts, step by step: then also with overlaps and work
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Scene& scene, const Realised& realised,
+                       const std::vector<CollisionStart>& starts, bool watch);
+
 /// One engine on one sweep.
 /// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,
 ///               where the engine shows them; the outcome is the same
+/// @param declared  to score the curve against the law that the engine declares, too; null: not
 /// @throws EngineFailure, UnsupportedScene, BadInput
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
                         const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
-                        bool watch);
+                        bool watch, DeclaredOracles* declared = nullptr);
 
 }  // namespace crossgrain::inline runs

@@ -36,11 +36,11 @@ std::vector<std::string> knownEngines() {
   return names;
 }
 
-std::filesystem::path ownProgram() {
-  return std::filesystem::read_symlink("/proc/self/exe");
-}
-
 }  // namespace
+
+std::string ownProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe").string();
+}
 
 std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
   std::vector<EngineEntry> engines;
@@ -105,17 +105,16 @@ std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesys
   if (entry.missing)
     if (const std::string why = entry.missing(); !why.empty())
       throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
-  const std::vector<std::string> argv =
-      entry.command ? entry.command()
-                    : std::vector<std::string>{ownProgram().string(), "__serve", entry.name};
-  return std::make_unique<WorkerEngine>(entry.name, argv, scratch, timeout);
+  const ProgramCall call = entry.command
+                               ? entry.command()
+                               : std::vector<std::string>{ownProgram(), "__serve", entry.name};
+  return std::make_unique<WorkerEngine>(entry.name, call, scratch, timeout);
 }
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
-  const auto section = setup.engines.find(engine);
-  if (section == setup.engines.end()) return withStep({}, setup, can);
+  Settings settings = settingsSaid(setup, engine);
   const std::string where = fmt::format("{}: [engines.{}]", setup.file.string(), engine);
-  for (const auto& [name, value] : section->second) {
+  for (const auto& [name, value] : settings) {
     const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
     if (spec == can.settings.end()) {
       std::vector<std::string> known;
@@ -133,7 +132,7 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
         throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
                                    fmt::join(spec->choices, ", ")));
   }
-  return withStep(section->second, setup, can);
+  return withStep(std::move(settings), setup, can);
 }
 
 namespace {

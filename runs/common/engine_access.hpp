@@ -32,6 +32,9 @@ bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law);
 /// selectEngines() and checkEngineSections()
 std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names);
 
+/// This program's path, which serves engines as workers, too.
+std::string ownProgram();
+
 /// Starts the engine's worker. @throws EngineFailure, BadInput if it is not installed
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/registry.hpp"
+
 namespace crossgrain::inline runs {
 namespace {
 
@@ -14,6 +16,15 @@ const double* stepIn(const Settings& settings) {
 }
 
 }  // namespace
+
+Settings settingsSaid(const Case& setup, const std::string& engine) {
+  Settings settings;
+  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
+    settings = section->second;
+  if (const EngineEntry* const entry = findEngine(engine))
+    settings.insert(entry->settings.begin(), entry->settings.end());
+  return settings;
+}
 
 Settings withStep(Settings settings, const Case& setup, const Capabilities& can) {
   const bool has = std::ranges::find(can.settings, "dt", &SettingSpec::name) != can.settings.end();
@@ -25,9 +36,7 @@ std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can) {
   Settings used;
   for (const SettingSpec& spec : can.settings) used[spec.name] = spec.defaultValue;
-  const auto section = setup.engines.find(engine);
-  Settings given =
-      withStep(section == setup.engines.end() ? Settings() : section->second, setup, can);
+  Settings given = withStep(settingsSaid(setup, engine), setup, can);
   given.merge(used);
   const double* step = stepIn(given);
   return step && *step > 0.0 ? std::optional(*step) : std::nullopt;

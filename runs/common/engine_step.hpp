@@ -19,6 +19,9 @@ namespace crossgrain::inline runs {
 std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
                                    const Capabilities& can);
 
+/// What the case says under [engines.NAME], and where it is silent the engine's own file.
+Settings settingsSaid(const Case& setup, const std::string& engine);
+
 /// The settings with the rule above spelt out: an engine with a default of its own is told to take
 /// the scene's step where the case gives one.
 Settings withStep(Settings settings, const Case& setup, const Capabilities& can);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct KeptTask {
   double weight = 1.0;  ///< how long it is likely to take; the longest start first
   /// @param progress  to be told the fraction done, 0 … 1
   std::function<Outcome(const std::function<void(double)>& progress)> work;
+  /// Where all tasks have one, the highest start first, however long they take.
+  std::optional<double> priority = {};
 };
 
 /// Takes up the results that are there and does the rest, `jobs` at a time. All that are there are
@@ -49,7 +52,7 @@ std::vector<Result> doOrTakeUp(const std::vector<KeptTask<Result>>& tasks, const
       progress.finish(k, task.label + ": finished in an earlier run");
       continue;
     }
-    open.push_back({task.weight, [&, k] {
+    open.push_back({task.priority.value_or(task.weight), [&, k] {
                       const auto& own = tasks[k];
                       auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
                       if (outcome.finished) store.keep(own.name, own.key, jsonOf(outcome.result));

@@ -22,6 +22,14 @@ void show(fmt::format_string<Values...> text, Values&&... values) {
 
 }  // namespace
 
+std::string timeLeft(double fraction, double elapsed) {
+  if (fraction <= 0.01 || elapsed < 1.0) return "estimating the time left";
+  const auto seconds = static_cast<long>(std::ceil(elapsed * (1.0 - fraction) / fraction));
+  if (seconds < 60) return fmt::format("{} s left", seconds);
+  if (seconds < 3600) return fmt::format("{} min {:02d} s left", seconds / 60, seconds % 60);
+  return fmt::format("{} h {:02d} min left", seconds / 3600, seconds / 60 % 60);
+}
+
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
@@ -74,7 +82,9 @@ void Progress::draw() {
   const double whole = std::accumulate(weights_.begin(), weights_.end(), 0.0);
   const double done = std::inner_product(weights_.begin(), weights_.end(), fractions_.begin(), 0.0);
   const double fraction = whole > 0.0 ? done / whole : 0.0;
-  std::string line = fmt::format("{}: {:3.0f} %, {}", stage_, 100.0 * fraction, timeLeft(fraction));
+  const double elapsed = std::chrono::duration<double>(drawn_ - started_).count();
+  std::string line =
+      fmt::format("{}: {:3.0f} %, {}", stage_, 100.0 * fraction, timeLeft(fraction, elapsed));
   for (const std::string& label : running_)
     if (!label.empty()) line += "  ·  " + label;
 
@@ -91,15 +101,6 @@ void Progress::draw() {
 void Progress::erase() {
   if (lineOpen_) std::fputs("\r\033[K", stderr);
   lineOpen_ = false;
-}
-
-std::string Progress::timeLeft(double fraction) const {
-  const double elapsed = std::chrono::duration<double>(Clock::now() - started_).count();
-  if (fraction <= 0.01 || elapsed < 1.0) return "estimating the time left";
-  const auto seconds = static_cast<long>(std::ceil(elapsed * (1.0 - fraction) / fraction));
-  if (seconds < 60) return fmt::format("{} s left", seconds);
-  if (seconds < 3600) return fmt::format("{} min {:02d} s left", seconds / 60, seconds % 60);
-  return fmt::format("{} h {:02d} min left", seconds / 3600, seconds / 60 % 60);
 }
 
 }  // namespace crossgrain::inline runs

@@ -7,6 +7,12 @@
 
 namespace crossgrain::inline runs {
 
+/// How long work goes on at its speed so far, in words: "12 s left". Nothing is foretold of the
+/// first second and of the first hundredth.
+/// @param fraction  of the work that is done
+/// @param elapsed  since it began [s]
+std::string timeLeft(double fraction, double elapsed);
+
 /// What is done of some pieces of work, shown on standard error: one line that is redrawn with the
 /// time left on a terminal, a plain line per finished piece elsewhere. Safe to call from all
 /// threads.
@@ -29,7 +35,6 @@ class Progress {
  private:
   void draw();
   void erase();
-  std::string timeLeft(double fraction) const;
 
   bool quiet_, terminal_;
   std::mutex mutex_;

@@ -124,7 +124,7 @@ bool RunStore::holdsResults() const {
 }
 
 void RunStore::begin() {
-  if (dry_) return;
+  if (dry_ || begun_) return;
   begun_ = true;
   if (fresh_ && (holdsRuns() || holdsResults())) setAside();
   json cases = cases_;
@@ -209,13 +209,14 @@ CaseKeys keysThatMatter(const Case& setup) {
         "preparation.packings", "run.mirrors",          "run.may_differ",
         "run.timeout",          "cost.kinds",           "cost.knobs",
         "cost.settings",        "cost.collision_steps", "cost.trajectory_steps",
-        "cost.average_steps"};
+        "cost.average_steps",   "cost.bound_steps",     "looks"};
     for (const CostKnob& knob : costKnobs())
       if (!knob.key.empty() && !knob.sameRun) keys.push_back(fmt::format("cost.{}", knob.key));
     return keys;
   }();
   // How they are judged, all together, when all are there.
-  static const std::vector<std::string> judged = {"averaging.margins", "averaging.confidence"};
+  static const std::vector<std::string> judged = {"averaging.margins", "averaging.endpoints",
+                                                  "averaging.confidence"};
   CaseKeys keys = caseKeys(setup.resolvedToml);
   std::erase_if(keys, [](const auto& entry) {
     const auto holds = [&](const std::string& section) { return isIn(section, entry.first); };

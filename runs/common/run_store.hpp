@@ -34,7 +34,7 @@ class RunStore {
   /// A folder that was made for a command that could not begin goes with it.
   ~RunStore();
 
-  /// Called once it is known that the command can begin. Sets aside what an earlier one left, if
+  /// Called once it is known that the command can begin; by each of its parts. Sets aside what an earlier one left, if
   /// that is wanted, and says where on standard error.
   void begin();
 

@@ -1,6 +1,7 @@
 #include "runs/cost/analysis.hpp"
 
 #include "runs/cost/cheapest.hpp"
+#include "runs/cost/cost_cells.hpp"
 #include "runs/cost/front.hpp"
 #include "runs/cost/order.hpp"
 
@@ -11,6 +12,7 @@ void addCostAnalysis(CostResults& results, const std::vector<double>& targets) {
   results.fronts = paretoFronts(results.points);
   results.cheapest = cheapestTable(results.points, targets);
   results.advice = advice(results.points, targets);
+  results.cells = costCells(results.points, results.models);
 }
 
 }  // namespace crossgrain::inline runs

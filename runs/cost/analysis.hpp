@@ -7,7 +7,7 @@
 
 namespace crossgrain::inline runs {
 
-/// Sets orders, fronts, cheapest and advice from points and theory.
+/// Sets orders, fronts, cheapest, advice and cells from points, theory and models.
 /// @param targets  accuracies to find settings for
 void addCostAnalysis(CostResults& results, const std::vector<double>& targets = usualTargets());
 

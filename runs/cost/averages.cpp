@@ -7,9 +7,11 @@
 
 #include "averaging/agreement.hpp"
 #include "averaging/profiles.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
 #include "runs/common/advance.hpp"
+#include "runs/common/audited_looks.hpp"
 #include "runs/cost/limits.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"
@@ -120,6 +122,7 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const double interval = setup.averaging.rotations * rotationTime(setup) / samples;
   const double end = settled + samples * interval;
   double now = 0.0;
+  const AuditedLooks audited(engine, entry, setup, scene, realised);
   const auto advanceTo = [&](double time) {
     advanceInPieces(engine, realised, now, time);
     now = time;
@@ -128,6 +131,7 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const auto sample = [&] {
     Snapshot seen = engine.snapshot(report);
     if (const std::string wild = blowUp(setup, seen); !wild.empty()) throw EngineFailure(wild);
+    audited.require(seen, std::nullopt);
     return seen;
   };
 
@@ -184,9 +188,10 @@ std::optional<double> valueAt(const std::vector<std::optional<double>>& rings, s
 std::optional<WeakError> weakError(const std::vector<AveragedPacking>& runs,
                                    const std::string& sampling,
                                    const std::vector<AveragedPacking>& reference,
-                                   const std::string& referenceSampling,
-                                   const std::string& measure) {
+                                   const std::string& referenceSampling, const std::string& measure,
+                                   double alpha) {
   double differences = 0.0, variances = 0.0, scale = 0.0;
+  ErrorInterval squares;
   std::size_t rings = 0, withError = 0, all = 0;
   for (const AveragedPacking& run : reference)
     all = std::max(all, valuesOf(run, referenceSampling, measure).size());
@@ -206,14 +211,21 @@ std::optional<WeakError> weakError(const std::vector<AveragedPacking>& runs,
     if (!difference->standardError) continue;
     ++withError;
     variances += *difference->standardError * *difference->standardError;
+    const double half =
+        *difference->standardError *
+        studentQuantile(1.0 - alpha / static_cast<double>(all), difference->packings - 1);
+    squares.low += std::pow(std::max(0.0, std::abs(difference->mean) - half), 2);
+    squares.high += std::pow(std::abs(difference->mean) + half, 2);
   }
   if (measure == "wall_slip") scale = 1.0;  // it is a fraction of the rim's speed already
   if (rings == 0 || !(scale > 0.0)) return std::nullopt;
   const auto count = static_cast<double>(rings);
-  WeakError found{std::sqrt(differences / count) / scale, {}, {}};
+  WeakError found{std::sqrt(differences / count) / scale, {}, {}, {}};
   if (withError < rings) return found;
   found.statistical = std::sqrt(variances / count) / scale;
   found.systematic = std::sqrt(std::max(0.0, differences - variances) / count) / scale;
+  found.interval = {std::sqrt(squares.low / count) / scale,
+                    std::sqrt(squares.high / count) / scale};
   return found;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "averaging/error_bounds.hpp"
 #include "cases/packing.hpp"
 #include "results/cost_averages.hpp"
 #include "runs/cost/settings.hpp"
@@ -38,15 +39,19 @@ struct WeakError {
   double error;                       ///< rms over rings of |mean paired difference|
   std::optional<double> statistical;  ///< likewise of its standard error; absent: one packing
   std::optional<double> systematic;   ///< √max(0, error² − statistical²)
+  /// Rms over rings of the ends nearest to and farthest from 0 of the differences' confidence
+  /// intervals, which hold for all rings at once: between them lies the true error.
+  std::optional<ErrorInterval> interval;
 };
 
 /// @param runs, reference  over packings, in the same order
+/// @param alpha  chance that the interval does not hold the true error, at most
 /// @returns absent where no packing has it in both
 std::optional<WeakError> weakError(const std::vector<AveragedPacking>& runs,
                                    const std::string& sampling,
                                    const std::vector<AveragedPacking>& reference,
-                                   const std::string& referenceSampling,
-                                   const std::string& measure);
+                                   const std::string& referenceSampling, const std::string& measure,
+                                   double alpha);
 
 /// Names of all measures.
 const std::vector<std::string>& averageMeasures();

@@ -14,7 +14,7 @@ Cheapest cheapest(const std::vector<CostPoint>& points, const std::string& engin
     const CostPoint& point = points[k];
     if (point.engine != engine || point.kind != kind || point.measure != measure) continue;
     if (point.status == CostStatus::notMeasured) notRun.push_back(k);
-    if (!point.ran() || !point.error) continue;
+    if (!point.ran() || !measuredError(point)) continue;
     all.push_back(k);
     const Standing standing = standingOf(point, target);
     if (standing == Standing::meets) meet.push_back(k);

@@ -89,22 +89,46 @@ std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) 
   return {};
 }
 
-/// √(mean of squares) of a score over sweeps; absent where one has none.
-std::optional<double> rmsOf(const std::vector<CollisionCurve>& sweeps, QuantityId measure) {
+/// √(mean of squares) of what `errorOf` says of each sweep; absent where it says nothing of one.
+template <class ErrorOf>
+std::optional<double> rmsOver(const std::vector<CollisionCurve>& sweeps, ErrorOf errorOf) {
   double squares = 0.0;
   for (const CollisionCurve& sweep : sweeps) {
-    const auto& score = sweep.score.of[measure];
-    if (!score) return std::nullopt;
-    squares += score->rms * score->rms;
+    const std::optional<double> error = errorOf(sweep);
+    if (!error) return std::nullopt;
+    squares += *error * *error;
   }
   return std::sqrt(squares / static_cast<double>(sweeps.size()));
+}
+
+/// Against the engine's own limit, beside the point against the case's law.
+CostPoint ownPoint(CostPoint point, const std::vector<CollisionCurve>& sweeps, QuantityId measure,
+                   const CollisionReference& reference, const CollisionLimit& own) {
+  const std::string name = point.measure;
+  point.measure = ownOf(name);
+  point.error.reset();
+  if (!point.ran()) return point;
+  const auto ends = own.ends.find(name);
+  if (ends == own.ends.end()) {
+    point.status = CostStatus::refused;
+    point.reason = fmt::format("its own limit of small steps was not found: {}", own.reason);
+    return point;
+  }
+  const double unit = unitOf(reference, measure);
+  point.error = rmsOver(sweeps, [&](const CollisionCurve& sweep) {
+    return rmsDifference(numbersOf(sweep.points, measure), ends->second, unit);
+  });
+  if (const auto error = own.error.find(name); error != own.error.end() && error->second > 0.0)
+    point.referenceError = error->second;
+  return point;
 }
 
 }  // namespace
 
 std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry,
                                         const CostSetting& setting,
-                                        const CollisionReference& reference) {
+                                        const CollisionReference& reference,
+                                        const CollisionLimit& own) {
   Case pair = collisionOf(setting.setup);
   const double dt = timeStep(setting.setup);
   std::vector<CollisionCurve> sweeps;
@@ -125,10 +149,16 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
   point.cpuSeconds = time.cpu;
 
   std::vector<CostPoint> points;
-  for (const QuantityId measure : {QuantityId::psiF, QuantityId::en}) {
+  for (const QuantityId measure : collisionMeasures) {
     point.measure = collisionQuantity(measure).name;
-    point.error = point.ran() ? rmsOf(sweeps, measure) : std::nullopt;
+    point.error.reset();
+    if (point.ran())
+      point.error = rmsOver(sweeps, [&](const CollisionCurve& sweep) {
+        const auto& score = sweep.score.of[measure];
+        return score ? std::optional(score->rms) : std::nullopt;
+      });
     points.push_back(point);
+    points.push_back(ownPoint(point, sweeps, measure, reference, own));
   }
   return points;
 }

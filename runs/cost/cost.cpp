@@ -98,7 +98,7 @@ std::string costPlan(const Case& setup, const CostRequest& request, RunStore& st
             (kind == CostKind::averages && settings[s].isSampling()))
           continue;
         ++work.total;
-        work.finished += study.isKept({e, kind, s, 0.0, {}});
+        work.finished += study.isKept({e, kind, s, 0.0, {}, false});
       }
       if (work.total > 0) works.push_back(work);
     }

@@ -51,7 +51,8 @@ class Executor {
 /// How a point ended, for the progress.
 std::string endInWords(const CostPoint& point) {
   if (!point.ran()) return fmt::format("{}: {}", toString(point.status), point.reason);
-  return point.error ? fmt::format("{:.3g}", *point.error) : "no number";
+  const auto error = measuredError(point);
+  return error ? fmt::format("{:.3g}", error->value) : "no number";
 }
 
 Executor::Points Executor::run() {

@@ -6,19 +6,19 @@
 namespace crossgrain::inline runs {
 
 std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points) {
-  struct Candidate {
+  struct Place {
     double time, error;
     std::size_t point;
-    auto operator<=>(const Candidate&) const = default;
+    auto operator<=>(const Place&) const = default;
   };
-  std::vector<Candidate> candidates;
+  std::vector<Place> places;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (const auto error = countedError(points[k]); error && points[k].wallSeconds)
-      candidates.push_back({*points[k].wallSeconds, *error, k});
-  std::ranges::sort(candidates);
+      places.push_back({*points[k].wallSeconds, *error, k});
+  std::ranges::sort(places);
   std::vector<std::size_t> front;
-  Candidate best{0.0, std::numeric_limits<double>::infinity(), 0};
-  for (const Candidate& one : candidates) {
+  Place best{0.0, std::numeric_limits<double>::infinity(), 0};
+  for (const Place& one : places) {
     const bool equal = one.error == best.error && one.time == best.time;
     if (one.error >= best.error && !equal) continue;
     best = one;

@@ -5,6 +5,8 @@
 
 #include "results/cost_fields.hpp"
 #include "runs/common/run_store.hpp"
+#include "runs/cost/average_bounds.hpp"
+#include "runs/cost/collision_limit.hpp"
 #include "runs/cost/trajectory.hpp"
 
 /// What a study of cost keeps in its store while it is under way, as structs.
@@ -35,6 +37,23 @@ void fields(auto& io, KeptFailure& failure) {
 void fields(auto& io, TrajectoryReference& reference) {
   io("error", reference.error);
   io("positions", reference.positions);
+}
+
+void fields(auto& io, SettingWindows& windows) {
+  io("equivalent", windows.equivalent);
+  io("dt_s", windows.dt);
+  io("wall_s", windows.wallSeconds);
+  io("cpu_s", windows.cpuSeconds);
+  io("steps", windows.steps);
+  io("contact_evaluations", windows.contactEvaluations);
+}
+
+void fields(auto& io, CollisionLimit& limit) {
+  io("setting", limit.setting);
+  io("ends", limit.ends);
+  io("error", limit.error);
+  io("model", limit.model);
+  io("reason", limit.reason);
 }
 
 /// @throws FieldError, and as RunStore::find()

@@ -12,15 +12,19 @@ namespace crossgrain::inline runs {
 struct PlannedPoint {
   std::size_t engine = 0;
   CostKind kind = CostKind::collision;
-  std::size_t setting = 0;  ///< of that engine and kind
-  double seconds = 0.0;     ///< predicted; 0: an earlier run has it, or it costs nothing more
-  std::string notMeasured;  ///< why it is not; empty if it is
+  std::size_t setting = 0;   ///< of that engine and kind
+  double seconds = 0.0;      ///< predicted; 0: an earlier run has it, or it costs nothing more
+  std::string notMeasured;   ///< why it is not; empty if it is
+  bool windowsOnly = false;  ///< as of CostSetting
 };
+
+/// What each engine's references take besides its points, by kind of error [s].
+using Overheads = std::vector<std::map<CostKind, double>>;
 
 /// What is to be measured, and what it is predicted to take.
 struct CostPlan {
   std::vector<PlannedPoint> points = {};
-  std::vector<double> overhead = {};                ///< of each engine's references [s]
+  Overheads overhead = {};                          ///< of each engine's references
   std::vector<double> shares = {};                  ///< of the budget, by engine [s]
   double common = 0.0;                              ///< of references that all engines share [s]
   std::map<CostKind, std::string> impossible = {};  ///< kinds without references, and why
@@ -32,16 +36,15 @@ struct CostPlan {
 std::vector<double> fairShares(const std::vector<double>& wanted, double budget);
 
 /// Marks as not measured what does not fit. Engines share the budget fairly; each takes collisions
-/// before trajectories before averages, and of each kind the case as it is first, then the cheapest
-/// (within a kind all points tell about as much).
-/// @param overhead  what each engine's references take besides its points [s]
+/// before trajectories before averages, of averages what is bounded over short windows before what
+/// is measured in whole runs, and of each kind the case as it is first, then the cheapest (within a
+/// kind all points tell about as much). The first point of a kind pays for its references.
 /// @returns each engine's share [s]
-std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points,
-                                  const std::vector<double>& overhead, double budget);
+std::vector<double> fitIntoBudget(std::vector<PlannedPoint>& points, const Overheads& overhead,
+                                  double budget);
 
 /// The budget that a later run needs for what this one leaves out, when all else is kept [s].
-double budgetOfLeftOut(const std::vector<PlannedPoint>& points,
-                       const std::vector<double>& overhead);
+double budgetOfLeftOut(const std::vector<PlannedPoint>& points, const Overheads& overhead);
 
 /// The order in which an engine's points are measured.
 bool comesBefore(const PlannedPoint& one, const PlannedPoint& other);

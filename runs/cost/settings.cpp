@@ -1,12 +1,14 @@
 #include "runs/cost/settings.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "adapters/law_options.hpp"
+#include "adapters/suitability.hpp"
 #include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/loader.hpp"
@@ -20,10 +22,13 @@
 namespace crossgrain::inline runs {
 
 double costContactTime(const Case& setup) {
-  if (setup.law.normal != NormalLaw::linear)
-    throw BadInput(fmt::format("{}: cost counts steps in the contact time of a linear law",
-                               setup.file.string()));
-  return contactTime(setup.law, lightestReducedMass(setup));
+  if (!setup.law.soft())
+    throw BadInput(
+        fmt::format("{}: cost counts steps in the contact time of a soft law: rigid disks "
+                    "have none",
+                    setup.file.string()));
+  return impactTime(
+      setup.law, {lightestReducedMass(setup), setup.particles.smallRadius / 2.0, setup.cost.speed});
 }
 
 int snapshotsPerRotation(const Case& setup, double every) {
@@ -64,12 +69,13 @@ struct SettingsSoFar {
   const Case& setup;
   std::string engine;
   const Capabilities& can;
-  const std::vector<double>& steps;  ///< per t_c
+  CostKind kind;
+  std::vector<double> steps;  ///< per t_c, those of time_step
   std::vector<CostSetting> list = {};
 
   CostSetting& add(const std::string& knob, const std::string& setting,
                    const std::string& fragment) {
-    CostSetting one{knob, setting, fragment, caseWith(setup, fragment), {}};
+    CostSetting one{knob, setting, fragment, caseWith(setup, fragment), {}, false, false};
     one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
     return list.emplace_back(std::move(one));
   }
@@ -84,8 +90,25 @@ void addSteps(SettingsSoFar& to) {
     to.add("time_step", fmt::format("t_c/{:g}", n), stepFragment(to.setup, to.engine, to.can, n));
 }
 
+/// Of what whole runs would take too long with. An engine with another normal law has no bound.
+void boundOnly(const SettingsSoFar& to, CostSetting& setting) {
+  setting.windowsOnly = true;
+  if (setting.refusal.empty() && !hasNormalLaw(to.can, to.setup.law))
+    setting.refusal = "has another normal law in place of the case's: nothing bounds its averages";
+}
+
+void addBoundSteps(SettingsSoFar& to) {
+  for (const double n : to.setup.cost.boundSteps) {
+    if (std::ranges::find(to.steps, n) != to.steps.end()) continue;
+    boundOnly(to, to.add("time_step", fmt::format("t_c/{:g}", n),
+                         stepFragment(to.setup, to.engine, to.can, n)));
+    to.steps.push_back(n);
+  }
+}
+
 /// Every other integrator at every step; one that the engine lacks is refused once, and one that
-/// it always takes is what its time steps show.
+/// it always takes is what its time steps show. Of averages they are bounded alone, as small steps
+/// are: an integrator's part in them is far below what packings scatter.
 void addIntegrators(SettingsSoFar& to) {
   const auto option = std::ranges::find(lawOptions(), "integrator", &LawOption::name);
   const auto own = to.can.lawOptions.find("integrator");
@@ -97,9 +120,11 @@ void addIntegrators(SettingsSoFar& to) {
     if (own == to.can.lawOptions.end()) refusal = "has no such option";
     if (!refusal.empty()) continue;
     to.list.pop_back();
-    for (const double n : to.steps)
-      to.add("integrator", fmt::format("{}, t_c/{:g}", value, n),
-             law + "\n" + stepFragment(to.setup, to.engine, to.can, n));
+    for (const double n : to.steps) {
+      CostSetting& one = to.add("integrator", fmt::format("{}, t_c/{:g}", value, n),
+                                law + "\n" + stepFragment(to.setup, to.engine, to.can, n));
+      if (to.kind == CostKind::averages) boundOnly(to, one);
+    }
   }
 }
 
@@ -121,9 +146,15 @@ void addOwnSettings(SettingsSoFar& to) {
 }
 
 void addLaw(SettingsSoFar& to, const std::string& option, const std::vector<std::string>& values) {
-  for (const std::string& value : values)
-    if (value != lawOptionValue(to.setup.law, option))
-      to.add(option, value, fmt::format("[law]\n{} = \"{}\"\n", option, value));
+  for (const std::string& value : values) {
+    if (value == lawOptionValue(to.setup.law, option)) continue;
+    const std::string fragment = fmt::format("[law]\n{} = \"{}\"\n", option, value);
+    try {
+      to.add(option, value, fragment);
+    } catch (const BadInput& lacking) {  // a case without a dashpot, asked for a law of dashpots
+      to.list.push_back({option, value, fragment, to.setup, lacking.what(), false, false});
+    }
+  }
 }
 
 void addTangential(SettingsSoFar& to) {
@@ -154,6 +185,29 @@ void addOmega(SettingsSoFar& to) {
            fmt::format("[cell]\nomega = {}\n", to.setup.cell.omega * factor));
 }
 
+/// The constants of the case's law as its file has them: stiffnesses times a factor, dashpots times
+/// another.
+std::string lawTimes(const Case& setup, double stiffer, double damped) {
+  const toml::table document = toml::parse(setup.resolvedToml);
+  const auto times = [](const toml::node& number, double factor) {
+    return fmt::format("{}", factor * number.value<double>().value());
+  };
+  std::string fragment = "[law]\n";
+  for (const auto& [key, node] : *document["law"].as_table()) {
+    const std::string_view name = key.str();
+    const bool stiffness =
+        name == "kn" || name == "kt" || name == "young" || name == "k2" || name == "k3";
+    if (!stiffness && name != "gn" && name != "gt") continue;
+    const double factor = stiffness ? stiffer : damped;
+    if (const toml::array* const both = node.as_array())
+      fragment += fmt::format("{} = [{}, {}]\n", name, times((*both)[0], factor),
+                              times((*both)[1], factor));
+    else
+      fragment += fmt::format("{} = {}\n", name, times(node, factor));
+  }
+  return fragment;
+}
+
 /// Softer disks of the same restitution: dashpots by the root, and with them the step.
 void addStiffness(SettingsSoFar& to) {
   const ContactLaw& law = to.setup.law;
@@ -161,13 +215,11 @@ void addStiffness(SettingsSoFar& to) {
     const double root = law.damper == Damper::constant       ? std::sqrt(factor)
                         : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
                                                              : 1.0;
-    to.add(
-        "stiffness", fmt::format("{:g} k_n", factor),
-        fmt::format("[law]\nkn = {}\nkt = {}\ngn = {}\ngt = {}\n\n{}", law.kn * factor,
-                    law.kt * factor, law.gn * root, law.gt * root,
-                    stepOfItsOwn(to.setup, to.engine, to.can)
-                        ? std::string()
-                        : fmt::format("[run]\ndt = {}\n", timeStep(to.setup) / std::sqrt(factor))));
+    to.add("stiffness", fmt::format("{:g} k_n", factor),
+           lawTimes(to.setup, factor, root) +
+               (stepOfItsOwn(to.setup, to.engine, to.can)
+                    ? std::string()
+                    : fmt::format("\n[run]\ndt = {}\n", timeStep(to.setup) / std::sqrt(factor))));
   }
 }
 
@@ -194,8 +246,9 @@ std::string stepFragment(const Case& setup, const std::string& engine, const Cap
   Case unsaid = setup;  // the fragment's step replaces that of [run]
   unsaid.run.dt.reset();
   if (stepOfItsOwn(unsaid, engine, can)) return fmt::format("[engines.{}]\ndt = {}\n", engine, dt);
-  // The loader takes so few steps for a slip of the pen.
-  if (steps < 2.0) return fmt::format("[run]\ndt = {}\n", dt);
+  // The loader takes so few steps for a slip of the pen, and counts none in a contact time that
+  // depends on the speed.
+  if (steps < 2.0 || setup.law.stiffens()) return fmt::format("[run]\ndt = {}\n", dt);
   return fmt::format("[run]\nsteps_per_contact = {:g}\n", steps);
 }
 
@@ -205,13 +258,18 @@ std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const st
   const auto& steps = kind == CostKind::collision    ? cost.collisionSteps
                       : kind == CostKind::trajectory ? cost.trajectorySteps
                                                      : cost.averageSteps;
-  SettingsSoFar settings{setup, engine, can, steps};
-  settings.add("time_step", "the case's own", "");
+  SettingsSoFar settings{setup, engine, can, kind, steps};
+  settings.add("time_step", "the case's own", "").sameLaw = true;
   for (const auto& [name, add] : settingsOfKnobs) {
-    const std::vector<CostKind>& kinds = findCostKnob(name)->kinds;
-    if (std::ranges::find(cost.knobs, name) != cost.knobs.end() &&
-        std::ranges::find(kinds, kind) != kinds.end())
-      add(settings);
+    const CostKnob& knob = *findCostKnob(name);
+    if (std::ranges::find(cost.knobs, name) == cost.knobs.end() ||
+        std::ranges::find(knob.kinds, kind) == knob.kinds.end())
+      continue;
+    const std::size_t before = settings.list.size();
+    add(settings);
+    if (name == "time_step" && kind == CostKind::averages) addBoundSteps(settings);
+    for (std::size_t k = before; k < settings.list.size(); ++k)
+      settings.list[k].sameLaw = knob.sameLaw;
   }
   return std::move(settings.list);
 }

@@ -16,6 +16,9 @@ struct CostSetting {
   std::string fragment;       ///< TOML; empty: the case as it is
   Case setup;                 ///< what the loader makes of case and fragment
   std::string refusal;        ///< why the engine has no such setting; empty if it has
+  bool sameLaw = false;       ///< as of CostKnob; also of the case as it is
+  /// Averages are bounded over short windows, and not measured.
+  bool windowsOnly = false;
 
   /// Of another integrator which; empty: the one the engine has by itself.
   std::string integrator() const { return schemeOf(knob, setting).value_or(""); }

@@ -136,6 +136,8 @@ CaseKeys CostStudy::inHouseKey(std::size_t packing, const std::string& part) con
 }
 
 bool CostStudy::isKept(const PlannedPoint& point) const {
+  if (settingOf(point).windowsOnly)
+    return campaign.store().find(windowsName(point), keyOf(point, 0)).has_value();
   const int last =
       point.kind == CostKind::averages ? static_cast<int>(campaign.packings().size()) - 1 : 0;
   return knownFailure(point) || campaign.store().find(nameOf(point, last), keyOf(point, last));

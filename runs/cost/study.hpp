@@ -61,6 +61,8 @@ struct CostStudy {
   /// By what it is, not by its place in lists that may grow:
   /// "averages-grain-time_step-t_c-50-p0".
   std::string nameOf(const PlannedPoint& point, int packing) const;
+  /// Of the windows that bound what it changes averages by.
+  std::string windowsName(const PlannedPoint& point) const { return nameOf(point, 0) + "-windows"; }
   CaseKeys keyOf(const PlannedPoint& point, int packing) const;
   /// Of what the in-house engine does for all: it need not be among the engines named.
   CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;

@@ -18,6 +18,7 @@ double timeOf(const CostPoint& point) {
 }
 
 std::string whatDecides(const CostPoint& point, double target) {
+  if (!point.error) return "smaller steps: this one is bounded and not measured";
   if (measuredError(point)->saysNothing()) return "more packings: one shows no statistical error";
   const double distance = std::abs(target - *point.error);
   const double statistical = point.statistical.value_or(0.0);

@@ -14,7 +14,7 @@ using PointIndices = std::vector<std::size_t>;  ///< of points
 
 enum class Standing { meets, may, cannot };
 
-/// @pre the point has an error
+/// @pre the point has an error or a bound
 Standing standingOf(const CostPoint& point, double target);
 
 /// Wall time, infinite where it is not known [s].

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 
@@ -61,9 +62,9 @@ ReferenceCost TrajectoryErrors::referenceCost(const std::vector<bool>& anew, dou
 
 std::vector<CostPoint> TrajectoryErrors::measure(const PlannedPoint& point) {
   const CostSetting& setting = study_.settingOf(point);
+  const TrajectoryReference& inHouse = inHouseReference();
+  const TrajectoryReference& own = ownReference(point.engine, setting);
   return keptOr(study_.campaign.store(), study_.nameOf(point, 0), study_.keyOf(point, 0), [&] {
-    const TrajectoryReference& inHouse = inHouseReference();
-    const TrajectoryReference& own = ownReference(point.engine, setting);
     return measureTrajectory(study_.workers.of(point.engine), study_.entryOf(point.engine), setting,
                              study_.campaign.packings().front(), chaos_.window.length, own,
                              inHouse);
@@ -117,8 +118,17 @@ void TrajectoryErrors::addTo(CostResults& results) const {
          "distance to the same at twice the step"});
   };
   if (inHouseReference_) add(study_.inHouse.name, "", inHouseReference_->error);
-  for (const auto& [at, reference] : ownReferences_)
-    add(study_.entryOf(at.first).name, at.second, reference.error);
+  for (const auto& [at, reference] : ownReferences_) {
+    const auto& [engine, integrator] = at;
+    const std::string& name = study_.entryOf(engine).name;
+    add(name, integrator, reference.error);
+    if (!integrator.empty() || !inHouseReference_) continue;
+    const double model = rmsDistance(reference.positions, inHouseReference_->positions,
+                                     2.0 * study_.setup.particles.smallRadius);
+    const double unsure = reference.error + inHouseReference_->error;
+    results.models.push_back({name, kind(), "position_rms_" + study_.inHouse.name, model,
+                              std::max(0.0, model - unsure), model + unsure});
+  }
   results.trajectory = chaos_;
 }
 

@@ -119,9 +119,6 @@ std::vector<AgreementRow> pairAgreement(const Case& setup, std::span<const Couet
     row.marginRelative = field.margin->relative;
     row.marginWhy = field.margin->why;
     row.verdict = verdict.verdict;
-    row.morePackings = verdict.morePackings;
-    if (verdict.longerRuns)
-      row.moreRotations = (*verdict.longerRuns - 1.0) * setup.averaging.rotations;
     for (std::size_t ring = 0; ring < field.rings; ++ring) {
       const TestedRing& tested = family.tested[field.first + ring];
       if (rings[ring])

@@ -17,6 +17,7 @@ CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& 
                                 const std::string& commandLine) {
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
+  requireSound(reader, setup);
   const Scene& scene = reader.scene();
   CouetteAverages averages(setup, scene);
   for (std::size_t k = 0; k < reader.count(); ++k) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
 
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
@@ -70,40 +73,50 @@ void Campaign::askEngines() {
   }
 }
 
-void Campaign::preparePackings() {
-  const int count = packingCount();
+void Campaign::preparePackings(int count) {
+  const int there = static_cast<int>(packings_.size());
+  if (count <= there) return;
   packings_.resize(static_cast<std::size_t>(count));
   std::vector<std::string> failures(packings_.size());
-  progress_.begin("preparing packings", std::vector<double>(packings_.size(), 1.0));
+  std::vector<double> seconds(packings_.size());
+  progress_.begin("preparing packings",
+                  std::vector<double>(static_cast<std::size_t>(count - there), 1.0));
   std::vector<Task> tasks;
-  for (int k = 0; k < count; ++k) {
-    tasks.push_back({1.0, [this, k, &failures] {
-                       const auto at = static_cast<std::size_t>(k);
-                       const std::string label = fmt::format("packing {}", k);
-                       try {
-                         const auto engine = engineRegistry().front().make();
-                         packings_[at] = packingOf(setup_, k, dt_, *engine, [&](double fraction) {
-                           throwIfInterrupted();
-                           progress_.update(at, label, fraction);
-                         });
-                         std::string line =
-                             label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
-                         if (!packings_[at].notCached.empty())
-                           line += ", not kept for next time: " + packings_[at].notCached;
-                         progress_.finish(at, line);
-                       } catch (const Interrupted&) {
-                         throw;
-                       } catch (const std::exception& error) {
-                         failures[at] = error.what();
-                       }
-                     }});
+  for (int k = there; k < count; ++k) {
+    tasks.push_back(
+        {1.0, [this, k, there, &failures, &seconds] {
+           const auto began = std::chrono::steady_clock::now();
+           const auto at = static_cast<std::size_t>(k);
+           const auto place = static_cast<std::size_t>(k - there);
+           const std::string label = fmt::format("packing {}", k);
+           try {
+             const auto engine = engineRegistry().front().make();
+             packings_[at] = packingOf(setup_, k, dt_, *engine, [&](double fraction) {
+               throwIfInterrupted();
+               progress_.update(place, label, fraction);
+             });
+             std::string line =
+                 label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
+             if (!packings_[at].notCached.empty())
+               line += ", not kept for next time: " + packings_[at].notCached;
+             if (!packings_[at].fromCache)
+               seconds[at] =
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+             progress_.finish(place, line);
+           } catch (const Interrupted&) {
+             throw;
+           } catch (const std::exception& error) {
+             failures[at] = error.what();
+           }
+         }});
   }
   runTasks(tasks, command_.jobs);
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
+  std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
   if (setup_.particles.file)  // whose disks may be lighter than the case says
     requireStable(setup_, dt_, std::ranges::min(packings_.front().disks.mass) / 2.0);
-  store_.begin();
+  if (there == 0) store_.begin();
 }
 
 void Campaign::timeEngines() {
@@ -140,15 +153,22 @@ CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& par
 
 namespace {
 
+/// What makes a variant another run than the case's.
+const std::string& partOf(const Variant& variant) {
+  return variant.without.empty() ? variant.changed : variant.without;
+}
+
 /// "grain packing 0", "grain without friction packing 0"
 std::string labelOf(const EngineEntry& entry, const Variant& variant, int packing) {
-  return fmt::format("{}{} packing {}", entry.name,
-                     variant.without.empty() ? "" : " without " + variant.without, packing);
+  return fmt::format("{}{}{} packing {}", entry.name,
+                     variant.without.empty() ? "" : " without " + variant.without,
+                     variant.changed.empty() ? "" : " with " + variant.changed, packing);
 }
 
 std::string runName(const EngineEntry& entry, const Variant& variant, int packing) {
-  return fmt::format("{}{}-p{}", entry.name,
-                     variant.without.empty() ? "" : "-without-" + variant.without, packing);
+  return fmt::format("{}{}{}-p{}", entry.name,
+                     variant.without.empty() ? "" : "-without-" + variant.without,
+                     variant.changed.empty() ? "" : "-with-" + variant.changed, packing);
 }
 
 }  // namespace
@@ -169,7 +189,7 @@ KeptTask<CouetteRun>::Outcome Campaign::runOne(const Variant& variant, int packi
                            store_.scratch(name),
                            store_.snapshots(name),
                            store_.unfinished(name),
-                           Json(keyOf(variant.engine, packing, variant.without)).dump()};
+                           Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
     run = runCouette(task, progress);
     run.without = variant.without;
     return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
@@ -193,16 +213,46 @@ std::vector<Variant> Campaign::wholeCase() const {
 }
 
 void Campaign::run(const std::vector<Variant>& variants) {
-  runs_ = doOrTakeUp(tasksOf(variants), store_, progress_, "running engines", command_.jobs);
+  runs_ = runSome({{variants, {0, static_cast<int>(packings_.size())}}}, "running engines");
 }
 
-std::vector<KeptTask<CouetteRun>> Campaign::tasksOf(const std::vector<Variant>& variants) const {
+std::vector<CouetteRun> Campaign::runSome(const std::vector<PlannedRuns>& lists,
+                                          const std::string& stage) {
   std::vector<KeptTask<CouetteRun>> tasks;
-  for (const Variant& variant : variants) {
+  for (const PlannedRuns& list : lists) std::ranges::move(tasksOf(list), std::back_inserter(tasks));
+  return doOrTakeUp(tasks, store_, progress_, stage, command_.jobs);
+}
+
+double Campaign::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+double Campaign::secondsOfPreparing(int count) const {
+  if (preparedIn_.empty()) return 0.0;
+  int missing = 0;
+  for (int k = static_cast<int>(packings_.size()); k < count; ++k)
+    missing += !std::filesystem::exists(packingCacheFile(packingHash(setup_, k, dt_)));
+  return missing * std::accumulate(preparedIn_.begin(), preparedIn_.end(), 0.0) /
+         static_cast<double>(preparedIn_.size());
+}
+
+void Campaign::add(std::vector<CouetteRun> runs) {
+  std::ranges::move(runs, std::back_inserter(runs_));
+  const auto place = [this](const CouetteRun& run) {
+    const auto own = std::ranges::find(engines_, run.engine,
+                                       [](const CampaignEngine& one) { return one.entry.name; });
+    return std::pair(own - engines_.begin(), run.packing);
+  };
+  std::ranges::stable_sort(runs_, {}, place);
+}
+
+std::vector<KeptTask<CouetteRun>> Campaign::tasksOf(const PlannedRuns& list) const {
+  std::vector<KeptTask<CouetteRun>> tasks;
+  for (const Variant& variant : list.variants) {
     const CampaignEngine& own = engines_[variant.engine];
-    for (int k = 0; k < packingCount(); ++k)
+    for (int k = list.packings.from; k < list.packings.to; ++k)
       tasks.push_back({runName(own.entry, variant, k), labelOf(own.entry, variant, k),
-                       keyOf(variant.engine, k, variant.without), own.predicted,
+                       keyOf(variant.engine, k, partOf(variant)), own.predicted,
                        [this, &variant, k](const std::function<void(double)>& progress) {
                          return runOne(variant, k, progress);
                        }});
@@ -234,7 +284,8 @@ std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) co
   for (const Variant& variant : variants) {
     const std::string& name = engines_[variant.engine].entry.name;
     PlannedWork work{name + (variant.without.empty() ? "" : " without " + variant.without), "runs"};
-    for (const auto& task : tasksOf({variant})) count(work, store_.find(task.name, task.key));
+    const PlannedRuns list{{variant}, {0, static_cast<int>(packings_.size())}};
+    for (const auto& task : tasksOf(list)) count(work, store_.find(task.name, task.key));
     works.push_back(work);
   }
   for (const CampaignEngine& own : engines_)

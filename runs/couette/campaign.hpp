@@ -35,6 +35,18 @@ struct Variant {
   std::size_t engine;   ///< index into Campaign::engines()
   std::string without;  ///< what is switched off, empty: nothing; "without" of its runs
   const Case* setup;
+  std::string changed = {};  ///< "kn+10%": a constant that `setup` has otherwise than the case
+};
+
+/// Packings of a campaign by index, from one to before another.
+struct PackingRange {
+  int from = 0, to = 0;
+};
+
+/// Variants and the packings that each is to run.
+struct PlannedRuns {
+  std::vector<Variant> variants;
+  PackingRange packings;
 };
 
 /// Engines on the packings of one Couette case, side by side where `jobs` allows. Every finished
@@ -52,13 +64,28 @@ class Campaign {
   /// Asks every engine, before anything is computed, whether it can run the case.
   /// @throws UnsupportedScene of an engine named that cannot
   void askEngines();
-  /// With them, the campaign begins: its folder is its own. @throws BadInput
-  void preparePackings();
+  /// With the first of them, the campaign begins: its folder is its own. @throws BadInput
+  void preparePackings() { preparePackings(packingCount()); }
+  /// As many as are missing to that number of them.
+  void preparePackings(int count);
+  /// Of the case; a file is one packing, however many a case would prepare.
+  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
   /// Times some steps of every engine on the first packing, so that the longest runs start first.
   void timeEngines();
   /// Every engine with the case as it is.
   std::vector<Variant> wholeCase() const;
+  /// On all packings that are prepared.
   void run(const std::vector<Variant>& variants);
+  /// On some of them, all side by side. @returns the runs list by list, variant by variant; keeps
+  /// none in runs()
+  std::vector<CouetteRun> runSome(const std::vector<PlannedRuns>& lists, const std::string& stage);
+  /// Runs that are to be in results, whoever did them: by engine as they take part, then by
+  /// packing.
+  void add(std::vector<CouetteRun> runs);
+  const std::vector<CouetteRun>& runs() const { return runs_; }
+  double elapsed() const;  ///< since the campaign was made [s]
+  /// Seconds of one core that preparing up to so many packings still takes, by those so far.
+  double secondsOfPreparing(int count) const;
 
   /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
   void lookForPackings();
@@ -90,9 +117,7 @@ class Campaign {
   CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
 
  private:
-  /// A file is one packing, however many a case would prepare.
-  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
-  std::vector<KeptTask<CouetteRun>> tasksOf(const std::vector<Variant>& variants) const;
+  std::vector<KeptTask<CouetteRun>> tasksOf(const PlannedRuns& list) const;
   KeptTask<CouetteRun>::Outcome runOne(const Variant& variant, int packing,
                                        const std::function<void(double)>& progress) const;
   std::vector<EngineRow> engineRows() const;
@@ -105,7 +130,8 @@ class Campaign {
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::vector<Packing> packings_;
-  std::vector<CouetteRun> runs_;  ///< variant by variant, packing by packing
+  std::vector<double> preparedIn_;  ///< of those that the cache did not have [s]
+  std::vector<CouetteRun> runs_;    ///< variant by variant, packing by packing
 };
 
 }  // namespace crossgrain::inline runs

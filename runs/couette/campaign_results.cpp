@@ -37,8 +37,7 @@ CouetteStudy Campaign::study(std::string_view kind) const {
     if (all && entry.missing && !entry.missing().empty())
       study.notes.push_back(
           fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started_;
-  study.elapsed = elapsed.count();
+  study.elapsed = elapsed();
   return study;
 }
 

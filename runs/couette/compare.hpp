@@ -10,12 +10,13 @@
 namespace crossgrain::inline runs {
 
 /// Prepares the case's packings, holds every engine against its mirror in lockstep, if the case
-/// wants mirrors, from so many starts; runs every engine on each of them, side by side where `jobs`
-/// allows, averages, and holds the engines against each other. Every finished run is kept in the
-/// store at once; a failed one ends by itself and is reported.
+/// wants mirrors, from so many starts; runs the engines on them, side by side where `jobs` allows,
+/// averages, and holds the engines against each other, look by look (looks.hpp). Every finished
+/// run is kept in the store at once; a failed one ends by itself and is reported.
+/// @param budget  no further look begins that would end later [s]
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case), Interrupted
 CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store,
-                              std::size_t starts);
+                              std::size_t starts, double budget);
 
 /// What that would run, for people. Engines are asked what they can do; nothing is computed.
 /// @throws BadInput, UnsupportedScene, Interrupted

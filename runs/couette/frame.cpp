@@ -48,6 +48,16 @@ CouetteAveraging averagingOf(const Case& setup) {
 
 }  // namespace
 
+RingPlaces placesOf(const Rings& rings) {
+  RingPlaces places;
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    places.r.push_back(rings.centre(ring));
+    places.rTilde.push_back(rings.rTilde(ring));
+  }
+  places.width = rings.edge(1) - rings.edge(0);
+  return places;
+}
+
 CouetteFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
                           const Disks& disks) {
   CouetteFrame frame;
@@ -55,12 +65,7 @@ CouetteFrame couetteFrame(std::string_view kind, const Case& setup, const std::s
   frame.cell = cellOf(setup, disks);
   frame.averaging = averagingOf(setup);
   for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
-  const Rings rings = ringsOf(setup);
-  for (int ring = 0; ring < rings.count(); ++ring) {
-    frame.rings.r.push_back(rings.centre(ring));
-    frame.rings.rTilde.push_back(rings.rTilde(ring));
-  }
-  frame.rings.width = rings.edge(1) - rings.edge(0);
+  frame.rings = placesOf(ringsOf(setup));
   return frame;
 }
 

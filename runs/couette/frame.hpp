@@ -4,10 +4,13 @@
 #include <string_view>
 
 #include "adapters/scene.hpp"
+#include "averaging/rings.hpp"
 #include "cases/case.hpp"
 #include "results/couette_frame.hpp"
 
 namespace crossgrain::inline runs {
+
+RingPlaces placesOf(const Rings& rings);
 
 /// What results say of a Couette case whatever is done with it.
 /// @param disks  of one packing

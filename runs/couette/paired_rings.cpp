@@ -40,7 +40,7 @@ TestedRing testedRing(const Margin& margin, const Numbers& reference, const Numb
   TestedRing ring;
   ring.reference = mean ? std::abs(mean->mean) : 0.0;
   ring.sample = {
-      reference, other, margin.relative ? margin.value * ring.reference : margin.value, {}};
+      reference, other, margin.relative ? margin.value * ring.reference : margin.value, 0.0, {}};
   const double sign = mean && mean->mean < 0.0 ? -1.0 : 1.0;
   const auto ofThatSign = [&](const std::optional<double>& value) {
     return !value || sign * *value > 0.0;

@@ -138,6 +138,7 @@ RevResults revStudy(const Case& setup, const std::filesystem::path& file,
                     const std::string& commandLine, bool quiet) {
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
+  requireSound(reader, setup);
   Progress progress(quiet);
   const std::vector<double> all = widths();
   progress.begin("averaging", std::vector<double>(all.size(), 1.0));

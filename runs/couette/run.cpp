@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cases/couette.hpp"
+#include "runs/common/audited_looks.hpp"
 #include "runs/common/picture.hpp"
 #include "runs/couette/averages.hpp"
 #include "runs/couette/snapshot_file.hpp"
@@ -16,8 +17,12 @@
 namespace crossgrain::inline runs {
 
 Rings ringsOf(const Case& setup) {
-  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, setup.averaging.rings,
-               setup.cell.height, 2.0 * setup.particles.smallRadius);
+  return ringsOf(setup, setup.averaging.rings);
+}
+
+Rings ringsOf(const Case& setup, int count) {
+  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, count, setup.cell.height,
+               2.0 * setup.particles.smallRadius);
 }
 
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
@@ -27,11 +32,13 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
-CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress) {
+CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
+                      const CouetteWatch& watch) {
   const Case& setup = *task.setup;
   const Scene scene = couetteScene(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
   Engine& engine = *loaded.engine;
+  const AuditedLooks audited(engine, task.entry, setup, scene, loaded.realised);
   // Forces of one instant belong to the positions beside them; those summed over an interval do not
   // where the wheel's disks moved on meanwhile.
   const ContactReport report =
@@ -49,25 +56,48 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   UnfinishedRun unfinished(task.unfinished, task.key, scene,
                            loaded.can.checkpoints && report == ContactReport::instant);
   const auto before = unfinished.resume(engine);
+  // What the watch has seen of the settling; what it sees later is shown to it again.
+  int settlingSeen = 0;
+  nlohmann::json watched;
+  if (before && watch.restore) {
+    settlingSeen = before->aside.at("settling");
+    watch.restore(before->aside.at("watched"));
+  }
+  if (watch.state)
+    unfinished.keepAside([&] {
+      const bool settling = settlingSeen < watch.settlingSnapshots;
+      return nlohmann::json{{"settling", settlingSeen},
+                            {"watched", settling ? watch.state() : watched}};
+    });
   double now = before ? before->time : 0.0;
+  std::optional<double> reached;
   const auto advanceTo = [&](double t) {
     while (now < t) {
       if (interrupted()) unfinished.keep(engine, now);
       throwIfInterrupted();
       const double next = std::min(t, now + piece);
-      const double reached = engine.advance(next);
-      if (std::abs(reached - next) > loaded.realised.dt)
+      reached = engine.advance(next);
+      if (!(std::abs(*reached - next) <= loaded.realised.dt))
         throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
-                                        task.entry.name, setup.name, next, reached));
+                                        task.entry.name, setup.name, next, *reached));
       now = next;
       unfinished.keepIfDue(engine, now);
     }
     progress(t / end);
   };
 
-  const int settleSlices = static_cast<int>(std::ceil(settled / interval));
-  for (int k = 1; k <= settleSlices; ++k) advanceTo(settled * k / settleSlices);
-  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
+  const int settleSlices = watch.settlingSnapshots > 0
+                               ? watch.settlingSnapshots
+                               : static_cast<int>(std::ceil(settled / interval));
+  for (int k = 1; k <= settleSlices; ++k) {
+    advanceTo(settled * k / settleSlices);
+    if (k <= settlingSeen || k > watch.settlingSnapshots) continue;
+    watch.settling(audited.look(report, reached));
+    settlingSeen = k;
+  }
+  if (watch.state) watched = watch.state();
+  if (report == ContactReport::accumulated)
+    audited.look(report, reached);  // starts the first interval
 
   CouetteAverages averages(setup, scene);
   SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
@@ -76,6 +106,7 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   int taken = 0;
   const auto take = [&](const Snapshot& snapshot) {
     averages.add(snapshot);
+    if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
       run.picture = scenePicture(scene, snapshot, snapshot.positionTime / rotation);
@@ -83,13 +114,13 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
     advanceTo(settled + (taken + 1) * interval);
-    const Snapshot snapshot = engine.snapshot(report);
+    const Snapshot snapshot = audited.look(report, reached);
     take(snapshot);
     unfinished.took(snapshot);
   }
   kept.close();
 
-  Stats stats = engine.stats();
+  Stats stats = before || !reached ? engine.stats() : audited.stats(*reached);
   if (before) {
     stats.wallSeconds += before->wallSeconds;
     stats.cpuSeconds += before->cpuSeconds;

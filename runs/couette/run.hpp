@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "averaging/rings.hpp"
@@ -13,8 +14,9 @@
 
 namespace crossgrain::inline runs {
 
-/// The rings that a Couette case averages over.
+/// The rings that a Couette case averages over, or so many of its cell.
 Rings ringsOf(const Case& setup);
+Rings ringsOf(const Case& setup, int count);
 
 /// Weights of these names, with the case's kernel width.
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
@@ -32,9 +34,20 @@ struct CouetteTask {
   std::string key;                   ///< everything that the run depends on
 };
 
+/// Somebody who looks on from the hand-over to the end, beside what is averaged. All or none of
+/// the functions are there.
+struct CouetteWatch {
+  int settlingSnapshots = 0;  ///< evenly over the time that is not averaged, its end included
+  std::function<void(const Snapshot&)> settling, averaged;
+  /// All that the snapshots so far have left, so that an unfinished run goes on to the bit.
+  std::function<nlohmann::json()> state;
+  std::function<void(const nlohmann::json&)> restore;
+};
+
 /// Lets the packing settle and averages over the case's rotations.
 /// @param progress  told the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
-CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress);
+CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
+                      const CouetteWatch& watch = {});
 
 }  // namespace crossgrain::inline runs

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/audit.hpp"
 #include "cases/couette.hpp"
 #include "support/bad_input.hpp"
 
@@ -117,6 +118,27 @@ void requireFit(const SnapshotReader& reader, const Case& setup) {
   if (!misfits.list().empty())
     throw BadInput(fmt::format("{} does not fit {}: it has {}", reader.file().string(),
                                setup.file.string(), fmt::join(misfits.list(), "; ")));
+}
+
+void requireSound(const SnapshotReader& reader, const Case& setup) {
+  // What the file says of places; the case says the rest.
+  Scene scene = reader.scene();
+  const Snapshot first = reader.read(0);
+  scene.disks.position = first.position;
+  scene.disks.velocity = first.velocity;
+  auto place = first.wallPosition.begin();
+  for (WallBody& body : scene.bodies)
+    for (std::size_t k = 0; k < body.diskRadius.size(); ++k) body.diskPosition.push_back(*place++);
+  AuditBasis basis = auditBasis(scene);
+  basis.byOverlap = setup.law.soft();
+  for (std::size_t k = 0; k < reader.count(); ++k) {
+    Snapshot snapshot = reader.read(k);
+    // Where walls were when the contacts were is not said.
+    if (snapshot.contactTime != snapshot.positionTime && !reader.tellsMotion(k))
+      snapshot.contacts.reset();
+    if (const std::string why = whyUnsound(snapshot, basis); !why.empty())
+      throw BadInput(fmt::format("{}, snapshot {}: {}", reader.file().string(), k, why));
+  }
 }
 
 }  // namespace crossgrain::inline runs

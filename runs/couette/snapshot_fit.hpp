@@ -13,4 +13,9 @@ namespace crossgrain::inline runs {
 /// @throws BadInput naming the file and all that does not fit, in one line
 void requireFit(const SnapshotReader& reader, const Case& setup);
 
+/// Every snapshot of the file can be true of its disks (adapters/audit.hpp), as far as a file says:
+/// not its time step, nor how walls were to move, and its numbers may be of single precision.
+/// @throws BadInput naming the file, the snapshot and what cannot be
+void requireSound(const SnapshotReader& reader, const Case& setup);
+
 }  // namespace crossgrain::inline runs

@@ -16,7 +16,21 @@ namespace {
 constexpr auto interval = std::chrono::seconds(30);
 constexpr const char* index = "index.json";
 
+/// What was kept under that key; null: nothing that can be used.
+json keptUnder(const fs::path& folder, const std::string& key) {
+  const auto text = readFile(folder / index);
+  json kept = text ? json::parse(*text, nullptr, /*allow_exceptions=*/false) : json();
+  return kept.is_object() && kept.value("key", "") == key ? kept : json();
+}
+
 }  // namespace
+
+double timeReached(const fs::path& folder, const std::string& key) {
+  const json kept = keptUnder(folder, key);
+  return kept.is_object() && kept.contains("time") && kept["time"].is_number()
+             ? kept["time"].get<double>()
+             : 0.0;
+}
 
 UnfinishedRun::UnfinishedRun(fs::path folder, std::string key, const Scene& scene, bool possible)
     : folder_(fs::absolute(folder)),
@@ -27,9 +41,8 @@ UnfinishedRun::UnfinishedRun(fs::path folder, std::string key, const Scene& scen
 
 std::optional<UnfinishedRun::Before> UnfinishedRun::resume(Engine& engine) {
   if (!possible_) return std::nullopt;
-  const auto text = readFile(folder_ / index);
-  const json kept = text ? json::parse(*text, nullptr, /*allow_exceptions=*/false) : json();
-  if (!kept.is_object() || kept.value("key", "") != key_) {
+  const json kept = keptUnder(folder_, key_);
+  if (!kept.is_object()) {
     remove();
     return std::nullopt;
   }
@@ -60,6 +73,7 @@ UnfinishedRun::Before UnfinishedRun::readBack(const json& kept) {
   before.snapshots = snapshots_.size();
   for (std::size_t k = 0; k < before.snapshots; ++k) snapshot(k);  // throws if damaged
   checkpoints_ = kept.at("checkpoints");
+  before.aside = kept.at("aside");
   return before;
 }
 
@@ -98,6 +112,7 @@ void UnfinishedRun::keep(Engine& engine, double time) {
                                    {"cpu_s", earlierCpu_ + stats.cpuSeconds},
                                    {"checkpoint", checkpointName(checkpoints_)},
                                    {"checkpoints", checkpoints_},
+                                   {"aside", aside_ ? aside_() : json()},
                                    {"snapshots", snapshots_}})
                                  .dump());
   std::error_code ignored;

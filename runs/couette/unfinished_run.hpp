@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ class UnfinishedRun {
     double time = 0.0;          ///< that the engine has reached [s]
     std::size_t snapshots = 0;  ///< taken up to then
     double wallSeconds = 0.0, cpuSeconds = 0.0;
+    nlohmann::json aside;  ///< as of keepAside()
   };
 
   /// Takes the engine, which has loaded the scene, to where the run was left. Absent if nothing
@@ -34,6 +36,8 @@ class UnfinishedRun {
   Snapshot snapshot(std::size_t k) const;
 
   void took(const Snapshot& snapshot);
+  /// Of what is to be kept beside it; asked whenever something is.
+  void keepAside(std::function<nlohmann::json()> aside) { aside_ = std::move(aside); }
   /// @param time  that the engine has reached [s]
   void keep(Engine& engine, double time);
   /// The same, if the last time is half a minute ago.
@@ -52,7 +56,12 @@ class UnfinishedRun {
   std::vector<Snapshot> pending_;                       ///< not yet there
   double earlierWall_ = 0.0, earlierCpu_ = 0.0;
   int checkpoints_ = 0;
+  std::function<nlohmann::json()> aside_;
   std::chrono::steady_clock::time_point keptAt_;
 };
+
+/// How far a run came that was kept in that folder under that key [s]; 0: there is none, or nobody
+/// can tell.
+double timeReached(const std::filesystem::path& folder, const std::string& key);
 
 }  // namespace crossgrain::inline runs

@@ -55,7 +55,7 @@ std::vector<TestedChange> ringsOf(const PairedRuns& runs, const std::string& met
   for (std::size_t ring = 0; ring < std::min(whole.size(), switched.size()); ++ring) {
     const auto mean = ensembleMean(whole[ring]);
     tested.push_back({testOfNoChange(margin, whole[ring], switched[ring]),
-                      {whole[ring], switched[ring], 0.0, {}},
+                      {whole[ring], switched[ring], 0.0, 0.0, {}},
                       mean ? std::optional(mean->mean) : std::nullopt,
                       combined(wholeError[ring], switchedError[ring])});
   }

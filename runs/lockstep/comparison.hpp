@@ -10,6 +10,12 @@
 
 namespace crossgrain::inline runs {
 
+/// The scene that an engine runs from a state, for its mirror: with the engine's conventions and
+/// its effects, in double precision.
+/// @param dt  the engine's [s]
+Scene sceneOfMirror(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                    const Scene& scene, double dt);
+
 /// Holds one engine against its mirror, from each of the states.
 /// @param engine  started; that of `entry`
 /// @param dt      the case's [s]

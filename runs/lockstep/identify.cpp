@@ -75,7 +75,7 @@ class Search {
       step_ = realised_.dt;
       until_.clear();
       for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));
-      engine_.push_back(followMirror(engine, step_, until_));
+      engine_.push_back(follow(engine, step_, until_));
       scene.precision = Precision::float64;
       scene.dt = step_;
       scenes_.push_back(std::move(scene));
@@ -134,6 +134,28 @@ class Search {
     return best.has_value();
   }
 
+  /// Two at once, where neither alone brings the mirror nearer: arms of f_t and of v_t are such,
+  /// which agree with each other in most laws. @returns whether two brought it nearer
+  bool takeBestPair() {
+    std::vector<MirrorChange> changes = candidates();
+    std::erase_if(changes, &MirrorChange::isConstant);
+    const MirrorChange *first = nullptr, *second = nullptr;
+    double distance = best_ * (1.0 - alike);
+    for (std::size_t b = 1; b < changes.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        if (optionNamed(changes[a]) == optionNamed(changes[b])) continue;
+        const auto with = distanceWith({{changes[a]}, {changes[b]}});
+        if (!with || !(*with < distance)) continue;
+        distance = *with;
+        first = &changes[a];
+        second = &changes[b];
+      }
+    if (!first) return false;
+    take({*first}, distance);
+    take({*second}, distance);
+    return true;
+  }
+
   /// Takes that constant, and as much of it, as leaves least, if that is half or less of what there
   /// is. @returns whether there is one
   bool takeBestConstant() {
@@ -160,6 +182,11 @@ class Search {
   }
 
  private:
+  /// What stands before " = " of a convention; all of an effect's name.
+  static std::string optionNamed(const MirrorChange& change) {
+    return change.name.substr(0, change.name.find(" = "));
+  }
+
   void take(const AppliedChange& change, double distance) {
     applied_.push_back(change);
     best_ = distance;
@@ -180,7 +207,7 @@ class Search {
       throwIfInterrupted();
       try {
         mirror_->load(changed(changed(scene, applied_), further), {});
-        frames.push_back(followMirror(*mirror_, step_, {until_[when_]}).front());
+        frames.push_back(follow(*mirror_, step_, {until_[when_]}).front());
       } catch (const Interrupted&) {
         throw;
       } catch (const std::exception&) {
@@ -249,8 +276,10 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
   // One change hides behind another, and a constant behind a convention: until nothing helps.
   for (std::size_t when = 0; when < identifyTimes.size(); ++when) {
     search.lookAt(when);
+    const double enough = std::max(lockstepRounding, leftOfNoMirror * search.largest());
     for (bool nearer = true; nearer && search.largest() > lockstepRounding;) {
-      nearer = search.takeBestConvention() || search.takeBestConstant();
+      nearer = search.takeBestConvention() || search.takeBestConstant() ||
+               (search.largest() > enough && search.takeBestPair());
       progress(1.0 - 1.0 / static_cast<double>(search.applied().size() + 2));
     }
   }

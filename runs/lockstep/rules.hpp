@@ -32,6 +32,9 @@ inline constexpr double termUnexplained = 0.5;
 inline constexpr std::size_t lockstepStarts = 16;
 inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
+/// Every engine runs seven windows from each start of a baseline, and a start takes some megabytes.
+inline constexpr std::size_t baselineStarts = 8;
+
 /// Enough contacts of every kind to tell conventions apart, and every trial runs from each.
 inline constexpr std::size_t identifyStarts = 6;
 

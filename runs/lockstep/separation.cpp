@@ -61,6 +61,19 @@ std::optional<Pair> contactOf(std::size_t disk, const LockstepFrame& engine,
   return worst;
 }
 
+/// How many contacts the busier of the two disks has.
+std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wallFrom) {
+  std::size_t most = 0;
+  for (const std::int32_t id : {of.first, of.second}) {
+    if (static_cast<std::size_t>(id) >= wallFrom) continue;
+    std::size_t count = 0;
+    for (const auto& [pair, index] : byPair(frame.contacts))
+      count += pair.first == id || pair.second == id;
+    most = std::max(most, count);
+  }
+  return most;
+}
+
 /// "new, sliding, wall"
 std::string kindInWords(const Pair& pair, const LockstepFrame* before, const LockstepFrame& now,
                         std::size_t wallFrom) {
@@ -150,11 +163,12 @@ LockstepForces together(const LockstepForces& one, const LockstepForces& other) 
 }
 
 std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, double diameter,
-                                               double rounding, std::size_t wallFrom) {
+                                               const std::vector<double>& limits,
+                                               std::size_t wallFrom) {
   for (std::size_t k = 0; k < window.engine.size(); ++k) {
     const LockstepFrame &engine = window.engine[k], &mirror = window.mirror[k];
     const Farthest worst = farthest(engine, mirror, diameter);
-    if (worst.distance <= rounding) continue;
+    if (worst.distance <= limits[k]) continue;
     FirstExceedance first;
     first.after = k == 0 ? 0.0 : window.mirror[k - 1].time;
     first.until = mirror.time;
@@ -167,6 +181,8 @@ std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, dou
       first.partner =
           static_cast<std::size_t>(contact->first == id ? contact->second : contact->first);
       first.contact = kindInWords(*contact, before, mirror, wallFrom);
+      first.touching =
+          std::max(touching(*contact, engine, wallFrom), touching(*contact, mirror, wallFrom));
     }
     return first;
   }

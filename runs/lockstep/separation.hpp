@@ -33,8 +33,9 @@ std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window);
 /// Of many starts: counts add up, the largest difference stays.
 LockstepForces together(const LockstepForces& one, const LockstepForces& other);
 
-/// Where the two first differ by more than `rounding` [d]; the start is left at 0.
+/// Where the two first differ by more than `limits` [d], by frame; the start is left at 0.
 std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, double diameter,
-                                               double rounding, std::size_t wallFrom);
+                                               const std::vector<double>& limits,
+                                               std::size_t wallFrom);
 
 }  // namespace crossgrain::inline runs

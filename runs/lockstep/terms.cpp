@@ -53,7 +53,8 @@ void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
     const std::string name(option.name);
     // With these the constants would mean something else.
     if (name == "normal" || name == "damper") continue;
-    if (!mattersTo(scene.law, name)) continue;
+    // An arm of v_t that is that of f_t can become another one wherever there are arms.
+    if (!mattersTo(scene.law, name == "velocity_arm" ? "lever_arm" : name)) continue;
     const auto values = can.lawOptions.find(name);
     if (values == can.lawOptions.end()) continue;
     for (const std::string& value : values->second)

@@ -17,6 +17,7 @@ LockstepFrame frameOf(Snapshot&& seen) {
   frame.position = std::move(seen.position);
   if (seen.spin) frame.spin = std::move(*seen.spin);
   frame.contacts = std::move(seen.contacts);
+  frame.contactTime = seen.contactTime;
   return frame;
 }
 
@@ -60,6 +61,12 @@ std::vector<std::uint64_t> lockstepSteps(double dt) {
   return {steps.begin(), steps.end()};
 }
 
+std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt) {
+  std::vector<double> times;
+  for (const std::uint64_t step : steps) times.push_back(timeOf(step, dt));
+  return times;
+}
+
 std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time) {
   const auto distance = [&](std::uint64_t step) { return std::abs(timeOf(step, dt) - time); };
   const auto found = std::ranges::min_element(steps, {}, distance);
@@ -90,13 +97,14 @@ LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
   return window;
 }
 
-std::vector<LockstepFrame> followMirror(Engine& mirror, double dt,
-                                        const std::vector<std::uint64_t>& steps) {
+std::vector<LockstepFrame> follow(Engine& engine, double dt,
+                                  const std::vector<std::uint64_t>& steps, ContactReport contacts) {
   std::vector<LockstepFrame> frames;
   for (const std::uint64_t step : steps) {
     throwIfInterrupted();
-    takeTo(mirror, step, dt);
-    frames.push_back(frameOf(mirror.snapshot(ContactReport::none)));
+    takeTo(engine, step, dt);
+    frames.push_back(frameOf(engine.snapshot(contacts)));
+    requireFinite(frames.back());
   }
   return frames;
 }

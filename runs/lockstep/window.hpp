@@ -15,6 +15,7 @@ struct LockstepFrame {
   std::vector<Vec2> position;  ///< of the disks [m]
   std::vector<double> spin;    ///< [rad/s]; empty: nothing spins
   std::optional<Contacts> contacts;
+  double contactTime = 0.0;  ///< of the contacts, since the start [s]
 };
 
 /// An engine and its mirror over one window, at the same steps; contacts are of the same instants.
@@ -29,6 +30,9 @@ std::uint64_t stepsUntil(double time, double dt);
 /// nearest to lockstepTimes.
 std::vector<std::uint64_t> lockstepSteps(double dt);
 
+/// Of those steps, since the start [s].
+std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt);
+
 /// Which of lockstepSteps() is nearest to that time.
 std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time);
 
@@ -38,8 +42,10 @@ std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double t
 LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
                           const std::vector<std::uint64_t>& steps, bool contacts);
 
-/// The mirror alone, up to the last of the steps; no contacts.
-std::vector<LockstepFrame> followMirror(Engine& mirror, double dt,
-                                        const std::vector<std::uint64_t>& steps);
+/// One alone, loaded and not yet advanced, up to the last of the steps.
+/// @throws EngineFailure, Interrupted
+std::vector<LockstepFrame> follow(Engine& engine, double dt,
+                                  const std::vector<std::uint64_t>& steps,
+                                  ContactReport contacts = ContactReport::none);
 
 }  // namespace crossgrain::inline runs

@@ -1,5 +1,6 @@
 #include "runs/stability/recorder.hpp"
 
+#include "adapters/suitability.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
@@ -46,7 +47,8 @@ Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard
       {},
       setup.stability->settle,
       setup.assembly.placement,
-      setup.kind == CaseKind::collision ? collisionStarts(setup) : std::vector<CollisionStart>{}};
+      setup.kind == CaseKind::collision ? collisionStarts(setup) : std::vector<CollisionStart>{},
+      lawAsRun(engine.capabilities(), hard.scene.law)};
   try {
     run.realised = loadScene(engine, entry, setup, hard.scene);
     run.snapshots.push_back(engine.snapshot(ContactReport::none));

@@ -75,7 +75,6 @@ TEST(ComparePaired, IntervalByHand) {
   EXPECT_NEAR(c.high.value() - 2.5, 2.353 * error, 5e-4);
   EXPECT_NEAR(2.5 - c.low.value(), 2.353 * error, 5e-4);
   EXPECT_EQ(c.verdict, Verdict::agree);
-  EXPECT_FALSE(c.morePackings);
 }
 
 TEST(ComparePaired, TheThreeVerdicts) {
@@ -94,11 +93,9 @@ TEST(ComparePaired, AMarginIsNotJumpedByAHair) {
 TEST(ComparePaired, FewerThanFourPackingsDecideNothing) {
   const PairedComparison same = compareOne(differing({0.0, 0.0, 0.0}, 1.0));
   EXPECT_EQ(same.verdict, Verdict::undecided);
-  EXPECT_EQ(same.morePackings, 1);
   const PairedComparison far = compareOne(differing({9.0, 9.1, 9.2}, 1.0));
   EXPECT_EQ(far.verdict, Verdict::undecided);
   EXPECT_FALSE(far.pDisagree);
-  EXPECT_EQ(compareOne(differing({0.0}, 1.0)).morePackings, 3);
 }
 
 TEST(ComparePaired, AnEngineAgreesWithItself) {
@@ -117,26 +114,6 @@ TEST(ComparePaired, AbsentValues) {
   sample = differing({0.0, 0.0, 0.0, 0.0}, 1.0);
   sample.reference.pop_back();
   EXPECT_THROW(comparePaired(std::vector{sample}, confidence), std::invalid_argument);
-}
-
-TEST(ComparePaired, MorePackingsWouldBeEnough) {
-  // Scatter stays, packings are added: the verdict comes at the number named, not one before it.
-  const std::vector<double> four = {1.0, -1.0, 1.0, -1.0};
-  const double margin = 0.7;
-  const PairedComparison now = compareOne(differing(four, margin));
-  ASSERT_EQ(now.verdict, Verdict::undecided);
-  const int wanted = 4 + now.morePackings.value();
-  const auto decides = [&](int packings) {
-    // sd of `four` is √(4/3); n values ±c with the same sd.
-    std::vector<double> differences;
-    const double n = packings;
-    const double c = std::sqrt(4.0 / 3.0 * (n - 1.0) / n);
-    for (int k = 0; k < packings; ++k) differences.push_back(k % 2 == 0 ? c : -c);
-    return compareOne(differing(differences, margin)).verdict == Verdict::agree;
-  };
-  const int even = wanted + wanted % 2;  // ± pairs need an even number
-  EXPECT_TRUE(decides(even));
-  EXPECT_FALSE(decides(even - 2));
 }
 
 TEST(ComparePaired, HolmByHand) {
@@ -208,19 +185,11 @@ TEST(SmallestDetectable, APlantedShiftIsFoundNineTimesOutOfTen) {
   EXPECT_NEAR(static_cast<double>(found) / repeats, 0.9, 3.0 * std::sqrt(0.09 / repeats));
 }
 
-TEST(ComparePaired, SaysWhetherLongerRunsWouldDecide) {
-  // ±1 on four packings: sd² = 4/3. The interval is t_3(0.95)·√(1/3) = 1.3587, the margin 1.
-  PairedSample sample = differing({1.0, -1.0, 1.0, -1.0}, 1.0);
-  EXPECT_FALSE(compareOne(sample).longerRuns);  // nobody knows the runs' own errors
-  sample.withinVariance.assign(4, 1.2);         // nine tenths of it
-  const PairedComparison c = compareOne(sample);
-  ASSERT_EQ(c.verdict, Verdict::undecided);
-  EXPECT_NEAR(c.withinFraction.value(), 0.9, 1e-12);
-  // 1 − w + w/R = (1/1.3587)² = 0.5417.
-  EXPECT_NEAR(c.longerRuns.value(), 0.9 / (0.5417 - 0.1), 1e-3);
-  sample.withinVariance.assign(4, 0.4);  // packings make the rest: no run is long enough
-  EXPECT_FALSE(compareOne(sample).longerRuns);
-  EXPECT_TRUE(compareOne(sample).morePackings);
+TEST(ComparePaired, SaysHowMuchOfTheScatterIsTheRunsOwn) {
+  PairedSample sample = differing({1.0, -1.0, 1.0, -1.0}, 1.0);  // sd² = 4/3
+  EXPECT_FALSE(compareOne(sample).withinFraction);  // nobody knows the runs' own errors
+  sample.withinVariance.assign(4, 1.2);
+  EXPECT_NEAR(compareOne(sample).withinFraction.value(), 0.9, 1e-12);
 }
 
 TEST(SmallestSignificant, IsTheQuantileOfTheWholeFamily) {
@@ -231,22 +200,17 @@ TEST(SmallestSignificant, IsTheQuantileOfTheWholeFamily) {
 }
 
 TEST(FieldVerdict, FollowsItsRings) {
-  const auto ring = [](Verdict verdict, std::optional<int> more = {}) {
+  const auto ring = [](Verdict verdict) {
     PairedComparison c;
     c.verdict = verdict;
-    c.morePackings = more;
     return std::optional(c);
   };
-  const auto agree = ring(Verdict::agree);
-  const auto disagree = ring(Verdict::disagree);
-  const auto five = ring(Verdict::undecided, 5), two = ring(Verdict::undecided, 2);
-  const auto unknown = ring(Verdict::undecided);
+  const auto agree = ring(Verdict::agree), disagree = ring(Verdict::disagree);
+  const auto undecided = ring(Verdict::undecided);
   using Rings = std::vector<std::optional<PairedComparison>>;
   EXPECT_EQ(fieldVerdict(Rings{agree, std::nullopt, agree}).verdict, Verdict::agree);
-  EXPECT_EQ(fieldVerdict(Rings{agree, disagree, five}).verdict, Verdict::disagree);
-  EXPECT_EQ(fieldVerdict(Rings{two, agree, five}).verdict, Verdict::undecided);
-  EXPECT_EQ(fieldVerdict(Rings{two, agree, five}).morePackings, 5);
-  EXPECT_FALSE(fieldVerdict(Rings{two, unknown}).morePackings);
+  EXPECT_EQ(fieldVerdict(Rings{agree, disagree, undecided}).verdict, Verdict::disagree);
+  EXPECT_EQ(fieldVerdict(Rings{agree, undecided}).verdict, Verdict::undecided);
   EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).verdict, Verdict::undecided);
   EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).compared, 0);
 }

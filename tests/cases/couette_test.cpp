@@ -6,6 +6,7 @@
 
 #include "adapters/grain.hpp"
 #include "cases/preparation.hpp"
+#include "cases/preparer.hpp"
 #include "support/bad_input.hpp"
 #include "tests/support/laws.hpp"
 
@@ -86,6 +87,17 @@ TEST(Couette, PackingsDifferBySeedAndRepeatByIt) {
   EXPECT_NE(one.hash, other.hash);
 }
 
+/// Another engine prepares what the case lets it, and a setting of it makes another packing.
+TEST(Couette, AnotherEngineMayPreparePackings) {
+  Case setup = quickCell();
+  setup.preparation.engine = "box2d-penalty";
+  EXPECT_EQ(ownPreparer(setup)->name, "box2d-penalty");
+  EXPECT_NE(preparerKey(setup).find("box2d-penalty 2."), std::string::npos);
+  const std::string hash = packingHash(setup, 0, 4e-5);
+  setup.engines["box2d-penalty"] = {{"an option", 1.0}};
+  EXPECT_NE(packingHash(setup, 0, 4e-5), hash);
+}
+
 TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
   const Case setup = quickCell();
   const std::string hash = packingHash(setup, 0, 4e-5);
@@ -104,6 +116,8 @@ TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
   EXPECT_NE(hash, changed([](Case& c) { c.law.en = 0.9; }));
   EXPECT_NE(hash, changed([](Case& c) { c.law.et0 = 0.5; }));
   EXPECT_NE(hash, changed([](Case& c) { c.preparation.seed = 9; }));
+  EXPECT_NE(hash, changed([](Case& c) { c.preparation.engine = "grain-as-yade"; }));
+  EXPECT_EQ(hash, changed([](Case& c) { c.preparation.engine = "grain"; }));  // as it is anyway
   // 75 and 188 wall disks, whether 75.4 and 188.5 are wanted or 75.1 and 187.7: the same packing.
   EXPECT_EQ(hash, changed([](Case& c) { c.cell.wallSpacing = 2.51e-3; }));
   // What comes after the preparation does not matter to it.

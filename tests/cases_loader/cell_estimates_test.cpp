@@ -95,8 +95,8 @@ TEST(Cautions, OfGasSqueezedDisksFewStepsAndNothingToJudge) {
   EXPECT_TRUE(said(c, "beyond 2/ω"));
   c.preparation.packings = 2;
   EXPECT_TRUE(said(c, "2 packings: compare judges nothing with fewer than 4"));
-  c.averaging.margins.clear();
-  EXPECT_TRUE(said(c, "no [averaging.margins]"));
+  c.averaging.endpoints.clear();
+  EXPECT_TRUE(said(c, "no [averaging.endpoints]"));
   c.engines["box2d-impulse"]["dt"] = 0.05;
   EXPECT_TRUE(said(c, "[engines.box2d-impulse] dt = 0.05 s: the wheel's rim moves 0.7 d"));
 }

@@ -66,6 +66,9 @@ TEST_F(LoaderErrors, NumbersOutOfRangeSayTheRange) {
        "of the wheel; < 0 is clockwise"},
       {plus("inertia_factor = 0\n"),
        "case.toml:24:18: particles.inertia_factor = 0: must be in (0, 1]"},
+      {plus("[preparation]\nengine = \"yadee\"\n"),
+       "case.toml:25:10: preparation.engine = \"yadee\": there is no such engine (did you mean "
+       "yade?)"},
       {plus("[preparation]\npackings = 0\n"),
        "case.toml:25:12: preparation.packings = 0: must be in [1, 10000]"},
       {plus("[preparation]\nseed = -3\n"),

@@ -6,6 +6,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
+#include "cases/endpoints.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
@@ -73,7 +74,9 @@ TEST(ShippedCases, TheQuickCellIsTheSamePhysicsInASmallerCell) {
   EXPECT_NEAR(volumeFraction(c), 0.760, 0.0005);
   EXPECT_EQ(c.cell.wallSpacing, 0.0048);  // a wheel that grips: see the case
   EXPECT_EQ(timeStep(c), 4e-5);
-  EXPECT_EQ(c.preparation.packings, 4);
+  EXPECT_EQ(c.preparation.packings, 8);
+  EXPECT_EQ(c.looks.count, 4);
+  EXPECT_EQ(c.averaging.endpoints.size(), endpointTable().size());
   EXPECT_EQ(c.cell.omega, 1.0);
   EXPECT_EQ(std::get<double>(c.engines.at("box2d-impulse").at("dt")), 5e-4);
   for (const LawOption& option : lawOptions())
@@ -155,18 +158,8 @@ TEST(ShippedCases, TheLawFileAloneIsNotACase) {
 
 /// Lätzel 2003, table 3.2: 17 rows that 3.70 mm without wall disks meets to 0.00075 (facts 1.1).
 TEST(VolumeFraction, MeetsTheTableOfTheThesis) {
-  struct Row {
-    double nu;
-    int small, large;
-  };
-  constexpr Row rows[] = {{0.789, 2462, 404}, {0.791, 2469, 405}, {0.793, 2476, 406},
-                          {0.796, 2483, 407}, {0.798, 2490, 408}, {0.800, 2498, 409},
-                          {0.800, 2511, 400}, {0.802, 2520, 399}, {0.804, 2511, 410},
-                          {0.805, 2524, 404}, {0.807, 2518, 412}, {0.807, 2545, 394},
-                          {0.809, 2525, 414}, {0.810, 2538, 407}, {0.811, 2555, 399},
-                          {0.819, 2560, 418}, {0.828, 2588, 422}};
   Case c = shipped("couette/nu-0.804.toml").front();
-  for (const Row& row : rows) {
+  for (const TableRow& row : table32) {
     c.particles.small = row.small;
     c.particles.large = row.large;
     EXPECT_NEAR(volumeFraction(c), row.nu, 0.00075) << row.small << " + " << row.large;

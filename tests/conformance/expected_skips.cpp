@@ -7,6 +7,11 @@ namespace crossgrain::test {
 std::span<const ExpectedSkip> expectedSkips() {
   static constexpr std::array table = {
       ExpectedSkip{"yade", "BottomPlateBrakesADisk", "has no bottom_friction"},
+      ExpectedSkip{"lammps", "BottomPlateBrakesADisk", "has no bottom_friction"},
+      ExpectedSkip{"lammps", "ShrinkingWallPushes", "has no radial motion of walls"},
+      ExpectedSkip{"lammps", "ShrinkingWallStops", "has no radial motion of walls"},
+      ExpectedSkip{"grain-as-lammps", "FollowsItsPeerByHertzLaw",
+                   "its peer has another normal law"},
       ExpectedSkip{"box2d-impulse", "BottomPlateBrakesADisk", "has no bottom_friction"},
       ExpectedSkip{"box2d-impulse", "ShrinkingWallPushes", "has rigid walls only"},
       ExpectedSkip{"box2d-impulse", "ShrinkingWallStops", "has rigid walls only"},

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 #include <gsl/gsl_errno.h>
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <string_view>
 
+#include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
-#include "tests/conformance/conformance.hpp"
 #include "tests/conformance/names.hpp"
 
 namespace crossgrain::test {
@@ -32,11 +33,6 @@ int serveEngine(const std::string& name) {
   return entry && entry->make ? serve(*entry->make()) : 2;
 }
 
-class EndOfWorkers : public testing::Environment {
- public:
-  void TearDown() override { endWorkers(); }
-};
-
 }  // namespace
 }  // namespace crossgrain::test
 
@@ -47,6 +43,5 @@ int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == "--write-tests")
     return writeTests(argv[0], argv[2]);
   testing::InitGoogleTest(&argc, argv);
-  testing::AddGlobalTestEnvironment(new EndOfWorkers);
   return RUN_ALL_TESTS();
 }

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     fmt::print("study,leg,field,ring,packings,independent,value,stderr\n");
     print(coverage::withinRuns(setup, windows));
     if (sample.runs.empty()) return 0;
+    print(coverage::looks(sample));
     for (const int group : {4, 6, 8}) {
       print(coverage::ensembles(sample, group));
       print(coverage::disagreements(sample, "", group));

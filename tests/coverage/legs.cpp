@@ -5,12 +5,14 @@
 #include <random>
 #include <stdexcept>
 
+#include "averaging/global.hpp"
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/couette/run.hpp"
+#include "runs/couette/summary.hpp"
 
 namespace crossgrain::coverage {
 
@@ -32,12 +34,13 @@ void nudge(Packing& packing, int index) {
 }
 
 WindowRun entry(int index, const Leg& leg, int window, double rotations,
-                const ProfileAccumulator& averaged) {
+                const ProfileAccumulator& averaged, const Numbers& coordination) {
   WindowRun run;
   run.engine = engineName;
   run.packing = index;
   run.without = leg.name;
   run.profiles = averaged.profiles();
+  if (const auto mean = meanOf(coordination)) run.head = {{"coordination", "-", mean, {}, {}}};
   run.window = window;
   run.rotations = rotations;
   return run;
@@ -87,15 +90,17 @@ std::vector<WindowRun> run(const Case& setup, const Packing& packing, int index,
   std::vector<WindowRun> entries;
   for (int window = 0; window < windows; ++window) {
     ProfileAccumulator averaged(ringsOf(setup), methods, scene);
+    Numbers coordination;
     for (int k = 0; k < samples; ++k) {
       engine->advance(now += interval);
       const Snapshot snapshot = engine->snapshot(ContactReport::instant);
       averaged.add(snapshot);
+      coordination.push_back(globalNumbers(scene, snapshot).coordination);
       if (whole) all.add(snapshot);
     }
-    entries.push_back(entry(index, leg, window, length, averaged));
+    entries.push_back(entry(index, leg, window, length, averaged, coordination));
   }
-  if (whole) entries.push_back(entry(index, leg, windows, windows * length, all));
+  if (whole) entries.push_back(entry(index, leg, windows, windows * length, all, {}));
   return entries;
 }
 

@@ -5,9 +5,13 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <ranges>
 
 #include "averaging/agreement.hpp"
+#include "averaging/looks.hpp"
 #include "averaging/statistics.hpp"
+#include "runs/couette/endpoint_table.hpp"
+#include "runs/couette/endpoint_values.hpp"
 #include "runs/couette/paired_rings.hpp"
 
 namespace crossgrain::coverage {
@@ -51,6 +55,19 @@ Numbers pick(const Numbers& values, const std::vector<std::size_t>& order, std::
   return picked;
 }
 
+/// Does something with every group of packings of a leg, for every shuffle.
+/// @param what  given the order of the packings and the place of the group's first in it
+/// @returns groups that share no run
+int forEachGroup(const Sample& sample, const std::string& leg, int group, const auto& what) {
+  int independent = 0;
+  for (int shuffle = 0; shuffle < shuffles; ++shuffle) {
+    const auto order = shuffled(sample, leg, shuffle);
+    independent = static_cast<int>(order.size()) / group;
+    for (int g = 0; g < independent; ++g) what(order, static_cast<std::size_t>(g * group));
+  }
+  return independent;
+}
+
 /// All rings of all fields with a margin: one family, as `compare` has it.
 struct Family {
   std::vector<std::string> field;
@@ -86,6 +103,23 @@ std::vector<PairedSample> grouped(const Family& family, bool withMargins,
                           .sample);
   }
   return samples;
+}
+
+/// One endpoint of a group of packings on the scale of its test, the other engine's values moved by
+/// so many margins.
+PairedSample shiftedSample(const Case& setup, const std::string& name, const Runs& reference,
+                           const Runs& other, std::size_t packings,
+                           const std::vector<std::size_t>& order, std::size_t first, int group,
+                           double margins) {
+  const EndpointSpec& endpoint = endpointSpec(name);
+  const auto values = [&](const Runs& runs) {
+    return pick(endpointByPacking(endpoint, setup, runs, packings), order, first, group);
+  };
+  PairedSample sample = endpointSample(endpoint, setup.averaging.endpoints.at(name),
+                                       values(reference), values(other));
+  for (auto& value : sample.other)
+    if (value) *value += margins * sample.margin;
+  return sample;
 }
 
 double deviationOf(const TestedRing& ring) {
@@ -168,19 +202,15 @@ std::vector<Rate> ensembles(const Sample& sample, int group) {
     const auto rings = ringsOfLeg(sample, "", field);
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
       const auto truth = ensembleMean(rings[ring]);
+      if (!truth) continue;
       Tally tally;
-      int independent = 0;
-      for (int shuffle = 0; truth && shuffle < shuffles; ++shuffle) {
-        const auto order = shuffled(sample, "", shuffle);
-        independent = static_cast<int>(order.size()) / group;
-        for (int g = 0; g < independent; ++g) {
-          const auto mean =
-              ensembleMean(pick(rings[ring], order, static_cast<size_t>(g * group), group));
-          if (!mean || !mean->standardError) continue;
-          tally.add(std::abs(mean->mean - truth->mean) <=
-                    studentQuantile(0.95, mean->packings - 1) * *mean->standardError);
-        }
-      }
+      const int independent = forEachGroup(
+          sample, "", group, [&](const std::vector<std::size_t>& order, std::size_t from) {
+            const auto mean = ensembleMean(pick(rings[ring], order, from, group));
+            if (!mean || !mean->standardError) return;
+            tally.add(std::abs(mean->mean - truth->mean) <=
+                      studentQuantile(0.95, mean->packings - 1) * *mean->standardError);
+          });
       if (tally.trials > 0.0)
         rates.push_back(
             {"ensemble", "", field, static_cast<int>(ring), group, independent, tally.rate()});
@@ -197,32 +227,69 @@ std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, in
   for (const bool withMargins : {false, true}) {
     Tally any;
     std::map<std::string, Tally> perField;
-    int independent = 0;
-    for (int shuffle = 0; shuffle < shuffles; ++shuffle) {
-      const auto order = shuffled(sample, leg, shuffle);
-      independent = static_cast<int>(order.size()) / span;
-      for (int g = 0; g < independent; ++g) {
-        const auto first = static_cast<std::size_t>(g * span);
-        const auto found = comparePaired(
-            grouped(family, withMargins, order, first,
-                    leg.empty() ? first + static_cast<std::size_t>(group) : first, group),
-            confidence);
-        bool anywhere = false;
-        std::map<std::string, bool> inField;
-        for (std::size_t k = 0; k < found.size(); ++k) {
-          const bool hit = found[k] && found[k]->verdict == Verdict::disagree;
-          anywhere |= hit;
-          inField[family.field[k]] |= hit;
-        }
-        any.add(anywhere);
-        for (const auto& [field, hit] : inField) perField[field].add(hit);
-      }
-    }
+    const int independent = forEachGroup(
+        sample, leg, span, [&](const std::vector<std::size_t>& order, std::size_t first) {
+          const auto found = comparePaired(
+              grouped(family, withMargins, order, first,
+                      leg.empty() ? first + static_cast<std::size_t>(group) : first, group),
+              confidence);
+          bool anywhere = false;
+          std::map<std::string, bool> inField;
+          for (std::size_t k = 0; k < found.size(); ++k) {
+            const bool hit = found[k] && found[k]->verdict == Verdict::disagree;
+            anywhere |= hit;
+            inField[family.field[k]] |= hit;
+          }
+          any.add(anywhere);
+          for (const auto& [field, hit] : inField) perField[field].add(hit);
+        });
     const std::string study = withMargins ? "disagree" : "disagree_0";
     rates.push_back({study, leg, "any", {}, group, independent, any.rate()});
     for (const auto& [field, tally] : perField)
       rates.push_back({study, leg, field, {}, group, independent, tally.rate()});
   }
+  return rates;
+}
+
+std::vector<Rate> looks(const Sample& sample) {
+  const Case& setup = *sample.setup;
+  const LookPlan plan = looksOf(setup);
+  const int group = plan.packings.back();
+  const Runs whole = finishedRuns(sample.runs, engineName);
+  const Runs again = finishedRuns(sample.runs, engineName, "again");
+  const auto names = std::views::keys(setup.averaging.endpoints);
+  std::map<std::string, Tally> decided, falseAgree, found;
+  Tally falseDisagree;
+  const int independent = forEachGroup(
+      sample, "again", group, [&](const std::vector<std::size_t>& order, std::size_t first) {
+        // Alternate signs, so that neither side of the margin is the easier one.
+        const double sign = first / static_cast<std::size_t>(group) % 2 ? 1.0 : -1.0;
+        const auto shifted = [&](double margins, const std::string& only) {
+          std::vector<PairedSample> family;
+          for (const std::string& name : names)
+            family.push_back(shiftedSample(setup, name, whole, again, sample.packings, order, first,
+                                           group, only.empty() || only == name ? margins : 0.0));
+          return answersAfterLooks(family, plan, group);
+        };
+        const auto same = shifted(0.0, ""), edge = shifted(sign, "");
+        bool any = false;
+        std::size_t k = 0;
+        for (const std::string& name : names) {
+          decided[name].add(agrees(same[k]->answer));
+          falseAgree[name].add(agrees(edge[k]->answer));
+          any = any || edge[k]->answer == Answer::disagree;
+          found[name].add(shifted(2.0 * sign, name)[k]->answer == Answer::disagree);
+          ++k;
+        }
+        falseDisagree.add(any);
+      });
+  std::vector<Rate> rates = {
+      {"looks_false_disagree", "again", "any", {}, group, independent, falseDisagree.rate()}};
+  for (const auto& [study, tallies] : {std::pair("looks_decided", &decided),
+                                       {"looks_false_agree", &falseAgree},
+                                       {"looks_found", &found}})
+    for (const auto& [name, tally] : *tallies)
+      rates.push_back({study, "again", name, {}, group, independent, tally.rate()});
   return rates;
 }
 
@@ -236,18 +303,13 @@ std::vector<Rate> power(const Sample& sample, int group) {
     const double shift =
         *smallestDetectable(deviationOf(all) / std::sqrt(group), group, all.sample.margin, level);
     Tally tally;
-    int independent = 0;
-    for (int shuffle = 0; shuffle < shuffles; ++shuffle) {
-      const auto order = shuffled(sample, "again", shuffle);
-      independent = static_cast<int>(order.size()) / group;
-      for (int g = 0; g < independent; ++g) {
-        const auto first = static_cast<std::size_t>(g * group);
-        auto samples = grouped(family, true, order, first, first, group);
-        for (auto& value : samples[k].other)
-          if (value) *value += shift;
-        tally.add(comparePaired(samples, confidence)[k]->verdict == Verdict::disagree);
-      }
-    }
+    const int independent = forEachGroup(
+        sample, "again", group, [&](const std::vector<std::size_t>& order, std::size_t first) {
+          auto samples = grouped(family, true, order, first, first, group);
+          for (auto& value : samples[k].other)
+            if (value) *value += shift;
+          tally.add(comparePaired(samples, confidence)[k]->verdict == Verdict::disagree);
+        });
     rates.push_back(
         {"power", "again", family.field[k], family.ring[k], group, independent, tally.rate()});
     rates.push_back({"detects_ratio", "again", family.field[k], family.ring[k], group, independent,

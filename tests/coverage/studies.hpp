@@ -44,6 +44,13 @@ std::vector<Rate> ensembles(const Sample& sample, int group);
 /// one, packing by packing.
 std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, int group);
 
+/// Verdicts on endpoints after the case's looks, of groups of as many packings of leg "again" against
+/// the case itself, whose true difference is 0. Studies "looks_decided": agree, as it is (of
+/// every endpoint); "looks_false_disagree": any disagree in the family where every difference is the
+/// margin itself; "looks_false_agree": an agree there; "looks_found": disagree where one endpoint
+/// is two margins off.
+std::vector<Rate> looks(const Sample& sample);
+
 /// Study "power": how often a shift of the size that smallestDetectable() names for the sample's
 /// own scatter is found when planted in one ring of leg "again"; "detects_ratio": that size over
 /// the margin, on the scale of the test.

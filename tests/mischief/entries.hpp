@@ -18,9 +18,10 @@ namespace crossgrain::test {
 /// "crash"     aborts
 /// "garbage"   answers what is no JSON
 /// "short"     shows one disk too few
+/// "slippery"  loses 98 % of the friction, and its springs
 EngineEntry misbehavingEntry(const std::string& mischief, std::uint64_t step);
 
-/// All of them but "pump", which nobody but a look at its energy gives away.
+/// Those that end a run; the others go on as if nothing were.
 const std::vector<std::string>& fatalMischiefs();
 
 }  // namespace crossgrain::test

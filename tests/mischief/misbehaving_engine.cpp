@@ -33,12 +33,39 @@ Capabilities MisbehavingEngine::capabilities() const {
 
 Realised MisbehavingEngine::load(const Scene& scene, const Settings& settings) {
   Realised realised = engine_->load(scene, settings);
+  scene_ = scene;
   dt_ = realised.dt;
+  behind_ = 0.0;
+  stepsBehind_ = 0;
+  turned_.clear();
   return realised;
+}
+
+void MisbehavingEngine::loseFriction() {
+  const Snapshot now = engine_->snapshot(ContactReport::none);
+  Scene scene = scene_;
+  scene.law.mu *= 0.02;  // not zero: disks go on to have spins
+  scene.disks.position = now.position;
+  scene.disks.velocity = now.velocity;
+  if (now.spin) scene.disks.spin = *now.spin;
+  auto wall = now.wallPosition.begin();
+  for (WallBody& body : scene.bodies)
+    for (Vec2& place : body.diskPosition) place = *wall++;
+  stepsBehind_ = engine_->stats().steps;
+  engine_->load(scene, {});
+  behind_ = now.positionTime;
+  turned_.clear();
+  for (const BodySnapshot& body : now.bodies) turned_.push_back(body.angle);
 }
 
 double MisbehavingEngine::advance(double t) {
   const double until = static_cast<double>(step_) * dt_;
+  if (mischief_ == "slippery") {
+    if (t < until || behind_ > 0.0) return engine_->advance(t - behind_) + behind_;
+    engine_->advance(until);
+    loseFriction();
+    return engine_->advance(t - behind_) + behind_;
+  }
   if (t < until || mischief_ == "pump" || mischief_ == "nan" || mischief_ == "short")
     return engine_->advance(t);
   engine_->advance(until);
@@ -51,8 +78,17 @@ double MisbehavingEngine::advance(double t) {
   return engine_->advance(t);
 }
 
+Stats MisbehavingEngine::stats() const {
+  Stats stats = engine_->stats();
+  stats.steps += stepsBehind_;
+  return stats;
+}
+
 Snapshot MisbehavingEngine::snapshot(ContactReport contacts) {
   Snapshot snapshot = engine_->snapshot(contacts);
+  for (double* const time : {&snapshot.positionTime, &snapshot.velocityTime, &snapshot.contactTime})
+    *time += behind_;
+  for (std::size_t k = 0; k < turned_.size(); ++k) snapshot.bodies[k].angle += turned_[k];
   const std::uint64_t steps = engine_->stats().steps;
   if (steps < step_) return snapshot;
   if (mischief_ == "nan") snapshot.position.front().x() = std::numeric_limits<double>::quiet_NaN();

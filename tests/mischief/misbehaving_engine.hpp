@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "adapters/engine.hpp"
 
@@ -18,13 +19,20 @@ class MisbehavingEngine final : public Engine {
   Realised load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
-  Stats stats() const override { return engine_->stats(); }
+  Stats stats() const override;
 
  private:
+  /// Begins anew from here, nearly without friction and without springs.
+  void loseFriction();
+
   std::unique_ptr<Engine> engine_;
   std::string mischief_;
   std::uint64_t step_;
   double dt_ = 0.0;
+  Scene scene_;
+  std::uint64_t stepsBehind_ = 0;
+  double behind_ = 0.0;         ///< time at which the engine was loaded anew [s]
+  std::vector<double> turned_;  ///< what bodies had turned by then [rad]
 };
 
 }  // namespace crossgrain::test

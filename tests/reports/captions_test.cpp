@@ -13,7 +13,7 @@
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {

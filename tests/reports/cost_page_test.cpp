@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reports/common/engines.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/cost/tables.hpp"
 #include "reports/cost/words.hpp"
@@ -10,7 +11,7 @@
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -51,15 +52,21 @@ TEST(CostCsv, HasEveryPointAlsoThoseThatFailed) {
   EXPECT_EQ(
       costCsv(byHand()),
       "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,"
-      "reason,knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front\n"
-      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes\n"
-      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes\n"
-      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,\n"
-      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no\n");
+      "reason,knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,"
+      "high,equivalent,bound\n"
+      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes,,,,\n"
+      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes,,,,\n"
+      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,,,,,\n"
+      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no,,,,\n");
 }
 
 TEST(CostCsv, OfNothingIsItsHead) {
   EXPECT_EQ(std::ranges::count(costCsv({}), '\n'), 1);
+}
+
+/// The engine's, filled; the open one is its predecessor.
+int markOf(const CostResults& results) {
+  return engineStyles(results.engines).front().pointType;
 }
 
 const Curve* curveOf(const Panel& panel, int pointType, Draw draw) {
@@ -77,11 +84,11 @@ TEST(CostFigures, JoinStepsNumberOtherSettingsAndCrossFailuresAtTheUpperEdge) {
   ASSERT_EQ(front.points.size(), 3u);  // 10 % from 1 s on, 1 % from 10 s on
   EXPECT_EQ(front.points[1].x, 10.0);
   EXPECT_EQ(front.points[1].y, 0.1);
-  const Curve* steps = curveOf(panel, 7, Draw::linesAndPoints);
+  const Curve* steps = curveOf(panel, markOf(byHand()), Draw::linesAndPoints);
   ASSERT_TRUE(steps);
   EXPECT_EQ(steps->name, "a");
   EXPECT_EQ(steps->points.size(), 2u);
-  const Curve* others = curveOf(panel, 6, Draw::points);
+  const Curve* others = curveOf(panel, markOf(byHand()) - 1, Draw::points);
   ASSERT_TRUE(others);
   EXPECT_EQ(others->points[0].label, "1");
   EXPECT_TRUE(has(figures[0].caption, "Other settings: 1 precision float, slow."));
@@ -101,7 +108,7 @@ TEST(CostFigures, DrawWhatMayBeChanceAtItsUpperBound) {
   const Curve* chance = curveOf(panel, 10, Draw::points);
   ASSERT_TRUE(chance);
   EXPECT_NEAR(chance->points[0].y, 0.04, 1e-15);
-  EXPECT_EQ(curveOf(panel, 7, Draw::linesAndPoints)->points.size(), 1u);
+  EXPECT_EQ(curveOf(panel, markOf(byHand()), Draw::linesAndPoints)->points.size(), 1u);
 }
 
 TEST(CostFigures, OfNothingAreNone) {
@@ -129,6 +136,59 @@ TEST(CostTables, SayWhatAnErrorIs) {
   EXPECT_EQ(targetText(1e-6), "10⁻⁶");
 }
 
+/// The engine of byHand() with another law: 25 % off, whatever the step.
+CostResults ofAnotherLaw() {
+  CostResults results = byHand();
+  CostCell own{"a", CostKind::collision, CostBasis::own, 0.1, CostVerdict::reached};
+  own.knob = "time_step";
+  own.setting = "t_c/10";
+  own.wallSeconds = 1.0;
+  own.point = 0;
+  CostCell scene{"a", CostKind::collision, CostBasis::scene, 0.1, CostVerdict::notReached};
+  scene.model = 0;
+  results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
+  results.cells = {own, scene};
+  return results;
+}
+
+TEST(CostAccuracy, TellsDiscretisationAndModelApart) {
+  const CostResults results = ofAnotherLaw();
+  EXPECT_EQ(
+      costAccuracyText(results),
+      "a, collision, its own limit:\n"
+      "   10 %  t_c/10, 1.00 s, Ψ_f: 10 %\n"
+      "a, collision, the case's law:\n"
+      "  its limit of small steps is 25 % off the case's law in Ψ_f (24 % to 26 %)\n"
+      "   10 %  not reached, its limit of small steps is 25 % off the case's law in Ψ_f (24 % "
+      "to 26 %)\n"
+      "Which setting reaches an accuracy for the least time is decided for 1 of 1 against "
+      "engines' own limits of small steps and 1 of 1 against the case's law.\n");
+  const Json groups = accuracyGroups(results, costEngines(results));
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_EQ(groups[0]["rows"][0]["cells"][0]["text"], "t_c/10");
+  EXPECT_TRUE(groups[0]["rows"][0]["models"].empty());
+  EXPECT_EQ(groups[0]["rows"][1]["models"].size(), 1u);
+  EXPECT_EQ(groups[0]["rows"][1]["cells"][0]["text"], "not reached");
+  EXPECT_EQ(accuracyInWords(results),
+            (std::vector<std::string>{"10 % of the case's law is reached for the least time in: "
+                                      "collision: no engine is shown to."}));
+}
+
+TEST(CostAccuracy, ABoundIsToldAsOne) {
+  CostPoint point = byHand().points[0];
+  point.kind = CostKind::averages;
+  point.error = 0.03;
+  point.statistical = 0.04;
+  point.low = 0.0;
+  point.high = 0.12;
+  EXPECT_EQ(intervalText(point), "3 % (0 to 12 %)");
+  point.bound = 0.004;
+  EXPECT_EQ(intervalText(point), "at most 0.4 % (bound)");
+  point.error = point.statistical = point.low = point.high = std::nullopt;
+  EXPECT_EQ(intervalText(point), "at most 0.4 % (bound)");
+  EXPECT_EQ(errorText(point), "at most 0.4 %");
+}
+
 class CostPage : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -147,11 +207,15 @@ const TemporaryFolder* CostPage::folder_ = nullptr;
 const std::string* CostPage::page_ = nullptr;
 
 TEST_F(CostPage, BeginsWithItsVerdicts) {
-  EXPECT_TRUE(has(*page_, "<p class=\"lead\">10 %: cheapest with grain at t_c/25, "))
+  EXPECT_TRUE(has(*page_,
+                  "<p class=\"lead\">Which setting reaches an accuracy for the least time is "
+                  "decided for 9 of 9 against engines&apos; own limits of small steps and 12 of 18 "
+                  "against the case&apos;s law.</p>"))
       << page_->substr(page_->find("<p class=\"lead\""), 300);
+  EXPECT_TRUE(has(*page_, "10 %: cheapest with grain at t_c/25, "));
   EXPECT_TRUE(has(*page_,
                   "Finding: grain, semi implicit euler: order 2 is claimed and not met: "
-                  "collision Ψ_f 1.00 ± 0.00, collision e_n 1.00 ± 0.00, "));
+                  "collision Ψ<sub>f</sub> 1.00 ± 0.00, collision e<sub>n</sub> 1.00 ± 0.00, "));
   EXPECT_TRUE(has(*page_, "box2d-impulse refused the scene: odd &lt;b&gt;"));
 }
 
@@ -196,8 +260,8 @@ TEST_F(CostPage, HasWhatDidNotRunWithItsReason) {
 TEST_F(CostPage, EndsWithFragmentsToPaste) {
   const auto advice = page_->find("<h2 id=\"advice\">");
   ASSERT_NE(advice, std::string::npos);
-  EXPECT_TRUE(has(page_->substr(advice),
-                  "<h3>grain for 10 %: t_c/25</h3>\n<pre>[run]\nsteps_per_contact = 25\n"));
+  EXPECT_TRUE(has(page_->substr(advice), ">grain for 10 %: t_c/25<"));
+  EXPECT_TRUE(has(page_->substr(advice), "</h3>\n<pre>[run]\nsteps_per_contact = 25\n"));
 }
 
 TEST_F(CostPage, TakesNothingLiterally) {

@@ -29,7 +29,7 @@ CompareResults tiny() {
                                       "mean": [0.30000000000000004, 2]}]}],
     "agreement": [
       {"a": "one", "b": "two", "field": "spin", "verdict": "undecided",
-       "more_packings": 3, "more_rotations": 1.5, "detects": 0.75, "rings": [{"ring": 0, "difference": -0.5, "stderr": 0.1, "low": -0.7, "high": -0.3,
+       "detects": 0.75, "rings": [{"ring": 0, "difference": -0.5, "stderr": 0.1, "low": -0.7, "high": -0.3,
                   "margin": 0.56, "verdict": "agree", "detects": 0.75, "within_share": 0.5,
                   "packings": 4},
                  {"ring": 1, "difference": 0.25, "stderr": null, "low": null, "high": null,
@@ -75,17 +75,45 @@ TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
             "one,0,0.25,0.002,,2,,,,8\n");
 }
 
-TEST(Csv, AgreementHasTheFieldsVerdictThenItsRings) {
+TEST(Csv, AgreementHasRingsWithTheirPlaceAndNoVerdict) {
   EXPECT_EQ(agreementCsv(tiny()),
-            "a,b,field,ring,difference,stderr,low,high,margin,verdict,detects,within_share,"
-            "packings,more_packings,more_rotations,regimes_differ\n"
-            "one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,\n"
-            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,agree,0.75,0.5,4,,,\n"
-            "one,two,spin,2,0.25,,,,0.56,undecided,,,,,,\n");
+            "a,b,field,ring,difference,stderr,low,high,margin,place,detects,within_share,"
+            "packings,regimes_differ\n"
+            "one,two,spin,1,-0.5,0.1,-0.7,-0.3,0.56,within,0.75,0.5,4,\n"
+            "one,two,spin,2,0.25,,,,0.56,open,,,,\n");
+}
+
+TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   CompareResults results = tiny();
+  EndpointRow row;
+  row.a = "one";
+  row.b = "two";
+  row.endpoint = "pressure";
+  row.unit = "N/m²";
+  row.margin = 0.25;
+  row.marginRelative = true;
+  results.endpoints.rows = {row};
+  const std::string head =
+      "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
+      "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
+      "regimes_differ\n";
+  // Without a reference nobody knows what a quarter of it is: the fraction stands.
+  EXPECT_EQ(endpointsCsv(results),
+            head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,\n");
+  results.endpoints.rows[0].reference = 200.0;
+  results.endpoints.rows[0].answer = Answer::smallDifference;
+  results.endpoints.rows[0].difference = 20.0;
+  results.endpoints.rows[0].distance = 0.4;
+  results.endpoints.rows[0].look = 2;
+  results.endpoints.rows[0].packings = 15;
+  results.endpoints.rows[0].lost = 1;
+  results.endpoints.rows[0].carrierB = "mirror";
+  results.endpoints.rows[0].bound = 0.01;
   results.regimes = {{"one", "two", PairKind::peer, 4, {1, 3}}};
-  EXPECT_NE(agreementCsv(results).find("one,two,spin,all,,,,,,undecided,0.75,,,3,1.5,2\n"),
-            std::string::npos);
+  EXPECT_EQ(endpointsCsv(results),
+            head +
+                "one,two,peer,pressure,N/m²,50,small_difference,20,,,0.4,,,2,15,1,,,,mirror,"
+                "0.01,2\n");
 }
 
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
@@ -107,6 +135,10 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   one.points.columns[QuantityId::lostStiffening] = {-2e-9};
   one.points.status = {PairStatus::noLimit};
   one.points.reason = {"it jumps"};
+  one.score.verdict = CurveVerdict::fellShort;
+  one.declared.emplace().score.verdict = CurveVerdict::held;
+  one.ownScheme.emplace().position = 1e-14;
+  one.ownScheme->velocity = 2e-14;
   CollisionCurve& two = variant.curves.emplace_back();
   two.engine = "two";
   two.dt = NAN;
@@ -126,10 +158,13 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
             "lost_tangential_damping_J,lost_tangential_damping_reference_J,"
             "lost_sliding_J,lost_sliding_reference_J,lost_stored_J,lost_stored_reference_J,"
             "lost_tangential_J,lost_tangential_reference_J,"
-            "lost_stiffening_J,lost_stiffening_reference_J,reason\n"
+            "lost_stiffening_J,lost_stiffening_reference_J,reason,"
+            "outcome,verdict_scene,verdict_declared,own_scheme\n"
             "one,walton,\"soft, cut\",0.5,0.0001,0.25,-0.125,0.5,,2e-05,no limit,"
-            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09,,,-2e-09,,it jumps\n"
-            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,it hung\n");
+            "0.25,,,,,,,,,,,,,0.002,,,,,,,,,,,,,,1e-09,,,-2e-09,,it jumps,"
+            "model difference,fell short,held,2e-14\n"
+            "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,it hung,"
+            "failed,,,\n");
 }
 
 TEST(Csv, QuotesCommasAndQuotesInNames) {

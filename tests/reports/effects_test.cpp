@@ -9,7 +9,7 @@
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -182,7 +182,7 @@ TEST(EffectsPage, OfSeveralEnginesHasASentenceOnEachAndAStudyOfEach) {
   writeReport(results, folder.path());
   const std::string page = readFile(folder.path() / "report.html").value();
   EXPECT_TRUE(has(page, "<li>On other, 1 of 2 effects"));
-  EXPECT_TRUE(has(page, "<h2 id=\"effects-2\">What each effect costs and changes: other</h2>"));
+  EXPECT_TRUE(has(page, "<h2 id=\"effects-2\">What each effect costs and changes: other<"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots/effects_2_cost.svg"));
 }
 

@@ -12,7 +12,7 @@
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -100,7 +100,7 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
   EXPECT_EQ(message(),
             file +
                 ": cannot be read; a folder that compare, collide, lockstep, effects, cost, "
-                "stability, average or rev wrote has it");
+                "stability, thesis, conformance, average or rev wrote has it");
   writeFile(file, "{\"schema\": ");
   EXPECT_TRUE(message().starts_with(file + ": is not JSON, byte ")) << message();
   writeFile(file, "{\"schema\": \"crossgrain-results-9\"}");
@@ -108,11 +108,10 @@ TEST(Results, SayWhatIsWrongWithAFolder) {
                            ": has schema \"crossgrain-results-9\", this crossgrain reads "
                            "\"crossgrain-results-1\"");
   writeFile(file, "{\"schema\": \"crossgrain-results-1\", \"kind\": \"dance\"}");
-  EXPECT_EQ(
-      message(),
-      file +
-          ": has kind \"dance\", a report is made of one of \"compare\", "
-          "\"collide\", \"lockstep\", \"effects\", \"cost\", \"average\", \"rev\", \"stability\"");
+  EXPECT_EQ(message(), file +
+                           ": has kind \"dance\", a report is made of one of \"compare\", "
+                           "\"collide\", \"lockstep\", \"effects\", \"cost\", \"average\", "
+                           "\"rev\", \"stability\", \"thesis\", \"conformance\"");
 }
 
 }  // namespace

@@ -126,6 +126,39 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
   EXPECT_NE(xml.find("tests=\"1\""), std::string::npos) << xml;
 }
 
+TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
+  CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.5));
+  one.declared.emplace().reference = DeclaredReference::oracle;
+  one.declared->score.of[QuantityId::psiF] = scoreOf(0.05);
+  const std::string model = collideJunit(sweeps({one}));
+  EXPECT_NE(model.find("failures=\"0\""), std::string::npos) << model;
+  EXPECT_NE(model.find("psi_f\" time=\"0.250\"><skipped message=\"model difference: largest "
+                       "error 0.5"),
+            std::string::npos)
+      << model;
+  EXPECT_NE(model.find("psi_f, declared law\" time=\"0.000\"/>"), std::string::npos) << model;
+  one.declared->score.of[QuantityId::psiF] = scoreOf(0.3);
+  const std::string fault = collideJunit(sweeps({one}));
+  EXPECT_NE(fault.find("failures=\"2\""), std::string::npos) << fault;
+}
+
+TEST(CollideJunit, TheOwnSchemeIsACaseOfItsOwn) {
+  CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.05));
+  SchemeScore& own = one.ownScheme.emplace();
+  own.position = 1e-14;
+  own.velocity = 3e-9;
+  own.reason = "not judged: it runs in float precision";
+  EXPECT_NE(collideJunit(sweeps({one})).find("own scheme\" time=\"0.000\"><skipped"),
+            std::string::npos);
+  own.limit = 1e-12;
+  own.held = false;
+  const std::string fault = collideJunit(sweeps({one}));
+  EXPECT_NE(fault.find("<failure message=\"deviates by 1e-14 d and 3e-09 of the speed against a "
+                       "limit of 1e-12\"/>"),
+            std::string::npos)
+      << fault;
+}
+
 TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
   const QuantityScore held = scoreOf(0.05);
   // Of two sweeps only the first shows the quantity.

@@ -4,6 +4,7 @@
 
 #include "reports/common/base64.hpp"
 #include "reports/common/labels.hpp"
+#include "reports/common/packings.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -37,10 +38,11 @@ TEST(Numbers, SettingsKeepTheirDigits) {
   EXPECT_EQ(readableSetting(0.25), "0.25");
 }
 
-TEST(Numbers, PackingsBeyondAnyBudgetAreNotCounted) {
-  EXPECT_EQ(morePackings(1), "about 1 more packing");
-  EXPECT_EQ(morePackings(100), "about 100 more packings");
-  EXPECT_EQ(morePackings(5471), "more than 100 more packings");
+TEST(Numbers, IndicesInARowAreToldByTheirEnds) {
+  EXPECT_EQ(indicesInWords({}), "");
+  EXPECT_EQ(indicesInWords({3}), "3");
+  EXPECT_EQ(indicesInWords({0, 1, 4}), "0, 1, 4");
+  EXPECT_EQ(indicesInWords({0, 2, 3, 4, 5, 7}), "0, 2 to 5, 7");
 }
 
 TEST(Numbers, Durations) {

@@ -11,7 +11,7 @@
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain {
 namespace {
@@ -68,6 +68,30 @@ TEST(Pages, AreSelfContainedAndWellFilled) {
   }
 }
 
+TEST(Pages, LinksLeadSomewhere) {
+  for (const Written* written : {&compared(), &single(), &collided()}) {
+    std::size_t links = 0;
+    for (std::size_t at = 0; (at = written->page.find("href=\"#", at)) != std::string::npos;
+         ++links) {
+      at += 7;
+      const std::string target = written->page.substr(at, written->page.find('"', at) - at);
+      EXPECT_TRUE(has(written->page, " id=\"" + target + "\"")) << target;
+    }
+    EXPECT_GT(links, 20u);
+  }
+}
+
+TEST(Pages, OpenWithTheMatrixAndItsConclusion) {
+  for (const Written* written : {&compared(), &single(), &collided()}) {
+    const std::size_t matrix = written->page.find("id=\"overview\"");
+    ASSERT_NE(matrix, std::string::npos);
+    EXPECT_LT(matrix, written->page.find("<nav>"));
+    EXPECT_LT(written->page.find("class=\"lead\""), written->page.find("<summary>In words"));
+    EXPECT_TRUE(fs::exists(written->folder.path() / "summary.md"));
+    EXPECT_TRUE(readResults(written->folder.path()).contains("overview"));
+  }
+}
+
 TEST(Pages, EscapeWhatUsersWrote) {
   for (const Written* written : {&compared(), &collided()}) {
     EXPECT_TRUE(has(written->page, awkwardAsHtml));
@@ -94,16 +118,38 @@ TEST(ComparePage, ShowsFailedAndRefusedRunsWithTheirReasons) {
 }
 
 TEST(ComparePage, CountsVerdictsInWords) {
-  // The sample's second engine is within all margins, its third outside some in every field.
+  EXPECT_TRUE(has(compared().page, "yade against grain: 2 of 2 endpoints agree."));
+  EXPECT_TRUE(has(compared().page,
+                  "box2d-impulse against grain: 0 of 2 endpoints agree, 1 disagree (pressure), 1 "
+                  "borderline (spin at wheel)."));
   EXPECT_TRUE(
       has(compared().page,
-          "Of 14 comparisons with grain, field by field: 7 agree, 7 disagree, 0 undecided."));
-  EXPECT_TRUE(has(compared().page, "yade against grain: 7 of 7 fields agree."));
+          "Against grain: 2 of 4 endpoints agree, 1 disagree (pressure), 1 borderline (spin "
+          "at wheel)."));
   EXPECT_TRUE(has(compared().page, "yade: 1 of 4 runs did not finish."));
-  EXPECT_TRUE(has(single().page, "0 agree, 0 disagree, 14 undecided."));
-  EXPECT_TRUE(has(single().page, "needs about 3 more packings"));
+  EXPECT_TRUE(has(single().page, "0 of 2 endpoints agree, 2 undecided."));
   EXPECT_TRUE(has(single().page, "Fewer than 4 packings"));
   EXPECT_FALSE(has(compared().page, "Fewer than 4 packings:"));
+}
+
+TEST(ComparePage, ShowsLooksCarriersAndAlarms) {
+  const std::string& page = compared().page;
+  EXPECT_TRUE(has(page, "1 alarm. Against grain:"));
+  EXPECT_TRUE(has(page,
+                  "Alarm. box2d-impulse against grain: 30 % of the disks are gone from the "
+                  "cell."));
+  EXPECT_TRUE(has(page,
+                  "Looked at 4 packings (1 of 2 looks), 2.5 of 5 % chance of error spent; the "
+                  "budget."));
+  EXPECT_TRUE(has(page,
+                  "2 pairs; agree is held endpoint by endpoint, disagree over the endpoints of "
+                  "each pair, at 5 % each."));
+  EXPECT_TRUE(has(page, "by grain~yade, B = 0.00200 margins"));
+  EXPECT_TRUE(has(page,
+                  "yade: by its mirror grain~yade (ε_eq 1.00×10⁻⁵; 16 windows alike leave at "
+                  "most 19 % of states unlike)"));
+  EXPECT_FALSE(has(page, "packings decide with 90 % chance<"));
+  EXPECT_TRUE(has(single().page, "12 to 20 packings decide with 90 % chance<"));
 }
 
 TEST(ComparePage, SaysRegimesAndSteadinessBeforeAnyMean) {
@@ -119,12 +165,13 @@ TEST(ComparePage, SaysRegimesAndSteadinessBeforeAnyMean) {
   EXPECT_TRUE(has(page,
                   "rotations 0.25 to 1.25 since the hand-over, 5.25 to 6.25 since the ring "
                   "had closed"));
-  EXPECT_TRUE(has(page, "<h3>Regimes</h3>"));
-  EXPECT_TRUE(has(page, "<h3>Steady or not</h3>"));
+  EXPECT_TRUE(has(page, "<h3 id=\"regimes\">Regimes<"));
+  EXPECT_TRUE(has(page, "<h3 id=\"steady-or-not\">Steady or not<"));
 }
 
 TEST(ComparePage, VerdictsAreWordsAndSymbolsNotColoursAlone) {
-  EXPECT_TRUE(has(compared().page, "✓ agree</b>"));
+  EXPECT_TRUE(has(compared().page, "✓ agree, no difference seen</b>"));
+  EXPECT_TRUE(has(compared().page, "≈ borderline</b>"));
   EXPECT_TRUE(has(compared().page, "✗ disagree</b>"));
   EXPECT_TRUE(has(single().page, "? undecided</b>"));
 }
@@ -156,12 +203,13 @@ TEST(ComparePage, BarsOfOnePackingAreLabelledConditional) {
 }
 
 TEST(CollidePage, ScoresHeldAndFellShort) {
-  EXPECT_TRUE(has(collided().page, "10 of 14 judged sweeps held to the oracle"));
+  EXPECT_TRUE(
+      has(collided().page, "10 of 14 judged sweeps held within their limits; 4 fell short"));
   // The matrix: of the sample's first engine, 0.5 × 12/50² of the range at the coarsest step, and
   // Ψ_f of the impulse engine half of 0.03 where the limit is 0.01.
   EXPECT_TRUE(has(collided().page, "<td class=\"change agree\"><b>✓ 6 of 6</b></td>"));
   EXPECT_TRUE(has(collided().page,
-                  "<td class=\"change disagree\"><b>✗ 0 of 2</b><small>Ψ<sub>f</sub> 1.5 × its "
+                  "<td class=\"change disagree\"><b>✗ 2 of 2</b><small>Ψ<sub>f</sub> 1.5 × its "
                   "limit</small></td>"));
   EXPECT_TRUE(has(collided().page, "<b>✗ failed</b><small>worker hung &lt;120 s&gt;</small>"));
   EXPECT_TRUE(has(collided().page, "Ψ<sub>f</sub> 0.0024, order 2.00\u00a0±\u00a00.01"));
@@ -216,6 +264,52 @@ TEST(CollidePage, NothingJudgedIsNoSuccess) {
   }
   EXPECT_EQ(reports::nothingJudged(results), "there is no oracle to judge by: no limit");
   EXPECT_EQ(reports::nothingJudged(sample::collideResults()), "");
+}
+
+TEST(CollidePage, TellsModelFromImplementation) {
+  CollideResults results = sample::collideResults();
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves)
+      if (curve.engine == "yade") {
+        DeclaredScore& declared = curve.declared.emplace();
+        declared.law = {{"tension", "cut"}};
+        declared.reference = DeclaredReference::oracle;
+        declared.score = curve.score;
+        declared.score.of[QuantityId::psiF]->max = 0.001;
+        declared.score.of[QuantityId::psiF]->held = true;
+        declared.score.verdict = CurveVerdict::held;
+      }
+  const std::string page = Written(results).page;
+  EXPECT_TRUE(has(page, "differ by their model: they hold to the law that their engine declares"));
+  EXPECT_TRUE(has(page, "<td class=\"change degraded\"><b>≠ 2, ✓ 4 of 6</b>"));
+  EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
+  EXPECT_TRUE(has(page, "<td>declared</td>"));
+  const reports::CollideCount count = reports::countOf(results);
+  EXPECT_EQ(count.modelDifference, 2);
+  EXPECT_EQ(count.fellShort, 2);
+}
+
+TEST(CollidePage, ShowsTheOwnScheme) {
+  CollideResults results = sample::collideResults();
+  SchemeScore& own = results.variants[0].curves[0].ownScheme.emplace();
+  own.position = 2e-14;
+  own.velocity = 1e-9;
+  own.limit = 1e-12;
+  own.held = false;
+  const std::string page = Written(results).page;
+  EXPECT_TRUE(has(page, "<small>own scheme 1×10⁻⁹</small>"));
+  EXPECT_TRUE(has(page, "<td class=\"n disagree\">✗ 1×10⁻⁹</td>"));
+  EXPECT_EQ(reports::outcomeOf(results.variants[0].curves[0]), reports::SweepOutcome::fellShort);
+}
+
+/// A mirror beside its peer says what the peer should do; alone it is an engine like any other.
+TEST(CollidePage, MirrorsBesideTheirPeersAreNotCounted) {
+  CollideResults results = sample::collideResults();
+  const int before = reports::countOf(results).judged();
+  results.engines[1].mirrors = "grain";
+  EXPECT_EQ(reports::countOf(results).judged(), before - 6);
+  results.engines[1].mirrors = "somebody else";
+  EXPECT_EQ(reports::countOf(results).judged(), before);
 }
 
 TEST(CollidePage, NamesPointsWithoutALimitAndWhy) {

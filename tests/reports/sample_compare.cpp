@@ -257,11 +257,47 @@ Json agreement(const std::string& a, const std::string& b, const std::string& ki
       entry["rings"].push_back(row);
     }
     entry["verdict"] = field;
-    entry["more_packings"] = field == "undecided" ? Json(3) : Json(nullptr);
-    entry["more_rotations"] = field == "undecided" && decided ? Json(2.5) : Json(nullptr);
     all.push_back(entry);
   }
   return all;
+}
+
+/// Two endpoints of a pair, `distance` margins apart.
+Json endpoints(const std::string& a, const std::string& b, const std::string& kind, double distance,
+               const char* one, const char* two, const std::string& carrier) {
+  Json rows = Json::array();
+  const bool decided = std::string_view(one) != "undecided";
+  for (const auto& [name, answer] : {std::pair("pressure", one), std::pair("spin_at_wheel", two)}) {
+    const bool ratio = std::string_view(name) == "pressure";
+    Json row = {{"a", a},
+                {"b", b},
+                {"kind", kind},
+                {"endpoint", name},
+                {"unit", ratio ? "N/m²" : "rad/s"},
+                {"margin", 0.25},
+                {"margin_relative", ratio},
+                {"margin_why", "a quarter is half of the spread between packings"},
+                {"answer", answer},
+                {"reference", 100.0},
+                {"difference", 25.0 * distance},
+                {"distance", distance},
+                {"look", 1},
+                {"packings", 4},
+                {"lost", 0}};
+    if (decided) {
+      row["distance_low"] = distance - 0.3;
+      row["distance_high"] = distance + 0.3;
+    } else {
+      row["needs"] = 12;
+      row["needs_at_most"] = 20;
+    }
+    if (!carrier.empty()) {
+      row["carrier_b"] = carrier;
+      row["bound"] = 2e-3;
+    }
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 void append(Json& to, const Json& more) {
@@ -351,6 +387,27 @@ CompareResults compareResults(int packings, int disks) {
   append(results["agreement"], agreement("grain", "grain~yade", "mirror_model", -0.05, decided));
   append(results["agreement"],
          agreement("grain~yade", "yade", "mirror_implementation", -0.01, decided));
+  results["endpoints"] = {
+      {"looks",
+       {{"planned", {{{"packings", 4}, {"alpha", 0.025}}, {{"packings", 8}, {"alpha", 0.025}}}},
+        {"taken", decided ? 1 : 0},
+        {"ended", "the budget"}}},
+      {"rows", endpoints("grain", "yade", "peer", 0.2, decided ? "no_difference_seen" : "undecided",
+                         decided ? "small_difference" : "undecided", "grain~yade")}};
+  Json& rows = results["endpoints"]["rows"];
+  append(rows, endpoints("grain", "box2d-impulse", "peer", 1.1, decided ? "disagree" : "undecided",
+                         decided ? "borderline" : "undecided", ""));
+  if (decided) {
+    results["endpoints"]["alarms"] = {{{"a", "grain"},
+                                       {"b", "box2d-impulse"},
+                                       {"kind", "peer"},
+                                       {"what", "30 % of the disks are gone from the cell"}}};
+    results["endpoints"]["carried"] = {{{"engine", "yade"},
+                                        {"mirror", "grain~yade"},
+                                        {"equivalent", 1e-5},
+                                        {"starts", 16},
+                                        {"carried", true}}};
+  }
   return compareFromJson(results);
 }
 

@@ -5,7 +5,9 @@
 #include "results/collision.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
+#include "results/lockstep.hpp"
 #include "results/stability.hpp"
+#include "results/thesis.hpp"
 
 /// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
@@ -25,9 +27,16 @@ EffectsResults effectsResults(int packings);
 /// Two hard cases on two engines: every verdict once.
 StabilityResults stabilityResults();
 
+/// One engine that is its law, one whose tangential damping is off, one without a mirror.
+LockstepResults lockstepResults();
+
 /// Three engines of known order and cost, a scheme that claims an order it does not have, failures
 /// past the stability limit, points that the budget did not allow, one engine that refused.
 CostResults costResults();
+
+/// Eleven densities on the thesis' rings, two packings of an engine, one of another at low density;
+/// exponentials and powers that tests know.
+ThesisResults thesisResults();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

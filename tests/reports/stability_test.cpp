@@ -7,7 +7,7 @@
 #include "reports/stability/table.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {

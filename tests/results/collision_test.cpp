@@ -31,6 +31,8 @@ CollisionCurve curveOfTwo() {
   en.max = 0.1;
   en.unit = 3.0;
   curve.score.verdict = CurveVerdict::held;
+  curve.declared = {{{"tension", "cut"}, {"gt", 0.0}}, DeclaredReference::mirror, curve.score, "?"};
+  curve.ownScheme = {"position_verlet", 1e-14, 2e-14, 1e-12, true, ""};
   return curve;
 }
 
@@ -65,6 +67,8 @@ TEST(CollideResults, OnlyColumnsOfWhichSomethingIsKnownAreThere) {
   EXPECT_EQ(none["points"], Json::object());
   EXPECT_FALSE(none.contains("stats"));
   EXPECT_TRUE(none["realised"].is_null());
+  EXPECT_TRUE(none["declared"].is_null());
+  EXPECT_FALSE(none.contains("own_scheme"));
 }
 
 TEST(CollideResults, ScoresOfPsiAndRestitutionStandThereTwice) {

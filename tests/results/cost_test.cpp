@@ -21,6 +21,10 @@ CostPoint point() {
   point.error = 0.1;
   point.statistical = 0.01;
   point.systematic = 0.0995;
+  point.low = 0.05;
+  point.high = 0.15;
+  point.equivalent = 1e-3;
+  point.bound = 4e-3;
   point.wallSeconds = 1.5;
   point.cpuSeconds = 1.4;
   point.steps = 157080;
@@ -72,6 +76,10 @@ CostResults study() {
   advice.kinds = {CostKind::collision, CostKind::averages};
   advice.cheapest = true;
   results.advice = {advice};
+  results.models = {{"grain", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
+  results.averages.responses = {{"stress_rr", "kn", 0.1, 0.2, 0.5}};
+  results.cells = {{"grain", CostKind::averages, CostBasis::scene, 0.01, CostVerdict::notReached}};
+  results.cells[0].model = 0;
   return results;
 }
 
@@ -89,6 +97,9 @@ TEST(CostResults, AreWrittenAsTheLayoutSays) {
   EXPECT_EQ(json["orders"][0]["theory"].dump(), "2.0");
   EXPECT_EQ(json["cheapest"][0]["want"], 0.01);
   EXPECT_EQ(json["advice"][0]["cost_kind"], "averages");
+  EXPECT_EQ(json["cells"][0]["basis"], "scene");
+  EXPECT_EQ(json["cells"][0]["verdict"], "not reached");
+  EXPECT_EQ(json["points"][0]["bound"], 4e-3);
   EXPECT_EQ(json["trajectory"]["growth"][1]["separation"], 2e-10);
   EXPECT_EQ(toJson(CostResults{})["theory"].dump(), "{}");
   EXPECT_FALSE(toJson(CostResults{}).contains("trajectory"));

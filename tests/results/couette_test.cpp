@@ -141,11 +141,23 @@ TEST(CompareResults, RoundTrip) {
   row.b = "two";
   row.margin = 0.25;
   row.marginRelative = true;
-  row.morePackings = 3;
   row.rings = {ring};
   results.agreement = {row};
   results.nothingJudged = NothingJudged{"one engine", true};
+  EndpointRow endpoint;
+  endpoint.endpoint = "pressure";
+  endpoint.answer = Answer::borderline;
+  endpoint.distance = -0.99;
+  endpoint.carrierB = "mirror";
+  endpoint.bound = 1e-3;
+  results.endpoints = {{{{8, 0.0125}}, 1, 120.0, "all is decided"},
+                       {endpoint},
+                       {{"one", "two", PairKind::peer, "far off"}},
+                       {{"two", "mirror", 1e-5, 16, 0, {{"pressure", 0.5, 1.0, {}}}, "", true}},
+                       {{"pressure", "kn", 0.1, 0.2, 0.5, 0.3, 8}}};
   const Json there = toJson(results);
+  EXPECT_EQ(there["endpoints"]["rows"][0]["answer"], "borderline");
+  EXPECT_EQ(there["endpoints"]["carried"][0]["canary"][0]["chance"], nullptr);
   EXPECT_EQ(toJson(compareFromJson(Json::parse(there.dump()))).dump(), there.dump());
   EXPECT_EQ(there["agreement"][0]["rings"][0]["scale"], "logarithmic");
   EXPECT_EQ(there["regimes"][0]["kind"], "mirror_model");

@@ -14,8 +14,8 @@ namespace crossgrain::test {
 inline const EngineEntry inHouse{"grain", "", makeGrain, {}, {}, ""};
 
 inline std::vector<std::string> costOverrides() {
-  return {"cost.collision_steps=[200, 100, 50, 1.2]", "cost.psi_count=9", "cost.timed=1e-4",
-          "cost.repeats=1"};
+  return {"cost.collision_steps=[200, 100, 50, 1.2]", "cost.psi_count=9",
+          "cost.collision_reference=800", "cost.timed=1e-4", "cost.repeats=1"};
 }
 
 inline Case costCase(const std::string& fragment = {}) {

@@ -146,6 +146,52 @@ TEST(CostSettings, WhatAnEngineLacksIsThereWithItsReason) {
   EXPECT_EQ(find(pairs, "precision", "float").refusal, "runs in double only");
 }
 
+TEST(CostSettings, AveragesUnderOtherIntegratorsAreBoundedOnly) {
+  const Case setup = test::costCase();
+  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
+  for (const double n : {setup.cost.averageSteps.front(), setup.cost.boundSteps.front()}) {
+    const CostSetting& euler =
+        find(settings, "integrator", fmt::format("semi_implicit_euler, t_c/{:g}", n));
+    EXPECT_TRUE(euler.windowsOnly);
+    EXPECT_EQ(euler.refusal, "");
+    EXPECT_EQ(lawOptionValue(euler.setup.law, "integrator"), "semi_implicit_euler");
+    EXPECT_DOUBLE_EQ(timeStep(euler.setup), costContactTime(setup) / n);
+  }
+  EXPECT_FALSE(find(settings, "time_step", fmt::format("t_c/{:g}", setup.cost.averageSteps.front()))
+                   .windowsOnly);
+}
+
+/// Johnson (1985), Eq. 11.24: T = 2.9432 δ_max/v, and δ_max^(5/2) = 15 m₁₂ v²/(16 E₁₂ √R₁₂).
+TEST(CostSettings, StepsOfHertzLawAreCountedInAnImpactAtTheSpeedOfTheCollisions) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
+  setup.cost.speed = 0.02;
+  const Particles& disks = setup.particles;
+  const double mass = disks.smallMass / 2.0, radius = disks.smallRadius / 2.0;
+  const double modulus = 0.75 * setup.law.kn;  // k_n = 4/3 E₁₂
+  const double deepest =
+      std::pow(15.0 * mass * 0.02 * 0.02 / (16.0 * modulus * std::sqrt(radius)), 0.4);
+  EXPECT_NEAR(costContactTime(setup), 2.9432 * deepest / 0.02, 1e-4 * costContactTime(setup));
+  const Case fine = caseWith(setup, stepFragment(setup, "grain", grainCan(), 100.0));
+  EXPECT_DOUBLE_EQ(timeStep(fine), costContactTime(setup) / 100.0);
+}
+
+TEST(CostSettings, ALawThatTheCaseHasNoConstantsForIsRefused) {
+  const Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
+  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
+  EXPECT_NE(find(settings, "tangential", "viscous").refusal.find("law.gt is missing"),
+            std::string::npos);
+  EXPECT_EQ(find(settings, "tangential", "coulomb").refusal, "");
+}
+
+TEST(CostSettings, SofterBodiesHaveTheSameRestitution) {
+  const Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
+  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
+  const Case& soft = find(settings, "stiffness", "0.25 k_n").setup;
+  EXPECT_DOUBLE_EQ(soft.law.kn, 0.25 * setup.law.kn);
+  EXPECT_DOUBLE_EQ(soft.law.kt, 0.25 * setup.law.kt);
+  EXPECT_EQ(soft.law.gn, setup.law.gn);  // of critical damping
+}
+
 TEST(CostSettings, AnEnginesOwnSettingsAreThoseOfTheCase) {
   const auto settings = settingsOf(CostKind::trajectory, test::costCase(), grainCan());
   const CostSetting& skin = find(settings, "skin", "skin = 0.001");
@@ -155,9 +201,9 @@ TEST(CostSettings, AnEnginesOwnSettingsAreThoseOfTheCase) {
   EXPECT_THROW(settingsOf(CostKind::trajectory, wrong, grainCan()), BadInput);
 }
 
-TEST(CostSettings, AHertzContactHasNoTimeToCountStepsIn) {
+TEST(CostSettings, RigidDisksHaveNoTimeToCountStepsIn) {
   Case setup = test::costCase();
-  setup.law.normal = NormalLaw::hertz;
+  setup.law.normal = NormalLaw::rigid;
   EXPECT_THROW(costContactTime(setup), BadInput);
 }
 

@@ -9,6 +9,7 @@
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "results/cost_fields.hpp"
+#include "runs/cost/equivalents.hpp"
 #include "runs/cost/limits.hpp"
 #include "tests/runs/cost_cases.hpp"
 
@@ -109,6 +110,34 @@ TEST_F(LatticeInTheCell, ErrorsFallWithTheStep) {
   };
   EXPECT_LT(errorAt("100"), 0.5 * errorAt("20"));
   EXPECT_GT(errorAt("100"), 0.0);
+}
+
+/// ε_eq of a run with k_n + 1 % is 1 %, and of one at another step less the nearer that is.
+TEST_F(LatticeInTheCell, AChangeOfStiffnessIsItsOwnEquivalent) {
+  const double diameter = 2.0 * setup_.particles.smallRadius;
+  const std::vector<double> times = windowTimes(setup_);
+  ASSERT_EQ(times.size(), 3u);  // 1, 5 and 23 t_c of 2.18 ms
+  EXPECT_NEAR(times[1], 5.0 * costContactTime(setup_), 1e-12);
+  const auto engine = makeGrain();
+  const std::vector<FlowState> states = {{{}, packing_}};
+  const auto at = [&](double steps, double stiffer) {
+    Case setup = setup_;
+    setup.run.dt = costContactTime(setup_) / steps;
+    setup.law.kn *= 1.0 + stiffer;
+    return setup;
+  };
+  const auto follow = [&](double steps, double stiffer) {
+    return followStarts(*engine, test::inHouse, at(steps, stiffer), states, times);
+  };
+  const auto reference = follow(200, 0.0);
+  const Scene scene = couetteScene(setup_, packing_, costContactTime(setup_) / 200);
+  const auto responses = windowResponses(*engine, {scene}, times, diameter);
+  const auto equivalent = [&](const std::vector<Track>& tracks) {
+    return equivalentOf(tracks, reference, responses, diameter);
+  };
+  EXPECT_EQ(equivalent(reference).value_or(0.0), 0.0);
+  EXPECT_NEAR(*equivalent(follow(200, 0.01)), 0.01, 0.002);
+  EXPECT_LT(*equivalent(follow(100, 0.0)), *equivalent(follow(20, 0.0)));
 }
 
 TEST_F(LatticeInTheCell, APackingThatBlowsUpSaysSo) {

@@ -139,6 +139,9 @@ TEST(VelocityNotes, SayWhetherTheMirrorExplainsADifference) {
       run.profiles[0].mean = Numbers(3, 1.0);  // the mirror stays with the reference
   notes = velocityNotes(results);
   EXPECT_NE(notes[0].find("is not what makes the difference"), std::string::npos);
+
+  std::erase_if(results.runs, [](const CouetteRun& run) { return run.packing > 0; });
+  EXPECT_TRUE(velocityNotes(results).empty());  // one packing has no interval
 }
 
 }  // namespace

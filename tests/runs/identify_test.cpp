@@ -13,6 +13,7 @@
 #include "cases/time_step.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "tests/runs/planted_engine.hpp"
+#include "tests/runs/quick_flow.hpp"
 
 namespace {
 
@@ -20,21 +21,11 @@ using namespace crossgrain;
 
 class Identify : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    setup_ = new Case(loadCase(CROSSGRAIN_CASES "/couette/quick.toml", {}).front());
-    dt_ = timeStep(*setup_);
-    const auto engine = makeGrain();
-    const auto nobody = [](double) {};
-    const std::vector<Packing> packings = {packingOf(*setup_, 0, dt_, *engine, nobody)};
-    states_ = new std::vector(statesAlongTheFlow(*setup_, packings, dt_, 3, nobody));
-  }
-  static void TearDownTestSuite() {
-    delete setup_;
-    delete states_;
-  }
+  static void SetUpTestSuite() { flow_ = new test::QuickFlow(3); }
+  static void TearDownTestSuite() { delete flow_; }
 
   static Identification of(Engine& engine, const EngineEntry& entry) {
-    return identify(engine, entry, *setup_, *states_, dt_, [](double) {});
+    return identify(engine, entry, flow_->setup, flow_->states, flow_->dt, [](double) {});
   }
   static Identification of(std::function<void(Scene&)> fault) {
     test::PlantedEngine engine(std::move(fault));
@@ -45,9 +36,7 @@ class Identify : public testing::Test {
     return option == found.options.end() ? nullptr : &*option;
   }
 
-  static inline Case* setup_ = nullptr;
-  static inline std::vector<FlowState>* states_ = nullptr;
-  static inline double dt_ = 0.0;
+  static inline test::QuickFlow* flow_ = nullptr;
 };
 
 TEST_F(Identify, TheCasesOwnLawIsFoundAsItIs) {
@@ -57,7 +46,7 @@ TEST_F(Identify, TheCasesOwnLawIsFoundAsItIs) {
   EXPECT_EQ(found.left, 0.0);
   EXPECT_TRUE(found.constants.empty());
   for (const FoundOption& option : found.options)
-    EXPECT_EQ(option.values.front(), lawOptionValue(setup_->law, option.name)) << option.name;
+    EXPECT_EQ(option.values.front(), lawOptionValue(flow_->setup.law, option.name)) << option.name;
 }
 
 /// Every other value of every option that has a bearing on the law is found, or told as one that
@@ -67,11 +56,11 @@ TEST_F(Identify, EachConventionByItself) {
   int found = 0, alike = 0;
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);
-    if (!mattersTo(setup_->law, name) || name == "normal" || name == "damper" ||
+    if (!mattersTo(flow_->setup.law, name) || name == "normal" || name == "damper" ||
         name == "tangential")
       continue;
     for (const std::string& value : can.lawOptions.at(name)) {
-      if (value == lawOptionValue(setup_->law, name)) continue;
+      if (value == lawOptionValue(flow_->setup.law, name)) continue;
       const Identification seen = of([&](Scene& scene) { setLawOption(scene.law, name, value); });
       EXPECT_LT(seen.left, lockstepRounding) << name << " = " << value;
       const FoundOption* const told = optionOf(seen, name);

@@ -136,15 +136,17 @@ TEST(FirstExceedance, NamesTheContactWhoseForcesDifferMost) {
                    Row().with(0, 1, 1.0).with(1, 3, 2.0, 0.4, true).at(0.2)};
   Row theirs = Row().with(0, 1, 1.0).with(1, 3, 1.0, 0.4, true);
   window.engine = {Row().with(0, 1, 1.0).at(0.1), theirs.at(0.2)};
-  EXPECT_FALSE(firstExceedance(window, 2.0, 1e-10, 3));
+  EXPECT_FALSE(firstExceedance(window, 2.0, {1e-10, 1e-10}, 3));
   window.engine[1].position[1].x() += 1e-6;
-  const auto first = firstExceedance(window, 2.0, 1e-10, 3);
+  const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->after, 0.1);
   EXPECT_EQ(first->until, 0.2);
   EXPECT_EQ(first->disk, 1u);
   EXPECT_EQ(first->partner, std::optional<std::size_t>(3));
   EXPECT_EQ(first->contact, "new, sliding, wall");
+  EXPECT_EQ(first->touching, 2u);
+  EXPECT_FALSE(firstExceedance(window, 2.0, {1e-10, 1e-6}, 3));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using namespace crossgrain;
 
-Case quick(const std::vector<std::string>& changes = {}) {
+Case quickCell(const std::vector<std::string>& changes = {}) {
   return loadCase(CROSSGRAIN_CASES "/couette/quick.toml", changes).front();
 }
 
@@ -32,7 +32,7 @@ std::vector<EngineEntry> mirrors() {
 
 /// Whatever the peer, and from nothing but its capabilities: what it lacks is gone.
 TEST(MirrorScene, HasTheEffectsOfThePeer) {
-  const Case setup = quick();
+  const Case setup = quickCell();
   const Scene scene = sceneOf(setup);
   ASSERT_TRUE(effectsOf(scene).contains(Effect::bottomFriction));
   for (const EngineEntry& mirror : mirrors()) {
@@ -51,7 +51,7 @@ TEST(MirrorScene, HasTheEffectsOfThePeer) {
 
 /// The registry's conventions of a mirror are those that its peer declares.
 TEST(MirrorScene, HasTheConventionsOfThePeer) {
-  const Case setup = quick();
+  const Case setup = quickCell();
   const Scene scene = sceneOf(setup);
   for (const EngineEntry& mirror : mirrors()) {
     const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
@@ -72,7 +72,7 @@ TEST(MirrorScene, HasTheConventionsOfThePeer) {
 }
 
 TEST(MirrorScene, SaysWhatItTookFromThePeer) {
-  const Case setup = quick();
+  const Case setup = quickCell();
   const Adapted seen = sceneOfPeer(*findEngine("grain-as-box2d-penalty"), setup, sceneOf(setup));
   ASSERT_FALSE(seen.deviations.empty());
   for (const Deviation& deviation : seen.deviations)
@@ -80,7 +80,7 @@ TEST(MirrorScene, SaysWhatItTookFromThePeer) {
 }
 
 TEST(MirrorScene, IsRefusedWhereThePeerIs) {
-  const Case setup = quick({"run.may_differ=[\"integrator\"]"});
+  const Case setup = quickCell({"run.may_differ=[\"integrator\"]"});
   const EngineEntry& mirror = *findEngine("grain-stiff");
   try {
     sceneOfPeer(mirror, setup, sceneOf(setup));
@@ -94,7 +94,7 @@ TEST(MirrorScene, IsRefusedWhereThePeerIs) {
 TEST(MirrorScene, OfAnEngineThatIsNotHereSaysSo) {
   EngineEntry mirror = *findEngine("grain-as-yade");
   mirror.mirrors = "nobody";
-  const Case setup = quick();
+  const Case setup = quickCell();
   const Scene scene = sceneOf(setup);
   const Adapted seen = sceneOfPeer(mirror, setup, scene);
   ASSERT_EQ(seen.deviations.size(), 1u);

@@ -11,7 +11,7 @@
 #include "stability/verdict.hpp"
 #include "support/bad_input.hpp"
 #include "tests/mischief/entries.hpp"
-#include "tests/reports/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace {
 

@@ -3,12 +3,16 @@
 CROSSGRAIN in the environment is the program; CROSSGRAIN_CACHE where packings are kept.
 """
 
+import fcntl
 import json
 import os
 import pathlib
+import pty
 import re
+import struct
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 import uuid
@@ -110,6 +114,26 @@ class Running:
         self.process.wait()
         self._out.close()
         self._err.close()
+
+
+def on_terminal(columns, stream, arguments, env=None):
+    """Runs the program with one of its streams ("stdout", "stderr") on a pseudo-terminal of that width.
+    Returns its status and what it drew there."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 24, columns, 0, 0))
+    silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL} | {stream: theirs}
+    with subprocess.Popen(
+        [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment(env), **silent
+    ) as process:
+        os.close(theirs)
+        drawn = b""
+        try:
+            while part := os.read(ours, 65536):
+                drawn += part
+        except OSError:  # EIO: the other end is closed
+            pass
+        os.close(ours)
+    return process.returncode, drawn.decode()
 
 
 def wait_for(condition, seconds, what):

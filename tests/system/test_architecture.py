@@ -14,12 +14,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # one job makes use of another.
 ORDER = [
     "support",
-    "engines/grain", "engines/box2d",
+    "continuum",
+    "engines/cpp", "engines/grain", "engines/box2d",
     "adapters", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
-    "reports/common", "reports/lockstep", "reports/couette", "reports/collide", "reports/effects", "reports/cost", "reports/stability",
+    "reports/common", "reports/lockstep", "reports/couette", "reports/diff", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/stability", "reports/thesis",
     "reports",
-    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/stability", "runs/effects", "runs/cost", "runs/check",
+    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/conformance", "runs/stability", "runs/effects", "runs/cost", "runs/baseline", "runs/check", "runs/thesis",
     "cli",
 ]  # fmt: skip
 

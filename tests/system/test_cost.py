@@ -22,6 +22,8 @@ COLUMNS = (
     "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason"
 ).split(",")
 
+DECIDED = ("reached", "not reached")
+
 COLLISIONS = settings(cost__kinds=["collision"])
 FEW = settings(cost__knobs=["time_step", "snapshots", "omega"])
 
@@ -62,9 +64,17 @@ class Results(CostTest):
             if point["error"] is not None:
                 self.assertGreaterEqual(point["error"], 0.0)
         for point in self.points("averages"):
-            if point["measure"] == "stress_rr":
+            if point["measure"] == "stress_rr" and point["error"] is not None:
                 self.assertGreater(point["statistical"], 0.0)
         results = self.results()
+        cells = results["cells"]
+        self.assertEqual(3 * 2 * 3, len(cells))  # kinds, bases, accuracies
+        decided = [c for c in cells if c["basis"] == "own" and c["verdict"] in DECIDED]
+        self.assertIn(f"is decided for {len(decided)} of 9 against engines' own", done.stdout)
+        for cell in cells:
+            if cell["verdict"] == "reached":
+                self.assertGreater(cell["wall_s"], 0.0)
+                self.assertIsNotNone(cell["point"])
         self.assertGreater(results["trajectory"]["window_s"], 0.0)
         self.assertEqual(2, results["theory"]["grain"])
         self.assertEqual(["grain"], [row["engine"] for row in results["startup"]])
@@ -89,6 +99,29 @@ class Results(CostTest):
     def test_json_prints_only_the_path(self):
         done = self.cost("--quiet", "--json", *COLLISIONS)
         self.assertEqual(f"{self.out / 'results.json'}\n", done.stdout)
+
+
+class Bounds(CostTest):
+    def test_averages_are_bounded_by_their_response(self):
+        self.assert_status(self.cost("--quiet", *settings(
+            cost__kinds=["averages"], cost__knobs=["time_step"])), HELD)  # fmt: skip
+        responses = self.results()["averages"]["responses"]
+        self.assertEqual({"kn", "mu"}, {response["constant"] for response in responses})
+        largest = max(r["bound"] for r in responses if r["measure"] == "stress_level")
+        for point in self.points():
+            if point["status"] != "ran" or point["measure"] != "stress_level":
+                continue
+            self.assertAlmostEqual(
+                point["equivalent"] / 0.1 * largest, point["bound"], delta=1e-9 * point["bound"]
+            )
+        # Only bounded, at a smaller step than those that are run: and nearer to the limit.
+        bounds = {p["setting"]: p["equivalent"] for p in self.points() if p["status"] == "ran"}
+        self.assertLess(bounds["t_c/200"], bounds["t_c/50"])
+        self.assertLess(bounds["t_c/50"], bounds["t_c/10"])
+        for point in self.points():
+            if point["setting"] == "t_c/200":
+                self.assertIsNone(point["error"])
+                self.assertGreater(point["wall_s"], 0.0)
 
 
 class Budget(CostTest):

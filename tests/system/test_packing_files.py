@@ -55,6 +55,10 @@ class PackingFiles(SystemTest):
             radius=[SMALL] * 12, position=position,
         )  # fmt: skip
 
+    def test_an_engine_that_cannot_prepare_packings(self):
+        done = self.compare("--quiet", "--set=preparation.engine=box2d-penalty")
+        self.assert_one_line(done, BAD_INPUT, "box2d-penalty cannot prepare packings of", "moves radially")
+
     def test_more_overlap_can_be_allowed(self):
         position = ring_of_disks(12)
         position[7] = (position[3][0], position[3][1] + 2 * SMALL - 0.001)  # 1 mm of overlap

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <optional>
 #include <tuple>
 
+#include "engines/grain/law_types.hpp"
 #include "tests/unit/grain_packed.hpp"
 
 // Kernels in which a scene's effects are compiled in, against the one that decides at run time.
@@ -85,6 +88,50 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(Integrator::positionVerlet, Integrator::velocityVerlet,
                                      Integrator::semiImplicitEuler),
                      testing::Values(Precision::float64, Precision::float32)));
+
+/// The law with those conventions, the scene as in the thesis' cell.
+grain::Setup underConventions(const Conventions& conventions, bool cut, Precision precision) {
+  grain::Setup setup =
+      scene(Tangential::springDashpot, cut, Dashpot::lagged, true, Plate::spinning, false);
+  setup.precision = precision;
+  setup.law.history = conventions.history;
+  setup.law.bound = conventions.bound;
+  setup.law.lever = conventions.lever;
+  setup.law.velocityLever = conventions.velocityLever;
+  setup.law.planeLever = conventions.planeLever;
+  setup.law.stretch = conventions.stretch;
+  setup.law.dashpotOutsideBound = conventions.dashpotOutsideBound;
+  setup.law.resetSpringOnly = conventions.resetSpringOnly;
+  return setup;
+}
+
+TEST(Specialisation, ConventionsOfOtherEnginesGiveTheBitsOfTheGeneralKernel) {
+  for (std::size_t set = 0; set < std::size(conventionSets); ++set)
+    for (const bool cut : {false, true})
+      for (const Precision precision : {Precision::float64, Precision::float32}) {
+        grain::Setup setup = underConventions(conventionSets[set], cut, precision);
+        ASSERT_EQ(conventionSet(generalLaw<double>(setup.law, setup.dt, true)), set);
+        grain::Setup general = setup;
+        general.generalKernels = true;
+        Simulation special(std::move(setup)), reference(std::move(general));
+        special.advance(steps);
+        reference.advance(steps);
+        EXPECT_EQ(test::difference(special, reference), "") << "set " << set << ", cut " << cut;
+      }
+}
+
+TEST(Specialisation, ConventionsWithoutKernelsOfTheirOwnRunTheGeneralOnes) {
+  Law law = underConventions(conventionSets[1], true, Precision::float64).law;
+  law.stretch = Stretch::midpoint;
+  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), std::nullopt);
+  law = underConventions(conventionSets[0], true, Precision::float64).law;
+  law.normal = Normal::hertz;
+  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), std::nullopt);
+  // A plane's lever says nothing where levers are radii.
+  law.normal = Normal::linear;
+  law.planeLever = PlaneLever::middle;
+  EXPECT_EQ(conventionSet(generalLaw<double>(law, 1e-5, true)), 0u);
+}
 
 TEST(Specialisation, EffectsChangeTheRun) {
   // Else the comparison above could not tell one kernel from another.

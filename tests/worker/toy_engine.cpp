@@ -8,45 +8,11 @@
 #include <cstdlib>
 #include <limits>
 
-#include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
 #include "tests/support/thesis.hpp"
+#include "tests/worker/lying_worker.hpp"
 
 namespace crossgrain::test {
-namespace {
-
-/// A worker that needs nothing of this project but its JSON: it promises more than it writes.
-int shortFileWorker() {
-  std::FILE* requests = ::fdopen(3, "r");
-  char* line = nullptr;
-  std::size_t size = 0;
-  while (::getline(&line, &size, requests) > 0) {
-    const auto request = nlohmann::json::parse(line);
-    nlohmann::json reply = {{"ok", true},
-                            {"protocol", protocolVersion},
-                            {"capabilities", toJson(ToyEngine().capabilities())},
-                            {"realised", toJson(Realised{})}};
-    if (request.at("request") == "snapshot") {
-      ArrayWriter arrays;
-      reply["snapshot"] = toJson(Snapshot{}, arrays);
-      std::FILE* file = std::fopen(request.at("file").get<std::string>().c_str(), "w");
-      std::fputs("8 bytes.", file);
-      std::fclose(file);
-      reply["arrays"] = {{{"name", "position"}, {"type", "f64"}, {"count", 4}, {"offset", 0}}};
-    }
-    const std::string text = reply.dump() + "\n";
-    if (::write(4, text.data(), text.size()) < 0) break;
-  }
-  std::free(line);
-  return 0;
-}
-
-void sayGarbage() {
-  const std::string text = "Welcome to the engine!\n";
-  if (::write(4, text.data(), text.size()) < 0) std::abort();
-}
-
-}  // namespace
 
 Capabilities ToyEngine::capabilities() const {
   Capabilities can;
@@ -59,17 +25,23 @@ Capabilities ToyEngine::capabilities() const {
   can.energyLedger = true;
   can.settings.push_back({"threads", 1.0, "", "how many", {}});
   can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});
+  if (mischief_ == "option") can.lawOptions["colour"] = {"red"};
+  if (mischief_ == "value") can.lawOptions["tension"] = {"red"};
+  if (mischief_ == "no value") can.lawOptions["tension"] = {};
   return can;
 }
 
 Realised ToyEngine::load(const Scene& scene, const Settings& settings) {
-  if (settings.contains("refuse")) throw UnsupportedScene("has no such thing");
+  if (const auto refused = settings.find("refuse"); refused != settings.end()) {
+    const auto* reason = std::get_if<std::string>(&refused->second);
+    throw UnsupportedScene(reason ? *reason : "has no such thing");
+  }
   if (settings.contains("throw")) throw std::runtime_error("could not allocate");
   scene_ = scene;
   steps_ = 0;
   Realised realised;
   realised.engine = "toy";
-  realised.dt = scene.dt;
+  realised.dt = mischief_ == "step" ? 0.0 : scene.dt;
   realised.effects = effectsOf(scene);
   realised.pairs.push_back({"a – b", scene.law.kn, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
   realised.deviations.push_back({"rounding", 1e-300, "m", "a sentence"});
@@ -93,7 +65,14 @@ double ToyEngine::advance(double t) {
     std::fputs("hanging\n", stderr);
     ::pause();
   }
-  if (mischief_ == "garbage") sayGarbage();
+  if (mischief_ == "garbage") say("Welcome to the engine!\n");
+  if (mischief_ == "deep") say(deepAnswer());
+  while (mischief_ == "endless") say(std::string(65536, 'x'));
+  if (mischief_ == "log") {
+    std::fprintf(stderr, "%s\nlast words\n", std::string(100'000, 'y').c_str());
+    std::exit(3);
+  }
+  if (mischief_ == "disk" && ::ftruncate(1, off_t{5} << 30) != 0) std::abort();
   if (mischief_ == "print") std::puts("{\"ok\":false} printed, not said");
   if (mischief_ == "offspring" && ::fork() == 0) ::pause();
   steps_ = static_cast<std::uint64_t>(std::llround(t / scene_.dt));
@@ -166,7 +145,7 @@ Scene toyScene() {
 }
 
 int toyWorker(const std::string& mischief) {
-  if (mischief == "short") return shortFileWorker();
+  if (liesAboutFiles(mischief)) return lyingWorker(mischief);
   ToyEngine engine(mischief);
   return serve(engine);
 }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "adapters/worker/answer.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -136,6 +137,54 @@ TEST_F(Worker, IsDistrusted) {
             "not of 0 ≤ i < j < 5");
 }
 
+TEST_F(Worker, HasBoundsOnWhatItSays) {
+  EXPECT_EQ(advanceFailure("deep"),
+            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) has more than 16 objects and "
+            "lists in each other");
+  EXPECT_EQ(advanceFailure("endless"),
+            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) is longer than 8 MiB");
+  const auto worker = start("");
+  const std::string refusal = failureOf<UnsupportedScene>([&] {
+    worker->load(test::toyScene(), {{"refuse", std::string(1'000'000, 'x') + "\nmore"}});
+  });
+  EXPECT_EQ(refusal, std::string(longestReason, 'x') + " …");
+}
+
+TEST_F(Worker, HasBoundsOnWhatItWrites) {
+  EXPECT_EQ(advanceFailure("log"),
+            "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s); the end of its "
+            "log: " +
+                std::string(200, 'y') + " … | last words");
+  EXPECT_EQ(advanceFailure("disk"),
+            "toy, toy at t = 0 s: ended (signal 25 (File size limit exceeded)) during advance(t = "
+            "0.5 s)");
+  EXPECT_EQ(snapshotFailure("pipe"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is not a regular "
+            "file");
+  EXPECT_EQ(snapshotFailure("device"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is not a regular "
+            "file");
+  // The file does have that many, and takes no room: all but its beginning is a hole.
+  EXPECT_EQ(snapshotFailure("many"),
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: it lists 500000000 "
+            "contacts, more than 500 of 5 bodies");
+}
+
+TEST_F(Worker, SaysAtOnceWhatCannotBe) {
+  EXPECT_EQ(failureOf([&] { start("option"); }),
+            "toy: its answer to hello is unusable: unknown law option 'colour' (there are: normal, "
+            "damper, tangential, tension, coulomb_bound, dashpot, spring_reset, spring_update, "
+            "lever_arm, velocity_arm, plane_arm, history, damping_velocity, integrator)");
+  EXPECT_EQ(failureOf([&] { start("value"); }),
+            "toy: its answer to hello is unusable: tension cannot be 'red' (it is one of: allow, "
+            "cut)");
+  EXPECT_EQ(failureOf([&] { start("no value"); }),
+            "toy: its answer to hello is unusable: law_options: tension has no value");
+  EXPECT_EQ(failureOf([&] { start("step")->load(test::toyScene(), {}); }),
+            "toy, toy at t = 0 s: its answer to load is unusable: dt = 0 s is no time step, with "
+            "4e-05 s in the scene");
+}
+
 TEST_F(Worker, MayPrintWhatItLikes) {
   {
     const auto worker = start("print");
@@ -149,9 +198,9 @@ TEST_F(Worker, MayPrintWhatItLikes) {
 }
 
 TEST_F(Worker, ThatCannotBeStartedSaysWhy) {
-  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {"/no/such/program"}, scratch_, 1.0); }),
+  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {{"/no/such/program"}}, scratch_, 1.0); }),
             "toy: cannot start /no/such/program: No such file or directory");
-  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {"true"}, scratch_, 5.0); }),
+  EXPECT_EQ(failureOf([&] { WorkerEngine("toy", {{"true"}}, scratch_, 5.0); }),
             "toy: ended (exit status 0) during hello");
 }
 

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/audit.hpp"
+#include "adapters/audit_geometry.hpp"
+#include "adapters/near_pairs.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr double meansOverSteps = 1.5;  // a mean over more belongs to no positions
+
+/// Contacts by their first disk: those of i are order[begin[i]] … order[begin[i + 1] − 1].
+struct ByFirst {
+  std::vector<std::size_t> begin, order;
+
+  ByFirst(const Contacts& contacts, std::size_t disks) : begin(disks + 1), order(contacts.size()) {
+    for (const std::int32_t i : contacts.i) ++begin[static_cast<std::size_t>(i) + 1];
+    for (std::size_t i = 0; i < disks; ++i) begin[i + 1] += begin[i];
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      order[next[static_cast<std::size_t>(contacts.i[k])]++] = k;
+  }
+
+  /// How often the pair is there.
+  std::size_t count(const Contacts& contacts, std::size_t i, std::size_t j) const {
+    std::size_t found = 0;
+    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
+      found += static_cast<std::size_t>(contacts.j[order[k]]) == j;
+    return found;
+  }
+};
+
+/// Ids, pairs, normals: what needs no positions.
+std::string whyNoList(const Contacts& contacts, const AuditBasis& basis, const ByFirst& byFirst) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const double square = contacts.normal[k].squaredNorm();
+    // Normals are rounded where they are made, whatever the coordinates are: 10⁻⁵ is ten times
+    // what single precision leaves, and changes no stress that anybody reads.
+    if (!(std::abs(square - 1.0) <= 2e-5))
+      return fmt::format("{}: its normal has length {:.6g}, not 1",
+                         contactName(contacts, k, *basis.scene), std::sqrt(square));
+    const auto i = static_cast<std::size_t>(contacts.i[k]);
+    if (byFirst.count(contacts, i, static_cast<std::size_t>(contacts.j[k])) > 1)
+      return fmt::format("{} is listed twice", contactName(contacts, k, *basis.scene));
+  }
+  return {};
+}
+
+std::string whyNoIds(const Contacts& contacts, const Scene& scene) {
+  const auto disks = static_cast<std::int64_t>(scene.disks.size());
+  const auto all = disks + static_cast<std::int64_t>(scene.wallDiskCount() + scene.planeCount());
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const std::int64_t i = contacts.i[k], j = contacts.j[k];
+    if (i < 0 || i >= disks || j <= i || j >= all)
+      return fmt::format(
+          "contact {} is of {} and {}: the first must be one of {} disks, the second "
+          "a later id below {}",
+          k, i, j, disks, all);
+  }
+  return {};
+}
+
+/// Of the pairs listed, as they are placed [m].
+double deepestOverlap(const Contacts& contacts, const AuditBasis& basis,
+                      const ContactPlaces& places) {
+  const std::size_t round = basis.radius.size();
+  double deepest = 0.0;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    if (j >= round && !places.planeKnown[j - round]) continue;
+    const auto i = static_cast<std::size_t>(contacts.i[k]);
+    deepest = std::max(deepest, pairPlace(places, basis, i, j).overlap);
+  }
+  return deepest;
+}
+
+/// Each contact that is listed, where its two are.
+std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
+                         const ContactPlaces& places) {
+  const std::size_t round = basis.radius.size();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const auto i = static_cast<std::size_t>(contacts.i[k]);
+    const auto j = static_cast<std::size_t>(contacts.j[k]);
+    if (j >= round && !places.planeKnown[j - round]) continue;
+    const PairPlace place = pairPlace(places, basis, i, j);
+    if (!(std::abs(contacts.overlap[k] - place.overlap) <= place.uncertain))
+      return fmt::format("{}: overlaps by {:.6g} m, from the positions by {:.6g} m",
+                         contactName(contacts, k, *basis.scene), contacts.overlap[k],
+                         place.overlap);
+    const double turned = (contacts.normal[k] - place.normal).norm();
+    if (!(turned * place.distance <= place.uncertain + 1e-5 * place.distance))
+      return fmt::format("{}: its normal is ({:.4f}, {:.4f}), from the positions ({:.4f}, {:.4f})",
+                         contactName(contacts, k, *basis.scene), contacts.normal[k].x(),
+                         contacts.normal[k].y(), place.normal.x(), place.normal.y());
+    const bool pushes = contacts.normalForce[k] != 0.0 || contacts.tangentialForce[k] != 0.0;
+    if (pushes && place.overlap < -place.uncertain)
+      return fmt::format("{}: a force of {:.3g} N passes a gap of {:.3g} m",
+                         contactName(contacts, k, *basis.scene), contacts.normalForce[k],
+                         -place.overlap);
+  }
+  return {};
+}
+
+/// Pairs that overlap and are not listed.
+std::string whyIncomplete(const Contacts& contacts, const AuditBasis& basis,
+                          const ContactPlaces& places, const ByFirst& byFirst) {
+  const std::size_t disks = basis.scene->disks.size(), round = basis.radius.size();
+  std::string why;
+  const auto require = [&](std::size_t i, std::size_t j) {
+    const PairPlace place = pairPlace(places, basis, i, j);
+    if (place.overlap <= place.uncertain || byFirst.count(contacts, i, j) > 0) return;
+    why = fmt::format("no contact of {} with {}, which overlap by {:.3g} m",
+                      nameOfId(*basis.scene, i), nameOfId(*basis.scene, j), place.overlap);
+  };
+  nearPairs(places.position, basis.radius, disks, [&](std::size_t i, std::size_t j) {
+    const double reach = basis.radius[i] + basis.radius[j];
+    if ((places.position[i] - places.position[j]).squaredNorm() >= reach * reach) return;
+    if (why.empty()) require(i, j);
+  });
+  for (std::size_t p = 0; p < places.planes.size() && why.empty(); ++p)
+    if (places.planeKnown[p])
+      for (std::size_t i = 0; i < disks && why.empty(); ++i) require(i, round + p);
+  return why;
+}
+
+}  // namespace
+
+std::string whyNoContacts(const Snapshot& snapshot, const AuditBasis& basis) {
+  if (!snapshot.contacts) return {};
+  const Contacts& contacts = *snapshot.contacts;
+  if (std::string why = whyNoIds(contacts, *basis.scene); !why.empty()) return why;
+  const ByFirst byFirst(contacts, basis.scene->disks.size());
+  if (std::string why = whyNoList(contacts, basis, byFirst); !why.empty()) return why;
+  if (snapshot.contactInterval > meansOverSteps * basis.dt) return {};
+  if (!basis.byOverlap && !(basis.dt > 0.0)) return {};  // moved on, nobody knows how far
+  ContactPlaces places = contactPlaces(snapshot, basis);
+  // Both disks of a pair may have been moved out of others that deep.
+  if (!basis.byOverlap) places.rounding += 2.0 * deepestOverlap(contacts, basis, places);
+  if (std::string why = whyMisplaced(contacts, basis, places); !why.empty()) return why;
+  return basis.byOverlap && snapshot.contactInterval == 0.0
+             ? whyIncomplete(contacts, basis, places, byFirst)
+             : std::string();
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "adapters/audit_basis.hpp"
+
+namespace crossgrain {
+
+/// Where everything was when a snapshot's contacts were as it shows them, as well as can be told.
+struct ContactPlaces {
+  std::vector<Vec2> position;  ///< disks, then wall disks [m]
+  std::vector<Vec2> velocity;  ///< likewise, as shown [m/s]
+  std::vector<Plane> planes;
+  std::vector<bool> planeKnown;  ///< false: it turns or widens with its body, which is not followed
+  /// What of two bodies' relative motion their places are uncertain by [s].
+  double drift = 0.0;
+  double rounding = 0.0;  ///< [m]
+};
+
+ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis);
+
+/// How a pair lies there: n from j to i, δ > 0 where they overlap, and how far δ may be off.
+struct PairPlace {
+  Vec2 normal;
+  double overlap;    ///< δ [m]
+  double uncertain;  ///< [m]
+  double distance;   ///< between centres; to a plane from the disk's centre [m]
+};
+
+/// @pre ids are in range; the plane is known
+PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
+                    std::size_t j);
+
+/// "contact 12 (disk 3 with wall disk 5)"
+std::string contactName(const Contacts& contacts, std::size_t k, const Scene& scene);
+
+}  // namespace crossgrain

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "adapters/audit.hpp"
+
+namespace crossgrain {
+namespace {
+
+constexpr double stepTolerance = 0.01;  // of a step
+constexpr double wallTolerance = 1e-6;  // of the scene's extent
+
+/// Negated so that a NaN is off.
+bool within(double distance, double limit) {
+  return std::abs(distance) <= limit;
+}
+
+std::string whyNoWalls(const Snapshot& snapshot, const AuditBasis& basis) {
+  const Scene& scene = *basis.scene;
+  const double limit = wallTolerance * basis.extent;
+  std::size_t k = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const WallBody& body = scene.bodies[b];
+    const BodyState state = stateAt(body.motion, body.centre, snapshot.positionTime);
+    const BodySnapshot& shown = snapshot.bodies[b];
+    if (!within(shown.angle - state.angle, wallTolerance * std::max(1.0, std::abs(state.angle))))
+      return fmt::format("body {} has turned by {:.6g} rad, not by {:.6g} rad as prescribed",
+                         body.name, shown.angle, state.angle);
+    if (!within((shown.centre - state.centre).norm(), limit))
+      return fmt::format("body {} has its centre at ({:.6g}, {:.6g}) m, not at ({:.6g}, {:.6g}) m",
+                         body.name, shown.centre.x(), shown.centre.y(), state.centre.x(),
+                         state.centre.y());
+    for (const Vec2& start : body.diskPosition) {
+      const Vec2 place = memberPosition(state, body.centre, start);
+      const Vec2& found = snapshot.wallPosition[k];
+      if (!within((found - place).norm(), limit))
+        return fmt::format(
+            "wall disk {} is at ({:.6g}, {:.6g}) m, not at ({:.6g}, {:.6g}) m as "
+            "prescribed",
+            k, found.x(), found.y(), place.x(), place.y());
+      ++k;
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
+                      std::optional<double> reached) {
+  const double now = snapshot.positionTime, dt = basis.dt;
+  if (!(now >= 0.0)) return fmt::format("positions are of t = {:g} s, before the start", now);
+  if (!(snapshot.contactInterval >= 0.0))
+    return fmt::format("contacts are means over {:g} s, which is no interval",
+                       snapshot.contactInterval);
+  if (!(dt > 0.0)) return {};
+  const double steps = now / dt;
+  if (!within(steps - std::round(steps), stepTolerance))
+    return fmt::format("positions are of t = {:.9g} s, {:.3f} steps of {:g} s: not a whole number",
+                       now, steps, dt);
+  if (reached && !within(now - *reached, stepTolerance * dt))
+    return fmt::format("positions are of t = {:.9g} s, not of {:.9g} s that advance reached", now,
+                       *reached);
+  for (const auto& [what, time] :
+       {std::pair("velocities", snapshot.velocityTime), {"contacts", snapshot.contactTime}})
+    if (!within(time - now, (1.0 + stepTolerance) * dt))
+      return fmt::format(
+          "{} are of t = {:.9g} s, more than a step of {:g} s from positions of "
+          "{:.9g} s",
+          what, time, dt, now);
+  if (!within(snapshot.contactInterval, now + (1.0 + stepTolerance) * dt))
+    return fmt::format("contacts are means over {:g} s, longer than the {:g} s since the start",
+                       snapshot.contactInterval, now);
+  return {};
+}
+
+std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis) {
+  const Scene& scene = *basis.scene;
+  const double t = snapshot.positionTime;
+  const double reach =
+      100.0 * basis.extent + 10.0 * basis.fastest * t + 5.0 * scene.gravity.norm() * t * t;
+  for (std::size_t i = 0; i < snapshot.position.size(); ++i) {
+    const Vec2& place = snapshot.position[i];
+    if (!within((place - basis.middle).norm(), reach))
+      return fmt::format(
+          "disk {} is at ({:.3g}, {:.3g}) m, outside of the scene: at most {:.3g} m "
+          "from ({:.3g}, {:.3g}) m",
+          i, place.x(), place.y(), reach, basis.middle.x(), basis.middle.y());
+    const double speed = snapshot.velocity[i].norm();
+    if (basis.dt > 0.0 && !within(speed * basis.dt, basis.extent))
+      return fmt::format(
+          "disk {} moves at {:.3g} m/s, through the whole scene of {:.3g} m in a "
+          "step",
+          i, speed, basis.extent);
+  }
+  return basis.prescribed ? whyNoWalls(snapshot, basis) : std::string();
+}
+
+namespace {
+
+std::string whyNoShape(const Snapshot& snapshot, const AuditBasis& basis) {
+  const Scene& scene = *basis.scene;
+  const std::size_t disks = scene.disks.size();
+  for (const auto& [what, found, wanted] :
+       {std::tuple("positions", snapshot.position.size(), disks),
+        {"velocities", snapshot.velocity.size(), disks},
+        {"spins", snapshot.spin ? snapshot.spin->size() : disks, disks},
+        {"places of wall disks", snapshot.wallPosition.size(), basis.radius.size() - disks}})
+    if (found != wanted) return fmt::format("{} {} are shown, not {}", found, what, wanted);
+  if (basis.prescribed && snapshot.bodies.size() != scene.bodies.size())
+    return fmt::format("{} wall bodies are shown, not {}", snapshot.bodies.size(),
+                       scene.bodies.size());
+  return {};
+}
+
+}  // namespace
+
+std::string whyUnsound(const Snapshot& snapshot, const AuditBasis& basis,
+                       std::optional<double> reached) {
+  if (std::string why = whyNoShape(snapshot, basis); !why.empty()) return why;
+  if (std::string why = whyNoTime(snapshot, basis, reached); !why.empty()) return why;
+  if (std::string why = whyNoPlace(snapshot, basis); !why.empty()) return why;
+  return whyNoContacts(snapshot, basis);
+}
+
+std::string whyNoStats(const Stats& stats, double dt, double reached) {
+  const double steps = std::round(reached / dt);
+  if (static_cast<double>(stats.steps) != steps)
+    return fmt::format("{} steps are counted, but t = {:g} s is {:g} steps of {:g} s", stats.steps,
+                       reached, steps, dt);
+  if (!(stats.wallSeconds >= 0.0 && stats.cpuSeconds >= 0.0))
+    return fmt::format("{:g} s of wall time and {:g} s of CPU time are counted, which cannot be",
+                       stats.wallSeconds, stats.cpuSeconds);
+  return {};
+}
+
+}  // namespace crossgrain

@@ -1,0 +1,58 @@
+#include "adapters/declared_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/pair_table.hpp"
+#include "adapters/suitability.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// The row of the engine's table that is about two bodies of that reduced mass [kg].
+std::optional<PairCoefficients> pairOf(const Scene& scene, const Realised& realised,
+                                       double reducedMass) {
+  const auto massAsStiffness = [](double mass) {
+    PairCoefficients row;
+    row.kn = mass;
+    return row;
+  };
+  for (const PairCoefficients& kind : pairTable(scene, massAsStiffness)) {
+    if (std::abs(kind.kn - reducedMass) > 1e-12 * reducedMass) continue;
+    const auto row = std::ranges::find(realised.pairs, kind.pair, &PairCoefficients::pair);
+    if (row != realised.pairs.end()) return *row;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ContactLaw stiffened(ContactLaw law, double factor) {
+  law.kn *= factor;
+  law.kn3 *= factor;
+  law.kt *= factor;
+  const double slower = law.damper == Damper::constant       ? std::sqrt(factor)
+                        : law.damper == Damper::viscoelastic ? 1.0 / std::sqrt(factor)
+                                                             : 1.0;
+  law.gn *= slower;
+  law.gt *= slower;
+  return law;
+}
+
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
+                                      const Realised& realised, double reducedMass) {
+  ContactLaw law = lawAsRun(can, scene.law);
+  const auto stiffness = std::ranges::find(realised.deviations, "stiffness", &Deviation::name);
+  if (stiffness != realised.deviations.end()) law = stiffened(law, stiffness->value);
+  if (hasNormalLaw(can, law)) return law;
+  if (can.lawOptions.at("normal") != std::vector<std::string>{"rigid"}) return std::nullopt;
+  const auto pair = pairOf(scene, realised, reducedMass);
+  if (!pair) return std::nullopt;
+  law.normal = NormalLaw::rigid;
+  law.en = pair->en;
+  law.et0 = pair->et0;
+  law.mu = pair->mu;
+  return law;
+}
+
+}  // namespace crossgrain

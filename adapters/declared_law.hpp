@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "adapters/engine.hpp"
+
+namespace crossgrain {
+
+/// A law whose contacts are `factor` times as stiff at the same restitution, so that they last
+/// 1/√factor as long.
+ContactLaw stiffened(ContactLaw law, double factor);
+
+/// The law that an engine says it runs, between the two bodies of a collision scene: the scene's,
+/// with
+///   the engine's conventions in place of those that it lacks (lawAsRun()),
+///   all constants as stiff as its deviation "stiffness" says,
+///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as Realised
+///   tells them.
+/// Otherwise the constants are the scene's: an engine whose own differ is wrong, whatever it says.
+/// Absent where it has another law of which nobody can tell the constants.
+/// @param scene  as the case lets the engine run it
+std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
+                                      const Realised& realised, double reducedMass);
+
+}  // namespace crossgrain

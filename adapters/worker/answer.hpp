@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// What is taken from a worker's words: nothing in them is trusted, and all of it has a bound.
+namespace crossgrain {
+
+/// Longest line of an answer [bytes]. Lists of disks and contacts are in files; what is left are
+/// some hundred bytes for each wall body, so that this holds more than 20 000 of them.
+inline constexpr std::size_t longestAnswer = std::size_t{8} << 20;
+
+/// Of objects and lists in each other. Answers have five; what takes them apart and copies them
+/// calls itself for each.
+inline constexpr int deepestAnswer = 16;
+
+/// Longest reason that a worker can give [bytes]; it becomes part of one line.
+inline constexpr std::size_t longestReason = 500;
+
+/// The JSON object of that line. @throws std::runtime_error: what it is instead
+nlohmann::json parseAnswer(const std::string& line);
+
+/// The text in one line of valid UTF-8, with an ellipsis where it has more than `longest` bytes.
+std::string asOneLine(const std::string& text, std::size_t longest);
+
+/// What a worker printed last: "the end of its log: …" with its last three lines, or the error that
+/// a traceback of Python there ends with; empty if there is nothing. Looks at the log's last 64
+/// KiB.
+std::string lastWords(const std::filesystem::path& log);
+
+}  // namespace crossgrain

@@ -1,0 +1,39 @@
+#include "cases/endpoints.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace crossgrain::inline cases {
+
+namespace {
+
+constexpr std::array<EndpointSpec, 9> table = {{
+    {"pressure", "pressure", "p", "N/m²", "mean of (σ_rr + σ_φφ)/2 over the cell", true},
+    {"stress_ratio", "stress ratio", "σ_rφ/σ_rr", "-", "means of both over the cell", false},
+    {"stress_anisotropy", "stress anisotropy", "σ_φφ/σ_rr", "-", "means of both over the cell",
+     false},
+    {"coordination", "coordination", "C", "-", "contacts of a disk, mean over disks and time",
+     false},
+    {"mean_velocity", "mean velocity", "⟨v_φ⟩", "m/s", "mean of v_φ over the cell", false},
+    {"mean_spin", "mean spin", "⟨ω⟩", "rad/s", "mean of the spin over the cell", false},
+    {"velocity_at_wheel", "velocity at the wheel", "v_φ1", "m/s", "v_φ in ring 1", false},
+    {"volume_fraction_at_wheel", "volume fraction at the wheel", "ν_1", "-", "ν in ring 1", false},
+    {"spin_at_wheel", "spin at the wheel", "ω_1", "rad/s", "spin in ring 1", false},
+}};
+
+}  // namespace
+
+std::span<const EndpointSpec> endpointTable() {
+  return table;
+}
+
+const EndpointSpec& endpointSpec(std::string_view name) {
+  const auto found = std::ranges::find(table, name, &EndpointSpec::name);
+  if (found == table.end())
+    throw std::invalid_argument("there is no endpoint " + std::string(name));
+  return *found;
+}
+
+}  // namespace crossgrain::inline cases

@@ -1,0 +1,130 @@
+#include "cases/engine_file.hpp"
+
+#include <fmt/format.h>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "adapters/registry.hpp"
+#include "cases/loader_document.hpp"
+#include "cases/loader_sections.hpp"
+#include "support/data_folder.hpp"
+#include "support/fingerprint.hpp"
+#include "support/program.hpp"
+
+namespace crossgrain::inline cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* extension = ".toml";
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A word of a command as a file, looked up where the command is started.
+fs::path inFolder(const std::string& word, const fs::path& folder) {
+  return folder.empty() ? fs::path(word) : folder / word;
+}
+
+/// Of a program that is changed while its version stays: the command, and the files that it names.
+std::string stampOf(const ProgramCall& call, const std::string& file) {
+  std::string content = file;
+  for (const std::string& word : call.argv) {
+    content += word + '\0';
+    std::error_code none;
+    if (const fs::path path = inFolder(word, call.folder); fs::is_regular_file(path, none))
+      content += contentOf(path);
+  }
+  return fmt::format("program {:016x}", fnv1a(content));
+}
+
+/// Why the program cannot be started, one line; empty: it can, as far as can be seen.
+std::string whyNoProgram(const ProgramCall& call) {
+  const std::string& program = call.argv.front();
+  if (program.find('/') != std::string::npos) {
+    const fs::path path = inFolder(program, call.folder);
+    return isProgram(path) ? "" : fmt::format("{} is no program", path.string());
+  }
+  return isOnPath(program) ? "" : fmt::format("there is no program '{}' in PATH", program);
+}
+
+/// What a worker in Python imports, beside what the caller's environment or the file has.
+void addPythonPath(ProgramCall& call) {
+  const auto own = call.environment.find("PYTHONPATH");
+  const char* const callers = std::getenv("PYTHONPATH");
+  const std::string before = own != call.environment.end() ? own->second : callers ? callers : "";
+  const std::string helpers = (dataFolder() / "engines/python").string();
+  call.environment["PYTHONPATH"] = before.empty() ? helpers : helpers + ":" + before;
+}
+
+EngineEntry entryOf(std::string name, std::string summary, ProgramCall call) {
+  addPythonPath(call);
+  EngineEntry entry;
+  entry.name = std::move(name);
+  entry.summary = std::move(summary);
+  entry.missing = [call] { return whyNoProgram(call); };
+  entry.command = [call = std::move(call)] { return call; };
+  return entry;
+}
+
+/// Why an engine cannot be called that; empty if it can.
+std::string whyNoName(const std::string& name) {
+  if (!usableName(name)) return usableNameRule;
+  if (namesEngineFile(name)) return "is that of a file";
+  if (name == "all" || findEngine(name)) return "is taken: an engine of this program has that name";
+  return {};
+}
+
+}  // namespace
+
+bool namesEngineFile(const std::string& name) {
+  return name.ends_with(extension) || name.find('/') != std::string::npos;
+}
+
+EngineEntry loadEngineFile(const fs::path& file) {
+  const toml::table document = readTomlFile(file);
+  Reader in(&document, "", file.string());
+  std::string name, summary;
+  ProgramCall call;
+  in.require("name", name);
+  in.read("summary", summary);
+  in.require("command", call.argv);
+  std::string folder = ".";
+  in.read("folder", folder);
+  Reader environment = in.section("environment");
+  for (const std::string& variable : environment.keys())
+    environment.read(variable, call.environment[variable]);
+  Settings settings = readSettings(in.section("settings"));
+  in.finish();
+  if (const std::string why = whyNoName(name); !why.empty()) in.fail("name", why);
+  if (call.argv.empty() || call.argv.front().empty())
+    in.fail("command", "must be a program and its arguments, as [\"python3\", \"engine.py\"]");
+  call.folder = fs::absolute(file).parent_path() / folder;
+  if (!fs::is_directory(call.folder)) in.fail("folder", "is no folder");
+  call.stamp = stampOf(call, contentOf(file));
+  EngineEntry entry = entryOf(std::move(name), std::move(summary), std::move(call));
+  entry.settings = std::move(settings);
+  return entry;
+}
+
+EngineEntry engineOfCommand(const std::string& text) {
+  const std::string where = fmt::format("--engine '{}': ", text);
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos) throw BadInput(where + "must be NAME='program arguments'");
+  const std::string name = text.substr(0, sign);
+  if (const std::string why = whyNoName(name); !why.empty())
+    throw BadInput(fmt::format("{}the name '{}' {}", where, name, why));
+  std::istringstream words(text.substr(sign + 1));
+  ProgramCall call;
+  call.argv.assign(std::istream_iterator<std::string>(words), {});
+  if (call.argv.empty()) throw BadInput(where + "names no program");
+  call.stamp = stampOf(call, {});
+  return entryOf(name, "of the command line", std::move(call));
+}
+
+}  // namespace crossgrain::inline cases

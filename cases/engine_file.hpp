@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "adapters/engine_entry.hpp"
+
+namespace crossgrain::inline cases {
+
+/// Whether a name given on the command line is a file's: it ends in .toml, or has a slash.
+bool namesEngineFile(const std::string& name);
+
+/// An engine of the user's own, from a TOML file:
+///
+///   name = "my-engine"                   # as --engines, reports and [engines.NAME] say it
+///   summary = "what it is"
+///   command = ["python3", "engine.py"]   # the worker (adapters/worker/README.md); no shell reads it
+///   folder = "."                         # where it is started; relative to this file, which is the default
+///   [environment]                        # beside the caller's
+///   OMP_NUM_THREADS = "1"
+///   [settings]                           # of the engine, where a case says nothing under [engines.NAME]
+///
+/// Its stamp holds this file's content and that of every word of the command that is a file.
+/// @throws BadInput
+EngineEntry loadEngineFile(const std::filesystem::path& file);
+
+/// The same from the command line: "NAME=program and its arguments", split at blanks, started where
+/// the caller is. @throws BadInput
+EngineEntry engineOfCommand(const std::string& text);
+
+}  // namespace crossgrain::inline cases

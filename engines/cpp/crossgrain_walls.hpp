@@ -1,0 +1,103 @@
+#pragma once
+
+// Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp, in plain C++17.
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace crossgrain_worker {
+
+struct Vector {
+  double x = 0.0, y = 0.0;
+};
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
+inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y}; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+inline double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+/// z × a
+inline Vector turned(Vector a) { return {-a.y, a.x}; }
+
+struct Plane {
+  Vector point, normal;
+};
+
+/// A rigid body of wall disks and planes at any time.
+class Body {
+ public:
+  Body(const nlohmann::json& description, const std::vector<double>& diskPosition,
+       std::vector<double> diskRadius)
+      : motion_(description.at("motion")),
+        kind_(motion_.at("kind")),
+        start_(vectorOf(description.at("centre"))),
+        radius(std::move(diskRadius)) {
+    for (std::size_t k = 0; k < radius.size(); ++k)
+      offset_.push_back(Vector{diskPosition[2 * k], diskPosition[2 * k + 1]} - start_);
+    for (const auto& plane : description.at("planes"))
+      planes_.push_back({vectorOf(plane.at("point")), vectorOf(plane.at("normal"))});
+    at(0.0);
+  }
+
+  /// Puts everything where it is at time t.
+  void at(double t) {
+    const double w = motion_.at("frequency"), rate = motion_.at("angular_velocity");
+    const Vector amplitude = vectorOf(motion_.at("amplitude"));
+    centre = start_;
+    velocity = {};
+    angle = spin = 0.0;
+    double shift = 0.0, outward = 0.0;
+    if (kind_ == "rotating") {
+      angle = rate * t;
+      spin = rate;
+    } else if (kind_ == "translating") {
+      velocity = vectorOf(motion_.at("velocity"));
+      centre = start_ + t * velocity;
+    } else if (kind_ == "oscillating") {
+      centre = start_ + std::sin(w * t) * amplitude;
+      velocity = w * std::cos(w * t) * amplitude;
+    } else if (kind_ == "radial") {
+      const double speed = motion_.at("radial_velocity"), end = motion_.at("radial_end");
+      shift = speed * std::min(t, end);
+      outward = t < end ? speed : 0.0;
+    }
+    position.clear();
+    diskVelocity.clear();
+    for (const Vector& start : offset_) {
+      const double apart = std::hypot(start.x, start.y);
+      const double scale = apart > 0.0 ? 1.0 + shift / apart : 1.0;
+      const double c = scale * std::cos(angle), s = scale * std::sin(angle);
+      const Vector arm{c * start.x - s * start.y, s * start.x + c * start.y};
+      const double stretch = apart > 0.0 ? outward / (scale * apart) : 0.0;
+      position.push_back(centre + arm);
+      diskVelocity.push_back(velocity + stretch * arm + spin * turned(arm));
+    }
+  }
+
+  /// Planes only translate.
+  std::vector<Plane> planes() const {
+    std::vector<Plane> now = planes_;
+    for (Plane& plane : now) plane.point = plane.point + (centre - start_);
+    return now;
+  }
+
+  bool moves() const { return kind_ != "fixed"; }
+
+ private:
+  static Vector vectorOf(const nlohmann::json& pair) { return {pair.at(0), pair.at(1)}; }
+
+  nlohmann::json motion_;
+  std::string kind_;
+  Vector start_;
+  std::vector<Vector> offset_;
+  std::vector<Plane> planes_;
+
+ public:
+  Vector centre, velocity;
+  double angle = 0.0, spin = 0.0;
+  std::vector<double> radius;                  ///< of the wall disks [m]
+  std::vector<Vector> position, diskVelocity;  ///< of the wall disks
+};
+
+}  // namespace crossgrain_worker

@@ -1,0 +1,178 @@
+"""Puts a scene into LAMMPS. Atom ids are the scene's plus one: disks, then wall disks by body; a plane
+is a fix of its own."""
+
+import math
+
+import numpy as np
+from crossgrain_worker import Unsupported
+
+DISKS = 1  # the type of moving disks; wall bodies are 2, 3, …
+AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
+FEW = 50  # atoms: a box that small may have no room for bins
+SHAPES = {0.5: "disc", 0.4: ""}  # J/(m a²) → what `fix nve/sphere` calls it
+
+
+def shape_of(arrays):
+    """What kind of body LAMMPS takes the disks for; J is not a number there. Absent: none."""
+    ratio = arrays["disks.inertia"] / (arrays["disks.mass"] * arrays["disks.radius"] ** 2)
+    for share, word in SHAPES.items():
+        if np.allclose(ratio, share, rtol=1e-12, atol=0):
+            return word
+    return None
+
+
+def check(scene, bodies, arrays):
+    """@raise Unsupported for what LAMMPS cannot do and no law option names"""
+    bottom = scene.get("bottom")
+    if bottom and bottom["mu"] > 0:
+        raise Unsupported("has no bottom_friction")
+    if scene["rotation"] and shape_of(arrays) is None:
+        raise Unsupported("has moments of inertia of disks (m a²/2) or spheres (2/5 m a²) only")
+    for body in bodies:
+        if body.kind == "radial":
+            raise Unsupported(f"has no radial motion of walls, as of {body.name}")
+        for plane in body.planes:
+            if sorted(map(abs, plane["normal"])) != [0, 1]:
+                raise Unsupported(
+                    f"has planes along x or y only; one of {body.name} has the normal "
+                    f"{tuple(plane['normal'])}"
+                )
+        if body.planes and body.kind != "fixed":
+            raise Unsupported(f"has planes at rest only, not with {body.kind} motion as of {body.name}")
+
+
+class Scene:
+    """A scene as LAMMPS has it. Sets each body's disk_ids and plane_numbers."""
+
+    def __init__(self, lammps, scene, arrays, bodies, law, rotation):
+        self.lammps, self.scene, self.arrays = lammps, scene, arrays
+        self.bodies, self.law, self.rotation = bodies, law, rotation
+        self.planes = 0
+        self.plane_normals = []
+        next_id = scene["disks"]
+        for body in bodies:
+            body.disk_ids = list(range(next_id, next_id + len(body.disk_radius)))
+            next_id += len(body.disk_radius)
+        self.atoms = next_id
+        for body in bodies:
+            body.plane_numbers = list(range(self.planes, self.planes + len(body.planes)))
+            self.planes += len(body.planes)
+            self.plane_normals += [np.array(plane["normal"], float) for plane in body.planes]
+        self.radius = np.concatenate(
+            [arrays["disks.radius"], *(body.disk_radius for body in bodies)]
+        )
+
+    def place(self, skin, dt):
+        """@param skin  in radii of the smallest disk"""
+        arrays, bodies, n = self.arrays, self.bodies, self.scene["disks"]
+        position = np.concatenate(
+            [arrays["disks.position"].reshape(-1, 2), *(b.disk_position for b in bodies)]
+        )
+        starts = [body.disk_states(0.0)[1] for body in bodies]
+        velocity = np.concatenate([arrays["disks.velocity"].reshape(-1, 2), *starts])
+        turning = [np.full(len(b.disk_ids), b.state(0.0)[3]) for b in bodies]
+        spin = np.concatenate([arrays["disks.spin"], *turning])
+        kind = np.concatenate(
+            [np.full(n, DISKS), *(np.full(len(b.disk_ids), k) for k, b in enumerate(bodies, 2))]
+        )
+        depth = 2.0 * self.radius.max()  # of the box along z
+        reach = 2.0 * np.abs(position).max() + 4.0 * depth
+        zero = np.zeros(len(kind))
+        self.run(
+            f"""units si
+            dimension 2
+            atom_style sphere
+            atom_modify map array
+            boundary s s p
+            newton off
+            comm_modify vel yes
+            region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r}
+            create_box {1 + len(bodies)} everywhere"""
+        )
+        self.lammps.create_atoms(kind, np.column_stack([position, zero]))
+        self.lammps.scatter("radius", self.radius)
+        mass = np.ones(len(kind))  # a wall's plays no part: nothing integrates it
+        mass[:n] = arrays["disks.mass"]
+        self.lammps.scatter("rmass", mass)
+        self.lammps.scatter("v", np.column_stack([velocity, zero]))
+        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
+        self.run(
+            f"""pair_style granular
+            pair_coeff * * {self.law.words()}
+            neighbor {skin * self.radius[:n].min()!r} {"bin" if self.atoms > FEW else "nsq"}
+            neigh_modify delay 0 every 1 check yes
+            timestep {dt!r}
+            group disks type {DISKS}
+            compute pairs all pair/local force p1 p2 cutoff radius
+            compute ids all property/local patom1 patom2 cutoff radius
+            thermo_style custom step
+            thermo 0"""
+        )
+        for k, body in enumerate(bodies, 2):
+            self.leave_out_pairs(k)
+            for number, plane in zip(body.plane_numbers, body.planes):
+                self.raise_plane(number, plane)
+        self.stretch_springs()
+        self.integrate()
+        for k, body in enumerate(bodies, 2):
+            self.move(k, body)
+
+    def run(self, lines):
+        for line in lines.splitlines():
+            self.lammps.command(line.strip())
+
+    def stretch_springs(self):
+        """LAMMPS stretches no spring in the forces that it starts from; spring_update = "before" means
+        that they are stretched by then. In a step that nothing integrates they are, and nothing else
+        happens."""
+        self.run(
+            """run 1 post no
+            reset_timestep 0"""
+        )
+
+    def integrate(self):
+        gravity = math.hypot(*self.scene["gravity"])
+        if gravity > 0:
+            x, y = (g / gravity for g in self.scene["gravity"])
+            self.lammps.command(f"fix gravity disks gravity {gravity!r} vector {x!r} {y!r} 0")
+        # Without rotation torques are summed up and spin nothing.
+        style = f"nve/sphere {shape_of(self.arrays)}" if self.rotation else "nve"
+        self.lammps.command(f"fix motion disks {style}")
+        self.lammps.command("fix plane all enforce2d")
+
+    def leave_out_pairs(self, kind):
+        """Of wall disks with each other."""
+        for other in range(2, kind + 1):
+            self.lammps.command(f"neigh_modify exclude type {other} {kind}")
+
+    def move(self, kind, body):
+        """A body at rest is not integrated."""
+        if not body.disk_ids or body.kind == "fixed":
+            return
+        group = f"wall{kind}"
+        self.lammps.command(f"group {group} type {kind}")
+        motion = body.motion
+        if body.kind == "rotating":
+            speed = motion["angular_velocity"]
+            if speed == 0:
+                return
+            x, y = body.centre
+            period, axis = 2.0 * math.pi / abs(speed), math.copysign(1, speed)
+            words = f"rotate {x!r} {y!r} 0 0 0 {axis:g} {period!r}"
+        elif body.kind == "translating":
+            words = "linear {!r} {!r} 0".format(*motion["velocity"])
+        else:
+            if not motion["frequency"]:
+                return
+            x, y = motion["amplitude"]
+            words = f"wiggle {x!r} {y!r} 0 {2.0 * math.pi / motion['frequency']!r}"
+        self.lammps.command(f"fix move{kind} {group} move {words}")
+
+    def raise_plane(self, number, plane):
+        axis = 0 if plane["normal"][0] else 1
+        place = repr(float(plane["point"][axis]))
+        ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
+        self.lammps.command(
+            f"fix plane{number} disks wall/gran granular {self.law.words()} "
+            f"{'xy'[axis]}plane {ends} contacts"
+        )

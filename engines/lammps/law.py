@@ -1,0 +1,69 @@
+"""The scene's linear law in LAMMPS' terms: pair_style granular, hooke with damping velocity."""
+
+import numpy as np
+from crossgrain_worker import Unsupported
+
+KINDS = ("none", "viscous", "spring", "spring_dashpot")
+# The worker holds |f_t| to be at the bound within this; LAMMPS scales the spring to it.
+AT_THE_BOUND = 1 - 1e-12
+
+
+class Law:
+    """f_n = k_n δ − γ_n v_n; the tangential spring and dashpot together held to µ |f_n|."""
+
+    def __init__(self, law):
+        kind = law["tangential"]
+        if law["normal"] != "linear":
+            raise Unsupported(f'has normal = linear, not "{law["normal"]}"')
+        if kind not in KINDS:
+            raise Unsupported(f'has tangential = {" | ".join(KINDS)}, not "{kind}"')
+        self.friction = kind != "none" and law["mu"] > 0
+        self.kn, self.gn = law["kn"], law["gn"]
+        self.mu = law["mu"] if self.friction else 0.0
+        self.spring = self.friction and kind in ("spring", "spring_dashpot")
+        self.dashpot = self.friction and kind in ("viscous", "spring_dashpot")
+        self.kt = law["kt"] if self.spring else 0.0
+        self.gt = law["gt"] if self.dashpot else 0.0
+        if (self.gn > 0 or self.gt > 0) and law["damper"] != "constant":
+            raise Unsupported(f'has damper = "constant", not "{law["damper"]}"')
+        if self.gt > 0 and self.gn == 0:
+            raise Unsupported(
+                "tells the tangential dashpot as a multiple of the normal one, so it has none "
+                "where gn = 0"
+            )
+
+    def words(self):
+        """What follows `pair_coeff * *` and `fix wall/gran granular`."""
+        ratio = self.gt / self.gn if self.gt > 0 else 0.0
+        normal = f"hooke {self.kn!r} {self.gn!r} damping velocity"
+        if self.spring:
+            return f"{normal} tangential linear_history {self.kt!r} {ratio!r} {self.mu!r}"
+        return f"{normal} tangential linear_nohistory {ratio!r} {self.mu!r}"
+
+    def sliding(self, pressing, tangential):
+        """Where |f_t| is at the bound; nothing slides without friction."""
+        bound = self.mu * np.abs(pressing)
+        return self.friction & (bound > 0) & (np.abs(tangential) >= AT_THE_BOUND * bound)
+
+    def coefficients(self):
+        """The same for all pairs: those that contacts have."""
+        found = {"kn": self.kn, "gn": self.gn}
+        if self.friction:
+            found["mu"] = self.mu
+        if self.spring:
+            found["kt"] = self.kt
+        if self.dashpot:
+            found["gt"] = self.gt
+        return found
+
+    def effects(self, scene):
+        called = {
+            "normal_damping": self.gn > 0,
+            "friction": self.friction,
+            "tangential_spring": self.kt > 0,
+            "tangential_damping": self.gt > 0,
+            "rotation": self.friction and scene["rotation"],
+            "gravity": any(scene["gravity"]),
+            "moving_walls": any(body["motion"]["kind"] != "fixed" for body in scene["bodies"]),
+        }
+        return [name for name, calls in called.items() if calls]

@@ -1,0 +1,95 @@
+#include "reports/collide/tally.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "reports/common/numbers.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+
+std::string shortly(std::optional<double> value) {
+  if (!finite(value)) return absentText;
+  return readableSetting(std::strtod(fmt::format("{:.2g}", *value).c_str(), nullptr));
+}
+
+void Worst::look(const CurveScore& score) {
+  for (const CollisionQuantity& quantity : scoredQuantities()) {
+    const auto& one = score.of[quantity.id];
+    if (!one || !one->limit || one->max <= *one->limit * std::max(times, 1.0)) continue;
+    times = one->max / *one->limit;
+    symbol = quantity.label;
+  }
+}
+
+std::string Worst::words() const {
+  return fmt::format("{} {} × its limit", symbol, shortly(times));
+}
+
+std::string Tally::cssClass() const {
+  if (failed > 0 || fellShort > 0) return "disagree";
+  if (judged() == 0) return "undecided";
+  return model > 0 ? "degraded" : "agree";
+}
+
+namespace {
+
+/// The clause that says what is lacking, of "X cannot run FILE: CLAUSE; HINT".
+std::string clauseOf(const std::string& refusal) {
+  const auto colon = refusal.find(": ");
+  const std::string rest = colon == std::string::npos ? refusal : refusal.substr(colon + 2);
+  return rest.substr(0, rest.find("; "));
+}
+
+void addTo(Tally& tally, const CollisionCurve& curve) {
+  const SweepOutcome outcome = outcomeOf(curve);
+  const bool refused = outcome == SweepOutcome::refused;
+  tally.held += outcome == SweepOutcome::held;
+  tally.model += outcome == SweepOutcome::modelDifference;
+  tally.fellShort += outcome == SweepOutcome::fellShort;
+  tally.refused += refused;
+  tally.failed += outcome == SweepOutcome::failed;
+  if (refused && tally.refusal.empty()) tally.refusal = clauseOf(curve.reason);
+  if (!refused && tally.reason.empty()) tally.reason = curve.reason;
+  if (outcome == SweepOutcome::fellShort) tally.worst.look(declaredScore(curve));
+  if (outcome == SweepOutcome::modelDifference) tally.worstOfModel.look(curve.score);
+  if (const auto own = ownDeviation(curve)) {
+    tally.ownDeviation = std::max(tally.ownDeviation.value_or(0.0), *own);
+    tally.ownHeld = tally.ownHeld && curve.ownScheme->held.value_or(true);
+  }
+}
+
+}  // namespace
+
+Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::string& engine) {
+  Tally tally;
+  for (const CollisionVariant* variant : variants)
+    for (const CollisionCurve* curve : curvesOf(*variant, engine)) addTo(tally, *curve);
+  return tally;
+}
+
+std::string headline(const Tally& tally) {
+  if (tally.judged() > 0) {
+    std::vector<std::string> words;
+    const std::pair<const char*, int> counts[] = {
+        {"✗", tally.fellShort}, {"≠", tally.model}, {"✓", tally.held}};
+    for (const auto& [mark, count] : counts)
+      if (count > 0) words.push_back(fmt::format("{} {}", mark, count));
+    return fmt::format("{} of {}", fmt::join(words, ", "), tally.judged());
+  }
+  if (tally.failed > 0) return "✗ failed";
+  return tally.refused > 0 ? "– refused" : absentText;
+}
+
+std::vector<std::string> shortfalls(const Tally& tally) {
+  std::vector<std::string> lines;
+  if (tally.worst.times > 1.0) lines.push_back(tally.worst.words());
+  if (tally.worstOfModel.times > 1.0) lines.push_back("model: " + tally.worstOfModel.words());
+  if (!tally.ownHeld) lines.push_back(fmt::format("own scheme {}", shortly(tally.ownDeviation)));
+  return lines;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "reports/common/view.hpp"
+#include "results/engine_row.hpp"
+#include "results/overview.hpp"
+
+/// The matrix that a report opens with, in its three forms.
+namespace crossgrain::reports {
+
+/// For the page, as "overview": part_overview.mustache.
+/// @param engines  of the results: rows that are engines get their colours
+void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines);
+
+/// Where the terminal's form is printed.
+struct TextLook {
+  std::size_t width = 160;  ///< [characters]
+  bool coloured = false;
+};
+
+/// The most lines that overviewText() has.
+inline constexpr std::size_t mostOverviewLines = 25;
+
+/// The matrix, aligned, its columns in several blocks where the width asks for it, and the
+/// conclusion, each line ended. What does not fit is counted in a line of its own.
+std::string overviewText(const Overview& overview, const TextLook& look);
+
+/// The same as Markdown, for the pages of build servers.
+/// @param title  its heading
+std::string overviewMarkdown(const Overview& overview, const std::string& title);
+
+}  // namespace crossgrain::reports

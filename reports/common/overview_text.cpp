@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/common/overview.hpp"
+#include "reports/common/overview_marks.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// Characters, not bytes: all that reports print are one place wide.
+std::size_t widthOf(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, widthOf(text)), ' ');
+}
+
+std::string textOf(const OverviewCell& cell) {
+  const std::string mark(lookOf(cell.state).mark);
+  return cell.shown.empty() ? mark : mark + " " + cell.shown;
+}
+
+constexpr std::size_t gap = 2;  ///< between columns
+
+/// Widths of the columns, the rows' names first.
+std::vector<std::size_t> widthsOf(const Overview& overview) {
+  std::vector<std::size_t> widths = {widthOf(overview.rowsAre)};
+  for (const OverviewColumn& column : overview.columns) widths.push_back(widthOf(column.name));
+  for (const OverviewRow& row : overview.rows) {
+    widths[0] = std::max(widths[0], widthOf(row.name));
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      widths[k + 1] = std::max(widths[k + 1], widthOf(textOf(row.cells[k])));
+  }
+  return widths;
+}
+
+/// The columns that each block begins with, and their end.
+std::vector<std::size_t> blocksOf(const std::vector<std::size_t>& widths, std::size_t room) {
+  std::vector<std::size_t> begins = {0};
+  std::size_t used = widths[0];
+  for (std::size_t k = 0; k + 1 < widths.size(); ++k) {
+    used += gap + widths[k + 1];
+    if (used > room && k > begins.back()) {
+      begins.push_back(k);
+      used = widths[0] + gap + widths[k + 1];
+    }
+  }
+  begins.push_back(widths.size() - 1);
+  return begins;
+}
+
+std::string coloured(const OverviewCell& cell, const std::string& text, const TextLook& look) {
+  if (!look.coloured) return text;
+  return fmt::format("\033[{}m{}\033[0m", lookOf(cell.state).terminal, text);
+}
+
+std::string withoutEnd(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+/// Markdown takes some characters for its own.
+std::string forTable(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (std::string_view("\\|*_<>`[]#&").find(c) != std::string_view::npos) safe += '\\';
+    safe += c == '\n' ? ' ' : c;
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string overviewText(const Overview& overview, const TextLook& look) {
+  if (overview.rows.empty() || overview.columns.empty()) return {};
+  const std::vector<std::size_t> widths = widthsOf(overview);
+  const std::vector<std::size_t> begins = blocksOf(widths, look.width);
+  const std::size_t blocks = begins.size() - 1;
+  // Each block has a head; a line more says what was left out.
+  const std::size_t room = (mostOverviewLines - overview.conclusion.size()) / blocks - 1;
+  const bool cut = overview.rows.size() > room;
+  const std::size_t shown = cut ? room - 1 : overview.rows.size();
+  std::string text;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    std::string head = padded(overview.rowsAre, widths[0]);
+    for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
+      head += std::string(gap, ' ') + padded(overview.columns[k].name, widths[k + 1]);
+    text += withoutEnd(head);
+    for (std::size_t r = 0; r < shown; ++r) {
+      const OverviewRow& row = overview.rows[r];
+      std::string line = padded(row.name, widths[0]);
+      for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
+        line += std::string(gap, ' ') +
+                coloured(row.cells[k], padded(textOf(row.cells[k]), widths[k + 1]), look);
+      text += withoutEnd(line);
+    }
+    if (cut) text += fmt::format("… and {} more: in the report\n", overview.rows.size() - shown);
+  }
+  for (const std::string& sentence : overview.conclusion) text += sentence + "\n";
+  return text;
+}
+
+std::string overviewMarkdown(const Overview& overview, const std::string& title) {
+  std::string text = fmt::format("# {}\n", forTable(title));
+  if (!overview.rows.empty() && !overview.columns.empty()) {
+    text += fmt::format("\n| {} |", forTable(overview.rowsAre));
+    for (const OverviewColumn& column : overview.columns)
+      text += fmt::format(" {} |", forTable(column.name));
+    text += "\n|---|";
+    for (std::size_t k = 0; k < overview.columns.size(); ++k) text += "---|";
+    for (const OverviewRow& row : overview.rows) {
+      text += fmt::format("\n| {} |", forTable(row.name));
+      for (const OverviewCell& cell : row.cells)
+        text += fmt::format(" {} |", forTable(textOf(cell)));
+    }
+    text += "\n";
+  }
+  for (const std::string& sentence : overview.conclusion)
+    text += fmt::format("\n{}\n", forTable(sentence));
+  return text;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <set>
+
+#include "reports/common/engines.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/overview.hpp"
+#include "reports/common/overview_marks.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+std::string meaningOf(const Overview& overview, CellState state) {
+  const auto own = std::ranges::find(overview.states, state, &StateWords::state);
+  return own == overview.states.end() ? std::string(lookOf(state).words) : own->words;
+}
+
+Json cellView(const Overview& overview, const OverviewCell& cell, const std::string& column) {
+  const CellLook look = lookOf(cell.state);
+  std::string title = meaningOf(overview, cell.state);
+  if (!cell.words.empty()) title += ": " + cell.words;
+  return {{"asked", column},        {"mark", look.mark},
+          {"class", look.cssClass}, {"title", title},
+          {"shown", cell.shown},    {"words", symbolsHtml(cell.words)},
+          {"anchor", cell.anchor},  {"state", meaningOf(overview, cell.state)}};
+}
+
+/// What the marks stand for, of those that occur.
+Json legendOf(const Overview& overview) {
+  std::set<CellState> seen;
+  for (const OverviewRow& row : overview.rows)
+    for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
+  Json legend = Json::array();
+  for (const CellState state : seen) {
+    const CellLook look = lookOf(state);
+    legend.push_back(
+        {{"mark", look.mark}, {"class", look.cssClass}, {"words", meaningOf(overview, state)}});
+  }
+  return legend;
+}
+
+}  // namespace
+
+void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines) {
+  if (overview.rows.empty() || overview.columns.empty()) return;
+  const std::vector<LineStyle> styles = engineStyles(engines);
+  Json columns = Json::array(), rows = Json::array();
+  for (const OverviewColumn& column : overview.columns)
+    columns.push_back(
+        {{"name", symbolsHtml(column.name)}, {"asks", column.asks}, {"anchor", column.anchor}});
+  for (const OverviewRow& row : overview.rows) {
+    Json cells = Json::array();
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      cells.push_back(cellView(overview, row.cells[k], overview.columns[k].name));
+    const auto engine = std::ranges::find(engines, row.name, &EngineRow::name);
+    const bool drawn = row.isEngine && engine != engines.end();
+    const LineStyle style =
+        drawn ? styles[static_cast<std::size_t>(engine - engines.begin())] : LineStyle();
+    rows.push_back({{"name", row.name},
+                    {"isEngine", drawn},
+                    {"colour", style.colour},
+                    {"dashed", style.dashed},
+                    {"cells", std::move(cells)}});
+  }
+  Json conclusion = Json::array();
+  for (const std::string& sentence : overview.conclusion)
+    conclusion.push_back(symbolsHtml(sentence));
+  view["overview"] = {{"rowsAre", overview.rowsAre},
+                      {"columns", std::move(columns)},
+                      {"rows", std::move(rows)},
+                      {"legend", legendOf(overview)},
+                      {"conclusion", std::move(conclusion)}};
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Sentences that are put together by rule.
+namespace crossgrain::reports {
+
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& names);
+
+/// The first few, and how many more: "a, b and 3 more".
+std::string listedShortly(const std::vector<std::string>& names, std::size_t most);
+
+/// "all 4 runs", "the one run"
+std::string allOf(std::size_t count, std::string_view noun);
+
+/// "is" or "are", "differs" or "differ": by how many there are.
+inline std::string_view verb(std::size_t count, std::string_view one, std::string_view many) {
+  return count == 1 ? one : many;
+}
+
+/// Subjects by what is said of them, in the order in which each was said first.
+class SaidOf {
+ public:
+  void add(const std::string& subject, const std::string& said);
+  const std::vector<std::pair<std::string, std::vector<std::string>>>& all() const { return said_; }
+  bool empty() const { return said_.empty(); }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> said_;
+};
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "cases/endpoints.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/couette/agreement_entries.hpp"
+#include "reports/couette/engine_runs.hpp"
+#include "reports/couette/overview.hpp"
+#include "reports/lockstep/words.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Engines = std::vector<EngineRuns>;
+using Names = std::vector<std::string>;
+
+/// Names of a sentence that would not be read to its end otherwise.
+constexpr std::size_t mostNames = 3;
+
+Names endpointsWith(const std::vector<const EndpointRow*>& rows, Answer answer) {
+  Names names;
+  for (const EndpointRow* row : rows)
+    if (row->answer == answer) names.emplace_back(endpointSpec(row->endpoint).words);
+  return names;
+}
+
+/// "disagrees on pressure and coordination and agrees on 5 of 9"; of one pair.
+std::string relationOf(const std::vector<const EndpointRow*>& rows) {
+  const Names disagree = endpointsWith(rows, Answer::disagree),
+              borderline = endpointsWith(rows, Answer::borderline),
+              undecided = endpointsWith(rows, Answer::undecided);
+  const std::size_t agree = rows.size() - disagree.size() - borderline.size() - undecided.size();
+  if (agree == rows.size()) return "agreement on " + allOf(rows.size(), "endpoint");
+  Names parts;
+  if (!disagree.empty()) parts.push_back("disagreement on " + listedShortly(disagree, mostNames));
+  if (!borderline.empty()) parts.push_back("borderline on " + listedShortly(borderline, mostNames));
+  if (!undecided.empty())
+    parts.push_back(agree + disagree.size() + borderline.size() == 0
+                        ? allOf(undecided.size(), "endpoint") + " undecided"
+                        : fmt::format("{} of {} undecided", undecided.size(), rows.size()));
+  if (agree > 0) parts.push_back(fmt::format("agreement on {} of {}", agree, rows.size()));
+  return fmt::format("{}", listed(parts));
+}
+
+/// Who agrees with the reference on what.
+std::string whoAgrees(const CompareResults& results, const Engines& engines) {
+  SaidOf said;
+  for (const std::string& peer : peersOf(results.endpoints.rows, engines))
+    said.add(peer, relationOf(rowsOf(results.endpoints.rows, engines.front().name, peer)));
+  if (said.empty()) return "No two engines could be compared.";
+  Names parts;
+  for (const auto& [relation, peers] : said.all())
+    parts.push_back(fmt::format("{}: {}", listed(peers), relation));
+  std::string words = fmt::format("Against {}, ", engines.front().name);
+  for (std::size_t k = 0; k < parts.size(); ++k) words += (k == 0 ? "" : "; ") + parts[k];
+  return words + ".";
+}
+
+/// "normal" and "tangential" are laws; the others say what they are.
+std::string conventionWords(const std::string& name) {
+  return spaced(name) + (name == "normal" || name == "tangential" ? " law" : "");
+}
+
+/// What an engine declares that it does otherwise than the scene says.
+Names conventionsOf(const EngineRuns& engine) {
+  Names names;
+  if (const Realised* realised = engine.realised())
+    for (const Deviation& deviation : realised->deviations)
+      if (std::string name = conventionWords(deviation.name);
+          std::ranges::find(names, name) == names.end())
+        names.push_back(std::move(name));
+  return names;
+}
+
+bool disagrees(const CompareResults& results, const EngineRuns& engine) {
+  return std::ranges::any_of(
+      rowsOf(results.endpoints.rows, results.engines.front().name, engine.name),
+      [](const EndpointRow* row) { return row->answer == Answer::disagree; });
+}
+
+const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.engine == engine && row.verdict == LockstepVerdict::differs) return &row;
+  return nullptr;
+}
+
+/// What is to blame: an engine that is not its own law, else what it declares to do otherwise.
+std::string whatIsToBlame(const CompareResults& results, const Engines& engines) {
+  Names parts;
+  for (const EngineRuns& engine : engines) {
+    if (!engine.mirrors.empty()) continue;
+    if (const LockstepRow* row = differingRow(results, engine.name)) {
+      const bool open = !openInLaw(*row, results.lockstep->rules).empty();
+      parts.push_back(
+          open ? fmt::format("{} parts from its mirror where disks touch several at once, which "
+                             "its law leaves open",
+                             engine.name)
+               : fmt::format("{} is not the law that it declares{}", engine.name,
+                             row->term ? ", off in " + constantWords(row->term->name) : ""));
+      continue;
+    }
+    if (&engine == &engines.front() || !disagrees(results, engine)) continue;
+    const Names conventions = conventionsOf(engine);
+    if (!isModelDifference(results, engine))
+      parts.push_back(
+          fmt::format("no mirror tells whether it is its law or its implementation that parts {}{}",
+                      engine.name,
+                      conventions.empty()
+                          ? ""
+                          : "; it declares otherwise: " + listedShortly(conventions, mostNames)));
+    else
+      parts.push_back(fmt::format(
+          "{} differs by the law that it declares{}", engine.name,
+          conventions.empty() ? "" : " (" + listedShortly(conventions, mostNames) + ")"));
+  }
+  if (parts.empty()) return {};
+  std::string words = fmt::format("{}.", listedShortly(parts, mostNames));
+  return "What parts them: " + words;
+}
+
+/// Packings that decide most of what is open, by the estimates of the rows.
+std::optional<int> mostNeeded(const std::vector<EndpointRow>& rows) {
+  std::optional<int> least;
+  for (const EndpointRow& row : rows)
+    if (row.kind == PairKind::peer && row.answer == Answer::undecided && row.needs)
+      least = std::min(least.value_or(*row.needs), *row.needs);
+  return least;
+}
+
+std::string nextStep(const CompareResults& results, const Engines& engines) {
+  if (results.nothingJudged)
+    return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
+  for (const EngineRuns& engine : engines)
+    if (engine.status == EngineStatus::failed || engine.finished.size() < engine.runs.size())
+      return fmt::format("Next: see why {} did not finish, under “What did not run”.", engine.name);
+  for (const AlarmRow& alarm : results.endpoints.alarms)
+    return fmt::format("Next: see the alarm on {}: {}.", alarm.b, alarm.what);
+  const auto has = [&](Answer answer) {
+    return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
+      return row.kind == PairKind::peer && row.answer == answer;
+    });
+  };
+  if (peersOf(results.endpoints.rows, engines).empty())
+    return "Next: name two engines that run this scene.";
+  if (has(Answer::undecided)) {
+    const auto needed = mostNeeded(results.endpoints.rows);
+    const LooksFindings& looks = results.endpoints.looks;
+    const bool planned = looks.taken < looks.planned.size();
+    return fmt::format("Next: more packings{}; {}.",
+                       needed ? fmt::format(", about {} for the first that is open", *needed) : "",
+                       planned ? "the same command with a larger --budget adds them"
+                               : "the case plans no further look ([looks] in its file)");
+  }
+  if (has(Answer::disagree))
+    return "Next: hold the margins against what the difference is to be good for, or give both the "
+           "same law.";
+  if (has(Answer::borderline))
+    return "More packings will hardly change what is borderline: its difference is about the "
+           "margin.";
+  return "Nothing is left to decide at these margins.";
+}
+
+}  // namespace
+
+std::vector<std::string> compareConclusion(const CompareResults& results) {
+  const Engines engines = engineRuns(results);
+  std::vector<std::string> sentences;
+  if (engines.empty()) return sentences;
+  for (std::string& sentence :
+       std::vector{whoAgrees(results, engines), whatIsToBlame(results, engines),
+                   nextStep(results, engines)})
+    if (!sentence.empty()) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,133 @@
+#include "reports/couette/endpoint_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/page.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+std::string signedNumber(double value) {
+  return fmt::format("{}{}", value < 0.0 ? "−" : "", readable(std::abs(value)));
+}
+
+/// Which endpoint of a canary lies farthest out, in units of the scatter.
+const CanaryNumber* farthest(const std::vector<CanaryNumber>& canary) {
+  const CanaryNumber* worst = nullptr;
+  for (const CanaryNumber& number : canary)
+    if (number.chance && (!worst || *number.chance < *worst->chance)) worst = &number;
+  return worst;
+}
+
+}  // namespace
+
+std::string wordOf(Answer answer) {
+  static constexpr std::array<const char*, 5> words = {"agree, no difference seen",
+                                                       "agree, small difference", "borderline",
+                                                       "disagree", "undecided"};
+  return words[static_cast<std::size_t>(answer)];
+}
+
+std::string distanceInWords(const EndpointRow& row) {
+  const auto distance = finite(row.distance), low = finite(row.distanceLow),
+             high = finite(row.distanceHigh);
+  if (!distance) return {};
+  const std::string size = signedNumber(*distance) + " margins";
+  if (!low || !high) return size;
+  return fmt::format("{} ({} to {})", size, signedNumber(*low), signedNumber(*high));
+}
+
+std::string needsInWords(const EndpointRow& row) {
+  if (row.answer != Answer::undecided || !row.needs) return {};
+  if (!row.needsAtMost)
+    return fmt::format("{} packings or many more decide with 90 % chance", *row.needs);
+  if (*row.needs == *row.needsAtMost)
+    return fmt::format("about {} packings decide with 90 % chance", *row.needs);
+  return fmt::format("{} to {} packings decide with 90 % chance", *row.needs, *row.needsAtMost);
+}
+
+std::string carrierInWords(const EndpointRow& row) {
+  std::vector<std::string> mirrors;
+  for (const std::string& mirror : {row.carrierA, row.carrierB})
+    if (!mirror.empty()) mirrors.push_back(mirror);
+  if (mirrors.empty()) return {};
+  return fmt::format("by {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+}
+
+std::string answerInWords(const EndpointRow& row) {
+  std::string words = wordOf(row.answer);
+  if (const std::string distance = distanceInWords(row); !distance.empty())
+    words += ": " + distance;
+  if (row.lost > 0) words += fmt::format(", {} lost", counted(std::size_t(row.lost), "packing"));
+  for (const std::string& more : {carrierInWords(row), needsInWords(row)})
+    if (!more.empty()) words += "; " + more;
+  return words;
+}
+
+std::string sentenceOf(const CarriedEngine& own) {
+  if (!own.carried)
+    return fmt::format("{}: its mirror {} does not stand for it: {}.", own.engine, own.mirror,
+                       own.alarm);
+  // The rule of three: no event in n trials leaves at most 3/n, at 95 %.
+  const double unseen = std::min(1.0, 3.0 / static_cast<double>(own.starts));
+  std::string words = fmt::format(
+      "{}: by its mirror {} (ε_eq {}; {} windows alike leave at most {:.0f} % of states unlike)",
+      own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
+  if (const CanaryNumber* const worst = farthest(own.canary))
+    words += fmt::format(
+        "; its own run of packing {} is within chaos of the mirror's: {} margins of {} at most, "
+        "scatter {}",
+        own.canaryPacking, signedNumber(worst->difference.value_or(0.0)), spaced(worst->endpoint),
+        readable(worst->floor));
+  return words + ".";
+}
+
+std::string sentenceOf(const AlarmRow& alarm) {
+  return fmt::format("{} against {}: {}.", alarm.b, alarm.a, alarm.what);
+}
+
+std::string sentenceOf(const LooksFindings& looks) {
+  std::vector<int> packings;
+  double spent = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < looks.planned.size(); ++k) {
+    all += looks.planned[k].alpha;
+    if (k >= looks.taken) continue;
+    packings.push_back(looks.planned[k].packings);
+    spent += looks.planned[k].alpha;
+  }
+  return fmt::format(
+      "Looked at {} packings ({} of {}), {:.3g} of {:.3g} % chance of error spent; {}.",
+      fmt::join(packings, ", "), looks.taken, counted(looks.planned.size(), "look"), 100.0 * spent,
+      100.0 * all, looks.ended);
+}
+
+std::string countsInWords(const std::vector<const EndpointRow*>& rows) {
+  std::vector<std::string> agree, borderline, disagree, undecided;
+  for (const EndpointRow* row : rows) {
+    auto& list = agrees(row->answer)                 ? agree
+                 : row->answer == Answer::borderline ? borderline
+                 : row->answer == Answer::disagree   ? disagree
+                                                     : undecided;
+    list.push_back(spaced(row->endpoint));
+  }
+  std::string words = fmt::format("{} of {} agree", agree.size(), counted(rows.size(), "endpoint"));
+  const auto add = [&](const std::vector<std::string>& list, const char* what) {
+    if (list.empty()) return;
+    words += fmt::format(", {} {}", list.size(), what);
+    if (list.size() < rows.size()) words += fmt::format(" ({})", fmt::join(list, ", "));
+  };
+  add(disagree, "disagree");
+  add(borderline, "borderline");
+  add(undecided, "undecided");
+  return words;
+}
+
+}  // namespace crossgrain::reports

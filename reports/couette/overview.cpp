@@ -1,0 +1,217 @@
+#include "reports/couette/overview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/endpoints.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/page.hpp"
+#include "reports/couette/agreement_entries.hpp"
+#include "reports/couette/endpoint_words.hpp"
+#include "reports/couette/engine_cost.hpp"
+#include "reports/lockstep/overview.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// The graver, the larger.
+int gravity(Answer answer) {
+  switch (answer) {
+    case Answer::noDifference:
+      return 0;
+    case Answer::smallDifference:
+      return 1;
+    case Answer::undecided:
+      return 2;
+    case Answer::borderline:
+      return 3;
+    case Answer::disagree:
+      break;
+  }
+  return 4;
+}
+
+CellState stateOf(Answer answer, bool isModel) {
+  switch (answer) {
+    case Answer::noDifference:
+    case Answer::smallDifference:
+      return CellState::good;
+    case Answer::undecided:
+      return CellState::undecided;
+    case Answer::borderline:
+      return CellState::borderline;
+    case Answer::disagree:
+      break;
+  }
+  return isModel ? CellState::modelDifference : CellState::bad;
+}
+
+OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
+  static const LockstepFindings none;
+  const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
+  const auto row = std::ranges::find(findings.rows, engine.name, &LockstepRow::engine);
+  return lockstepCell(row == findings.rows.end() ? nullptr : &*row, findings.rules,
+                      !engine.mirrors.empty());
+}
+
+bool alarmed(const CompareResults& results, const std::string& engine) {
+  return std::ranges::any_of(results.endpoints.alarms,
+                             [&](const AlarmRow& alarm) { return alarm.b == engine; });
+}
+
+/// On how many packings the two are in different regimes: means are of different states there.
+std::size_t otherRegime(const CompareResults& results, const std::string& a, const std::string& b) {
+  for (const RegimesOfPair& pair : results.regimes)
+    if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return pair.differ.size();
+  return 0;
+}
+
+/// The engine that a mirror's runs stand for; null: none.
+const CarriedEngine* carriedBy(const CompareResults& results, const std::string& mirror) {
+  const auto found = std::ranges::find_if(
+      results.endpoints.carried,
+      [&](const CarriedEngine& carried) { return carried.carried && carried.mirror == mirror; });
+  return found == results.endpoints.carried.end() ? nullptr : &*found;
+}
+
+OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) {
+  const std::string& reference = results.engines.front().name;
+  if (engine.name == reference)
+    return {CellState::notApplicable, {}, "margins", {}, "the reference", {}};
+  const Endpoints& rows = results.endpoints.rows;
+  if (const CarriedEngine* carried = carriedBy(results, engine.name)) {
+    const EndpointRow* worst = gravestOf(rowsOf(rows, reference, carried->engine));
+    OverviewCell cell = worst ? endpointCell(*worst, true) : OverviewCell{};
+    cell.words = "its runs stand for " + carried->engine;
+    return cell;
+  }
+  const EndpointRow* worst = gravestOf(rowsOf(rows, reference, engine.name));
+  if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not held against it", {}};
+  OverviewCell cell = endpointCell(*worst, isModelDifference(results, engine));
+  if (alarmed(results, engine.name)) {
+    cell.state = CellState::bad;
+    cell.words = "ALARM: " + cell.words;
+  }
+  if (const std::size_t packings = otherRegime(results, reference, engine.name); packings > 0)
+    cell.words += fmt::format("; on {} in another regime", counted(packings, "packing"));
+  return cell;
+}
+
+OverviewCell costOfEngine(const EngineRuns& engine) {
+  OverviewCell cell{CellState::notMeasured, costOf(engine).cpuPerSecond(), "s", {}, {}, "engines"};
+  if (!cell.value) return cell;
+  cell.state = CellState::figure;
+  cell.shown = shortDuration(cell.value);
+  return cell;
+}
+
+/// How many endpoints have lost a packing on which one of both has no value.
+std::size_t lostEndpoints(const CompareResults& results, const std::string& engine) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(results.endpoints.rows, [&](const EndpointRow& row) {
+        return row.lost > 0 && row.b == engine && row.kind != PairKind::mirrorImplementation;
+      }));
+}
+
+OverviewCell lostOf(const CompareResults& results, const EngineRuns& engine) {
+  OverviewCell cell{CellState::notApplicable, {}, "packings", {}, {}, "packings"};
+  if (engine.status != EngineStatus::ran && engine.runs.empty()) {
+    if (engine.status == EngineStatus::failed) cell.state = CellState::bad;
+    cell.shown = engine.status == EngineStatus::refused ? "refused" : "failed";
+    cell.words = engine.reason;
+    return cell;
+  }
+  if (engine.runs.empty()) return cell;
+  const std::size_t lost = engine.runs.size() - engine.finished.size();
+  cell.value = static_cast<double>(lost);
+  cell.shown = fmt::format("{} of {}", lost, engine.runs.size());
+  cell.state = lost > 0 ? CellState::bad : CellState::good;
+  if (const std::size_t endpoints = lostEndpoints(results, engine.name);
+      lost == 0 && endpoints > 0) {
+    cell.state = CellState::borderline;
+    cell.words = fmt::format("{} without a value somewhere", counted(endpoints, "endpoint"));
+  }
+  return cell;
+}
+
+}  // namespace
+
+const EndpointRow* gravestOf(const std::vector<const EndpointRow*>& rows) {
+  const auto size = [](const EndpointRow& row) {
+    return std::abs(finite(row.distance).value_or(0.0));
+  };
+  const EndpointRow* worst = nullptr;
+  for (const EndpointRow* row : rows)
+    if (!worst || std::pair(gravity(row->answer), size(*row)) >
+                      std::pair(gravity(worst->answer), size(*worst)))
+      worst = row;
+  return worst;
+}
+
+OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
+  OverviewCell cell{stateOf(row.answer, isModel),
+                    finite(row.distance),
+                    "margins",
+                    {},
+                    std::string(endpointSpec(row.endpoint).words),
+                    "agreement"};
+  if (cell.value)
+    cell.shown =
+        fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
+  return cell;
+}
+
+bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
+  if (!engine.mirrors.empty()) return true;
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured)
+        return row.verdict != LockstepVerdict::differs;
+  const Endpoints& endpoints = results.endpoints.rows;
+  const std::string& reference = results.engines.front().name;
+  for (const EngineRow& mirror : results.engines) {
+    if (mirror.mirrors != engine.name) continue;
+    bool disagrees = false;
+    for (const EndpointRow* row : rowsOf(endpoints, reference, engine.name)) {
+      if (row->answer != Answer::disagree) continue;
+      disagrees = true;
+      const EndpointRow* own = rowOf(endpoints, mirror.name, engine.name, row->endpoint);
+      if (!own || gravity(own->answer) > gravity(Answer::smallDifference)) return false;
+    }
+    return disagrees;
+  }
+  return false;
+}
+
+Overview compareOverview(const CompareResults& results) {
+  Overview overview;
+  if (results.engines.empty()) return overview;
+  const std::string& reference = results.engines.front().name;
+  overview.columns = {
+      {"own law",
+       "Is the engine the law that it declares? Side by side with its mirror, step by "
+       "step; the change of a constant that would part the mirror from itself as far.",
+       results.lockstep ? "lockstep" : ""},
+      {"collisions", "Do two disks collide as theory says? crossgrain collide tells.", ""},
+      {"averages against " + reference,
+       "The endpoint that says most, as its distance from the reference in margins.",
+       results.endpoints.rows.empty() ? "" : "agreement"},
+      {"CPU time per s", "CPU time for a simulated second.", "engines"},
+      {"packings lost", "Packings that the engine did not finish.", "packings"}};
+  overview.states = {{CellState::bad, "disagrees, fell short or failed"}};
+  for (const EngineRuns& engine : engineRuns(results))
+    overview.rows.push_back({engine.name,
+                             true,
+                             {lockstepOf(results, engine),
+                              {CellState::notMeasured, {}, "", {}, {}, {}},
+                              averagesOf(results, engine),
+                              costOfEngine(engine),
+                              lostOf(results, engine)}});
+  overview.conclusion = compareConclusion(results);
+  return overview;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,148 @@
+#include "reports/lockstep/overview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/lockstep/words.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+constexpr const char* evidence = "lockstep";
+
+CellState stateOf(const LockstepRow& row, const LockstepRules& rules) {
+  switch (row.verdict) {
+    case LockstepVerdict::sameToRounding:
+    case LockstepVerdict::sameToPrecision:
+    case LockstepVerdict::sameLaw:
+      return CellState::good;
+    case LockstepVerdict::differs:
+      return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
+    case LockstepVerdict::notMeasured:
+      break;
+  }
+  return CellState::notMeasured;
+}
+
+OverviewCell separationCell(const LockstepRow& row, bool last) {
+  OverviewCell cell{CellState::notMeasured, {}, "d", {}, {}, evidence};
+  if (row.separations.empty()) return cell;
+  const LockstepSeparation& at = last ? row.separations.back() : row.separations.front();
+  cell.state = CellState::figure;
+  cell.value = finite(at.largest);
+  cell.shown = readable(cell.value) + " d";
+  cell.words = fmt::format("after {} ms", readable(1e3 * at.time));
+  return cell;
+}
+
+OverviewCell forcesCell(const LockstepRow& row) {
+  OverviewCell cell{CellState::notMeasured, {}, "of the largest", {}, {}, evidence};
+  if (!row.forces) return cell;
+  cell.state = CellState::figure;
+  cell.value = std::max(row.forces->normal, row.forces->tangential);
+  cell.shown = percentInWords(*cell.value);
+  cell.words = "of the largest force";
+  if (const std::size_t others = row.forces->missing + row.forces->extra; others > 0)
+    cell.words += fmt::format("; {} contacts missing or too many", others);
+  return cell;
+}
+
+OverviewCell termCell(const LockstepRow& row) {
+  OverviewCell cell{CellState::notApplicable, {}, "%", {}, {}, evidence};
+  if (row.verdict == LockstepVerdict::notMeasured) cell.state = CellState::notMeasured;
+  if (!row.term) {
+    if (row.verdict == LockstepVerdict::differs) cell.words = "no single term accounts for it";
+    return cell;
+  }
+  cell.state = row.verdict == LockstepVerdict::differs ? CellState::bad : CellState::figure;
+  cell.words = constantWords(row.term->name);
+  if (!row.term->amount) return cell;
+  cell.value = 100.0 * *row.term->amount;
+  cell.shown = (*cell.value < 0.0 ? "−" : "+") + percentInWords(std::abs(*row.term->amount));
+  return cell;
+}
+
+/// What is off, of those that are another law than they declare.
+std::string blameOf(const LockstepFindings& findings) {
+  std::vector<std::string> parts;
+  for (const LockstepRow& row : findings.rows)
+    if (stateOf(row, findings.rules) == CellState::bad)
+      parts.push_back(fmt::format(
+          "{}: {}", row.engine,
+          row.term ? constantWords(row.term->name) : "no single constant, convention or effect"));
+  if (parts.empty()) return {};
+  return fmt::format("What leaves least of the separation when it is changed: {}.",
+                     listedShortly(parts, 3));
+}
+
+std::string nextOf(const LockstepFindings& findings) {
+  std::vector<std::string> differ, open;
+  for (const LockstepRow& row : findings.rows) {
+    if (stateOf(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
+    if (row.verdict == LockstepVerdict::notMeasured) open.push_back(row.engine);
+  }
+  if (!differ.empty())
+    return fmt::format("Next: look at the first contact that parts {}, in the table below.",
+                       listed(differ));
+  if (open.size() == findings.rows.size())
+    return "Next: a scene whose contacts have a mirror; the reasons are in the table below.";
+  return "Next: compare the averages; what begins later than these windows escapes them.";
+}
+
+}  // namespace
+
+OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
+  if (!row)
+    return {isMirror ? CellState::notApplicable : CellState::notMeasured,  {}, "%", {},
+            isMirror ? "is a mirror itself" : "not held against a mirror", {}};
+  OverviewCell cell{stateOf(*row, rules), {}, "%", {}, {}, evidence};
+  if (row->verdict == LockstepVerdict::notMeasured) {
+    cell.words = row->reason;
+    return cell;
+  }
+  cell.words = spaced(nameOf(row->verdict));
+  if (row->verdict == LockstepVerdict::differs && cell.state == CellState::borderline)
+    cell.words = "parts only where the law leaves the order of impacts open";
+  // What would just have shown is what can be said of an engine that stays within its rounding.
+  const bool bounded = row->verdict == LockstepVerdict::sameToPrecision;
+  const auto size = bounded ? row->resolution : row->equivalent;
+  if (!size) return cell;
+  cell.value = 100.0 * *size;
+  const std::string figure = *size > 1.0 ? "more than all" : percentInWords(*size);
+  cell.shown =
+      fmt::format("{}{} of {}", bounded ? "below " : "", figure, plainSymbol(rules.yardstick));
+  return cell;
+}
+
+Overview lockstepOverview(const LockstepResults& results) {
+  const LockstepFindings& findings = results.lockstep;
+  Overview overview;
+  overview.columns = {
+      {"its own law",
+       "Is it the law that it declares? The change of a constant that would part "
+       "its mirror from itself as far.",
+       evidence},
+      {"forces", "Largest difference of a contact's force on one state.", evidence},
+      {"early", "Largest separation from its mirror at the first look, in diameters.", "over-time"},
+      {"late", "Largest separation from its mirror at the last look, in diameters.", "over-time"},
+      {"what is off", "The single change of the mirror that leaves least of the separation.",
+       evidence}};
+  for (const LockstepRow& row : findings.rows)
+    overview.rows.push_back(
+        {row.engine,
+         true,
+         {lockstepCell(&row, findings.rules, false), forcesCell(row), separationCell(row, false),
+          separationCell(row, true), termCell(row)}});
+  overview.conclusion = {leadOf(findings)};
+  for (std::string& sentence : std::vector{blameOf(findings), nextOf(findings)})
+    if (!sentence.empty()) overview.conclusion.push_back(std::move(sentence));
+  return overview;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,199 @@
+#include "reports/stability/overview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/stability/table.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+struct Family {
+  std::string_view measure, name, asks;
+};
+/// In the order of the columns.
+constexpr std::array families = {
+    Family{"energy_gain", "energy", "Does energy come from nowhere, or go?"},
+    Family{"energy_drift", "energy", ""},
+    Family{"ledger_residual", "energy", ""},
+    Family{"momentum_drift", "momentum", "Are momentum and angular momentum kept?"},
+    Family{"angular_momentum_drift", "momentum", ""},
+    Family{"restitution_error", "bounce", "Do disks rebound as theory says?"},
+    Family{"max_overlap", "passing through", "Do disks go through each other or through walls?"},
+    Family{"tunnelled", "passing through", ""},
+    Family{"escaped", "passing through", ""},
+    Family{"kinetic_at_rest", "rest", "Does what lies stay at rest?"},
+    Family{"creep", "rest", ""},
+    Family{"pile_angle_change", "rest", ""},
+    Family{"time_to_rest", "rest", ""},
+    Family{"ratchet", "cycles", "Do repeated loads come back to where they were?"},
+    Family{"step_limit", "time step", "How near to theory is the largest stable time step?"},
+    Family{"copies_differ", "copies", "Do turned, shifted and scaled copies behave alike?"},
+    Family{"restart_differs", "restart", "Does a run go on from a checkpoint as if uninterrupted?"},
+    Family{"accepted", "bad starts", "Are starts refused that nothing can run?"}};
+
+const Family* known(const std::string& measure) {
+  const auto found = std::ranges::find(families, measure, &Family::measure);
+  return found == families.end() ? nullptr : &*found;
+}
+
+struct NamedFamily {
+  std::string name, asks;
+};
+
+/// Those that occur: known ones in their order, then the others.
+std::vector<NamedFamily> familiesOf(const StabilityResults& results) {
+  std::vector<NamedFamily> found;
+  const auto occurs = [&](std::string_view name) {
+    return std::ranges::any_of(
+        results.cases, [&](const HardCase& hard) { return familyOf(hard.measure) == name; });
+  };
+  const auto add = [&](std::string name, std::string_view asks) {
+    if (std::ranges::find(found, name, &NamedFamily::name) == found.end())
+      found.push_back({std::move(name), std::string(asks)});
+  };
+  for (const Family& family : families)
+    if (occurs(family.name)) add(std::string(family.name), family.asks);
+  for (const HardCase& hard : results.cases) add(familyOf(hard.measure), hard.what);
+  return found;
+}
+
+/// How an engine came through the cases of one family.
+struct FamilyTally {
+  std::size_t stable = 0, judged = 0, refused = 0;
+  const StabilityRun* worst = nullptr;
+  std::string anchor, refusal;
+};
+
+FamilyTally tallyOf(const StabilityResults& results, const std::string& engine,
+                    const std::string& family) {
+  FamilyTally tally;
+  const std::vector<HardGroup> groups = hardGroups(results);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const HardCase* variant : groups[g].variants) {
+      if (familyOf(variant->measure) != family) continue;
+      const StabilityRun* run = runOf(results, engine, *variant);
+      if (!run) continue;
+      if (run->verdict == StabilityVerdict::refused) {
+        ++tally.refused;
+        continue;
+      }
+      ++tally.judged;
+      tally.stable += run->verdict == StabilityVerdict::stable;
+      if (!tally.worst || isWorse(*run, *tally.worst)) {
+        tally.worst = run;
+        tally.anchor = fmt::format("case_{}", g + 1);
+      }
+    }
+  return tally;
+}
+
+OverviewCell cellOf(const FamilyTally& tally) {
+  OverviewCell cell{CellState::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
+  if (!tally.worst) {
+    if (tally.refused > 0) cell.state = CellState::notApplicable;
+    return cell;
+  }
+  cell.value = static_cast<double>(tally.stable);
+  cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
+  switch (tally.worst->verdict) {
+    case StabilityVerdict::unstable:
+      cell.state = CellState::bad;
+      break;
+    case StabilityVerdict::degraded:
+      cell.state = CellState::borderline;
+      break;
+    default:
+      cell.state = CellState::good;
+  }
+  if (cell.state != CellState::good) cell.words = spaced(tally.worst->name);
+  return cell;
+}
+
+std::string whoIsStable(const StabilityResults& results) {
+  SaidOf said;
+  for (const EngineRow& engine : results.engines) {
+    std::size_t stable = 0, degraded = 0, unstable = 0;
+    for (const StabilityRun& run : results.runs) {
+      if (run.engine != engine.name) continue;
+      stable += run.verdict == StabilityVerdict::stable;
+      degraded += run.verdict == StabilityVerdict::degraded;
+      unstable += run.verdict == StabilityVerdict::unstable;
+    }
+    const std::size_t judged = stable + degraded + unstable;
+    said.add(engine.name, judged == 0        ? "nothing could be judged"
+                          : stable == judged ? allOf(judged, "run") + " stable"
+                                             : fmt::format("{} of {} runs stable", stable, judged));
+  }
+  std::string sentence;
+  for (const auto& [words, engines] : said.all())
+    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", listed(engines), words);
+  return sentence + ".";
+}
+
+/// Cases in which engines are unstable, engine by engine.
+std::string whatIsUnstable(const StabilityResults& results) {
+  SaidOf said;
+  for (const EngineRow& engine : results.engines) {
+    std::vector<std::string> unstable;
+    for (const HardGroup& group : hardGroups(results))
+      if (const StabilityRun* run = worstRun(results, engine.name, group);
+          run && run->verdict == StabilityVerdict::unstable)
+        unstable.push_back(spaced(group.name));
+    if (!unstable.empty()) said.add(engine.name, listedShortly(unstable, 3));
+  }
+  if (said.empty()) return {};
+  std::string sentence;
+  for (const auto& [names, engines] : said.all())
+    sentence += fmt::format("{}{} in {}", sentence.empty() ? "" : "; ", listed(engines), names);
+  return fmt::format("Unstable: {}.", sentence);
+}
+
+std::string nextStep(const StabilityResults& results) {
+  const auto has = [&](StabilityVerdict verdict) {
+    return std::ranges::find(results.runs, verdict, &StabilityRun::verdict) != results.runs.end();
+  };
+  if (has(StabilityVerdict::unstable))
+    return "Next: keep scenes like these away from those engines, or see from which step on the "
+           "limit is passed.";
+  if (has(StabilityVerdict::degraded))
+    return "Next: see whether what is degraded is more than your scene can bear.";
+  if (has(StabilityVerdict::stable)) return "Nothing here speaks against any of these engines.";
+  return "Nothing was judged: every run was refused.";
+}
+
+}  // namespace
+
+std::string familyOf(const std::string& measure) {
+  const Family* family = known(measure);
+  return family ? std::string(family->name) : spaced(measure);
+}
+
+Overview stabilityOverview(const StabilityResults& results) {
+  Overview overview;
+  overview.states = {{CellState::good, "all stable"},
+                     {CellState::borderline, "some degraded"},
+                     {CellState::bad, "some unstable"},
+                     {CellState::notApplicable, "refused"}};
+  const std::vector<NamedFamily> all = familiesOf(results);
+  for (const NamedFamily& family : all)
+    overview.columns.push_back({family.name, family.asks, "matrix"});
+  for (const EngineRow& engine : results.engines) {
+    OverviewRow row{engine.name, true, {}};
+    for (const NamedFamily& family : all)
+      row.cells.push_back(cellOf(tallyOf(results, engine.name, family.name)));
+    overview.rows.push_back(std::move(row));
+  }
+  for (std::string& sentence :
+       std::vector{whoIsStable(results), whatIsUnstable(results), nextStep(results)})
+    if (!sentence.empty()) overview.conclusion.push_back(std::move(sentence));
+  return overview;
+}
+
+}  // namespace crossgrain::reports

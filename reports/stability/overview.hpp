@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "results/overview.hpp"
+#include "results/stability.hpp"
+
+namespace crossgrain::reports {
+
+/// The family of hard cases that a measure belongs to: "energy", "rest". Of one that is not known
+/// here its own name.
+std::string familyOf(const std::string& measure);
+
+/// An engine per row, a family of hard cases per column: runs that stayed stable, of those judged.
+Overview stabilityOverview(const StabilityResults& results);
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,40 @@
+#include "results/conformance.hpp"
+
+#include <algorithm>
+
+#include "results/engine_fields.hpp"
+#include "results/head_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, ConformanceRow& row) {
+  io("part", row.part);
+  io("check", row.name);
+  io("what", row.what);
+  io("outcome", row.outcome);
+  io("detail", row.detail);
+  io("faults", row.faults);
+  io("wall_s", row.seconds);
+}
+
+void fields(auto& io, ConformanceResults& results) {
+  fields(io, results.head);
+  io.present("elapsed_s", results.elapsed);
+  io("engine", results.engine);
+  io("checks", results.rows);
+  io("cause", results.cause);
+}
+
+std::size_t ConformanceResults::count(ConformanceOutcome outcome) const {
+  return static_cast<std::size_t>(std::ranges::count(rows, outcome, &ConformanceRow::outcome));
+}
+
+Json toJson(const ConformanceResults& results) {
+  return jsonOf(results);
+}
+
+ConformanceResults conformanceFromJson(const Json& json) {
+  return readAs<ConformanceResults>(json);
+}
+
+}  // namespace crossgrain::inline results

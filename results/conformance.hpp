@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/engine_row.hpp"
+#include "results/head.hpp"
+
+/// results.json of kind "conformance": what one engine does as it declares.
+namespace crossgrain::inline results {
+
+enum class ConformanceOutcome {
+  passed,
+  failed,
+  skipped,   ///< it does not declare what the check asks for, or cannot be asked
+  brokeDown  ///< it died, hung, or answered what is no answer
+};
+constexpr auto namesOf(ConformanceOutcome) {
+  return std::array<std::string_view, 4>{"passed", "failed", "skipped", "broke_down"};
+}
+
+/// One check of one engine.
+struct ConformanceRow {
+  std::string part;  ///< "suite", "lockstep", "collisions"
+  std::string name;  ///< "HeadOnCollision"; of collisions the case and variant
+  std::string what;  ///< what holds of an engine that passes
+  ConformanceOutcome outcome = ConformanceOutcome::passed;
+  std::string detail;      ///< the first fault with its number, or why it was skipped; may be empty
+  std::size_t faults = 0;  ///< that were found in all
+  double seconds = 0.0;    ///< wall time [s]
+};
+
+struct ConformanceResults {
+  ResultsHead head;
+  std::optional<double> elapsed;  ///< [s]
+  EngineRow engine;
+  std::vector<ConformanceRow> rows;  ///< in the order in which they were run
+  std::string cause;                 ///< most likely, of what failed; empty: nothing is known of it
+
+  std::size_t count(ConformanceOutcome outcome) const;
+};
+
+nlohmann::json toJson(const ConformanceResults& results);
+/// @throws FieldError
+ConformanceResults conformanceFromJson(const nlohmann::json& json);
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,59 @@
+#include "results/diff.hpp"
+
+#include "results/endpoints_fields.hpp"
+#include "results/head_fields.hpp"
+#include "results/lockstep_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, DeclaredChange& change) {
+  io("name", change.name);
+  io("before", change.before);
+  io("now", change.now);
+}
+
+void fields(auto& io, CollisionChange& change) {
+  io("name", change.name);
+  io("variant", change.variant);
+  io("quantity", change.quantity);
+  io("changed", change.changed);
+  io("points", change.points);
+  io("largest", change.largest);
+  io("relative", change.relative);
+  io("psi_i", change.psi);
+  io("v_n", change.vn);
+}
+
+void fields(auto& io, DiffRow& row) {
+  io("engine", row.engine);
+  io("version", row.version);
+  io("before", row.before);
+  io("version_before", row.versionBefore);
+  io("verdict", row.verdict);
+  io("reason", row.reason);
+  io("failure", row.failure);
+  io("declared", row.declared);
+  io("windows", row.windows);
+  io("mirrored", row.mirrored);
+  io("windows_verdict", row.windowsVerdict);
+  io("collisions", row.collisions);
+  io("sweeps", row.sweeps);
+  io("collisions_verdict", row.collisionsVerdict);
+  io("endpoints", row.endpoints);
+}
+
+void fields(auto& io, DiffResults& results) {
+  fields(io, results.head);
+  io("baseline", results.baseline);
+  io("baseline_version", results.baselineVersion);
+  io("changed_keys", results.changedKeys);
+  io("rules", results.rules);
+  io("starts", results.starts);
+  io("engines", results.rows);
+}
+
+nlohmann::json toJson(const DiffResults& results) {
+  return jsonOf(results);
+}
+
+}  // namespace crossgrain::inline results

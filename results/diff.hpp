@@ -1,0 +1,75 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/endpoints.hpp"
+#include "results/head.hpp"
+#include "results/lockstep_findings.hpp"
+
+/// What an engine does otherwise than a baseline says.
+namespace crossgrain::inline results {
+
+enum class DiffVerdict {
+  notMeasured,  ///< the reason says why
+  sameBits,
+  sameToRounding,
+  sameLaw,
+  differs
+};
+constexpr auto namesOf(DiffVerdict) {
+  return std::array<std::string_view, 5>{"not_measured", "same_bits", "same_to_rounding",
+                                         "same_law", "differs"};
+}
+
+/// Something that an engine declares: its step, an option, a constant of a kind of pair.
+struct DeclaredChange {
+  std::string name, before, now;  ///< empty: not there
+};
+
+/// One quantity over one sweep of collisions.
+struct CollisionChange {
+  std::string name, variant;  ///< of the case
+  std::string quantity;
+  std::size_t changed = 0;  ///< collisions of which it is not the same bits
+  std::size_t points = 0;   ///< of the sweep
+  double largest = 0.0;     ///< change, now − before [the quantity's unit]
+  double relative = 0.0;    ///< its size in units of the largest value of the sweep before [-]
+  double psi = 0.0;         ///< Ψ_i at which it is …
+  double vn = 0.0;          ///< … and speed of approach [m/s]
+};
+
+/// One engine against what was kept.
+struct DiffRow {
+  std::string engine, version;        ///< now
+  std::string before, versionBefore;  ///< what was kept, and of which engine
+  DiffVerdict verdict = DiffVerdict::notMeasured;
+  std::string reason;   ///< why the windows were not compared
+  std::string failure;  ///< of the first run that was not finished
+  std::vector<DeclaredChange> declared;
+  std::optional<LockstepRow> windows;  ///< against those kept; absent of cases of collisions
+  bool mirrored = false;  ///< a mirror of what was kept could be asked for the term that is off
+  DiffVerdict windowsVerdict = DiffVerdict::notMeasured;
+  std::vector<CollisionChange> collisions;  ///< that are not the same bits
+  std::size_t sweeps = 0;                   ///< that were compared
+  DiffVerdict collisionsVerdict = DiffVerdict::notMeasured;
+  /// Averages of whole runs from each start against those kept; empty where none were kept, or
+  /// where the windows are the same bits.
+  std::vector<EndpointRow> endpoints;
+};
+
+struct DiffResults {
+  ResultsHead head;
+  std::string baseline;                  ///< file
+  std::string baselineVersion;           ///< of the crossgrain that kept it
+  std::vector<std::string> changedKeys;  ///< of the case, "law.mu: 0.44 → 0.5"
+  LockstepRules rules;
+  std::vector<LockstepStart> starts;
+  std::vector<DiffRow> rows;
+};
+
+nlohmann::json toJson(const DiffResults& results);
+
+}  // namespace crossgrain::inline results

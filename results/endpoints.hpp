@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "averaging/looks.hpp"
+#include "results/agreement.hpp"
+
+/// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
+namespace crossgrain::inline results {
+
+/// One endpoint of two engines.
+struct EndpointRow {
+  std::string a, b;  ///< the reference first
+  PairKind kind = PairKind::peer;
+  std::string endpoint, unit;
+  double margin = 0.0;          ///< of the reference where marginRelative, else in the unit
+  bool marginRelative = false;  ///< then engines are compared by their ratio
+  std::string marginWhy;
+  Answer answer = Answer::undecided;
+  std::optional<double> reference;              ///< mean over the packings of a [unit]
+  std::optional<double> difference, low, high;  ///< b − a, with the interval of the verdict [unit]
+  /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
+  /// wider by it.
+  std::optional<double> distance, distanceLow, distanceHigh;
+  std::optional<int> look;         ///< that gave the answer, or the last, from 1
+  int packings = 0;                ///< that both have
+  int lost = 0;                    ///< that one has no value on, of those looked at
+  std::optional<int> needs;        ///< undecided: packings that decide with 90 % chance,
+  std::optional<int> needsAtMost;  ///< and at most so many; absent: no telling
+  std::string carrierA, carrierB;  ///< the mirror whose runs stand for a, for b; empty: its own
+  std::optional<double> bound;     ///< B of those mirrors, in margins
+};
+
+/// One look as planned.
+struct LookRow {
+  int packings = 0;
+  double alpha = 0.0;  ///< its part of 1 − confidence
+};
+
+struct LooksFindings {
+  std::vector<LookRow> planned;
+  std::size_t taken = 0;
+  double budget = 0.0;  ///< [s]
+  std::string ended;    ///< why no further look was taken
+};
+
+/// What a change of a constant does to an endpoint of the in-house engine, paired over packings.
+struct EndpointResponse {
+  std::string endpoint, constant;
+  double change = 0.0;               ///< relative, of the constant
+  std::optional<double> difference;  ///< in margins
+  std::optional<double> bound;       ///< largest that its 95 % interval allows, in margins
+  std::optional<double> scatter;     ///< of one packing's difference, in margins: chaos
+  int packings = 0;
+};
+
+/// One endpoint of a canary, in margins.
+struct CanaryNumber {
+  std::string endpoint;
+  std::optional<double> difference;  ///< the engine's run less its mirror's
+  std::optional<double> floor;       ///< scatter of two runs of one packing: chaos
+  std::optional<double> chance;      ///< of one as large by chaos alone, times the endpoints tested
+};
+
+/// An engine that lockstep found to be its mirror, which then carries the packings; one whole run
+/// of the engine itself is held against the mirror's, for what begins late.
+struct CarriedEngine {
+  std::string engine, mirror;
+  double equivalent = 0.0;  ///< ε_eq
+  std::size_t starts = 0;   ///< that lockstep followed
+  int canaryPacking = 0;    ///< index
+  std::vector<CanaryNumber> canary;
+  std::string alarm;     ///< why the mirror does not stand for it after all; empty: it does
+  bool carried = false;  ///< the canary ran to its end and raised no alarm
+};
+
+/// What nobody needs a test for.
+struct AlarmRow {
+  std::string a, b;
+  PairKind kind = PairKind::peer;
+  std::string what;  ///< a sentence
+};
+
+struct EndpointFindings {
+  LooksFindings looks;
+  std::vector<EndpointRow> rows;
+  std::vector<AlarmRow> alarms;
+  std::vector<CarriedEngine> carried;
+  std::vector<EndpointResponse> responses;
+};
+
+}  // namespace crossgrain::inline results

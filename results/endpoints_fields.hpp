@@ -1,0 +1,90 @@
+#pragma once
+
+#include "results/endpoints.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::inline results {
+
+void fields(auto& io, EndpointRow& row) {
+  io("a", row.a);
+  io("b", row.b);
+  io("kind", row.kind);
+  io("endpoint", row.endpoint);
+  io("unit", row.unit);
+  io("margin", row.margin);
+  io("margin_relative", row.marginRelative);
+  io("margin_why", row.marginWhy);
+  io("answer", row.answer);
+  io("reference", row.reference);
+  io("difference", row.difference);
+  io("low", row.low);
+  io("high", row.high);
+  io("distance", row.distance);
+  io("distance_low", row.distanceLow);
+  io("distance_high", row.distanceHigh);
+  io("look", row.look);
+  io("packings", row.packings);
+  io("lost", row.lost);
+  io.present("needs", row.needs);
+  io.present("needs_at_most", row.needsAtMost);
+  io.when(!row.carrierA.empty(), "carrier_a", row.carrierA);
+  io.when(!row.carrierB.empty(), "carrier_b", row.carrierB);
+  io.present("bound", row.bound);
+}
+
+void fields(auto& io, LookRow& look) {
+  io("packings", look.packings);
+  io("alpha", look.alpha);
+}
+
+void fields(auto& io, LooksFindings& looks) {
+  io("planned", looks.planned);
+  io("taken", looks.taken);
+  io("budget_s", looks.budget);
+  io("ended", looks.ended);
+}
+
+void fields(auto& io, EndpointResponse& response) {
+  io("endpoint", response.endpoint);
+  io("constant", response.constant);
+  io("change", response.change);
+  io("difference", response.difference);
+  io("bound", response.bound);
+  io("scatter", response.scatter);
+  io("packings", response.packings);
+}
+
+void fields(auto& io, CanaryNumber& number) {
+  io("endpoint", number.endpoint);
+  io("difference", number.difference);
+  io("floor", number.floor);
+  io("chance", number.chance);
+}
+
+void fields(auto& io, CarriedEngine& carried) {
+  io("engine", carried.engine);
+  io("mirror", carried.mirror);
+  io("equivalent", carried.equivalent);
+  io("starts", carried.starts);
+  io("canary_packing", carried.canaryPacking);
+  io("canary", carried.canary);
+  io("alarm", carried.alarm);
+  io("carried", carried.carried);
+}
+
+void fields(auto& io, AlarmRow& alarm) {
+  io("a", alarm.a);
+  io("b", alarm.b);
+  io("kind", alarm.kind);
+  io("what", alarm.what);
+}
+
+void fields(auto& io, EndpointFindings& findings) {
+  io("looks", findings.looks);
+  io("rows", findings.rows);
+  io("alarms", findings.alarms);
+  io("carried", findings.carried);
+  io("responses", findings.responses);
+}
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results/collision.hpp"
+#include "results/couette_frame.hpp"
+#include "results/engine_row.hpp"
+#include "results/head.hpp"
+#include "results/json_fields.hpp"
+#include "results/run.hpp"
+
+/// The thesis' cell over volume fractions, rates, walls and laws, and what its claims come to.
+namespace crossgrain::inline results {
+
+/// One case of the ladder: what it differs in, so that a claim finds the legs that it is about.
+struct ThesisLeg {
+  std::string name;     ///< "nu-0.804", "nu-0.804-omega-0.01"
+  std::string purpose;  ///< one sentence
+  std::string file;     ///< of the case
+  /// Family of legs that differ in one thing: "packings", "rate", "spacing", "kn", "mass",
+  /// "radius", "bottom", "friction", "time". A leg may belong to several.
+  std::vector<std::string> families;
+  CouetteCell cell;
+  double label = 0.0;  ///< ν̄ as the thesis' Table 3.2 has it; the cell's own beside it [-]
+  double kn = 0.0;     ///< [N/m]
+  double mu = 0.0;     ///< µ of the disks [-]
+  bool bottomFriction = true;
+  double settleRotations = 0.0;    ///< since the ring had closed
+  double averagedRotations = 0.0;  ///< after them
+  std::string caseToml;            ///< as resolved
+};
+
+/// Means over one part of a run, most often one rotation, of what single snapshots show; the
+/// largest overlap is that of all of them. Absent is what the run has no data for.
+struct ThesisSpan {
+  double from = 0.0, to = 0.0;          ///< rotations of the wheel since the ring had closed
+  std::optional<double> outerPressure;  ///< [N/m²]
+  std::optional<double> wheelTorque;    ///< [N m]
+  std::optional<double> wheelContacts;  ///< of the wheel's disks with others, at a time
+  std::optional<double> wheelTouched;   ///< fraction of the time with any of those [-]
+  std::optional<double> coordination;   ///< [-]
+  std::optional<double> volumeFractionAtWheel;  ///< of the innermost ring of the case [-]
+  std::optional<double> volumeFractionOutside;  ///< area mean over the outer half of the rings [-]
+  std::optional<double> velocityAtWheel;        ///< v_φ/(ΩR_i) of the innermost ring [-]
+  std::optional<double> kineticEnergy;          ///< [J]
+  std::optional<double> maxOverlap, meanOverlap;  ///< [m]
+};
+
+/// Averages over rings of another width than the case's.
+struct RingAverages {
+  int rings = 0;
+  RingPlaces places;              ///< empty: equally wide, from the wheel to the ring
+  std::vector<Profile> profiles;  ///< of all the case's methods, without n_eff and dof
+};
+
+/// One engine on one packing of one leg.
+struct ThesisRun {
+  std::string leg, engine;
+  int packing = 0;
+  std::uint64_t seed = 0;
+  CouetteRun run;                   ///< averaged over the leg's last rotations, on the case's rings
+  std::vector<RingAverages> finer;  ///< the same time on narrower rings: about d/3
+  std::vector<ThesisSpan> history;  ///< from the closing of the ring to the end
+};
+
+enum class ClaimVerdict { reproduced, refuted, undecided };
+constexpr auto namesOf(ClaimVerdict) {
+  return std::array<std::string_view, 3>{"reproduced", "refuted", "undecided"};
+}
+
+/// One number that a claim's verdict rests on, beside what the thesis says it should be.
+struct ClaimFigure {
+  std::string name;  ///< "exponent of σ_rφ"
+  std::string unit;
+  std::optional<double> value, standardError;  ///< over packings
+  std::optional<double> low, high;             ///< what the rule asks for; absent: no bound there
+  std::string key = {};                        ///< the rule's name of it: "exponent_rp"
+  std::optional<ClaimVerdict> verdict = {};    ///< absent: told, not judged
+};
+
+/// What one claim comes to for one engine, under one reading of what the thesis leaves open.
+struct ClaimRow {
+  std::string id;       ///< "C7"
+  std::string claim;    ///< in one sentence
+  std::string engine;   ///< "-" where no engine takes part (a model, the averaging alone)
+  std::string carrier;  ///< the mirror whose runs these are; empty: the engine's own
+  std::string reading;  ///< "wall spacing 2.5 mm, as printed"
+  std::vector<ClaimFigure> figures;  ///< the first is the one that the table shows
+  ClaimVerdict verdict = ClaimVerdict::undecided;
+  std::string why;                ///< the reason, by rule, with the numbers
+  /// Of a refuted claim: why it fails, or where it would hold, as far as that was found.
+  std::vector<std::string> reasons;
+  std::vector<std::string> legs;  ///< that it rests on
+  std::string plot;               ///< "figure 7.14": the report's redrawn one; empty: none
+};
+
+/// An engine that lockstep held against its mirror, so that the mirror's runs may stand for it.
+struct ThesisCarrier {
+  std::string engine, mirror;
+  bool carries = false;              ///< the mirror's runs are the engine's, too
+  std::optional<double> equivalent;  ///< ε_eq: a change of k_n that would make the same difference
+  std::size_t starts = 0;            ///< windows that were followed to the end
+  std::string why;                   ///< the verdict in words
+};
+
+/// Kind "thesis".
+struct ThesisResults {
+  ResultsHead head;
+  std::optional<double> elapsed;  ///< wall time of the last command [s]
+  std::vector<EngineRow> engines;
+  std::vector<ThesisCarrier> carriers;
+  std::string rules;  ///< the claims' rules, the file's text as it was applied
+  /// Reasons that somebody found for what is refuted, and when they hold; the file's text, or none.
+  std::string reasons;
+  std::optional<CollideResults> collisions;  ///< of the ladder's case of them
+  std::vector<ThesisLeg> legs;
+  std::vector<ThesisRun> runs;
+  std::vector<ClaimRow> claims;
+  std::vector<std::string> notes;  ///< what was left out, and why
+};
+
+Json toJson(const ThesisResults& results);
+/// @throws FieldError
+ThesisResults thesisFromJson(const Json& json);
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "results/collision_fields.hpp"
+#include "results/couette_fields.hpp"
+#include "results/thesis.hpp"
+
+/// Members of what `thesis` finds out (results/json_fields.hpp).
+namespace crossgrain::inline results {
+
+void fields(auto& io, ThesisLeg& leg) {
+  io("name", leg.name);
+  io("purpose", leg.purpose);
+  io("file", leg.file);
+  io("families", leg.families);
+  io("cell", leg.cell);
+  io("label", leg.label);
+  io("kn", leg.kn);
+  io("mu", leg.mu);
+  io("bottom_friction", leg.bottomFriction);
+  io("settle_rotations", leg.settleRotations);
+  io("averaged_rotations", leg.averagedRotations);
+  io("toml", leg.caseToml);
+}
+
+void fields(auto& io, ThesisSpan& span) {
+  io("from", span.from);
+  io("to", span.to);
+  io("outer_pressure", span.outerPressure);
+  io("wheel_torque", span.wheelTorque);
+  io("wheel_contacts", span.wheelContacts);
+  io("wheel_touched", span.wheelTouched);
+  io("coordination", span.coordination);
+  io("volume_fraction_at_wheel", span.volumeFractionAtWheel);
+  io("volume_fraction_outside", span.volumeFractionOutside);
+  io("velocity_at_wheel", span.velocityAtWheel);
+  io("kinetic_energy", span.kineticEnergy);
+  io("max_overlap", span.maxOverlap);
+  io("mean_overlap", span.meanOverlap);
+}
+
+void fields(auto& io, RingAverages& averages) {
+  io("count", averages.rings);
+  io("places", averages.places);
+  io("profiles", averages.profiles);
+}
+
+void fields(auto& io, ThesisRun& run) {
+  io("leg", run.leg);
+  io("engine", run.engine);
+  io("packing", run.packing);
+  io("seed", run.seed);
+  io("run", run.run);
+  io("finer", run.finer);
+  io("history", run.history);
+}
+
+void fields(auto& io, ClaimFigure& figure) {
+  io("name", figure.name);
+  io("unit", figure.unit);
+  io("value", figure.value);
+  io("stderr", figure.standardError);
+  io("low", figure.low);
+  io("high", figure.high);
+  io("key", figure.key);
+  io("verdict", figure.verdict);
+}
+
+void fields(auto& io, ClaimRow& row) {
+  io("id", row.id);
+  io("claim", row.claim);
+  io("engine", row.engine);
+  io("carrier", row.carrier);
+  io("reading", row.reading);
+  io("figures", row.figures);
+  io("verdict", row.verdict);
+  io("why", row.why);
+  io("reasons", row.reasons);
+  io("legs", row.legs);
+  io("plot", row.plot);
+}
+
+void fields(auto& io, ThesisCarrier& carrier) {
+  io("engine", carrier.engine);
+  io("mirror", carrier.mirror);
+  io("carries", carrier.carries);
+  io("equivalent", carrier.equivalent);
+  io("starts", carrier.starts);
+  io("why", carrier.why);
+}
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,305 @@
+#include "runs/baseline/diff.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
+#include "results/schema.hpp"
+#include "runs/baseline/baseline_cases.hpp"
+#include "runs/baseline/baseline_file.hpp"
+#include "runs/baseline/collision_changes.hpp"
+#include "runs/baseline/declared.hpp"
+#include "runs/baseline/observe.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/head.hpp"
+#include "runs/common/progress.hpp"
+#include "runs/lockstep/closest_term.hpp"
+#include "runs/lockstep/comparison.hpp"
+#include "runs/lockstep/rules.hpp"
+#include "runs/lockstep/separation.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline runs {
+namespace {
+
+/// Frames of a window whose times are whole steps of that size, and the steps.
+struct CommonFrames {
+  std::vector<std::size_t> frames;
+  std::vector<std::uint64_t> steps;
+  std::vector<std::size_t> told;   ///< of `frames`, those nearest to lockstepTimes
+  std::vector<std::size_t> which;  ///< of lockstepTimes, those that are told
+};
+
+CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
+  constexpr double rounding = 1e-12;
+  CommonFrames common;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::uint64_t steps = stepsUntil(kept[k].time, step);
+    if (std::abs(static_cast<double>(steps) * step - kept[k].time) > rounding * kept[k].time)
+      continue;
+    common.frames.push_back(k);
+    common.steps.push_back(steps);
+  }
+  const auto distance = [&](std::size_t frame, double time) {
+    return std::abs(kept[frame].time - time);
+  };
+  for (std::size_t which = 0; which < lockstepTimes.size(); ++which) {
+    const double time = lockstepTimes[which];
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < kept.size(); ++k)
+      if (distance(k, time) < distance(nearest, time)) nearest = k;
+    const auto found = std::ranges::find(common.frames, nearest);
+    if (found == common.frames.end()) continue;
+    common.told.push_back(static_cast<std::size_t>(found - common.frames.begin()));
+    common.which.push_back(which);
+  }
+  return common;
+}
+
+bool sameBits(const LockstepFrame& one, const LockstepFrame& other) {
+  return one.position == other.position && one.spin == other.spin;
+}
+
+/// An engine against what was kept, from one start after the other.
+class WindowsDiff {
+ public:
+  WindowsDiff(const Observed& now, const Case& caseBefore, const Baseline& baseline,
+              const BaselineEngine& before)
+      : now_(now),
+        caseBefore_(caseBefore),
+        baseline_(baseline),
+        before_(before),
+        instant_(now.engine.capabilities().instantContacts),
+        diameter_(2.0 * caseBefore.particles.smallRadius) {}
+
+  /// @throws EngineFailure, UnsupportedScene, BadInput
+  void follow(std::size_t s) {
+    const FlowState& state = baseline_.starts[s];
+    const BaselineWindow& kept = before_.windows[s];
+    Realised realised = loadStart(now_, state);
+    step_ = realised.dt;
+    if (!realised_) realised_ = std::move(realised);
+    common_ = commonFrames(kept.frames, step_);
+    if (common_.told.empty()) return;
+    LockstepWindow window;
+    window.engine = runs::follow(now_.engine, step_, common_.steps,
+                                 instant_ ? ContactReport::instant : ContactReport::none);
+    Responses responses;
+    for (const std::size_t frame : common_.frames) window.mirror.push_back(kept.frames[frame]);
+    for (const std::size_t which : common_.which) responses.push_back(kept.responses[which]);
+    sameBits_ &= common_.frames.size() == kept.frames.size() &&
+                 std::ranges::equal(window.engine, window.mirror, sameBits);
+    // Forces of another instant are no forces to compare.
+    for (std::size_t k = 0; k < window.engine.size(); ++k)
+      if (window.engine[k].contactTime != window.mirror[k].contactTime)
+        window.engine[k].contacts.reset();
+    if (!account_) account_.emplace(diameter_, timesOf(common_.steps, step_), common_.told);
+    account_->add(s, window, responses, state.packing.disks.size());
+    engineFrames_.push_back(chosen(window.engine, framesForTerms(common_.told)));
+    keptFrames_.push_back(chosen(window.mirror, framesForTerms(common_.told)));
+  }
+
+  const std::optional<Realised>& realised() const { return realised_; }
+
+  /// Into the row: windows and what is said of them.
+  void tell(DiffRow& row) {
+    if (!account_) {
+      row.reason = fmt::format(
+          "no step of {} s meets the times that were kept: give [run] dt or [engines.{}] dt", step_,
+          now_.entry.name);
+      return;
+    }
+    LockstepRow found = account_->row();
+    found.engine = row.engine;
+    found.realised = realised_;
+    row.mirrored = hasNormalLaw(before_.can, caseBefore_.law);
+    if (row.mirrored &&
+        (found.verdict == LockstepVerdict::sameLaw || found.verdict == LockstepVerdict::differs))
+      found.term = termOf(found);
+    row.reason = found.reason;
+    row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
+    row.windows = std::move(found);
+  }
+
+ private:
+  static DiffVerdict verdictOf(LockstepVerdict verdict) {
+    switch (verdict) {
+      case LockstepVerdict::notMeasured:
+        break;
+      case LockstepVerdict::sameToRounding:
+        return DiffVerdict::sameToRounding;
+      case LockstepVerdict::sameToPrecision:  // no limits are given: what was kept is no mirror
+      case LockstepVerdict::sameLaw:
+        return DiffVerdict::sameLaw;
+      case LockstepVerdict::differs:
+        return DiffVerdict::differs;
+    }
+    return DiffVerdict::notMeasured;
+  }
+
+  /// Which change of the mirror of what was kept does what the engine now does.
+  std::optional<NamedTerm> termOf(const LockstepRow& row) {
+    const EngineEntry* const known = findEngine(before_.name);
+    const EngineEntry entry = known ? *known : EngineEntry{before_.name, "", {}, {}, {}, ""};
+    const std::vector<std::size_t> frames = framesForTerms(common_.told);
+    const auto mirror = engineRegistry().front().make();
+    const double dt = before_.realised->dt;
+    TermSearch search;
+    search.diameter = diameter_;
+    std::vector<std::uint64_t> steps;
+    for (const std::size_t when : looksForTerms(common_.told, row.trackTime, row.first)) {
+      TermLook& look = search.looks.emplace_back();
+      look.time = row.trackTime[frames[when]];
+      look.separation = separationOfAll(engineFrames_, keptFrames_, when, diameter_);
+      steps.push_back(stepsUntil(look.time, dt));
+    }
+    for (std::size_t s = 0; s < row.starts; ++s) {
+      const Scene scene =
+          couetteScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
+      search.scenes.push_back(sceneOfMirror(before_.can, entry, caseBefore_, scene, dt));
+      mirror->load(search.scenes.back(), {});
+      const auto unchanged = runs::follow(*mirror, dt, steps);
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        search.looks[k].unchanged.push_back(unchanged[k]);
+    }
+    if (step_ != dt)
+      search.more.push_back({fmt::format("dt = {} s", step_), false,
+                             [step = step_](Scene& scene, double) { scene.dt = step; }});
+    if (realised_->precision != before_.realised->precision)
+      search.more.push_back({"precision = " + realised_->precision, false,
+                             [](Scene& scene, double) { scene.precision = Precision::float32; }});
+    return closestTerm(*mirror, search);
+  }
+
+  Observed now_;
+  const Case& caseBefore_;
+  const Baseline& baseline_;
+  const BaselineEngine& before_;
+  bool instant_;
+  double diameter_;
+  double step_ = 0.0;  ///< the engine's, now [s]
+  CommonFrames common_;
+  bool sameBits_ = true;
+  std::optional<Realised> realised_;
+  std::optional<SeparationAccount> account_;
+  std::vector<std::vector<LockstepFrame>> engineFrames_,
+      keptFrames_;  ///< by start and framesForTerms()
+};
+
+/// All sweeps again. @throws EngineFailure, BadInput
+void diffCollisions(DiffRow& row, Engine& engine, const EngineEntry& entry,
+                    const std::vector<Case>& cases, const BaselineEngine& before) {
+  const std::vector<SweepOfCase> sweeps = sweepsOf(cases);
+  if (sweeps.size() != before.collisions.size())
+    throw BadInput(fmt::format("the baseline has {} sweeps of collisions, the case now {}",
+                               before.collisions.size(), sweeps.size()));
+  for (std::size_t k = 0; k < sweeps.size(); ++k) {
+    throwIfInterrupted();
+    const KeptCollisions now = collisionsOf(engine, entry, sweeps[k]);
+    const KeptCollisions& kept = before.collisions[k];
+    if (!now.refusal.empty() || !kept.refusal.empty()) continue;
+    if (!sameCollisions(kept, now))
+      throw BadInput(fmt::format("collisions of {} are other ones than the baseline has",
+                                 sweeps[k].setup.name));
+    ++row.sweeps;
+    std::ranges::move(collisionChanges(kept, now), std::back_inserter(row.collisions));
+  }
+  if (row.sweeps > 0) row.collisionsVerdict = verdictOf(row.collisions);
+}
+
+/// Whole runs again, where they were kept and the windows do not make them needless: a difference
+/// beyond a margin is one even where windows and collisions are the same.
+void diffEndpoints(DiffRow& row, const EngineEntry& entry, const Case& setup,
+                   const Baseline& baseline, const BaselineEngine& before,
+                   const std::function<void(double)>& progress) {
+  if (before.endpoints.empty() || row.windowsVerdict == DiffVerdict::sameBits) return;
+  const KeptEndpoints now = endpointsFrom(entry, setup, baseline.starts, timeStep(setup), progress);
+  row.endpoints = endpointChanges(setup, before.endpoints, now, {before.name, row.engine});
+  if (std::ranges::count(row.endpoints, Answer::disagree, &EndpointRow::answer) > 0)
+    row.verdict = DiffVerdict::differs;
+}
+
+const BaselineEngine& keptOf(const Baseline& baseline, const std::string& name) {
+  const auto own = std::ranges::find(baseline.engines, name, &BaselineEngine::name);
+  return own == baseline.engines.end() ? baseline.engines.front() : *own;
+}
+
+}  // namespace
+
+DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+                   const Baseline& baseline, const BaselineEngine& before,
+                   const std::function<void(double)>& progress) {
+  const Case& setup = cases.front();
+  const bool flows = setup.kind == CaseKind::couette;
+  const Case caseBefore = casesOf(baseline, baseline.setup.file, {}).front();
+  const Capabilities can = engine.capabilities();
+  DiffRow row;
+  row.engine = entry.name;
+  row.version = can.version;
+  row.before = before.name;
+  row.versionBefore = before.version;
+  WindowsDiff windows({engine, entry, setup, flows ? timeStep(setup) : 0.0}, caseBefore, baseline,
+                      before);
+  try {
+    for (std::size_t s = 0; s < baseline.starts.size(); ++s) {
+      windows.follow(s);
+      progress(static_cast<double>(s + 1) / static_cast<double>(baseline.starts.size() + 1));
+    }
+    diffCollisions(row, engine, entry, cases, before);
+  } catch (const EngineFailure& failure) {
+    row.failure = failure.what();
+  }
+  if (flows) windows.tell(row);
+  row.declared = declaredChanges({before.name, before.can, before.realised},
+                                 {entry.name, can, windows.realised()});
+  row.verdict = std::max(row.windowsVerdict, row.collisionsVerdict);
+  // Collisions alone do not make a flow the same.
+  const bool partly = flows && row.windowsVerdict == DiffVerdict::notMeasured;
+  if (partly && row.verdict != DiffVerdict::differs) row.verdict = DiffVerdict::notMeasured;
+  return row;
+}
+
+DiffResults diffAgainst(const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides, const RunCommand& command) {
+  const Baseline baseline = readBaseline(file);
+  if (baseline.engines.empty())
+    throw BadInput(fmt::format("{}: is damaged: it holds no engine", file.string()));
+  const std::vector<Case> cases = casesOf(baseline, file, overrides);
+  for (const Case& setup : cases) checkEngineSections(setup);
+  const std::vector<EngineEntry> engines = selectEngines(command.engines);
+  DiffResults results;
+  results.head = headOf(kindDiff, cases.front(), command.commandLine);
+  results.head.setup.variant.clear();
+  results.baseline = file.string();
+  results.baselineVersion = baseline.version;
+  results.changedKeys = changedKeys(casesOf(baseline, file, {}), cases);
+  results.rules = {lockstepRounding, lockstepSameLaw, yardstickChanges.back(),
+                   yardstickOf(cases.front().law)};
+  for (const FlowState& state : baseline.starts) results.starts.push_back(state.start);
+  Progress progress(command.quiet);
+  progress.begin("doing the same again", std::vector<double>(engines.size(), 1.0));
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const ScratchFolder scratch;
+    const auto engine = startEngine(engines[e], scratch.path, cases.front().run.timeout);
+    const auto tell = [&](double fraction) { progress.update(e, engines[e].name, fraction); };
+    const BaselineEngine& before = keptOf(baseline, engines[e].name);
+    results.rows.push_back(diffEngine(*engine, engines[e], cases, baseline, before, tell));
+    try {
+      diffEndpoints(results.rows.back(), engines[e], cases.front(), baseline, before, tell);
+    } catch (const EngineFailure& failure) {
+      if (results.rows.back().failure.empty()) results.rows.back().failure = failure.what();
+    }
+    progress.finish(e, engines[e].name + ": compared");
+  }
+  return results;
+}
+
+}  // namespace crossgrain::inline runs

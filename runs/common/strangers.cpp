@@ -1,0 +1,77 @@
+#include "runs/common/strangers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "adapters/law_options.hpp"
+#include "adapters/registry.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/mirror_scene.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace {
+
+/// Longest wait for the first answer of an engine that nobody has seen yet [s].
+constexpr double patience = 60.0;
+
+/// The in-house engine with the conventions of another. Which law a scene has is the scene's
+/// matter.
+std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities& can) {
+  EngineEntry mirror;
+  if (const auto laws = can.lawOptions.find("normal"); laws != can.lawOptions.end())
+    for (const std::string& law : laws->second)
+      if (law != "rigid") mirror.mirrorsNormal.push_back(law);
+  if (mirror.mirrorsNormal.empty()) return std::nullopt;
+  LawConventionSets conventions;
+  for (const LawOption& option : lawOptions()) {
+    const auto own = can.lawOptions.find(std::string(option.name));
+    const bool isLaw =
+        option.name == "normal" || option.name == "damper" || option.name == "tangential";
+    if (own != can.lawOptions.end() && !isLaw) conventions.insert(*own);
+  }
+  mirror.name = "grain-as-" + name;
+  mirror.summary = "the in-house engine held to the conventions that " + name + " declares";
+  mirror.make = [conventions] { return makeGrainMirror(conventions); };
+  // Its worker's registry does not know it.
+  std::vector<std::string> call = {ownProgram(), "__serve", engineRegistry().front().name};
+  std::ranges::move(conventionsInWords(conventions), std::back_inserter(call));
+  mirror.command = [call] { return call; };
+  mirror.mirrors = name;
+  return mirror;
+}
+
+}  // namespace
+
+std::vector<std::string> conventionsInWords(const LawConventionSets& conventions) {
+  std::vector<std::string> words;
+  for (const auto& [option, values] : conventions)
+    words.push_back(fmt::format("{}={}", option, fmt::join(values, ",")));
+  return words;
+}
+
+LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
+  LawConventionSets conventions;
+  for (const std::string& word : words) {
+    const std::size_t sign = word.find('=');
+    std::istringstream values(sign == std::string::npos ? "" : word.substr(sign + 1));
+    for (std::string value; std::getline(values, value, ',');)
+      conventions[word.substr(0, sign)].push_back(value);
+  }
+  return conventions;
+}
+
+std::string addStranger(EngineEntry entry) {
+  const std::string name = entry.name;
+  addEngine(std::move(entry));
+  if (const auto can = capabilitiesOf(*findEngine(name), patience))
+    if (auto mirror = mirrorOf(name, *can)) addEngine(std::move(*mirror));
+  return name;
+}
+
+}  // namespace crossgrain::inline runs

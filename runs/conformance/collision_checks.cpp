@@ -1,0 +1,291 @@
+// Two bodies meet once. What comes out is held against conservation laws and the oracles.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "adapters/law_options.hpp"
+#include "cases/collision_scene.hpp"
+#include "oracle/collision_flight.hpp"
+#include "oracle/collision_oracle.hpp"
+#include "runs/conformance/check_list.hpp"
+#include "runs/conformance/exam.hpp"
+
+namespace crossgrain::conformance::collision {
+namespace {
+
+constexpr double fine = 400.0;   // steps in a contact, where an outcome is compared
+constexpr double coarse = 50.0;  // where only exact properties are
+
+Vec2 momentum(const Scene& scene, const Snapshot& now) {
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t i = 0; i < now.velocity.size(); ++i)
+    sum += scene.disks.mass[i] * now.velocity[i];
+  return sum;
+}
+
+double kineticEnergy(const Scene& scene, const Snapshot& now) {
+  const std::vector<double> spins = spinsOf(scene, now);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now.velocity.size(); ++i)
+    sum += 0.5 * scene.disks.mass[i] * now.velocity[i].squaredNorm() +
+           0.5 * scene.disks.inertia[i] * spins[i] * spins[i];
+  return sum;
+}
+
+/// About the origin. In free flight x × v does not change, so it does not matter that an engine
+/// shows positions and velocities of slightly different times.
+double angularMomentum(const Scene& scene, const Snapshot& now) {
+  const std::vector<double> spins = spinsOf(scene, now);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < now.velocity.size(); ++i)
+    sum += scene.disks.mass[i] * cross(now.position[i], now.velocity[i]) +
+           scene.disks.inertia[i] * spins[i];
+  return sum;
+}
+
+void expectParted(Exam& it, const Snapshot& now, double reach) {
+  const Vec2 apart = now.position[0] - now.position[1];
+  it.above(apart.norm(), reach, "their distance in the end");
+  it.above((now.velocity[0] - now.velocity[1]).dot(apart), 0.0, "the speed at which they part");
+}
+
+const Tolerance restitution = {0.0, 0.02, "a first-order scheme at t_c/400"};
+
+void headOnCollision(Exam& it) {
+  Encounter unequal;  // masses 1 : 10 of one material
+  unequal.radii[1] = std::sqrt(10.0) * smallRadius;
+  unequal.masses[1] = 10.0 * smallMass;
+  unequal.drift = {0.013, -0.021};
+  for (const Encounter& pair : {Encounter{}, unequal}) {
+    const Scene scene = encounterScene(pair, it.law(), fine);
+    it.load(scene);
+    const Snapshot before = it.at(0.0);
+    const Snapshot after = it.at(Encounter::end);
+    expectParted(it, after, pair.radii[0] + pair.radii[1]);
+    const double unit = pair.reducedMass() * Encounter::speed;
+    const Tolerance rounding = {it.byPrecision(1e-12, 1e-5, "").relative * unit, 0.0,
+                                "both disks get the same impulse"};
+    it.expect(close(momentum(scene, after), momentum(scene, before), rounding),
+              "momentum [kg m/s]");
+    it.below(kineticEnergy(scene, after), kineticEnergy(scene, before),
+             "kinetic energy after a collision");
+    const double en = (after.velocity[0] - after.velocity[1]).x() / Encounter::speed;
+    it.expect(close(en, restitutionOf(scene.law, pair.reducedMass()), restitution), "e_n");
+    // Nothing slides, so nothing turns.
+    const Tolerance turn = {
+        it.byPrecision(1e-12, 1e-5, "").absolute * Encounter::speed / smallRadius, 0.0,
+        "head on, without spin"};
+    for (const double spin : spinsOf(scene, after))
+      it.expect(close(spin, 0.0, turn), "a spin after it [rad/s]");
+  }
+}
+
+Scene throwAt(const WallBody& wall, const ContactLaw& law) {
+  Scene scene = emptyScene(law, fine);
+  scene.bodies = {wall};
+  const double height = Encounter::gap + (wall.planes.empty() ? 2.0 : 1.0) * smallRadius;
+  addDisk(scene, smallRadius, smallMass, {0.001, height}, {0.0, -Encounter::speed});
+  return scene;
+}
+
+void wallDiskDoesNotYield(Exam& it) {
+  const Scene scene = throwAt(wallOf("post", {0.001, 0.0}, {{0.001, 0.0}}), it.law());
+  it.load(scene);
+  const Snapshot after = it.at(Encounter::end);
+  it.expect(close(after.velocity[0],
+                  Vec2(0.0, restitutionOf(scene.law, smallMass) * Encounter::speed), restitution),
+            "the velocity after it [m/s]");
+  it.equal(after.wallPosition[0], Vec2(0.001, 0.0), "the wall disk has moved");
+}
+
+void planeDoesNotYield(Exam& it) {
+  const Scene scene = throwAt(planeWall({0.5, 0.0}, {0.0, 1.0}), it.law());
+  it.load(scene);
+  const Snapshot after = it.at(Encounter::end);
+  it.expect(close(after.velocity[0],
+                  Vec2(0.0, restitutionOf(scene.law, smallMass) * Encounter::speed), restitution),
+            "the velocity after it [m/s]");
+}
+
+void energyIsNotGained(Exam& it) {
+  for (const double obliqueness : {-1.2, -0.6, 0.6, 1.2})
+    for (const double spin : {-40.0, 0.0, 40.0}) {
+      Encounter pair = crookedEncounter();
+      pair.obliqueness = obliqueness;
+      pair.spins[0] = spin;
+      const Scene scene = encounterScene(pair, it.law(), coarse);
+      it.load(scene);
+      const double before = kineticEnergy(scene, it.at(0.0));
+      it.atMost(kineticEnergy(scene, it.at(2.0 * Encounter::end)), before,
+                said("kinetic energy at obliqueness ", obliqueness, ", spin ", spin));
+    }
+}
+
+CollidingPair smallDisks() {
+  return {{smallRadius, smallRadius}, {smallMass, smallMass}, {smallInertia, smallInertia}};
+}
+
+/// Two small disks head on with equal spins: v_t = Ψ_i v_n.
+Scene spinningPair(const ContactLaw& law, double psi) {
+  Encounter pair;
+  pair.spins[0] = pair.spins[1] = -psi * Encounter::speed / (2.0 * smallRadius);
+  return encounterScene(pair, law, fine);
+}
+
+/// The oracle's outcome; none for conventions that have no limit of small steps.
+std::optional<CollisionEnd> oracle(const ContactLaw& law, const CollisionStart& start) {
+  try {
+    return oracleOutcome(law, smallDisks(), start);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+/// Each tangential law that the engine has, one sticking and one sliding collision.
+void frictionFollowsTheOracle(Exam& it) {
+  std::vector<ContactLaw> laws;
+  if (const auto options = it.can.lawOptions.find("tangential"); options != it.can.lawOptions.end())
+    for (const std::string& tangential : options->second) {
+      laws.push_back(it.law());
+      setLawOption(laws.back(), "tangential", tangential);
+    }
+  else
+    laws.push_back(it.law());
+  // Friction is first order where it starts to slip; a rigid engine acts half a step's overlap
+  // inside the radius, 0.7 % of Ψ_f.
+  const Tolerance scheme = {0.03, 0.01, "slip begins within a step"};
+  int compared = 0;
+  for (const ContactLaw& each : laws)
+    for (const double psi : {0.5, 3.0}) {
+      const CollisionStart start{psi, Encounter::speed};
+      const auto expected = oracle(each, start);
+      if (!expected) continue;
+      const Scene scene = spinningPair(each, psi);
+      it.load(scene);
+      const auto end = collisionEnd(scene, it.at(Encounter::end), 0, start);
+      it.require(end.has_value(), "the disks do not part");
+      const std::string what = lawOptionValue(each, "tangential");
+      it.expect(close(end->psi, expected->psi, scheme), said(what, ", psi_i = ", psi));
+      it.expect(close(end->en, expected->en, restitution), said(what, ", psi_i = ", psi));
+      ++compared;
+    }
+  it.above(compared, 0, "the oracle knows none of its laws");
+}
+
+void frictionlessDisksKeepTheirSpins(Exam& it) {
+  const Scene scene = encounterScene(crookedEncounter(), frictionless(it.law()), coarse);
+  it.load(scene);
+  const Snapshot after = it.at(Encounter::end);
+  it.above((after.velocity[0] - scene.disks.velocity[0]).norm(), 0.1 * Encounter::speed,
+           "the change of velocity by a collision");
+  const Tolerance rounding = it.byPrecision(0.0, 1e-7, "the given spins, rounded once");
+  for (const int i : {0, 1})
+    it.expect(close(spinsOf(scene, after)[i], scene.disks.spin[i], rounding),
+              "a spin after it [rad/s]");
+}
+
+/// A disk that is thrown to and fro between two posts, with friction that loads the springs.
+Scene toAndFro(const ContactLaw& law) {
+  Scene scene = emptyScene(law, coarse);
+  const double post = 2.0 * smallRadius + Encounter::gap;
+  scene.bodies = {wallOf("posts", Vec2::Zero(), {{-post, 0.0}, {post, 0.0}})};
+  addDisk(scene, smallRadius, smallMass, {0.0, 0.0004}, {-Encounter::speed, 0.0}, 20.0);
+  return scene;
+}
+
+/// Steps after which the number of contacts changes from or to none.
+std::vector<std::size_t> changes(const std::vector<Snapshot>& seen) {
+  const auto touches = [](const Snapshot& now) { return now.contacts && now.contacts->size() > 0; };
+  std::vector<std::size_t> steps;
+  for (std::size_t k = 1; k < seen.size(); ++k)
+    if (touches(seen[k]) != touches(seen[k - 1])) steps.push_back(k);
+  return steps;
+}
+
+/// A contact that has ended leaves nothing behind: a run that starts from a moment of free flight
+/// goes on as the run did that it was taken from.
+void freeFlightRemembersNothing(Exam& it) {
+  if (it.contactReport() == ContactReport::none) it.skip(said("shows no contacts"));
+  // Without dashpots the spring is longest when they part, and felt at once when they meet.
+  ContactLaw undamped = fullLaw();
+  undamped.tangential = TangentialLaw::spring;
+  undamped.gn = 0.0;
+  undamped.en = 1.0;
+  Scene scene = toAndFro(followed(it.can, undamped));
+  it.load(scene);
+  const std::vector<Snapshot> seen = it.watch(3.0 * Encounter::end);
+  const std::vector<std::size_t> touch = changes(seen);
+  it.requireAtLeast(touch.size(), 5u, "it is to touch one post, the other, and the first again");
+  const std::size_t between = (touch[3] + touch[4]) / 2;
+  scene.disks.position = seen[between].position;
+  scene.disks.velocity = seen[between].velocity;
+  scene.disks.spin = spinsOf(scene, seen[between]);
+  it.load(scene);
+  const Snapshot resumed = it.at(static_cast<double>(seen.size() - 1 - between) * it.realised.dt);
+  const Tolerance rounding = it.byPrecision(1e-9, 1e-3, "roundings, magnified by two bounces");
+  const Snapshot& last = seen.back();
+  it.expect(close(resumed.velocity[0], last.velocity[0],
+                  {rounding.absolute * Encounter::speed, 0.0, rounding.why}),
+            "the velocity [m/s]");
+  it.expect(close(spinsOf(scene, resumed)[0], spinsOf(scene, last)[0],
+                  {rounding.absolute * Encounter::speed / smallRadius, 0.0, rounding.why}),
+            "the spin [rad/s]");
+}
+
+/// With the arms to the contact point both torques and the moment of the force couple add up to
+/// nothing. With the radii as arms dL/dt = −δ f_t (Lätzel 2003, chapter 4), which the contacts that
+/// the engine shows must account for.
+void angularMomentumIsKept(Exam& it) {
+  // Whatever arm v_t takes: it is no part of the balance.
+  std::vector<ContactLaw> laws = {it.law()};
+  for (const char* option : {"lever_arm", "velocity_arm"}) {
+    const auto arms = it.can.lawOptions.find(option);
+    if (arms == it.can.lawOptions.end() || it.rigid()) continue;
+    std::vector<ContactLaw> more;
+    for (const std::string& arm : arms->second)
+      for (const ContactLaw& each : laws) {
+        more.push_back(each);
+        setLawOption(more.back(), option, arm);
+      }
+    laws = std::move(more);
+  }
+  for (const ContactLaw& each : laws) {
+    const Scene scene = encounterScene(crookedEncounter(), each, coarse);
+    it.load(scene);
+    const std::vector<Snapshot> seen = it.watch(Encounter::end);
+    double expected = angularMomentum(scene, seen.front());
+    if (!it.rigid() && each.conventions.leverArm == LeverArm::radius)
+      for (const Snapshot& now : seen)
+        for (std::size_t c = 0; now.contacts && c < now.contacts->size(); ++c)
+          expected -= now.contacts->overlap[c] * now.contacts->tangentialForce[c] * it.realised.dt;
+    const double unit = scene.disks.mass[0] * Encounter::speed * smallRadius;
+    const Tolerance sum = {it.byPrecision(1e-11, 1e-5, "").absolute * unit, 0.0,
+                           "roundings of the additions"};
+    const Tolerance moved = {Encounter::speed * it.realised.dt / smallRadius * unit, 0.0,
+                             "a rigid engine moves disks apart that overlap after a step"};
+    it.expect(close(angularMomentum(scene, seen.back()), expected, it.rigid() ? moved : sum),
+              said("lever_arm = ", lawOptionValue(each, "lever_arm"),
+                   ", velocity_arm = ", lawOptionValue(each, "velocity_arm")));
+  }
+}
+
+}  // namespace
+std::span<const Check> checks() {
+  static constexpr std::array list = {
+      Check{"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
+      Check{"WallDiskDoesNotYield", "a wall disk does not yield", wallDiskDoesNotYield},
+      Check{"PlaneDoesNotYield", "a plane does not yield", planeDoesNotYield},
+      Check{"EnergyIsNotGained", "no collision gains energy", energyIsNotGained},
+      Check{"FrictionFollowsTheOracle", "friction follows the theory of two disks",
+            frictionFollowsTheOracle},
+      Check{"FrictionlessDisksKeepTheirSpins", "without friction spins stay",
+            frictionlessDisksKeepTheirSpins},
+      Check{"FreeFlightRemembersNothing", "a contact that ended leaves nothing behind",
+            freeFlightRemembersNothing},
+      Check{"AngularMomentumIsKept", "angular momentum is kept, or changes as the arms say",
+            angularMomentumIsKept},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance::collision

@@ -1,0 +1,133 @@
+// load, advance, snapshot, load again: what every run relies on.
+#include <cmath>
+
+#include "runs/conformance/check_list.hpp"
+#include "runs/conformance/exam.hpp"
+
+namespace crossgrain::conformance::lifecycle {
+namespace {
+
+void advancesByWholeSteps(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const double dt = it.realised.dt;
+  const Tolerance rounding = {0.0, 1e-12, "steps·dt in one order of additions or another"};
+  for (const double steps : {0.0, 0.3, 1.0, 10.4, 10.6, 11.0, 40.0}) {
+    const double reached = it.engine().advance(steps * dt);
+    const auto whole = static_cast<double>(std::llround(steps));
+    it.expect(close(reached, whole * dt, rounding), said("advance to ", steps, " steps"));
+    it.equal(it.engine().stats().steps, static_cast<std::uint64_t>(whole), "steps counted");
+    const Snapshot now = it.engine().snapshot(ContactReport::none);
+    const Tolerance step = {1.001 * dt, 0.0, "arrays may be staggered by up to a step"};
+    it.expect(close(now.positionTime, reached, rounding), "position_time");
+    it.expect(close(now.velocityTime, reached, step), "velocity_time");
+    it.expect(close(now.contactTime, reached, step), "contact_time");
+    it.expect(!now.contacts, "shows contacts that were not asked for");
+  }
+  it.engine().advance(busyEnd);
+  const Stats stats = it.engine().stats();
+  it.above(stats.contactEvaluations, 0u, "contact_evaluations");
+  it.above(stats.wallSeconds, 0.0, "wall_seconds");
+  it.above(stats.cpuSeconds, 0.0, "cpu_seconds");
+}
+
+void startIsTheScene(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const Snapshot start = it.engine().snapshot(ContactReport::none);
+  const Tolerance rounding = it.byPrecision(1e-15, 1e-7, "the given numbers, rounded once");
+  it.requireEqual(start.position.size(), scene.disks.size(), "positions shown");
+  it.requireEqual(start.velocity.size(), scene.disks.size(), "velocities shown");
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    it.expect(close(start.position[i], scene.disks.position[i], rounding), "a disk's position");
+    it.expect(close(start.velocity[i], scene.disks.velocity[i] + start.velocityTime * scene.gravity,
+                    rounding),
+              "a disk's velocity");
+    it.expect(close(spinsOf(scene, start)[i], scene.disks.spin[i], rounding), "a disk's spin");
+  }
+  it.requireEqual(start.bodies.size(), scene.bodies.size(), "wall bodies shown");
+  it.requireEqual(start.wallPosition.size(), scene.wallDiskCount(), "wall disks shown");
+  std::size_t k = 0;
+  for (const WallBody& body : scene.bodies)
+    for (const Vec2& position : body.diskPosition)
+      it.expect(close(start.wallPosition[k++], position, rounding), "a wall disk's position");
+}
+
+void halfwayStopsChangeNothing(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const Snapshot once = it.at(busyEnd);
+  it.require(once.contacts && once.contacts->size() > 0, "nothing happens in this scene");
+  it.load(scene);
+  it.engine().advance(0.37 * busyEnd);
+  it.engine().advance(0.5 * busyEnd);
+  it.expect(sameBits(it.at(busyEnd), once), "with stops half way, and without");
+}
+
+void lookingChangesNothing(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const Snapshot unseen = it.at(busyEnd);
+  it.load(scene);
+  for (int look = 0; look < 20; ++look) {
+    it.engine().advance(busyEnd * look / 20);
+    it.engine().snapshot(ContactReport::none);
+    if (it.can.instantContacts) it.engine().snapshot(ContactReport::instant);
+    if (it.can.accumulatedContacts) it.engine().snapshot(ContactReport::accumulated);
+    it.engine().stats();
+  }
+  const Snapshot seen = it.at(busyEnd);
+  if (it.contactReport() == ContactReport::accumulated) {
+    it.expect(seen.position == unseen.position,
+              "positions differ from those of a run that nobody looked at");  // each look begins
+                                                                              // another interval
+  } else {
+    it.expect(sameBits(seen, unseen), "looked at often, and never");
+  }
+  it.expect(sameBits(it.engine().snapshot(ContactReport::none),
+                     it.engine().snapshot(ContactReport::none)),
+            "two looks at one state");
+}
+
+void loadingStartsAfresh(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const Snapshot first = it.at(busyEnd);
+  const Stats stats = it.engine().stats();
+  const Scene other = encounterScene(crookedEncounter(), it.law(), 37.0);
+  it.load(other);
+  it.at(Encounter::end);
+  it.load(scene);
+  it.equal(it.engine().stats().steps, 0u, "steps counted after loading");
+  it.expect(sameBits(it.at(busyEnd), first), "loaded the second time, and the first");
+  it.equal(it.engine().stats().steps, stats.steps, "steps counted the second time");
+  it.equal(it.engine().stats().contactEvaluations, stats.contactEvaluations,
+           "contact_evaluations the second time");
+}
+
+void workersAgreeBitForBit(Exam& it) {
+  const Scene scene = it.simplified(busyScene(it.law()));
+  it.load(scene);
+  const Snapshot here = it.at(busyEnd);
+  const auto other = it.another(it.entry);
+  other->load(scene, {});
+  other->advance(busyEnd);
+  it.expect(sameBits(other->snapshot(it.contactReport()), here), "two workers");
+}
+
+}  // namespace
+std::span<const Check> checks() {
+  static constexpr std::array list = {
+      Check{"AdvancesByWholeSteps", "it advances by whole steps and counts them",
+            advancesByWholeSteps},
+      Check{"StartIsTheScene", "it starts from the scene's own state", startIsTheScene},
+      Check{"HalfwayStopsChangeNothing", "stops half way change nothing",
+            halfwayStopsChangeNothing},
+      Check{"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
+      Check{"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
+      Check{"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance::lifecycle

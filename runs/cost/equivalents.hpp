@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "runs/cost/trajectory.hpp"
+#include "runs/lockstep/starts.hpp"
+
+/// How far a setting of an engine lies from small steps of the same engine, told in the unit of
+/// lockstep: as the change of k_n that would part two runs as far, ε_eq.
+namespace crossgrain::inline runs {
+
+/// The times of lockstep's windows but for the last, in which chaos has its part and which costs as
+/// much as all before, as multiples of t_c, so that steps that divide t_c are all
+/// compared at the same instants. (Others are carried on with their velocities, which counts as
+/// their error.) [s]
+std::vector<double> windowTimes(const Case& setup);
+
+/// One engine from each of the states, as the case has it, at those times.
+/// @returns by start @throws EngineFailure, UnsupportedScene, BadInput
+std::vector<Track> followStarts(Engine& engine, const EngineEntry& entry, const Case& setup,
+                                const std::vector<FlowState>& states,
+                                const std::vector<double>& times);
+
+/// What changes of k_n do over the windows, by start, time and yardstickChanges: the larger of both
+/// signs [d].
+using WindowResponses = std::vector<std::vector<std::vector<double>>>;
+
+/// Of the in-house engine at the case's step. @param scenes  by start, with the law to be changed
+WindowResponses windowResponses(Engine& inHouse, const std::vector<Scene>& scenes,
+                                const std::vector<double>& times, double diameter);
+
+/// ε_eq, the largest over starts and times. Absent where a change of k_n moves nothing.
+/// @param diameter [m]
+std::optional<double> equivalentOf(const std::vector<Track>& tracks,
+                                   const std::vector<Track>& reference,
+                                   const WindowResponses& responses, double diameter);
+
+}  // namespace crossgrain::inline runs

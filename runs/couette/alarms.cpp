@@ -1,0 +1,66 @@
+#include "runs/couette/alarms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "averaging/agreement.hpp"
+#include "cases/endpoints.hpp"
+#include "runs/couette/endpoint_values.hpp"
+#include "runs/couette/paired_rings.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace {
+
+constexpr double farMargins = 10.0;
+/// Of the disks: what crosses the walls' circles and comes back is a tenth of that.
+constexpr double goneFraction = 0.02;
+
+void addFarEndpoints(const std::vector<EndpointRow>& rows, std::vector<AlarmRow>& alarms) {
+  for (const EndpointRow& row : rows) {
+    const std::string words(endpointSpec(row.endpoint).words);
+    const auto alarm = [&](std::string what) {
+      alarms.push_back({row.a, row.b, row.kind, std::move(what)});
+    };
+    if (row.lost > row.packings)
+      alarm(fmt::format("{} is missing on {} of {} packings", words, row.lost,
+                        row.lost + row.packings));
+    else if (row.distance && std::abs(*row.distance) > farMargins && row.answer != Answer::disagree)
+      alarm(fmt::format("{} is {:.0f} margins off, which {} packing{} cannot prove", words,
+                        std::abs(*row.distance), row.packings, row.packings == 1 ? "" : "s"));
+  }
+}
+
+/// Fraction of the disks' area that is in the cell, mean over packings.
+std::optional<double> filled(const Case& setup, const CompareResults& results,
+                             const std::string& engine) {
+  Numbers values;
+  for (const CouetteRun* run : finishedRuns(results.runs, engine))
+    values.push_back(cellMean(setup, *run, "volume_fraction"));
+  const auto mean = ensembleMean(values);
+  return mean ? std::optional(mean->mean) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results,
+                               const std::vector<EndpointRow>& rows) {
+  std::vector<AlarmRow> alarms;
+  addFarEndpoints(rows, alarms);
+  for (const RegimesOfPair& pair : results.regimes) {
+    if (2 * static_cast<int>(pair.differ.size()) > pair.packings)
+      alarms.push_back(
+          {pair.a, pair.b, pair.kind,
+           fmt::format("another regime on {} of {} packings", pair.differ.size(), pair.packings)});
+    const auto ours = filled(setup, results, pair.a), theirs = filled(setup, results, pair.b);
+    if (ours && theirs && *theirs < (1.0 - goneFraction) * *ours)
+      alarms.push_back({pair.a, pair.b, pair.kind,
+                        fmt::format("{:.0f} % of the disks are gone from the cell",
+                                    100.0 * (1.0 - *theirs / *ours))});
+  }
+  return alarms;
+}
+
+}  // namespace crossgrain::inline runs

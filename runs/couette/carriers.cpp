@@ -1,0 +1,101 @@
+#include "runs/couette/carriers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/endpoints.hpp"
+#include "runs/couette/endpoint_table.hpp"
+#include "runs/lockstep/changed_cases.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace {
+
+constexpr int canaryPacking = 0;
+
+const CouetteRun* finishedRun(const Campaign& campaign, const std::string& engine, int packing) {
+  const auto& runs = campaign.runs();
+  const auto found = std::ranges::find_if(runs, [&](const CouetteRun& run) {
+    return run.engine == engine && run.packing == packing && run.finished();
+  });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+/// Why a mirror cannot stand for its engine; empty: it can.
+std::string alarmOf(const std::vector<CanaryNumber>& canary, double alpha) {
+  std::string least;
+  double chance = alpha;
+  for (const CanaryNumber& number : canary) {
+    const std::string words(endpointSpec(number.endpoint).words);
+    if (!number.difference) return fmt::format("one of both has no {}", words);
+    if (!number.chance) return fmt::format("chaos of {} is not known: too few packings", words);
+    if (*number.chance >= chance) continue;
+    chance = *number.chance;
+    least = fmt::format("{} differs by {:.2g} margins, where chaos scatters by {:.2g}", words,
+                        std::abs(*number.difference), *number.floor);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
+                                          const std::vector<std::string>& names,
+                                          const LockstepFindings& found) {
+  std::vector<CarriedEngine> carried;
+  for (const LockstepRow& row : found.rows) {
+    const bool same =
+        row.verdict == LockstepVerdict::sameToRounding || row.verdict == LockstepVerdict::sameLaw;
+    if (!same || !row.failure.empty() || !row.equivalent) continue;
+    for (std::size_t e = 0; e < campaign.engines().size(); ++e)
+      if (campaign.engines()[e].mirrors == row.engine && campaign.refusal(e).empty() &&
+          !isNamed(names, campaign.engines()[e]))
+        carried.push_back({row.engine,
+                           campaign.engines()[e].name,
+                           *row.equivalent,
+                           row.starts,
+                           canaryPacking,
+                           {},
+                           {},
+                           false});
+  }
+  return carried;
+}
+
+void judgeCanaries(const Case& setup, const Campaign& campaign,
+                   const std::vector<EndpointResponse>& responses,
+                   std::vector<CarriedEngine>& engines) {
+  for (CarriedEngine& own : engines) {
+    const CouetteRun* const run = finishedRun(campaign, own.engine, own.canaryPacking);
+    const CouetteRun* const mirror = finishedRun(campaign, own.mirror, own.canaryPacking);
+    if (!run || !mirror) {
+      own.alarm = fmt::format("{} run of packing {} did not finish",
+                              run ? "the mirror's" : "its own", own.canaryPacking);
+      continue;
+    }
+    own.canary = canaryOf(setup, *run, *mirror, responses);
+    own.alarm = alarmOf(own.canary, 1.0 - setup.averaging.confidence);
+    own.carried = own.alarm.empty() && !own.canary.empty();
+  }
+}
+
+std::vector<EndpointResponse> endpointResponses(const Case& setup, Campaign& campaign,
+                                                std::size_t engine, int packings) {
+  const std::string name = campaign.engines()[engine].name;
+  std::vector<CouetteRun> own;
+  for (const CouetteRun& run : campaign.runs())
+    if (run.engine == name && run.packing < packings) own.push_back(run);
+  std::vector<EndpointResponse> responses;
+  for (const ChangedCase& changed : changedCases(setup)) {
+    const Variant variant{engine, "", &changed.setup, changed.name};
+    const auto runs = campaign.runSome({{{variant}, {0, packings}}}, "how averages respond");
+    for (const auto& [endpoint, margin] : setup.averaging.endpoints)
+      responses.push_back(responseTo(setup, own, runs, endpoint, changed.constant, responseChange,
+                                     static_cast<std::size_t>(packings)));
+  }
+  return responses;
+}
+
+}  // namespace crossgrain::inline runs

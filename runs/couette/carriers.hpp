@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/endpoints.hpp"
+#include "results/lockstep_findings.hpp"
+#include "runs/couette/campaign.hpp"
+
+namespace crossgrain::inline runs {
+
+/// Engines that lockstep found to be their mirrors, by which their packings may be run. The mirror
+/// is one of the campaign's; an engine without one, or whose mirror was named beside it, runs all
+/// packings itself.
+std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
+                                          const std::vector<std::string>& names,
+                                          const LockstepFindings& found);
+
+/// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ: runs of one
+/// engine of the campaign with the case's law changed, on so many of its packings.
+/// @param engine  index of one that has run all of them with the case as it is
+std::vector<EndpointResponse> endpointResponses(const Case& setup, Campaign& campaign,
+                                                std::size_t engine, int packings);
+
+/// Holds the whole run of each against its mirror's on the same packing, where chaos is as the
+/// responses show it. Sets `carried`, or the alarm.
+void judgeCanaries(const Case& setup, const Campaign& campaign,
+                   const std::vector<EndpointResponse>& responses,
+                   std::vector<CarriedEngine>& engines);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,279 @@
+#include "runs/couette/endpoint_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "averaging/agreement.hpp"
+#include "cases/endpoints.hpp"
+#include "runs/couette/endpoint_values.hpp"
+#include "runs/couette/paired_rings.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace {
+
+constexpr int fewestPackings = 4;  // of any verdict
+
+/// One endpoint as it is put to the test: by difference, or by the logarithm of the ratio.
+struct TestedEndpoint {
+  const EndpointSpec* endpoint;
+  const Margin* margin;
+  PairedSample sample;
+  double reference = 0.0;  ///< mean over packings of a [unit]
+  std::optional<double> bound;
+};
+
+double testMargin(const EndpointSpec& endpoint, const Margin& margin) {
+  return endpoint.byRatio ? std::log1p(margin.value) : margin.value;
+}
+
+/// On the scale of the test.
+Numbers onScale(const EndpointSpec& endpoint, Numbers values) {
+  if (endpoint.byRatio)
+    for (auto& value : values)
+      if (value) value = std::log(*value);
+  return values;
+}
+
+/// A difference on the scale of the test as the one that it makes in the endpoint's unit.
+double inUnit(const TestedEndpoint& tested, double value) {
+  return tested.endpoint->byRatio ? tested.reference * std::expm1(value) : value;
+}
+
+/// B in margins: the largest over the constants tried. Absent without a response.
+std::optional<double> boundOf(std::string_view endpoint, double equivalent,
+                              const std::vector<EndpointResponse>& responses) {
+  std::optional<double> bound;
+  for (const EndpointResponse& response : responses)
+    if (response.endpoint == endpoint && response.bound)
+      bound = std::max(bound.value_or(0.0), equivalent / response.change * *response.bound);
+  return bound;
+}
+
+bool isCarried(const EndpointPair& pair) {
+  return pair.runsOfA != pair.a || pair.runsOfB != pair.b;
+}
+
+TestedEndpoint tested(const Case& setup, const EndpointSpec& endpoint, const Numbers& reference,
+                      const Numbers& other) {
+  const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
+  TestedEndpoint own{
+      &endpoint, &margin, endpointSample(endpoint, margin, reference, other), 0.0, {}};
+  if (const auto mean = ensembleMean(reference)) own.reference = mean->mean;
+  return own;
+}
+
+std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const CouetteRun> runs,
+                                     const EndpointPair& pair,
+                                     const std::vector<EndpointResponse>& responses) {
+  const std::size_t packings = packingsOf(runs);
+  const Runs ours = finishedRuns(runs, pair.runsOfA), theirs = finishedRuns(runs, pair.runsOfB);
+  std::vector<TestedEndpoint> family;
+  for (const EndpointSpec& endpoint : endpointTable()) {
+    if (!setup.averaging.endpoints.contains(std::string(endpoint.name))) continue;
+    TestedEndpoint tested =
+        runs::tested(setup, endpoint, endpointByPacking(endpoint, setup, ours, packings),
+                     endpointByPacking(endpoint, setup, theirs, packings));
+    if (isCarried(pair)) {
+      tested.bound = boundOf(endpoint.name, pair.equivalent, responses);
+      // Nothing is known of the true difference: no verdict can stand on these runs.
+      if (!tested.bound) continue;
+      tested.sample.bias = *tested.bound * tested.sample.margin;
+    }
+    family.push_back(std::move(tested));
+  }
+  return family;
+}
+
+EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
+                  const std::optional<LookAnswer>& found) {
+  EndpointRow row;
+  row.a = pair.a;
+  row.b = pair.b;
+  row.kind = pair.kind;
+  row.endpoint = tested.endpoint->name;
+  row.unit = tested.endpoint->unit;
+  row.margin = tested.margin->value;
+  row.marginRelative = tested.endpoint->byRatio;
+  row.marginWhy = tested.margin->why;
+  if (pair.runsOfA != pair.a) row.carrierA = pair.runsOfA;
+  if (pair.runsOfB != pair.b) row.carrierB = pair.runsOfB;
+  row.bound = tested.bound;
+  if (!found) return row;
+  row.answer = found->answer;
+  row.look = static_cast<int>(found->look) + 1;
+  row.packings = found->packings;
+  row.lost = found->lost;
+  if (found->packings == 0) return row;
+  const double margin = tested.sample.margin, bias = tested.sample.bias;
+  row.reference = tested.reference;
+  row.difference = inUnit(tested, found->difference);
+  row.distance = found->difference / margin;
+  if (!found->low) return row;
+  row.low = inUnit(tested, *found->low - bias);
+  row.high = inUnit(tested, *found->high + bias);
+  row.distanceLow = (*found->low - bias) / margin;
+  row.distanceHigh = (*found->high + bias) / margin;
+  return row;
+}
+
+/// Scatter of one paired difference on the scale of the test, of all pairs of an endpoint together.
+struct Pooled {
+  double squares = 0.0;
+  int dof = 0;
+};
+
+/// In margins, from what every response scatters by. All of them are differences from the same
+/// runs, so that together they have no more degrees of freedom for sure than one.
+Pooled chaosOf(const std::string& endpoint, const std::vector<EndpointResponse>& responses) {
+  double squares = 0.0;
+  int count = 0, fewest = 0;
+  for (const EndpointResponse& response : responses)
+    if (response.endpoint == endpoint && response.scatter) {
+      squares += *response.scatter * *response.scatter;
+      fewest = count++ == 0 ? response.packings : std::min(fewest, response.packings);
+    }
+  if (count == 0) return {};
+  const int dof = fewest - 1;
+  return {dof * squares / count, dof};
+}
+
+/// A row and what it was made of.
+struct JudgedEndpoint {
+  EndpointRow row;
+  TestedEndpoint tested;
+  std::optional<LookAnswer> found;
+};
+
+void addNeeds(std::vector<JudgedEndpoint>& judged, double alpha) {
+  std::map<std::string_view, Pooled> scatter;
+  for (const JudgedEndpoint& one : judged)
+    if (one.found && one.found->standardError) {
+      Pooled& pooled = scatter[one.tested.endpoint->name];
+      const int dof = one.found->packings - 1;
+      pooled.squares +=
+          dof * *one.found->standardError * *one.found->standardError * one.found->packings;
+      pooled.dof += dof;
+    }
+  for (JudgedEndpoint& one : judged) {
+    const Pooled& pooled = scatter[one.tested.endpoint->name];
+    if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
+    const auto range =
+        packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof), pooled.dof,
+                    one.tested.sample.margin - one.tested.sample.bias, alpha);
+    if (!range) continue;
+    const int more = one.row.packings + 1;
+    one.row.needs = std::max(range->low, more);
+    if (range->high) one.row.needsAtMost = std::max(*range->high, more);
+  }
+}
+
+/// The family of one pair after the looks that so many packings allow.
+void judge(const EndpointPair& pair, const std::vector<TestedEndpoint>& family,
+           const LookPlan& plan, int available, std::vector<JudgedEndpoint>& judged) {
+  std::vector<PairedSample> samples;
+  for (const TestedEndpoint& tested : family) samples.push_back(tested.sample);
+  const auto found = answersAfterLooks(samples, plan, available);
+  for (std::size_t k = 0; k < family.size(); ++k)
+    judged.push_back({rowOf(pair, family[k], found[k]), family[k], found[k]});
+}
+
+std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPlan& plan) {
+  addNeeds(judged, plan.alpha.back());
+  std::vector<EndpointRow> rows;
+  for (JudgedEndpoint& one : judged) rows.push_back(std::move(one.row));
+  return rows;
+}
+
+}  // namespace
+
+LookPlan looksOf(const Case& setup) {
+  const int first = setup.particles.file ? 1 : setup.preparation.packings;
+  return looksAt(first, first < fewestPackings ? 1 : setup.looks.count,
+                 1.0 - setup.averaging.confidence);
+}
+
+PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
+                            Numbers other) {
+  return {onScale(endpoint, std::move(reference)),
+          onScale(endpoint, std::move(other)),
+          testMargin(endpoint, margin),
+          0.0,
+          {}};
+}
+
+std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<EndpointValues>& family,
+                                      const std::pair<std::string, std::string>& names,
+                                      const LookPlan& plan) {
+  const EndpointPair pair{names.first, names.second, PairKind::peer,
+                          names.first, names.second, 0.0};
+  std::vector<TestedEndpoint> endpoints;
+  for (const EndpointValues& values : family)
+    endpoints.push_back(
+        tested(setup, endpointSpec(values.endpoint), values.reference, values.other));
+  std::vector<JudgedEndpoint> judged;
+  judge(pair, endpoints, plan, plan.packings.back(), judged);
+  return rowsOf(std::move(judged), plan);
+}
+
+std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const CouetteRun> runs,
+                                      const std::vector<EndpointPair>& pairs, const LookPlan& plan,
+                                      int available,
+                                      const std::vector<EndpointResponse>& responses) {
+  std::vector<JudgedEndpoint> judged;
+  for (const EndpointPair& pair : pairs) {
+    if (finishedRuns(runs, pair.runsOfA).empty() || finishedRuns(runs, pair.runsOfB).empty())
+      continue;
+    judge(pair, familyOf(setup, runs, pair, responses), plan, available, judged);
+  }
+  return rowsOf(std::move(judged), plan);
+}
+
+EndpointResponse responseTo(const Case& setup, std::span<const CouetteRun> runs,
+                            std::span<const CouetteRun> changed, const std::string& name,
+                            const std::string& constant, double change, std::size_t packings) {
+  const EndpointSpec& endpoint = endpointSpec(name);
+  const auto valuesOf = [&](std::span<const CouetteRun> all) {
+    Runs finished;
+    for (const CouetteRun& run : all)
+      if (run.finished()) finished.push_back(&run);
+    return endpointByPacking(endpoint, setup, finished, packings);
+  };
+  EndpointResponse response{name, constant, change, {}, {}, {}, 0};
+  const std::vector one = {endpointSample(endpoint, setup.averaging.endpoints.at(name),
+                                          valuesOf(runs), valuesOf(changed))};
+  const double margin = one.front().margin;
+  const double bothTails = 1.0 - (1.0 - setup.averaging.confidence) / 2.0;
+  const auto found = comparePaired(one, bothTails).front();
+  if (!found || found->packings == 0) return response;
+  response.packings = found->packings;
+  response.difference = found->difference / margin;
+  if (!found->low) return response;
+  response.bound = std::max(std::abs(*found->low), std::abs(*found->high)) / margin;
+  response.scatter = *found->standardError * std::sqrt(found->packings) / margin;
+  return response;
+}
+
+std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
+                                   const CouetteRun& mirror,
+                                   const std::vector<EndpointResponse>& responses) {
+  std::vector<CanaryNumber> numbers;
+  for (const auto& [name, allowed] : setup.averaging.endpoints) {
+    const EndpointSpec& endpoint = endpointSpec(name);
+    CanaryNumber number{name, {}, {}, {}};
+    const Numbers pair = onScale(
+        endpoint, {endpointOf(endpoint, setup, mirror), endpointOf(endpoint, setup, engine)});
+    if (pair[0] && pair[1])
+      number.difference = (*pair[1] - *pair[0]) / testMargin(endpoint, allowed);
+    const Pooled chaos = chaosOf(name, responses);
+    if (chaos.dof > 0) number.floor = std::sqrt(chaos.squares / chaos.dof);
+    if (number.difference && number.floor && *number.floor > 0.0)
+      number.chance = chanceOfOneAsFar(*number.difference, *number.floor, chaos.dof,
+                                       setup.averaging.endpoints.size());
+    numbers.push_back(std::move(number));
+  }
+  return numbers;
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "averaging/looks.hpp"
+#include "cases/case.hpp"
+#include "cases/endpoints.hpp"
+#include "results/endpoints.hpp"
+#include "results/run.hpp"
+
+namespace crossgrain::inline runs {
+
+/// Two engines to hold against each other, and whose runs stand for each.
+struct EndpointPair {
+  std::string a, b;
+  PairKind kind = PairKind::peer;
+  std::string runsOfA, runsOfB;  ///< a and b themselves, or mirrors that carry their packings
+  double equivalent = 0.0;       ///< ε_eq of those mirrors, together
+};
+
+/// The looks of a case: at its packings, and as many more each time.
+/// A single one where the first has too few packings for any verdict, or where packings are a file.
+LookPlan looksOf(const Case& setup);
+
+/// Answers on every endpoint with a margin, pair by pair, after the looks that `available` packings
+/// allow; the endpoints of a pair are one family.
+///
+/// Where mirrors stand for engines, their averages follow under the assumption that averages
+/// respond linearly to so small a change: they differ by at most B = ε_eq/change × bound of the
+/// response, over the constants tried. Without responses there is no bound and no row.
+std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const CouetteRun> runs,
+                                      const std::vector<EndpointPair>& pairs, const LookPlan& plan,
+                                      int available,
+                                      const std::vector<EndpointResponse>& responses);
+
+/// Values of one endpoint of two engines, in the order in which they were added.
+struct EndpointValues {
+  std::string endpoint;  ///< that the case has a margin for
+  Numbers reference, other;
+};
+
+/// Answers on such values alone, one family.
+/// @param names  of the two engines
+std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<EndpointValues>& family,
+                                      const std::pair<std::string, std::string>& names,
+                                      const LookPlan& plan);
+
+/// Two engines' values as they are put to the test: by difference, or by the logarithm of the
+/// ratio. @param margin  the case's
+PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
+                            Numbers other);
+
+/// What the change of a constant does to an endpoint: runs with it against runs without, packing by
+/// packing.
+/// @param packings  how many there are
+EndpointResponse responseTo(const Case& setup, std::span<const CouetteRun> runs,
+                            std::span<const CouetteRun> changed, const std::string& endpoint,
+                            const std::string& constant, double change, std::size_t packings);
+
+/// An engine's run against its mirror's of the same packing, in margins, beside the scatter that
+/// chaos gives two such runs, which the responses show. `chance` is that of Student's t, of all
+/// endpoints together: below 1 − confidence it is an alarm.
+std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
+                                   const CouetteRun& mirror,
+                                   const std::vector<EndpointResponse>& responses);
+
+}  // namespace crossgrain::inline runs

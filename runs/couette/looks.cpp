@@ -1,0 +1,204 @@
+#include "runs/couette/looks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "runs/couette/agreement_table.hpp"
+#include "runs/couette/carriers.hpp"
+#include "runs/couette/endpoint_table.hpp"
+
+namespace crossgrain::inline runs {
+
+namespace {
+
+const CarriedEngine* carriedBy(const std::vector<CarriedEngine>& carried,
+                               const std::string& engine) {
+  const auto found = std::ranges::find(carried, engine, &CarriedEngine::engine);
+  return found != carried.end() && found->carried ? &*found : nullptr;
+}
+
+bool isMirrorOfCarried(const std::vector<CarriedEngine>& carried, const std::string& mirror) {
+  return std::ranges::any_of(
+      carried, [&](const CarriedEngine& one) { return one.carried && one.mirror == mirror; });
+}
+
+EndpointPair standingIn(const ComparedPair& pair, const std::vector<CarriedEngine>& carried) {
+  EndpointPair own{pair.reference, pair.other, pair.kind, pair.reference, pair.other, 0.0};
+  for (std::string* const runs : {&own.runsOfA, &own.runsOfB})
+    if (const CarriedEngine* const by = carriedBy(carried, *runs)) {
+      *runs = by->mirror;
+      own.equivalent += by->equivalent;
+    }
+  return own;
+}
+
+/// Looks in sequence, see runInLooks().
+class Sequence {
+ public:
+  Sequence(const Case& setup, Campaign& campaign, const RunCommand& command, double budget)
+      : setup_(setup), campaign_(campaign), command_(command), plan_(looksOf(setup)) {
+    findings_.looks.budget = budget;
+    for (std::size_t k = 0; k < plan_.packings.size(); ++k)
+      findings_.looks.planned.push_back({plan_.packings[k], plan_.alpha[k]});
+    for (std::size_t e = 0; e < campaign.engines().size(); ++e)
+      if (campaign.refusal(e).empty()) open_.insert(e);
+  }
+
+  void carry(std::vector<CarriedEngine> carried) { findings_.carried = std::move(carried); }
+
+  EndpointFindings run() {
+    firstLook();
+    LooksFindings& looks = findings_.looks;
+    while (looks.ended.empty()) {
+      ++looks.taken;
+      judge();
+      close();
+      looks.ended = whyNoFurther();
+      if (looks.ended.empty()) runOn(plan_.packings[looks.taken - 1], plan_.packings[looks.taken]);
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  /// Everyone runs the first packings, but those that mirrors may carry, which run one.
+  void firstLook() {
+    std::vector<Variant> whole, canaries;
+    for (const std::size_t e : open_)
+      (mayBeCarried(e) ? canaries : whole).push_back({e, "", &setup_});
+    const int packings = plan_.packings.front();
+    campaign_.add(
+        campaign_.runSome({{whole, {0, packings}}, {canaries, {0, 1}}}, "running engines"));
+    if (canaries.empty()) return;
+    if (const auto e = respondingEngine())
+      findings_.responses = endpointResponses(setup_, campaign_, *e, packings);
+    judgeCanaries(setup_, campaign_, findings_.responses, findings_.carried);
+    std::vector<Variant> themselves;
+    for (const Variant& variant : canaries)
+      if (!carriedBy(findings_.carried, nameOf(variant.engine))) themselves.push_back(variant);
+    if (!themselves.empty() && packings > 1)
+      campaign_.add(
+          campaign_.runSome({{themselves, {1, packings}}}, "running what no mirror carries"));
+  }
+
+  void runOn(int from, int to) {
+    campaign_.preparePackings(to);
+    std::vector<Variant> variants;
+    for (const std::size_t e : open_)
+      if (!carriedBy(findings_.carried, nameOf(e))) variants.push_back({e, "", &setup_});
+    campaign_.add(campaign_.runSome(
+        {{variants, {from, to}}}, fmt::format("running engines, packings {} to {}", from, to - 1)));
+  }
+
+  void judge() {
+    const auto pairs = pairsOf(campaign_, command_.engines, findings_.carried);
+    findings_.rows = endpointRows(setup_, campaign_.runs(), pairs, plan_,
+                                  plan_.packings[findings_.looks.taken - 1], findings_.responses);
+  }
+
+  /// Engines with nothing left to decide, or that finish nothing, run no more.
+  void close() {
+    std::set<std::string> wanted;
+    for (const EndpointRow& row : findings_.rows)
+      if (row.answer == Answer::undecided || row.answer == Answer::borderline) {
+        wanted.insert(row.carrierA.empty() ? row.a : row.carrierA);
+        wanted.insert(row.carrierB.empty() ? row.b : row.carrierB);
+      }
+    std::erase_if(open_, [&](std::size_t e) {
+      return !wanted.contains(nameOf(e)) || finishedIn(nameOf(e)) == 0;
+    });
+  }
+
+  std::string whyNoFurther() const {
+    const std::size_t taken = findings_.looks.taken;
+    if (open_.empty()) return "every endpoint is decided";
+    if (open_.size() < 2) return "no two engines are left that finish their runs";
+    if (taken == plan_.packings.size())
+      return fmt::format("{} packings are the most", plan_.packings.back());
+    if (campaign_.elapsed() + nextLook() > findings_.looks.budget)
+      return fmt::format(
+          "the next look, at {} packings, would have ended after the budget of {:g} s",
+          plan_.packings[taken], findings_.looks.budget);
+    return {};
+  }
+
+  /// Seconds that the next look takes, by the runs so far.
+  double nextLook() const {
+    const std::size_t taken = findings_.looks.taken;
+    const int more = plan_.packings[taken] - plan_.packings[taken - 1];
+    double seconds = campaign_.secondsOfPreparing(plan_.packings[taken]);
+    for (const std::size_t e : open_) {
+      double sum = 0.0;
+      for (const CouetteRun& run : campaign_.runs())
+        if (run.engine == nameOf(e) && run.finished() && run.stats) sum += run.stats->wallSeconds;
+      if (const int runs = finishedIn(nameOf(e))) seconds += more * sum / runs;
+    }
+    return seconds / std::max(command_.jobs, 1);
+  }
+
+  int finishedIn(const std::string& engine) const {
+    return static_cast<int>(std::ranges::count_if(campaign_.runs(), [&](const CouetteRun& run) {
+      return run.engine == engine && run.finished();
+    }));
+  }
+
+  bool mayBeCarried(std::size_t e) const {
+    return std::ranges::find(findings_.carried, nameOf(e), &CarriedEngine::engine) !=
+           findings_.carried.end();
+  }
+
+  /// The first that runs all packings by the case's own normal law.
+  std::optional<std::size_t> respondingEngine() const {
+    for (const std::size_t e : open_) {
+      const auto& can = campaign_.capabilities(e);
+      if (can && !mayBeCarried(e) && hasNormalLaw(*can, setup_.law) && finishedIn(nameOf(e)) > 0)
+        return e;
+    }
+    return std::nullopt;
+  }
+
+  std::string nameOf(std::size_t e) const { return campaign_.engines()[e].name; }
+
+  const Case& setup_;
+  Campaign& campaign_;
+  const RunCommand& command_;
+  LookPlan plan_;
+  std::set<std::size_t> open_;  ///< engines that still run
+  EndpointFindings findings_;
+};
+
+}  // namespace
+
+std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
+                                  const std::vector<CarriedEngine>& carried) {
+  const auto engines = campaign.engines();
+  const auto named = [&](const EngineEntry& entry) {
+    return entry.mirrors.empty() || isNamed(names, entry);
+  };
+  std::vector<EndpointPair> pairs;
+  for (std::size_t a = 0; a < engines.size(); ++a)
+    for (std::size_t b = a + 1; b < engines.size(); ++b)
+      if (named(engines[a]) && named(engines[b]))
+        pairs.push_back(
+            standingIn({engines[a].name, engines[b].name, PairKind::peer, ""}, carried));
+  for (const EngineEntry& mirror : engines) {
+    if (named(mirror) || isMirrorOfCarried(carried, mirror.name)) continue;
+    const std::string reference = engines.front().name;
+    if (reference != mirror.mirrors)
+      pairs.push_back(standingIn({reference, mirror.name, PairKind::mirrorModel, ""}, {}));
+    pairs.push_back(
+        standingIn({mirror.name, mirror.mirrors, PairKind::mirrorImplementation, ""}, {}));
+  }
+  return pairs;
+}
+
+EndpointFindings runInLooks(const Case& setup, Campaign& campaign, const RunCommand& command,
+                            const LockstepFindings& lockstep, double budget) {
+  Sequence sequence(setup, campaign, command, budget);
+  sequence.carry(carriedEngines(campaign, command.engines, lockstep));
+  return sequence.run();
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "results/lockstep_findings.hpp"
+#include "runs/lockstep/window.hpp"
+
+namespace crossgrain::inline runs {
+
+/// What changes of the yardstick do from one start: the larger of both signs, by the times told and
+/// yardstickChanges [d].
+using Responses = std::vector<std::vector<double>>;
+
+/// Adds up what windows show of an engine and of what it is held against, start by start.
+class SeparationAccount {
+ public:
+  /// @param times  of the frames of every window, since the start [s]
+  /// @param told   frames whose separations are told one by one
+  SeparationAccount(double diameter, std::vector<double> times, std::vector<std::size_t> told);
+
+  /// @param start     its index
+  /// @param wallFrom  ids from here on are the walls'
+  /// @param limits    what the declared precision explains, by frame [d]: precisionLimits()
+  void add(std::size_t start, const LockstepWindow& window, const Responses& responses,
+           std::size_t wallFrom, const std::vector<double>& limits = {});
+
+  /// The verdict and what it rests on; neither the engine's name nor the term that is off.
+  LockstepRow row() const;
+
+ private:
+  LockstepSeparation separationAt(std::size_t which) const;
+  std::optional<double> resolution() const;
+
+  double diameter_;
+  std::vector<double> times_;
+  std::vector<std::size_t> told_;
+  std::vector<std::vector<double>> tracks_;  ///< by start and frame [d]
+  std::vector<Responses> responses_;         ///< by start
+  std::vector<std::vector<double>> limits_;  ///< by start and frame [d]; none of double precision
+  LockstepRow row_;
+};
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "cases/thesis_ladder.hpp"
+#include "results/thesis.hpp"
+#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
+
+namespace crossgrain::inline runs {
+
+/// The keys of all cases, by leg, for the store.
+std::map<std::string, CaseKeys> keysOfLegs(const ThesisLadder& ladder);
+
+/// Climbs the ladder: every run that is not in the store yet, most important first, several side by
+/// side; then judges the thesis' claims by all that is there.
+/// @param store   of the command, opened with keysOfLegs()
+/// @param budget  no run begins that is predicted to end later than this after the command [s]
+/// @returns finished and failed runs, as results/thesis_kept.hpp keeps them; what was left out is
+/// in the notes
+/// @throws BadInput, OutputError, Interrupted
+ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
+                          double budget = std::numeric_limits<double>::infinity());
+
+/// What climbLadder() would run, for people.
+std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store);
+
+/// The same runs judged again by the rules that they hold. Whole runs, of earlier files, are kept
+/// as results/thesis_kept.hpp says.
+/// @param reasons  a file of reasons, in place of those that the results hold
+/// @throws BadInput for a file of reasons that is wrong
+ThesisResults judgedAgain(ThesisResults results,
+                          const std::optional<std::filesystem::path>& reasons = std::nullopt);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,197 @@
+#include "averaging/looks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace crossgrain {
+namespace {
+
+using Values = std::vector<std::optional<double>>;
+
+/// One endpoint whose paired differences are these.
+PairedSample differing(const std::vector<double>& differences, double margin = 1.0) {
+  PairedSample sample;
+  for (const double difference : differences) {
+    sample.reference.emplace_back(10.0);
+    sample.other.emplace_back(10.0 + difference);
+  }
+  sample.margin = margin;
+  return sample;
+}
+
+/// ±scatter about a mean, in turn: sd is scatter·√(n/(n − 1)).
+std::vector<double> alternating(int packings, double mean, double scatter) {
+  std::vector<double> values;
+  for (int k = 0; k < packings; ++k) values.push_back(mean + (k % 2 ? scatter : -scatter));
+  return values;
+}
+
+LookAnswer answerOf(const PairedSample& sample, const LookPlan& plan, int available) {
+  return answersAfterLooks(std::vector{sample}, plan, available).front().value();
+}
+
+TEST(Looks, SplitTheChanceOfErrorInHalves) {
+  const LookPlan plan = looksAt(8, 4, 0.05);
+  EXPECT_EQ(plan.packings, (std::vector{8, 16, 24, 32}));
+  const std::vector<double> alpha = {0.00625, 0.00625, 0.0125, 0.025};
+  ASSERT_EQ(plan.alpha.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_DOUBLE_EQ(plan.alpha[k], alpha[k]);
+  EXPECT_DOUBLE_EQ(std::accumulate(plan.alpha.begin(), plan.alpha.end(), 0.0), 0.05);
+  EXPECT_EQ(looksAt(4, 1, 0.05).alpha, std::vector{0.05});
+  EXPECT_EQ(looksTaken(plan, 7), 0u);
+  EXPECT_EQ(looksTaken(plan, 24), 3u);
+  EXPECT_EQ(looksTaken(plan, 100), 4u);
+}
+
+TEST(Looks, AnswerInFiveWays) {
+  // One look at 16 packings, t(15, 5 %) = 1.753. Scatter s gives se = s √(16/15)/4.
+  const LookPlan plan = looksAt(16, 1, 0.05);
+  const auto answer = [&](double mean, double scatter) {
+    return answerOf(differing(alternating(16, mean, scatter)), plan, 16).answer;
+  };
+  EXPECT_EQ(answer(0.1, 1.0), Answer::noDifference);     // 0.1 ± 0.45
+  EXPECT_EQ(answer(0.5, 0.5), Answer::smallDifference);  // 0.5 ± 0.23
+  EXPECT_EQ(answer(0.99, 0.42), Answer::borderline);     // 0.99 ± 0.19
+  EXPECT_EQ(answer(-0.99, 0.42), Answer::borderline);    // the same on the other side
+  EXPECT_EQ(answer(2.0, 0.5), Answer::disagree);         // 2.0 ± 0.23
+  EXPECT_EQ(answer(0.9, 2.5), Answer::undecided);        // 0.9 ± 1.13: holds 0 and 2
+  EXPECT_EQ(answer(1.7, 2.0), Answer::undecided);        // 1.7 ± 0.91: holds the margin and 2
+  const LookAnswer found = answerOf(differing(alternating(16, 0.99, 0.42)), plan, 16);
+  const double half = 1.7530503556925547 * 0.42 * std::sqrt(16.0 / 15.0) / 4.0;
+  EXPECT_NEAR(found.difference, 0.99, 1e-14);
+  EXPECT_NEAR(*found.low, 0.99 - half, 1e-9);
+  EXPECT_NEAR(*found.high, 0.99 + half, 1e-9);
+}
+
+TEST(Looks, KeepWhatIsDecidedAndGoOnWithTheRest) {
+  // Within the margin over the first 8 packings, far outside it afterwards.
+  std::vector<double> differences = alternating(8, 0.0, 0.1);
+  const std::vector<double> late = alternating(24, 5.0, 0.1);
+  differences.insert(differences.end(), late.begin(), late.end());
+  const LookPlan plan = looksAt(8, 4, 0.05);
+  const LookAnswer first = answerOf(differing(differences), plan, 8);
+  const LookAnswer last = answerOf(differing(differences), plan, 32);
+  for (const LookAnswer& one : {first, last}) {
+    EXPECT_EQ(one.answer, Answer::noDifference);
+    EXPECT_EQ(one.look, 0u);
+    EXPECT_EQ(one.packings, 8);
+  }
+  const LookAnswer open = answerOf(differing(alternating(32, 0.0, 3.0)), plan, 24);
+  EXPECT_EQ(open.answer, Answer::undecided);
+  EXPECT_EQ(open.look, 2u);
+  EXPECT_EQ(open.packings, 24);
+}
+
+TEST(Looks, SayNothingBeforeTheFirst) {
+  const LookPlan plan = looksAt(8, 4, 0.05);
+  EXPECT_FALSE(answersAfterLooks(std::vector{differing(alternating(7, 0.0, 0.1))}, plan, 7)
+                   .front()
+                   .has_value());
+}
+
+TEST(Looks, CountPackingsThatOneEngineLost) {
+  PairedSample sample = differing(alternating(8, 0.0, 0.1));
+  sample.other[3].reset();
+  sample.other[5].reset();
+  const LookAnswer found = answerOf(sample, looksAt(8, 1, 0.05), 8);
+  EXPECT_EQ(found.packings, 6);
+  EXPECT_EQ(found.lost, 2);
+}
+
+TEST(Looks, ABiasNarrowsAgreementAndWidensDisagreement) {
+  const LookPlan plan = looksAt(16, 1, 0.05);
+  const auto answer = [&](double mean, double scatter, double bias) {
+    PairedSample sample = differing(alternating(16, mean, scatter));
+    sample.bias = bias;
+    return answerOf(sample, plan, 16).answer;
+  };
+  EXPECT_EQ(answer(0.7, 0.4, 0.0), Answer::smallDifference);  // 0.7 ± 0.18
+  EXPECT_EQ(answer(0.7, 0.4, 0.2), Answer::borderline);
+  EXPECT_EQ(answer(1.5, 0.4, 0.0), Answer::disagree);
+  EXPECT_NE(answer(1.5, 0.4, 0.4), Answer::disagree);
+}
+
+/// Families of nine endpoints whose true difference is exactly the margin, which is the hardest
+/// case for both: a fraction of the families at most α may say disagree, and of the endpoints at
+/// most α agree, over all looks together.
+TEST(Looks, HoldBothErrorsAtTheMargin) {
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  const LookPlan plan = looksAt(8, 4, 0.05);
+  constexpr int families = 1500, endpoints = 9;
+  int falseDisagree = 0, falseAgree = 0, late = 0;
+  for (int f = 0; f < families; ++f) {
+    std::vector<PairedSample> family;
+    for (int e = 0; e < endpoints; ++e) {
+      std::vector<double> differences;
+      for (int k = 0; k < 32; ++k) differences.push_back(1.0 + normal(generator));
+      family.push_back(differing(differences));
+    }
+    bool any = false;
+    for (const auto& found : answersAfterLooks(family, plan, 32)) {
+      any = any || found->answer == Answer::disagree;
+      falseAgree += agrees(found->answer);
+      late += found->look == 3;
+    }
+    falseDisagree += any;
+  }
+  // Three standard errors of a true 5 %.
+  const auto most = [](int trials) { return 0.05 + 3.0 * std::sqrt(0.05 * 0.95 / trials); };
+  EXPECT_LE(falseDisagree, most(families) * families);
+  EXPECT_LE(falseAgree, most(families * endpoints) * families * endpoints);
+  EXPECT_GT(falseAgree, 0);  // the bound is used, not avoided
+  EXPECT_GT(falseDisagree, 0);
+  EXPECT_GT(late, families * endpoints / 2);
+}
+
+/// A scatter of one margin, which is what the endpoints of the small cell have: at two margins 98 %
+/// of the differences are found.
+TEST(Looks, FindTwoMargins) {
+  std::mt19937_64 generator(8);
+  std::normal_distribution<double> normal;
+  const LookPlan plan = looksAt(8, 4, 0.05);
+  int found = 0;
+  constexpr int trials = 400;
+  for (int t = 0; t < trials; ++t) {
+    std::vector<PairedSample> family(9, differing(alternating(32, 0.0, 1.0)));
+    std::vector<double> differences;
+    for (int k = 0; k < 32; ++k) differences.push_back(2.0 + normal(generator));
+    family.front() = differing(differences);
+    found += answersAfterLooks(family, plan, 32).front()->answer == Answer::disagree;
+  }
+  EXPECT_GE(found, 0.98 * trials);
+}
+
+TEST(Looks, ForecastPackingsThatDecideWithTheChanceAskedFor) {
+  const auto packings = packingsFor(0.3, 1.5, 1.0, 0.025);
+  ASSERT_TRUE(packings);
+  std::mt19937_64 generator(9);
+  std::normal_distribution<double> normal;
+  const LookPlan plan{{*packings}, {0.025}};
+  int decided = 0;
+  constexpr int trials = 2000;
+  for (int t = 0; t < trials; ++t) {
+    std::vector<double> differences;
+    for (int k = 0; k < *packings; ++k) differences.push_back(0.3 + 1.5 * normal(generator));
+    decided += agrees(answerOf(differing(differences), plan, *packings).answer);
+  }
+  EXPECT_NEAR(decided / static_cast<double>(trials), 0.9, 0.025);
+  EXPECT_FALSE(packingsFor(1.0, 1.5, 1.0, 0.025));  // on the margin no number decides
+  const auto range = packingsFor(0.3, 1.5, 30, 1.0, 0.025);
+  ASSERT_TRUE(range);
+  EXPECT_LT(range->low, *packings);
+  EXPECT_GT(range->high.value(), *packings);
+}
+
+TEST(Looks, ChanceOfOneAsFarIsStudentsOverAllTests) {
+  // t(7) beyond 2.365 in either tail: 5 %.
+  EXPECT_NEAR(chanceOfOneAsFar(2.3646242510102997, 1.0, 7, 1), 0.05, 1e-9);
+  EXPECT_NEAR(chanceOfOneAsFar(-2.0 * 2.3646242510102997, 2.0, 7, 4), 0.2, 1e-9);
+  EXPECT_EQ(chanceOfOneAsFar(0.1, 1.0, 7, 9), 1.0);
+}
+
+}  // namespace
+}  // namespace crossgrain

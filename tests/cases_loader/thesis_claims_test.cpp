@@ -1,0 +1,116 @@
+// The rules by which the thesis' claims are judged: complete, each number with its reason, and a
+// file that is not is refused in one line that says where.
+#include "cases/thesis_claims.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "files.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+const std::filesystem::path rulesFile =
+    std::filesystem::path(CROSSGRAIN_CASES) / "couette/thesis/claims.toml";
+
+class ThesisClaims : public InFolder {
+ protected:
+  /// The shipped file with one part replaced; empty: it loads.
+  static std::string messageWith(const std::string& part, const std::string& replacement) {
+    std::ostringstream text;
+    text << std::ifstream(rulesFile).rdbuf();
+    std::string broken = text.str();
+    const auto at = broken.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    broken.replace(at, part.size(), replacement);
+    write("claims.toml", broken);
+    try {
+      loadClaimRules("claims.toml");
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  static void refused(const std::string& part, const std::string& replacement,
+                      const std::string& word) {
+    const std::string message = messageWith(part, replacement);
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_TRUE(message.starts_with("claims.toml:")) << message;
+  }
+};
+
+TEST_F(ThesisClaims, EachOfTheClaimsIsThereOnceAndInOrder) {
+  const ClaimRules rules = loadClaimRules(rulesFile);
+  ASSERT_EQ(rules.claims.size(), 27u);
+  for (std::size_t k = 0; k < 27; ++k) EXPECT_EQ(rules.claims[k].id, "C" + std::to_string(k + 1));
+  EXPECT_NE(rules.text.find("C27"), std::string::npos);
+}
+
+TEST_F(ThesisClaims, EveryNumberHasItsReasonAndEveryClaimAFigureThatIsJudged) {
+  const ClaimRules rules = loadClaimRules(rulesFile);
+  for (const ClaimNumber& number : rules.common) EXPECT_GT(number.why.size(), 10u) << number.name;
+  for (const ClaimRule& rule : rules.claims) {
+    EXPECT_GT(rule.claim.size(), 20u) << rule.id;
+    EXPECT_GT(rule.rule.size(), 20u) << rule.id;
+    EXPECT_GE(rule.judgedFigures(), 1) << rule.id;
+    // The one that stands for the claim in a table is one that is judged.
+    EXPECT_TRUE(rule.figures.front().judged()) << rule.id;
+    for (const ClaimNumber& number : rule.numbers)
+      EXPECT_GT(number.why.size(), 5u) << rule.id << number.name;
+    for (const ClaimBand& band : rule.figures)
+      EXPECT_GE(band.why.size(), 5u) << rule.id << band.name;
+  }
+}
+
+TEST_F(ThesisClaims, PrintedNumbersAreInTheirBands) {
+  const ClaimRules rules = loadClaimRules(rulesFile);
+  const auto holds = [&](const char* id, const char* figure, double printed) {
+    const ClaimBand& band = rules.of(id).band(figure);
+    EXPECT_LT(band.low.value(), printed) << id << figure;
+    EXPECT_GT(band.high.value(), printed) << id << figure;
+  };
+  holds("C5", "width", 5.5);
+  holds("C6", "critical", 0.793);
+  holds("C8", "amplitude", 0.24);
+  holds("C8", "decay", 1.46);
+  holds("C8", "phase", 1.79);
+  holds("C15", "exponent_rp", -2.0);
+  EXPECT_GT(rules.of("C24").band("couple_size").high.value(), 6e-5);
+  EXPECT_GT(rules.of("C26").band("overlap").high.value(), -7.0);
+}
+
+TEST_F(ThesisClaims, UnknownKeysAreErrors) {
+  refused("confidence = {", "surprise = { value = 1.0, why = \"w\" }\nconfidence = {", "surprise");
+  refused("ridge_half_width = { value", "halb = { value", "half_width is missing");
+  refused("width = { label", "wide = { label", "width is missing");
+  refused("claim = \"There is a dilated", "clam = \"There is a dilated", "unknown key");
+  refused("readings = [\"tension\"]", "readings = [\"tensoin\"]", "tension");
+}
+
+TEST_F(ThesisClaims, AClaimIsThereOnceAndNoneIsMissing) {
+  refused("id = \"C7\"", "id = \"C77\"", "C7");
+  std::ostringstream text;
+  text << std::ifstream(rulesFile).rdbuf();
+  const std::string whole = text.str();
+  const auto from = whole.find("[[claims]]\nid = \"C27\"");
+  ASSERT_NE(from, std::string::npos);
+  const std::string last = whole.substr(from);
+  refused(last, "", "C27");
+  refused(last, last + last, "twice");
+}
+
+TEST_F(ThesisClaims, NothingGoesWithoutAReason) {
+  refused("why = \"as everywhere in this project\"", "why = \" \"", "reason");
+  refused(", why = \"figure 5.7's\"", "", "why is missing");
+  refused("fewest_for_trend = { value = 5, ", "fewest_for_trend = { ", "value is missing");
+}
+
+TEST_F(ThesisClaims, ABandHasItsEdgesInOrder) {
+  refused("low = 4.0, high = 7.0", "low = 7.0, high = 4.0", "above low");
+  refused("low = 4.0, high = 7.0", "low = nan, high = 4.0", "not a number");
+}
+
+}  // namespace
+}  // namespace crossgrain::test

@@ -1,0 +1,68 @@
+// Every engine of the registry passes every check of runs/conformance, each through its real
+// worker; what it skips is what expected_skips.cpp lists, no more and no less, so that coverage
+// does not shrink unseen.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "adapters/registry.hpp"
+#include "results/json_fields.hpp"
+#include "runs/conformance/examination.hpp"
+#include "support/scratch_folder.hpp"
+#include "tests/conformance/expected_skips.hpp"
+#include "tests/conformance/names.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+using conformance::Check;
+using conformance::checksOf;
+
+std::vector<std::string> allEngines() {
+  std::vector<std::string> names;
+  for (const EngineEntry& entry : engineRegistry()) names.push_back(entry.name);
+  return names;
+}
+
+class Conformance : public testing::TestWithParam<std::string> {};
+
+TEST_P(Conformance, OfEveryCheck) {
+  const EngineEntry& entry = *findEngine(GetParam());
+  if (entry.missing && !entry.missing().empty()) GTEST_SKIP() << entry.missing();
+  std::map<std::string, std::string> expected;
+  for (const ExpectedSkip& skip : expectedSkips())
+    if (skip.engine == entry.name) expected[std::string(skip.test)] = skip.reason;
+
+  const ScratchFolder scratch;
+  const std::vector<Check> checks = checksOf(!entry.mirrors.empty());
+  for (const ConformanceRow& row :
+       conformance::examine(entry, checks, scratch.path, [](const std::string&, double) {})) {
+    const auto known = expected.find(row.name);
+    if (known != expected.end()) {
+      EXPECT_EQ(row.outcome, ConformanceOutcome::skipped) << row.name << ": " << row.detail;
+      EXPECT_NE(row.detail.find(known->second), std::string::npos)
+          << row.name << " is expected to be skipped because the engine " << known->second
+          << ", not: " << row.detail;
+    } else {
+      EXPECT_EQ(row.outcome, ConformanceOutcome::passed)
+          << row.name << " (" << nameOf(row.outcome) << "): " << row.detail
+          << fmt::format(" ({} faults)", row.faults);
+    }
+  }
+  for (const auto& [name, reason] : expected)
+    EXPECT_TRUE(std::ranges::any_of(checks, [&](const Check& check) { return check.name == name; }))
+        << "there is no check " << name << " to skip";
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Conformance, testing::ValuesIn(allEngines()),
+                         [](const auto& one) { return testName(one.param); });
+
+}  // namespace
+
+TEST(ExpectedSkips, AreOfEnginesThatThereAre) {
+  for (const ExpectedSkip& skip : expectedSkips())
+    EXPECT_TRUE(findEngine(std::string(skip.engine))) << skip.engine;
+}
+
+}  // namespace crossgrain::test

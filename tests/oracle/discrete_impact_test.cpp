@@ -1,0 +1,203 @@
+#include "oracle/discrete_impact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+
+#include "oracle/collision_oracle.hpp"
+#include "oracle/impact.hpp"
+#include "tests/support/pairs.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+/// k_n = 1 N/m, m₁₂ = 1 kg: at dt = 1 s Störmer's recursion is x_{k+1} = x_k − x_{k−1} in contact.
+ContactLaw unitLaw(Integrator integrator = Integrator::positionVerlet) {
+  ContactLaw law;
+  law.tangential = TangentialLaw::none;
+  law.kn = 1.0;
+  law.conventions.integrator = integrator;
+  return law;
+}
+
+TEST(DiscreteImpact, AFreeFlightIsAStraightLine) {
+  const auto motion = discreteImpact(unitLaw(), {8.0, -0.5, 1.0, 0.25}, 4);
+  ASSERT_EQ(motion.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(motion[k].gap, 8.0 - 0.125 * static_cast<double>(k));
+    EXPECT_EQ(motion[k].halfStep, -0.5);
+    EXPECT_EQ(motion[k].velocity, -0.5);
+  }
+}
+
+/// Touching at a step with speed 1: x = 0, −1, −1, 0, by hand, and away as it came.
+TEST(DiscreteImpact, ASpringByHand) {
+  for (const Integrator integrator : {Integrator::positionVerlet, Integrator::velocityVerlet}) {
+    const auto motion = discreteImpact(unitLaw(integrator), {0.0, -1.0, 1.0, 1.0}, 4);
+    const double gap[] = {0.0, -1.0, -1.0, 0.0, 1.0}, halfStep[] = {-1.0, -1.0, 0.0, 1.0, 1.0},
+                 velocity[] = {-1.0, -0.5, 0.5, 1.0, 1.0};
+    for (std::size_t k = 0; k < 5; ++k) {
+      EXPECT_EQ(motion[k].gap, gap[k]) << k;
+      EXPECT_EQ(motion[k].halfStep, halfStep[k]) << k;
+      EXPECT_EQ(motion[k].velocity, velocity[k]) << k;
+    }
+  }
+}
+
+/// γ_n = 1/2 kg/s and speed 1, by hand. x_1 = −1; then for each damping velocity
+///   lagged     f_1 = 1 + ½         = 3/2 → u_{3/2} = ½,  x_2 = −½
+///   predicted  the same, a_0 being 0; f_2 = ½ − ½ (½ + ¾) = −1/8, where lagged has ½ − ¼ = ¼
+///   implicit   f_1 = (3/2)/(1 + ¼) = 6/5 → u_{3/2} = 1/5, x_2 = −4/5
+TEST(DiscreteImpact, ADashpotByHand) {
+  const auto with = [](DampingVelocity damping, Tension tension, Integrator integrator) {
+    ContactLaw law = unitLaw(integrator);
+    law.gn = 0.5;
+    law.conventions.dampingVelocity = damping;
+    law.conventions.tension = tension;
+    return discreteImpact(law, {0.0, -1.0, 1.0, 1.0}, 3);
+  };
+  using enum DampingVelocity;
+  const auto verlet = Integrator::positionVerlet, euler = Integrator::semiImplicitEuler;
+  EXPECT_EQ(with(lagged, Tension::allow, verlet)[2].gap, -0.5);
+  EXPECT_EQ(with(lagged, Tension::allow, verlet)[3].halfStep, 0.75);
+  EXPECT_EQ(with(predicted, Tension::allow, verlet)[3].halfStep, 0.375);
+  EXPECT_EQ(with(predicted, Tension::cut, verlet)[3].halfStep, 0.5);
+  EXPECT_NEAR(with(implicit, Tension::allow, verlet)[2].gap, -0.8, 1e-16);
+  // Euler's velocity is that of the half step, whatever it is asked to predict.
+  EXPECT_EQ(with(predicted, Tension::allow, euler)[3].velocity, 0.75);
+}
+
+/// From an overlap on, a_0 takes the velocity given: x_0 = −1, v_0 = 2, γ_n = ½: a_0 = 1 − 1 = 0.
+TEST(DiscreteImpact, TheFirstKickIsHalfAKickOfVerlet) {
+  ContactLaw law = unitLaw();
+  EXPECT_EQ(discreteImpact(law, {-1.0, 0.0, 1.0, 1.0}, 1)[1].halfStep, 0.5);
+  law.conventions.integrator = Integrator::semiImplicitEuler;
+  EXPECT_EQ(discreteImpact(law, {-1.0, 0.0, 1.0, 1.0}, 1)[1].halfStep, 1.0);
+  law.gn = 0.5;
+  EXPECT_EQ(discreteImpact(law, {-1.0, 2.0, 1.0, 1.0}, 1)[1].halfStep, 2.0);
+}
+
+/// The same in closed form. While spring and dashpot act, lagged and implicit steps are powers of
+///   M = (1 − h² K   h (1 − h G) ; −h K   1 − h G) on (x, u),  K = k_n/m₁₂, G = γ_n/m₁₂,
+/// both over 1 + h G/2 if implicit, with det M = ρ² = 1 − h G and trace 2ρ cos θ:
+///   Mⁿ = ρⁿ⁻¹ (sin nθ M − ρ sin (n−1)θ 1)/sin θ.
+TEST(DiscreteImpact, IsThePowerOfItsStepMatrix) {
+  using Vector = Eigen::Matrix<long double, 2, 1>;
+  const CollidingPair pair = test::smallPair();
+  for (const DampingVelocity damping : {DampingVelocity::lagged, DampingVelocity::implicit}) {
+    ContactLaw law = test::thesisLaw();
+    law.conventions.dampingVelocity = damping;
+    const DiscreteStart start{1e-7, -0.01, pair.reducedMass(),
+                              contactTime(law, pair.reducedMass()) / 50.0};
+    const auto motion = discreteImpact(law, start, 60);
+    const long double h = start.dt, m = start.reducedMass, g = law.gn / m,
+                      divisor = damping == DampingVelocity::implicit ? 1 + h * g / 2 : 1;
+    const long double K = law.kn / m / divisor, G = g / divisor;
+    Eigen::Matrix<long double, 2, 2> step;
+    step << 1 - h * h * K, h * (1 - h * G), -h * K, 1 - h * G;
+    const long double rho = std::sqrt(step.determinant()),
+                      theta = std::acos(step.trace() / (2 * rho));
+    const Vector first(motion[1].gap, motion[1].halfStep);
+    ASSERT_LT(motion[1].gap, 0.0);
+    for (int n = 1; motion[static_cast<std::size_t>(n)].gap < 0.0; ++n) {
+      const Vector now =
+          std::pow(rho, n - 1) / std::sin(theta) *
+          (std::sin(n * theta) * (step * first) - rho * std::sin((n - 1) * theta) * first);
+      const DiscreteMotion& found = motion[static_cast<std::size_t>(n) + 1];
+      EXPECT_NEAR(found.gap, static_cast<double>(now[0]), 1e-15 * 6e-6) << n;
+      EXPECT_NEAR(found.halfStep, static_cast<double>(now[1]), 1e-15 * 0.01) << n;
+    }
+  }
+}
+
+/// Predicting takes the last acceleration along: the third member of the vector.
+TEST(DiscreteImpact, PredictedIsThePowerOfItsStepMatrixToo) {
+  using Vector = Eigen::Matrix<std::complex<long double>, 3, 1>;
+  const CollidingPair pair = test::smallPair();
+  const ContactLaw law = test::thesisLaw();
+  const DiscreteStart start{1e-7, -0.01, pair.reducedMass(),
+                            contactTime(law, pair.reducedMass()) / 50.0};
+  const auto motion = discreteImpact(law, start, 60);
+  const long double h = start.dt, K = law.kn / start.reducedMass, G = law.gn / start.reducedMass;
+  // (x, u, a) → u' = u + h a, x' = x + h u', a' = −K x' − G (u' + a h/2)
+  Eigen::Matrix<long double, 3, 3> step;
+  step << 1, h, h * h, 0, 1, h, -K, -K * h - G, -K * h * h - G * h * 3 / 2;
+  const Eigen::EigenSolver<Eigen::Matrix<long double, 3, 3>> eigen(step);
+  const long double a1 = -K * motion[1].gap - G * motion[1].halfStep;
+  const Vector first = Eigen::Matrix<long double, 3, 1>(motion[1].gap, motion[1].halfStep, a1)
+                           .cast<std::complex<long double>>();
+  const Vector parts = eigen.eigenvectors().partialPivLu().solve(first);
+  for (int n = 1; motion[static_cast<std::size_t>(n)].gap < 0.0; ++n) {
+    const Vector now =
+        eigen.eigenvectors() * (eigen.eigenvalues().array().pow(n) * parts.array()).matrix();
+    const DiscreteMotion& found = motion[static_cast<std::size_t>(n) + 1];
+    EXPECT_NEAR(found.gap, static_cast<double>(now[0].real()), 1e-14 * 6e-6) << n;
+    EXPECT_NEAR(found.halfStep, static_cast<double>(now[1].real()), 1e-14 * 0.01) << n;
+  }
+}
+
+/// Against x = −(v/ω) e^(−ηt) sin ωt (Lätzel 2003, section 4.1) until the disks are halfway
+/// through: first order where dashpots lag, second where they do not, as the disks touch half way
+/// between two steps.
+TEST(DiscreteImpact, ConvergesToTheImpactItself) {
+  const double mass = test::smallPair().reducedMass(), speed = 0.01;
+  struct Scheme {
+    Integrator integrator;
+    DampingVelocity damping;
+    double order;
+  };
+  using enum DampingVelocity;
+  for (const Scheme& scheme : {Scheme{Integrator::positionVerlet, lagged, 1.0},
+                               Scheme{Integrator::positionVerlet, predicted, 2.0},
+                               Scheme{Integrator::velocityVerlet, implicit, 2.0},
+                               Scheme{Integrator::semiImplicitEuler, lagged, 1.0}}) {
+    ContactLaw law = test::thesisLaw();
+    law.conventions.integrator = scheme.integrator;
+    law.conventions.dampingVelocity = scheme.damping;
+    const double eta = law.gn / (2.0 * mass), omega = std::sqrt(law.kn / mass - eta * eta);
+    const auto error = [&](std::size_t steps) {
+      const double dt = contactTime(law, mass) / static_cast<double>(steps);
+      const auto motion = discreteImpact(law, {0.5 * dt * speed, -speed, mass, dt}, steps / 2);
+      double largest = 0.0;
+      for (std::size_t k = 1; k < motion.size(); ++k) {
+        const double t = (static_cast<double>(k) - 0.5) * dt;
+        const double x = -speed / omega * std::exp(-eta * t) * std::sin(omega * t);
+        largest = std::max(largest, std::abs(motion[k].gap - x) * omega / speed);
+      }
+      return largest;
+    };
+    EXPECT_NEAR(std::log2(error(800) / error(1600)), scheme.order, 0.05)
+        << static_cast<int>(scheme.integrator) << " " << static_cast<int>(scheme.damping);
+  }
+}
+
+/// Without tension too: e_n tends to that of the closed form, 0.3408.
+TEST(DiscreteImpact, EndsWithTheRestitutionOfTheLaw) {
+  const double mass = test::smallPair().reducedMass(), speed = 0.01;
+  for (const Tension tension : {Tension::allow, Tension::cut}) {
+    ContactLaw law = test::thesisLaw();
+    law.conventions.tension = tension;
+    const double dt = contactTime(law, mass) / 10000.0;
+    const auto motion = discreteImpact(law, {0.5 * dt * speed, -speed, mass, dt}, 20000);
+    EXPECT_NEAR(motion.back().velocity / speed, restitutionOfLinearLaw(law, mass), 1e-4);
+  }
+}
+
+TEST(DiscreteImpact, OnlyTheLinearLawHasOne) {
+  EXPECT_THROW(discreteImpact(test::hertzLaw(), {0.0, -1.0, 1.0, 1.0}, 1), std::invalid_argument);
+}
+
+/// A critical damper of a linear law is a constant one: γ √(m₁₂ k).
+TEST(DiscreteImpact, TakesDampersOfALinearLaw) {
+  ContactLaw constant = unitLaw(), critical = unitLaw();
+  constant.gn = 0.5;
+  critical.damper = Damper::critical;
+  critical.gn = 0.5;
+  EXPECT_EQ(discreteImpact(constant, {0.0, -1.0, 1.0, 1.0}, 3)[3].gap,
+            discreteImpact(critical, {0.0, -1.0, 1.0, 1.0}, 3)[3].gap);
+}
+
+}  // namespace

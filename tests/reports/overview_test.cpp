@@ -1,0 +1,366 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "reports/collide/overview.hpp"
+#include "reports/common/engines.hpp"
+#include "reports/common/headings.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/overview.hpp"
+#include "reports/cost/overview.hpp"
+#include "reports/couette/figures.hpp"
+#include "reports/couette/overview.hpp"
+#include "reports/diff/overview.hpp"
+#include "reports/effects/overview.hpp"
+#include "reports/lockstep/overview.hpp"
+#include "reports/stability/overview.hpp"
+#include "results/json_fields.hpp"
+#include "tests/reports/has.hpp"
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// @returns a cell's answer as the terminal has it, without its colour
+std::string told(const OverviewCell& cell) {
+  return fmt::format("{} {}", nameOf(cell.state), cell.shown);
+}
+
+const OverviewRow& rowOf(const Overview& overview, const std::string& name) {
+  const auto found = std::ranges::find(overview.rows, name, &OverviewRow::name);
+  if (found == overview.rows.end()) throw std::runtime_error("no row " + name);
+  return *found;
+}
+
+Overview made(std::size_t rows, std::size_t columns) {
+  Overview overview;
+  for (std::size_t k = 0; k < columns; ++k)
+    overview.columns.push_back({fmt::format("question {}", k + 1), "", ""});
+  for (std::size_t k = 0; k < rows; ++k) {
+    OverviewRow row{fmt::format("engine-{}", k + 1), true, {}};
+    for (std::size_t c = 0; c < columns; ++c)
+      row.cells.push_back({c == 0 ? CellState::good : CellState::bad, 0.3, "margins", "0.3 µm"});
+    overview.rows.push_back(std::move(row));
+  }
+  overview.conclusion = {"One.", "Two."};
+  return overview;
+}
+
+TEST(OverviewText, IsAlignedWhateverTheLettersTake) {
+  const auto lines = linesOf(overviewText(made(2, 2), {}));
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0], "engine    question 1  question 2");
+  EXPECT_EQ(lines[1], "engine-1  ✓ 0.3 µm    ✗ 0.3 µm");
+  EXPECT_EQ(lines[4], "Two.");
+}
+
+TEST(OverviewText, HasColoursWhereTheyAreWantedOnly) {
+  EXPECT_FALSE(has(overviewText(made(1, 1), {160, false}), "\033"));
+  EXPECT_TRUE(has(overviewText(made(1, 1), {160, true}), "\033[32m✓ 0.3 µm"));
+}
+
+TEST(OverviewText, HasAtMostTwentyFiveLinesAndSaysWhatIsLeftOut) {
+  for (const std::size_t rows : {1u, 21u, 22u, 23u, 100u})
+    for (const std::size_t width : {40u, 80u, 160u})
+      EXPECT_LE(linesOf(overviewText(made(rows, 9), {width, false})).size(), mostOverviewLines)
+          << rows << " " << width;
+  EXPECT_TRUE(has(overviewText(made(100, 1), {}), "… and 79 more: in the report"));
+  EXPECT_FALSE(has(overviewText(made(22, 1), {}), "more: in the report"));
+}
+
+TEST(OverviewText, KeepsToTheWidthOfTheTerminal) {
+  for (const std::string& line : linesOf(overviewText(made(3, 9), {60, false})))
+    EXPECT_LE(line.size(), 60u + 6u) << line;  // marks and µ take bytes more than places
+}
+
+TEST(OverviewMarkdown, IsATableWhateverTheNames) {
+  Overview overview = made(1, 1);
+  overview.rows[0].name = "a|b_c";
+  const std::string text = overviewMarkdown(overview, "compare: <x>");
+  EXPECT_TRUE(has(text, "# compare: \\<x\\>\n\n| engine | question 1 |\n|---|---|\n"));
+  EXPECT_TRUE(has(text, "| a\\|b\\_c | ✓ 0.3 µm |\n\nOne.\n\nTwo.\n"));
+}
+
+TEST(CompareOverview, TellsTheGravestEndpointAndWhoStandsForWhom) {
+  const Overview overview = compareOverview(sample::compareResults(4, 30));
+  ASSERT_EQ(overview.columns[2].name, "averages against grain");
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[2]), "not_applicable ");
+  EXPECT_EQ(told(rowOf(overview, "yade").cells[2]), "good 0.200 margins");
+  EXPECT_EQ(rowOf(overview, "yade").cells[2].words, "spin at the wheel");
+  // Not its mirror's own rows: its runs are yade's.
+  EXPECT_EQ(rowOf(overview, "grain~yade").cells[2].words, "its runs stand for yade");
+  const OverviewCell& alarmed = rowOf(overview, "box2d-impulse").cells[2];
+  EXPECT_EQ(told(alarmed), "bad 1.10 margins");
+  EXPECT_EQ(alarmed.words, "ALARM: pressure; on 1 packing in another regime");
+  EXPECT_EQ(told(rowOf(overview, "yade").cells[4]), "bad 1 of 4");
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[4]), "good 0 of 4");
+  EXPECT_EQ(told(rowOf(overview, sample::awkward).cells[4]), "not_applicable refused");
+  EXPECT_EQ(rowOf(overview, "grain").cells[1].state, CellState::notMeasured);
+}
+
+/// Two engines; the second disagrees on one of two endpoints.
+CompareResults disagreeing() {
+  CompareResults results;
+  results.engines = {{"ours", "", "", "", EngineStatus::ran, ""},
+                     {"theirs", "", "", "", EngineStatus::ran, ""}};
+  for (const auto& [endpoint, answer] :
+       {std::pair("pressure", Answer::disagree), std::pair("coordination", Answer::noDifference)}) {
+    EndpointRow row;
+    row.a = "ours";
+    row.b = "theirs";
+    row.endpoint = endpoint;
+    row.answer = answer;
+    row.distance = answer == Answer::disagree ? 3.0 : 0.1;
+    results.endpoints.rows.push_back(row);
+  }
+  return results;
+}
+
+LockstepRow lockstepRow(LockstepVerdict verdict) {
+  LockstepRow row;
+  row.engine = "theirs";
+  row.verdict = verdict;
+  row.equivalent = verdict == LockstepVerdict::differs ? 0.02 : 1e-5;
+  return row;
+}
+
+TEST(CompareOverview, BlamesTheLawOnlyWhereThatIsShown) {
+  CompareResults results = disagreeing();
+  EXPECT_EQ(told(rowOf(compareOverview(results), "theirs").cells[2]), "bad 3.00 margins");
+  EXPECT_EQ(compareConclusion(results)[0],
+            "Against ours, theirs: disagreement on pressure and agreement on 1 of 2.");
+  EXPECT_EQ(compareConclusion(results)[1],
+            "What parts them: no mirror tells whether it is its law or its implementation that "
+            "parts theirs.");
+
+  results.lockstep.emplace();
+  results.lockstep->rules.yardstick = "kn";
+  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  const Overview same = compareOverview(results);
+  EXPECT_EQ(told(rowOf(same, "theirs").cells[0]), "good 0.00100 % of kₙ");
+  EXPECT_EQ(told(rowOf(same, "theirs").cells[2]), "model_difference 3.00 margins");
+  EXPECT_EQ(same.conclusion[1], "What parts them: theirs differs by the law that it declares.");
+
+  results.lockstep->rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
+  const Overview other = compareOverview(results);
+  EXPECT_EQ(told(rowOf(other, "theirs").cells[0]), "bad 2.00 % of kₙ");
+  EXPECT_EQ(told(rowOf(other, "theirs").cells[2]), "bad 3.00 margins");
+  EXPECT_EQ(other.conclusion[1],
+            "What parts them: theirs is not the law that it declares, off in the tangential "
+            "damping.");
+}
+
+TEST(CompareOverview, AMirrorThatAgreesWithItsPeerBlamesTheLaw) {
+  CompareResults results = disagreeing();
+  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
+  EndpointRow row = results.endpoints.rows[0];
+  row.a = "mirror";
+  row.kind = PairKind::mirrorImplementation;
+  row.answer = Answer::undecided;
+  results.endpoints.rows.push_back(row);
+  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
+  results.endpoints.rows.back().answer = Answer::smallDifference;
+  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
+}
+
+TEST(CompareOverview, SaysWhatToDoNext) {
+  CompareResults results = disagreeing();
+  EXPECT_TRUE(has(compareConclusion(results).back(), "Next: hold the margins against"));
+  results.endpoints.rows[1].answer = Answer::undecided;
+  results.endpoints.rows[1].needs = 12;
+  EXPECT_EQ(compareConclusion(results).back(),
+            "Next: more packings, about 12 for the first that is open; the case plans no further "
+            "look ([looks] in its file).");
+  results.endpoints.looks.planned = {{8, 0.01}};
+  EXPECT_TRUE(
+      has(compareConclusion(results).back(), "open; the same command with a larger --budget"));
+  for (EndpointRow& row : results.endpoints.rows) row.answer = Answer::noDifference;
+  EXPECT_EQ(compareConclusion(results),
+            (std::vector<std::string>{"Against ours, theirs: agreement on all 2 endpoints.",
+                                      "Nothing is left to decide at these margins."}));
+  results.endpoints.alarms = {{"ours", "theirs", PairKind::peer, "all disks are gone"}};
+  EXPECT_EQ(compareConclusion(results).back(),
+            "Next: see the alarm on theirs: all disks are gone.");
+  results.nothingJudged = NothingJudged{"the case has no margins", false};
+  EXPECT_EQ(compareConclusion(results).back(), "Nothing was judged: the case has no margins.");
+}
+
+TEST(CollideOverview, TellsTheLargestShareOfALimitAndByWhichLaw) {
+  CollideResults results = sample::collideResults();
+  const Overview overview = collideOverview(results);
+  ASSERT_EQ(overview.columns[0].name, "sweeps held");
+  ASSERT_EQ(overview.columns[1].name, "slide");  // no engine has scores of the others
+  // 12/50² at t_c/50, half of it is told, the limit is 0.01.
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[1]), "good 0.24 × limit");
+  EXPECT_EQ(told(rowOf(overview, "yade").cells[1]), "bad 1.2 × limit");
+  EXPECT_EQ(rowOf(overview, "yade").cells[1].anchor, "case_1");
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "good 6 of 6");
+  EXPECT_EQ(rowOf(overview, sample::awkward).cells[0].state, CellState::bad);
+  EXPECT_TRUE(has(overview.conclusion[0], "grain: all 6 sweeps held"));
+  EXPECT_EQ(overview.conclusion.back(),
+            "Next: see why sweeps failed, in the table of every score.");
+
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves)
+      if (curve.engine == "yade") {
+        DeclaredScore& declared = curve.declared.emplace();
+        declared.law = {{"tension", std::string("cut")}};
+        declared.reference = DeclaredReference::oracle;
+        declared.score.verdict = CurveVerdict::held;
+        QuantityScore& psi = declared.score.of[QuantityId::psiF].emplace();
+        psi.max = 0.001;
+        psi.limit = 0.01;
+        psi.held = true;
+      }
+  const Overview declared = collideOverview(results);
+  EXPECT_EQ(told(rowOf(declared, "yade").cells[1]), "model_difference 1.2 × limit");
+  EXPECT_EQ(declared.conclusion[1], "Models differ because yade has tension cut.");
+}
+
+TEST(StabilityOverview, CountsRunsByFamily) {
+  const Overview overview = stabilityOverview(sample::stabilityResults());
+  ASSERT_EQ(overview.columns.size(), 1u);
+  EXPECT_EQ(overview.columns[0].name, "energy");
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "borderline 2 of 3");
+  EXPECT_EQ(told(rowOf(overview, "odd-one").cells[0]), "bad 1 of 2");
+  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].words, "pile");
+  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].anchor, "case_1");
+  EXPECT_EQ(overview.conclusion[1], "Unstable: odd-one in pile.");
+  EXPECT_EQ(familyOf("a_new_measure"), "a new measure");
+}
+
+TEST(CostOverview, TellsSettingAndTimeForEachAccuracy) {
+  const Overview overview = costOverview(sample::costResults());
+  ASSERT_FALSE(overview.columns.empty());
+  EXPECT_EQ(overview.columns[0].name, "collisions 10\u00a0%");
+  const OverviewCell& first = rowOf(overview, "grain").cells[0];
+  EXPECT_EQ(first.state, CellState::good);
+  EXPECT_FALSE(first.shown.empty());
+  EXPECT_TRUE(has(first.words, "t_c/"));
+  EXPECT_LE(overview.conclusion.size(), 3u);
+  EXPECT_TRUE(has(overview.conclusion.back(), "--budget 1400s measures the "));
+}
+
+TEST(EffectsOverview, HasAnEffectPerRow) {
+  const Overview overview = effectsOverview(sample::effectsResults(4));
+  EXPECT_EQ(overview.rowsAre, "without");
+  EXPECT_EQ(told(rowOf(overview, "friction").cells[0]), "figure 50.0 %");
+  EXPECT_EQ(rowOf(overview, "friction").cells[1].state, CellState::modelDifference);
+  EXPECT_EQ(told(rowOf(overview, "tension").cells[0]), "not_applicable refused");
+  EXPECT_TRUE(has(overview.conclusion[0], "friction changes a profile"));
+}
+
+TEST(LockstepOverview, TellsWhatIsOff) {
+  LockstepResults results;
+  results.engines = {{"theirs", "", "", "", EngineStatus::ran, ""}};
+  results.lockstep.rules.yardstick = "kn";
+  results.lockstep.rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep.rows[0].term = NamedTerm{"mu", -0.02, 0.1};
+  const Overview overview = lockstepOverview(results);
+  EXPECT_EQ(told(overview.rows[0].cells[0]), "bad 2.00 % of kₙ");
+  EXPECT_EQ(told(overview.rows[0].cells[4]), "bad −2.00 %");
+  EXPECT_EQ(overview.conclusion[0], "theirs is another law than it declares.");
+  EXPECT_EQ(overview.conclusion.size(), 3u);
+}
+
+TEST(DiffOverview, TellsWhatHasChanged) {
+  DiffResults results;
+  results.rules.yardstick = "kn";
+  DiffRow same;
+  same.engine = "one";
+  same.verdict = same.windowsVerdict = same.collisionsVerdict = DiffVerdict::sameBits;
+  DiffRow other = same;
+  other.engine = "two";
+  other.verdict = other.collisionsVerdict = DiffVerdict::differs;
+  other.collisions = {{"case", "", "psi_f", 3, 9, 0.1, 0.05, 1.0, 0.1}};
+  results.rows = {same, other};
+  const Overview overview = diffOverview(results);
+  EXPECT_EQ(told(rowOf(overview, "one").cells[1]), "good same bits");
+  EXPECT_EQ(told(rowOf(overview, "two").cells[1]), "bad 5.00 %");
+  EXPECT_EQ(overview.conclusion[0], "one: same bits; two: differs.");
+  EXPECT_EQ(overview.conclusion[1], "Next: where the change of two is meant, keep a new baseline.");
+}
+
+EngineRow named(const char* name, const char* mirrors = "") {
+  return {name, "", "", mirrors, EngineStatus::ran, ""};
+}
+
+TEST(EngineStyles, AreTheSameInEveryReport) {
+  const auto two = engineStyles({named("grain"), named("box2d-penalty")});
+  const auto three = engineStyles({named("my-own"), named("yade"), named("box2d-penalty")});
+  EXPECT_EQ(two[1], three[2]);
+  EXPECT_EQ(engineStyles({named("my-own")})[0], three[0]);
+}
+
+TEST(EngineStyles, AMirrorHasItsPeersColourDashedWhetherOrNotThatIsThere) {
+  const LineStyle peer = engineStyles({named("yade")})[0];
+  for (const LineStyle& mirror : {engineStyles({named("grain-as-yade")})[0],
+                                  engineStyles({named("grain"), named("x", "yade")})[1]}) {
+    EXPECT_EQ(mirror.colour, peer.colour);
+    EXPECT_TRUE(mirror.dashed);
+    EXPECT_NE(mirror.pointType, peer.pointType);
+  }
+}
+
+TEST(EngineStyles, NoTwoOfAReportLookAlike) {
+  std::vector<EngineRow> engines;
+  for (int k = 0; k < 20; ++k) engines.push_back(named(fmt::format("engine-{}", k).c_str()));
+  const auto styles = engineStyles(engines);
+  for (std::size_t a = 0; a < styles.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(styles[a] == styles[b]) << a << " " << b;
+}
+
+TEST(Symbols, AreOfOneLetterAndNamesStayAsTheyAre) {
+  EXPECT_EQ(symbolsHtml("k_n, t_c/50 (Ψ_f) of my_engine_n & <a_bcd>"),
+            "k<sub>n</sub>, t<sub>c</sub>/50 (Ψ<sub>f</sub>) of my_engine_n &amp; &lt;a_bcd&gt;");
+}
+
+TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
+  CompareResults results;
+  results.engines = {named("ours"), named("theirs")};
+  results.rings.rTilde = {0.5, 1.5};
+  AgreementRow row;
+  row.a = "theirs";  // the reference is second: the sign is turned
+  row.b = "ours";
+  row.field = "stress_rr";
+  AgreementRing ring;
+  ring.difference = 4.0;
+  ring.low = 3.0;
+  ring.high = 5.0;
+  ring.margin = 2.0;
+  row.rings = {ring};
+  ring.ring = 1;
+  ring.margin.reset();
+  row.rings.push_back(ring);
+  results.agreement = {row};
+  const auto figures = differenceFigures(results, engineRuns(results));
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].name, "difference_stress_rr");
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_EQ(panel.band->high, 1.0);
+  ASSERT_EQ(panel.curves.size(), 1u);
+  EXPECT_EQ(panel.curves[0].name, "theirs");
+  ASSERT_EQ(panel.curves[0].points.size(), 1u);  // a ring without a margin has no place
+  EXPECT_EQ(panel.curves[0].points[0].y, -2.0);
+  EXPECT_EQ(*panel.curves[0].points[0].error, 0.5);
+}
+
+TEST(Headings, EachCanBeLinkedTo) {
+  EXPECT_EQ(withAnchors("<h2 id=\"a-b\">x</h2><h3>A <b>b</b></h3><h1>n</h1>"),
+            "<h2 id=\"a-b\">x<a class=\"anchor\" href=\"#a-b\" aria-label=\"Link to this "
+            "part\">#</a></h2><h3 id=\"a-b-2\">A <b>b</b><a class=\"anchor\" href=\"#a-b-2\" "
+            "aria-label=\"Link to this part\">#</a></h3><h1>n</h1>");
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

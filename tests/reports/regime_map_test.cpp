@@ -1,0 +1,232 @@
+// States over volume fractions and rotations, and what carries the stress.
+#include "reports/thesis/regime_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reports/thesis/figures.hpp"
+#include "tests/reports/has.hpp"
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+ThesisLeg legAt(double label, double omega = 0.1) {
+  ThesisLeg leg;
+  leg.name = fmt::format("nu-{:.3f}-{}", label, omega);
+  leg.families = {"packings"};
+  leg.label = label;
+  leg.kn = 352.1;
+  leg.mu = 0.44;
+  leg.cell.small = static_cast<std::size_t>(std::lround(1e4 * label));
+  leg.cell.wallSpacing = 0.0025;
+  leg.cell.smallRadius = 0.0037;
+  leg.cell.omega = omega;
+  return leg;
+}
+
+/// @param until  the rotation up to which the wheel has ten contacts, of so many
+void addRun(ThesisResults& results, const ThesisLeg& leg, int packing, int until, int rotations) {
+  ThesisRun& run = results.runs.emplace_back();
+  run.leg = leg.name;
+  run.engine = "engine";
+  run.packing = packing;
+  for (int k = 0; k < rotations; ++k) {
+    ThesisSpan& span = run.history.emplace_back();
+    span.from = k;
+    span.to = k + 1;
+    span.wheelContacts = k < until ? 10.0 : 0.5;
+    span.outerPressure = k < until ? 100.0 : 1.0;
+  }
+}
+
+/// Two packings of each of four ν̄; after five rotations one of those at 0.796 carries no more.
+ThesisResults fourDensities() {
+  ThesisResults results;
+  for (const double label : {0.789, 0.793, 0.796, 0.800}) results.legs.push_back(legAt(label));
+  const std::vector<int> untils[] = {{1, 2}, {3, 4}, {4, 99}, {99, 99}};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (int packing = 0; packing < 2; ++packing)
+      addRun(results, results.legs[k], packing, untils[k][static_cast<std::size_t>(packing)], 8);
+  return results;
+}
+
+TEST(RegimeMap, PackingsThatCarryAndTheCriticalDensityAfterSoManyRotations) {
+  const ThesisResults results = fourDensities();
+  const auto groups = stateGroups(results, "engine");
+  ASSERT_EQ(1u, groups.size());
+  EXPECT_EQ("default, Ω = 0.1 /s", groups[0].words);
+  const std::vector<CriticalRow> rows = criticalRows(groups[0]);
+  ASSERT_EQ(4u, rows.size());  // 1, 2, 5, 8: nothing was followed to 10
+  EXPECT_EQ(8, rows[0].carry);
+  EXPECT_FALSE(rows[0].critical);  // all carry
+  EXPECT_EQ(7, rows[1].carry);
+  EXPECT_EQ(3, rows[2].carry);
+  ASSERT_TRUE(rows[2].critical);
+  EXPECT_NEAR(0.796, rows[2].critical->nu, 0.001);
+  const std::vector<StateRow> states = stateRows(groups[0]);
+  const auto at = std::ranges::find_if(states, [](const StateRow& of) {
+    return of.rotations == 5 && std::abs(of.nu - 0.796) < 1e-9;
+  });
+  ASSERT_NE(states.end(), at);
+  EXPECT_EQ(2, at->packings);
+  EXPECT_EQ(1, at->carry);
+  EXPECT_NEAR(5.25, at->contacts.mean.value(), 1e-12);
+  EXPECT_NEAR(4.75, at->contacts.error.value(), 1e-12);
+  EXPECT_NEAR(50.5, at->pressure.mean.value(), 1e-12);
+}
+
+TEST(RegimeMap, AReadingARateAndALawAreNotMixed) {
+  ThesisResults results = fourDensities();
+  ThesisLeg wide = legAt(0.800);
+  wide.name = "wide";
+  wide.cell.wallSpacing = 0.007;
+  ThesisLeg soft = legAt(0.800);
+  soft.name = "soft";
+  soft.kn = 100.0;
+  const ThesisLeg fast = legAt(0.800, 1.0);
+  for (const ThesisLeg& leg : {wide, soft, fast}) {
+    results.legs.push_back(leg);
+    addRun(results, leg, 0, 99, 8);
+  }
+  std::vector<std::string> words;
+  for (const StateGroup& group : stateGroups(results, "engine")) words.push_back(group.words);
+  EXPECT_EQ((std::vector<std::string>{"default, Ω = 0.1 /s", "wall spacing 7 mm, Ω = 0.1 /s",
+                                      "default, Ω = 1 /s"}),
+            words);
+}
+
+TEST(RegimeMap, TheLongestRunOfAPackingStandsForIt) {
+  ThesisResults results = fourDensities();
+  ThesisLeg longer = legAt(0.800);
+  longer.name = "time";
+  longer.families = {"time"};
+  results.legs.push_back(longer);
+  addRun(results, longer, 1, 12, 20);
+  const auto groups = stateGroups(results, "engine");
+  EXPECT_EQ(9u, groups[0].runs.size());
+  EXPECT_EQ(8u, groups[0].packings.size());
+  const auto rows = criticalRows(groups[0]);
+  ASSERT_EQ(6u, rows.size());
+  EXPECT_EQ(20, rows[5].rotations);
+  EXPECT_EQ(1, rows[5].packings);
+  EXPECT_EQ(0, rows[5].carry);
+}
+
+TEST(RegimeMap, IsATableToo) {
+  const std::string csv = regimeMapCsv(fourDensities());
+  EXPECT_TRUE(has(csv,
+                  "engine,group,nu,after_rotations,packings,carry,wheel_contacts,"
+                  "wheel_contacts_stderr,outer_pressure,outer_pressure_stderr,critical_nu,"
+                  "critical_nu_stderr\n"));
+  EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",0.796,5,2,1,5.25,4.75,50.5,49.5,,\n"));
+  EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",,1,8,8,,,,,,\n"));
+}
+
+TEST(RegimeMap, SentencesSayWhereTheWheelHasContacts) {
+  const auto figures = mapFigures(fourDensities());
+  const auto contacts = std::ranges::find(figures, "map_contacts", &Figure::name);
+  EXPECT_TRUE(has(contacts->caption,
+                  "after 8 rotations: fewer than one contact at ν̄ = 0.789 … 0.793, one or more at "
+                  "ν̄ = 0.796 … 0.800"));
+  const auto critical = std::ranges::find(figures, "map_critical", &Figure::name);
+  EXPECT_TRUE(
+      has(critical->caption, "packings that carry 8 of 8 (1), 7 of 8 (2), 3 of 8 (5), 3 of 8 (8)"));
+  EXPECT_TRUE(has(critical->caption, "(5), 0.7962")) << critical->caption;
+}
+
+TEST(RegimeMap, StatesAreFollowedOverRotations) {
+  const auto figures = mapFigures(fourDensities());
+  const auto time = std::ranges::find(figures, "map_time", &Figure::name);
+  ASSERT_NE(figures.end(), time);
+  ASSERT_EQ(2u, time->panels.size());  // these runs have no ν at the wheel
+  const Curve& curve = time->panels[1].curves.at(2);
+  EXPECT_EQ("0.796", curve.name);
+  ASSERT_EQ(8u, curve.points.size());
+  EXPECT_EQ(0.5, curve.points[0].x);
+  EXPECT_NEAR(10.0, curve.points[3].y, 1e-12);
+  EXPECT_NEAR(5.25, curve.points[4].y, 1e-12);  // one of two packings carries
+  EXPECT_TRUE(
+      has(time->caption, "at ν̄ = 0.789 100 → 1.00 (up to 8), ν̄ = 0.800 100 → 100 (up to 8)"))
+      << time->caption;
+  ThesisResults brief;  // nothing was followed for two rotations
+  brief.legs = {legAt(0.796)};
+  addRun(brief, brief.legs[0], 0, 1, 1);
+  EXPECT_TRUE(timeFigure(stateGroups(brief, "engine")).panels.empty());
+}
+
+/// I = γ̇ d √(ρ/p): of the sample at 0.804 in the first ring.
+TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
+  ThesisResults results = sample::thesisResults();
+  std::erase_if(results.runs, [](const ThesisRun& run) {
+    return run.leg != "nu-0.804" || run.engine != "alpha" || run.packing != 0;
+  });
+  const Figure figure = collapseFigure(results);
+  ASSERT_EQ(4u, figure.panels.size());
+  const double x = 0.5 * 0.1492 / 20.0 / 0.0074, nu = 0.804 - 0.2 * std::exp(-x);
+  const double rate = 0.5 * std::exp(-x / 1.9), p = 1e3 * 0.024, density = 1000.0 * 0.804;
+  const double inertial = rate * 0.0074 * std::sqrt(density / nu / p);
+  const Point& first = figure.panels[0].curves.at(0).points.at(0);
+  EXPECT_NEAR(inertial, first.x, 1e-12);
+  EXPECT_NEAR(250.0 * 0.024 / std::pow(1.0 + x * 0.0074 / 0.1032, 2) / p, first.y, 1e-12);
+  const double moving = 5e-4 * std::exp(-x);
+  EXPECT_NEAR(moving / (moving + p), figure.panels[1].curves.at(0).points.at(0).y, 1e-15);
+  EXPECT_NEAR(352.1 / (p * 0.006), figure.panels[2].curves.at(0).points.at(0).x, 1e-9);
+  // On the plane a line of one I holds the points of that I.
+  const Point& plane = figure.panels[3].curves.at(0).points.at(0);
+  EXPECT_NEAR(plane.x * plane.x * 4.0 / std::numbers::pi / (inertial * inertial), plane.y,
+              1e-9 * plane.y);
+  EXPECT_TRUE(has(figure.caption, "in no regime that was told (1 run)"));
+}
+
+/// The narrowest rings are those that were averaged; two of them have the mean by their rooms.
+TEST(RegimeMap, WiderRingsArePutTogetherOfNarrowOnes) {
+  const auto figures = widthOfRingFigures(sample::thesisResults());
+  ASSERT_EQ(1u, figures.size());
+  const Panel& panel = figures[0].panels.at(0);
+  ASSERT_EQ(8u, panel.curves.size());
+  const std::vector<Point>& slices = panel.curves[0].points;
+  const double width = 0.1492 / 60.0;
+  EXPECT_NEAR(width / 0.0074, slices[0].x, 1e-12);
+  const auto ring = [&](int k) {
+    const double x = (k + 0.5) * width / 0.0074;
+    return 1.05 * (0.804 - 0.2 * std::exp(-x));  // two packings, 1 and 1.1
+  };
+  EXPECT_NEAR(ring(6), slices[0].y, 1e-12);  // 0.12 m
+  const double r6 = 0.1032 + 6.5 * width, r5 = 0.1032 + 5.5 * width;
+  const double lower = (ring(5) * r5 + ring(6) * r6) / (r5 + r6);
+  const double r7 = 0.1032 + 7.5 * width;
+  const double upper = (ring(6) * r6 + ring(7) * r7) / (r6 + r7);
+  EXPECT_TRUE(std::abs(slices[1].y - lower) < 1e-12 || std::abs(slices[1].y - upper) < 1e-12);
+}
+
+/// Figure 4.3 of sweeps made by hand.
+TEST(RegimeMap, CollisionsAreDrawnByLaw) {
+  ThesisResults results;
+  CollideResults& collisions = results.collisions.emplace();
+  for (const char* const law : {"coulomb", "spring"}) {
+    CollisionVariant& variant = collisions.variants.emplace_back();
+    variant.law["tangential"] = std::string(law);
+    variant.law["tension"] = std::string("cut");
+    variant.law["mu"] = 0.44;
+    CollisionCurve& curve = variant.curves.emplace_back();
+    curve.engine = "engine";
+    curve.stepsPerContact = 50.0;
+    curve.points.psi = {0.5, 3.0};
+    curve.points.vn = {0.01, 0.01};
+    curve.points.columns[QuantityId::psiF] = {{law == std::string("spring") ? -0.4 : 0.0, 1.2}};
+    curve.points.columns[QuantityId::en] = {{0.34, 0.34}};
+  }
+  const auto figures = collisionFigures(results);
+  ASSERT_EQ(1u, figures.size());
+  EXPECT_EQ("figure_4_3", figures[0].name);
+  ASSERT_EQ(1u, figures[0].panels.size());  // tension was not allowed in any
+  EXPECT_TRUE(has(figures[0].caption, "tension cut, engine, spring: lowest Ψ_f −0.400, e_n 0.340"));
+  EXPECT_TRUE(collisionFigures({}).empty());
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

@@ -1,0 +1,172 @@
+#include "reports/thesis/figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "reports/common/gnuplot.hpp"
+#include "reports/thesis/leg_rings.hpp"
+#include "results/thesis_kept.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+const std::vector<Figure>& sampleFigures() {
+  static const std::vector<Figure> figures = thesisFigures(sample::thesisResults());
+  return figures;
+}
+
+const Figure& thesisFigureNumbered(const std::string& number) {
+  const auto found = std::ranges::find(sampleFigures(), thesisFigureName(number), &Figure::name);
+  if (found == sampleFigures().end()) throw std::runtime_error("no figure " + number);
+  return *found;
+}
+
+const Curve& curveNamed(const Panel& panel, const std::string& name) {
+  const auto found = std::ranges::find(panel.curves, name, &Curve::name);
+  if (found == panel.curves.end()) throw std::runtime_error("no curve " + name);
+  return *found;
+}
+
+TEST(ThesisFigures, AllThatTheResultsCanShowInTheThesisOrder) {
+  std::vector<std::string> names;
+  for (const Figure& figure : sampleFigures()) names.push_back(figure.name);
+  std::vector<std::string> expected;
+  for (const char* number :
+       {"5.5",  "5.6",  "5.7",  "6.1",  "6.2",  "6.3",  "6.4",  "6.5",  "6.6",  "6.7",
+        "6.8",  "6.10", "6.11", "7.4",  "7.5",  "7.6",  "7.7",  "7.8",  "7.9",  "7.11",
+        "7.12", "7.13", "7.14", "7.15", "7.17", "7.18", "7.19", "7.21", "7.22", "7.23",
+        "7.24", "8.3",  "8.4",  "8.5",  "8.6",  "8.7",  "9.1",  "9.2",  "9.3",  "9.4"})
+    expected.push_back(thesisFigureName(number));
+  for (const char* name :
+       {"map_contacts", "map_pressure", "map_width", "map_critical", "map_time", "map_collapse"})
+    expected.push_back(name);
+  EXPECT_EQ(expected, names);
+  for (const Figure& figure : sampleFigures()) {
+    EXPECT_NE(std::string::npos, figure.caption.find("Thesis: ")) << figure.name;
+    EXPECT_NE(std::string::npos, figure.caption.find("Found: ")) << figure.name;
+    EXPECT_EQ(std::string::npos, figure.caption.find("no data")) << figure.caption;
+    EXPECT_EQ(std::string::npos, figure.caption.find("nan")) << figure.caption;
+  }
+}
+
+/// What a results file keeps is all that figures are drawn from.
+TEST(ThesisFigures, AreThoseOfWhatIsKept) {
+  const std::vector<Figure> figures = thesisFigures(kept(sample::thesisResults()));
+  ASSERT_EQ(figures.size(), sampleFigures().size());
+  for (std::size_t f = 0; f < figures.size(); ++f) {
+    SCOPED_TRACE(figures[f].name);
+    const Figure& whole = sampleFigures()[f];
+    ASSERT_EQ(figures[f].panels.size(), whole.panels.size());
+    for (std::size_t p = 0; p < whole.panels.size(); ++p) {
+      ASSERT_EQ(figures[f].panels[p].curves.size(), whole.panels[p].curves.size());
+      for (std::size_t c = 0; c < whole.panels[p].curves.size(); ++c) {
+        const Curve &now = figures[f].panels[p].curves[c], &then = whole.panels[p].curves[c];
+        ASSERT_EQ(now.points.size(), then.points.size());
+        for (std::size_t k = 0; k < then.points.size(); ++k) {
+          EXPECT_NEAR(now.points[k].y, then.points[k].y, 1e-3 * std::abs(then.points[k].y));
+          EXPECT_EQ(now.points[k].error.has_value(), then.points[k].error.has_value());
+        }
+      }
+    }
+  }
+}
+
+TEST(ThesisFigures, NothingOfNoResults) {
+  EXPECT_TRUE(thesisFigures({}).empty());
+  ThesisResults unfinished = sample::thesisResults();
+  for (ThesisRun& run : unfinished.runs) run.run.status = RunStatus::failed;
+  EXPECT_TRUE(thesisFigures(unfinished).empty());
+}
+
+/// ν̄ has the colours, engines have the marks; both are named once.
+TEST(ThesisFigures, DensitiesAndEnginesAreToldApart) {
+  const Panel& panel = thesisFigureNumbered("7.5").panels.at(0);
+  // 0.789, 0.800 and 0.804 of both engines, four more of the first.
+  ASSERT_EQ(3u * 2u + 4u, panel.curves.size());
+  const Curve &low = curveNamed(panel, "0.789"), &high = curveNamed(panel, "0.819");
+  const Curve& other = curveNamed(panel, "beta");
+  EXPECT_NE(low.style.colour, high.style.colour);
+  EXPECT_EQ(low.style.pointType, high.style.pointType);
+  EXPECT_NE(low.style.pointType, other.style.pointType);
+  EXPECT_EQ(low.points.size(), 20u);
+}
+
+/// Two packings of 1 and 1.1 times the same profile: mean 1.05, error 0.1/√2/√2.
+TEST(ThesisFigures, MeansAreOverPackings) {
+  const Panel& panel = thesisFigureNumbered("6.7").panels.at(0);
+  const Point& first = curveNamed(panel, "0.804").points.front();
+  const double x = 0.5 * 0.1492 / 20.0 / 0.0074;
+  EXPECT_NEAR(x, first.x, 1e-12);
+  EXPECT_NEAR(1.05 * 0.6 * std::exp(-x / 1.9), first.y, 1e-12);
+  EXPECT_NEAR(0.05 * 0.6 * std::exp(-x / 1.9), first.error.value(), 1e-12);
+  // One packing has its own error: 1 % in the sample.
+  const Point& single = curveNamed(panel, "beta").points.front();
+  EXPECT_NEAR(0.01 * single.y, single.error.value(), 1e-12);
+}
+
+TEST(ThesisFigures, SayWhatWasFoundByRule) {
+  // The sample's velocity decays over 1.9 d, its shear stress as r⁻².
+  const std::string& velocity = thesisFigureNumbered("6.7").caption;
+  EXPECT_NE(std::string::npos, velocity.find("ν̄ = 0.796, alpha: decay length 1.90")) << velocity;
+  const std::string& stress = thesisFigureNumbered("7.12").caption;
+  EXPECT_NE(std::string::npos, stress.find("σ_rφ: exponent −2.00")) << stress;
+  const std::string& directions = thesisFigureNumbered("7.8").caption;
+  EXPECT_NE(std::string::npos, directions.find("most contacts at 0.472 π, 2.00 times"))
+      << directions;
+}
+
+TEST(ThesisFigures, AxesAreTheThesisOnesUnlessDataLieBeyond) {
+  const Figure& inside = thesisFigureNumbered("7.7");
+  EXPECT_DOUBLE_EQ(0.0, inside.panels[0].yRange->low);
+  EXPECT_DOUBLE_EQ(std::numbers::pi / 2.0, inside.panels[0].yRange->high);
+  EXPECT_EQ(std::string::npos, inside.caption.find("wider"));
+  // 1.05·1000 (0.804 − 0.78) = 25 N/m² is beyond 0.1 … 10.
+  const Figure& beyond = thesisFigureNumbered("7.12");
+  EXPECT_DOUBLE_EQ(0.1, beyond.panels[0].yRange->low);
+  EXPECT_DOUBLE_EQ(100.0, beyond.panels[0].yRange->high);
+  EXPECT_NE(std::string::npos, beyond.caption.find("wider"));
+}
+
+/// G/tr F is nine times as large from r̃ = 8 on; the ring that holds it is at r̃ = 8.57.
+TEST(ThesisFigures, DivergenceOfTheShearResistance) {
+  const Panel& panel = thesisFigureNumbered("7.24").panels.at(0);
+  const Curve& curve = curveNamed(panel, "beta");
+  const double x = 8.5 * 0.1492 / 20.0 / 0.0074;
+  const double nu = curve.points.front().x;
+  EXPECT_NEAR(1.05 * (3.5 - std::exp(-x)) * (nu - 0.2 * std::exp(-x)), curve.points.front().y,
+              1e-9);
+}
+
+/// u(0) is chosen for that: the thesis' section 9.2.
+TEST(ThesisFigures, ModelHasTheVelocityNextToTheWheel) {
+  const Figure& velocity = thesisFigureNumbered("9.1");
+  const Curve& model = curveNamed(velocity.panels.at(0), "model as printed");
+  const Curve& averages = curveNamed(velocity.panels.at(0), "alpha");
+  // The innermost ring's centre lies at ξ = 1/40.
+  const auto& drawn = model.points;
+  EXPECT_NEAR(averages.points.front().y, drawn[5].y, 1e-9);
+  EXPECT_NEAR(0.0, model.points.back().y, 1e-9);
+  // The model's couple stress of the thesis' Fig. 9.4a; M_zr > 0 is m < 0.
+  const Figure& couple = thesisFigureNumbered("9.4");
+  EXPECT_NEAR(0.2136, curveNamed(couple.panels.at(0), "model as printed").points.front().y, 2e-4);
+  EXPECT_LT(curveNamed(couple.panels.at(1), "alpha").points.front().y, 0.0);
+}
+
+TEST(ThesisFigures, CanBeDrawn) {
+  const TemporaryFolder folder;
+  std::vector<std::string> scripts;
+  for (const Figure& figure : sampleFigures())
+    scripts.push_back(writeFigure(figure, folder.path()));
+  EXPECT_NO_THROW(runGnuplot(scripts, folder.path()));
+  for (const Figure& figure : sampleFigures())
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / (figure.name + ".svg"))) << figure.name;
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

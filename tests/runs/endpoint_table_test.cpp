@@ -1,0 +1,204 @@
+// Endpoints of runs, and answers on them where a mirror carries the packings.
+#include "runs/couette/endpoint_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "runs/couette/endpoint_values.hpp"
+#include "runs/lockstep/changed_cases.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// A cell of two rings between 1 m and 3 m: areas 3π and 5π, so weights 3/8 and 5/8.
+Case twoRings() {
+  Case setup;
+  setup.cell.innerRadius = 1.0;
+  setup.cell.outerRadius = 3.0;
+  setup.cell.height = 1.0;
+  setup.particles.smallRadius = 0.1;
+  setup.averaging.rings = 2;
+  setup.preparation.packings = 4;
+  return setup;
+}
+
+Profile profile(const std::string& field, std::optional<double> one, std::optional<double> two) {
+  return {"slicing", field, "", {one, two}, {}, {}, {}};
+}
+
+CouetteRun runOf(const std::string& engine, int packing, double pressure, double spin = -1.0) {
+  CouetteRun run;
+  run.engine = engine;
+  run.packing = packing;
+  run.profiles = {profile("stress_rr", 2.0 * pressure, 2.0 * pressure),
+                  profile("stress_pp", 0.0, 0.0),
+                  profile("stress_rp", 0.4 * pressure, 0.8 * pressure),
+                  profile("azimuthal_velocity", 0.8, std::nullopt),
+                  profile("spin", spin, 0.6),
+                  profile("volume_fraction", 0.6, 0.8)};
+  run.head = {{"coordination", "-", 3.5, {}, {}}};
+  return run;
+}
+
+TEST(Endpoints, AreAreaMeansRatiosOfThemAndTheRingAtTheWheel) {
+  const Case setup = twoRings();
+  const CouetteRun run = runOf("a", 0, 100.0);
+  const auto value = [&](const char* name) { return endpointOf(endpointSpec(name), setup, run); };
+  EXPECT_NEAR(*value("pressure"), 100.0, 1e-12);
+  // (3·0.4 + 5·0.8)/8 of the pressure over twice the pressure.
+  EXPECT_NEAR(*value("stress_ratio"), 0.325, 1e-12);
+  EXPECT_EQ(*value("stress_anisotropy"), 0.0);
+  EXPECT_EQ(*value("coordination"), 3.5);
+  EXPECT_EQ(*value("mean_velocity"), 0.8);  // a ring without disks has no velocity, and no weight
+  EXPECT_NEAR(*value("mean_spin"), 0.0, 1e-12);
+  EXPECT_EQ(*value("velocity_at_wheel"), 0.8);
+  EXPECT_EQ(*value("volume_fraction_at_wheel"), 0.6);
+  EXPECT_EQ(*value("spin_at_wheel"), -1.0);
+}
+
+TEST(Endpoints, AreAbsentWhereThereIsNothing) {
+  const Case setup = twoRings();
+  CouetteRun run = runOf("a", 0, 0.0);
+  EXPECT_FALSE(endpointOf(endpointSpec("pressure"), setup, run));
+  EXPECT_FALSE(endpointOf(endpointSpec("stress_ratio"), setup, run));
+  run.profiles.clear();
+  run.head.clear();
+  for (const EndpointSpec& endpoint : endpointTable())
+    EXPECT_FALSE(endpointOf(endpoint, setup, run)) << endpoint.name;
+}
+
+Case judging(const std::string& endpoint, const Margin& margin) {
+  Case setup = twoRings();
+  setup.averaging.endpoints[endpoint] = margin;
+  return setup;
+}
+
+const EndpointPair plain = {"a", "b", PairKind::peer, "a", "b", 0.0};
+
+TEST(EndpointTable, ComparesPressuresByTheirRatio) {
+  // b is 10 % above a on packings that differ by a factor of eight: no scatter in the ratio.
+  std::vector<CouetteRun> runs;
+  for (const int packing : {0, 1, 2, 3}) {
+    runs.push_back(runOf("a", packing, 100.0 * std::exp2(packing)));
+    runs.push_back(runOf("b", packing, 110.0 * std::exp2(packing)));
+  }
+  const Case setup = judging("pressure", {0.25, true, "because", ""});
+  const auto rows = endpointRows(setup, runs, {plain}, looksOf(setup), 4, {});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, std::log(1.1) / std::log(1.25), 1e-9);
+  EXPECT_NEAR(*rows[0].reference, 375.0, 1e-9);
+  EXPECT_NEAR(*rows[0].difference, 37.5, 1e-9);
+}
+
+std::vector<CouetteRun> spins(const std::string& engine, const std::vector<double>& values) {
+  std::vector<CouetteRun> runs;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    runs.push_back(runOf(engine, static_cast<int>(k), 100.0, values[k]));
+  return runs;
+}
+
+void append(std::vector<CouetteRun>& to, const std::vector<CouetteRun>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
+  auto runs = spins("a", {-1.0, -1.1, -0.9, -1.0});
+  append(runs, spins("mirror", {-1.1, -1.2, -1.0, -1.1}));
+  append(runs, spins("b", {-7.0}));  // the engine itself: one run, which carries no verdict
+  const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
+  const EndpointPair carried = {"a", "b", PairKind::peer, "a", "mirror", 1e-3};
+  // 10 % of k_n do at most two margins: B = 1e-3/0.1 · 2.
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4},
+                                                   {"spin_at_wheel", "mu", 0.1, 0.1, 0.4, 1.0, 4}};
+  const auto rows = endpointRows(setup, runs, {carried}, looksOf(setup), 4, responses);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].b, "b");
+  EXPECT_EQ(rows[0].carrierB, "mirror");
+  EXPECT_EQ(rows[0].carrierA, "");
+  EXPECT_NEAR(*rows[0].bound, 0.02, 1e-12);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
+  EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.02, 1e-9);
+  // Nobody knows how averages respond: no row stands on the mirror's runs.
+  EXPECT_TRUE(endpointRows(setup, runs, {carried}, looksOf(setup), 4, {}).empty());
+  // A bound beyond the margin leaves nothing to agree within.
+  auto loose = carried;
+  loose.equivalent = 0.05;
+  EXPECT_EQ(endpointRows(setup, runs, {loose}, looksOf(setup), 4, responses)[0].answer,
+            Answer::undecided);
+}
+
+TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
+  auto runs = spins("a", {0, 0, 0, 0, 0, 0, 0, 0});
+  append(runs, spins("b", {2, -2, 2, -2, 2, -2, 2, -2}));
+  Case setup = judging("spin_at_wheel", {1.0, false, "because", ""});
+  setup.preparation.packings = 8;
+  const auto rows = endpointRows(setup, runs, {plain}, looksOf(setup), 8, {});
+  EXPECT_EQ(rows[0].answer, Answer::undecided);
+  ASSERT_TRUE(rows[0].needs && rows[0].needsAtMost);
+  const double sd = std::sqrt(32.0 / 7.0);
+  const auto range = packingsFor(0.0, sd, 7, 1.0, 0.05);
+  EXPECT_EQ(*rows[0].needs, range->low);
+  EXPECT_EQ(*rows[0].needsAtMost, *range->high);
+}
+
+TEST(EndpointTable, LooksBeginWithTheCasesPackings) {
+  Case setup = twoRings();
+  setup.looks.count = 4;
+  setup.preparation.packings = 8;
+  EXPECT_EQ(looksOf(setup).packings, (std::vector{8, 16, 24, 32}));
+  setup.preparation.packings = 3;  // no verdict at any look
+  EXPECT_EQ(looksOf(setup).packings, std::vector{3});
+  setup.particles.file = "packing.h5";
+  EXPECT_EQ(looksOf(setup).packings, std::vector{1});
+}
+
+TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
+  const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
+  // Two responses of the same 8 packings: 7 degrees of freedom, rms scatter 0.5 margins.
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 3.0, 4.0, 0.7, 8},
+                                                   {"spin_at_wheel", "mu", 0.1, 2.0, 3.0, 0.1, 8},
+                                                   {"pressure", "mu", 0.1, 2.0, 3.0, 9.0, 8}};
+  const auto number = [&](double own) {
+    const auto canary =
+        canaryOf(setup, runOf("b", 0, 100.0, own), runOf("m", 0, 100.0, 0.0), responses);
+    EXPECT_EQ(canary.size(), 1u);
+    return canary.front();
+  };
+  EXPECT_NEAR(*number(0.2).floor, 0.5, 1e-12);
+  EXPECT_NEAR(*number(0.2).difference, 0.4, 1e-12);
+  EXPECT_NEAR(*number(0.2).chance, chanceOfOneAsFar(0.4, 0.5, 7, 1), 1e-12);
+  EXPECT_LT(*number(2.0).chance, 1e-3);
+  EXPECT_FALSE(canaryOf(setup, runOf("b", 0, 1.0), runOf("m", 0, 1.0), {}).front().chance);
+}
+
+TEST(EndpointTable, OnlyConstantsThatAreThereAreChanged) {
+  Case setup = twoRings();
+  setup.law.kn = 350.0;
+  setup.law.mu = 0.4;
+  const auto both = changedCases(setup);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].name, "kn+10%");
+  EXPECT_NEAR(both[0].setup.law.kn, 385.0, 1e-9);
+  EXPECT_EQ(both[0].setup.law.mu, 0.4);
+  EXPECT_EQ(both[1].constant, "mu");
+  EXPECT_NEAR(both[1].setup.law.mu, 0.44, 1e-12);
+  setup.law.mu = 0.0;
+  EXPECT_EQ(changedCases(setup).size(), 1u);
+}
+
+TEST(EndpointTable, ARespondingAverageIsBoundedByItsInterval) {
+  const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
+  const auto own = spins("a", {-1.0, -1.0, -1.0, -1.0}),
+             changed = spins("a", {-0.9, -0.7, -0.9, -0.7});
+  const EndpointResponse found = responseTo(setup, own, changed, "spin_at_wheel", "kn", 0.1, 4);
+  EXPECT_NEAR(*found.difference, 0.4, 1e-12);
+  // t(3, 2.5 %) = 3.182, se = 0.1·√(4/3)/2.
+  EXPECT_NEAR(*found.scatter, 0.1 * std::sqrt(4.0 / 3.0) / 0.5, 1e-12);
+  EXPECT_NEAR(*found.bound, 0.4 + 3.182446305284263 * 0.1 * std::sqrt(4.0 / 3.0) / 2.0 / 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace crossgrain

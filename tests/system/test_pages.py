@@ -1,0 +1,176 @@
+"""Reports as a browser shows them: at three widths, light and dark, no script of their own run.
+
+One start of Debian's chromium for all: every report is put into frames of these widths on one page, and a
+script of that page looks into them. Skipped where there is no chromium."""
+
+import html
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+WIDTHS = (390, 1280, 1920)
+HEIGHT = 800
+LEAST_LETTERS = 11  # [px]
+LEAST_CONTRAST = 4.5  # WCAG 2, AA
+
+CHROMIUM = shutil.which("chromium")
+SAMPLES = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/reports/crossgrain_sample_reports"
+
+# Looks into each frame; what it finds is JSON in the page's text.
+LOOK = r"""
+const least = %d, leastContrast = %g;
+function colourOf(text) {
+  const n = (text.match(/[\d.]+/g) || []).map(Number);
+  if (text.startsWith('color(srgb')) return [n[0] * 255, n[1] * 255, n[2] * 255, n.length > 3 ? n[3] : 1];
+  return [n[0], n[1], n[2], n.length > 3 ? n[3] : 1];
+}
+function luminance(c) {
+  const part = v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  return 0.2126 * part(c[0]) + 0.7152 * part(c[1]) + 0.0722 * part(c[2]);
+}
+function behind(view, element) {
+  for (; element; element = element.parentElement) {
+    const c = colourOf(view.getComputedStyle(element).backgroundColor);
+    if (c[3] > 0.99) return c;
+  }
+  return [255, 255, 255, 1];
+}
+function contrast(a, b) {
+  const [x, y] = [luminance(a), luminance(b)].sort((p, q) => q - p);
+  return (x + 0.05) / (y + 0.05);
+}
+function look(frame) {
+  const doc = frame.contentDocument, view = frame.contentWindow, root = doc.documentElement;
+  const found = {name: frame.dataset.name, width: +frame.dataset.width,
+                 overflow: root.scrollWidth - root.clientWidth,
+                 paper: view.getComputedStyle(doc.body).backgroundColor, small: [], faint: [], cut: [], plots: []};
+  for (const details of doc.querySelectorAll('details')) details.open = false;
+  const matrix = doc.querySelector('table.overview');
+  found.matrixEnds = matrix ? matrix.getBoundingClientRect().bottom + view.scrollY : null;
+  for (const details of doc.querySelectorAll('details')) details.open = true;
+  found.overflow = Math.max(found.overflow, root.scrollWidth - root.clientWidth);
+  const walker = doc.createTreeWalker(doc.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const node = walker.currentNode, parent = node.parentElement;
+    if (!node.data.trim() || !parent.getClientRects().length) continue;
+    const style = view.getComputedStyle(parent);
+    if (style.visibility === 'hidden') continue;
+    const told = node.data.trim().slice(0, 40);
+    if (parseFloat(style.fontSize) < least) found.small.push([told, style.fontSize]);
+    if (contrast(colourOf(style.color), behind(view, parent)) < leastContrast) found.faint.push(told);
+  }
+  for (const table of doc.querySelectorAll('table')) {
+    const box = table.closest('.scroll');
+    if (!box || box.getBoundingClientRect().right > root.clientWidth + 1) found.cut.push(table.className || 'table');
+  }
+  for (const image of doc.querySelectorAll('img')) {
+    const svg = atob(image.src.split(',')[1]);
+    const letters = [...svg.matchAll(/<g [^>]*font-size="([\d.]+)"/g)].map(m => +m[1]).filter(s => s > 0);
+    if (letters.length && image.naturalWidth)
+      found.plots.push([image.alt.slice(0, 40), Math.min(...letters) * image.getBoundingClientRect().width / image.naturalWidth]);
+  }
+  return found;
+}
+addEventListener('load', () => {
+  const all = [...document.querySelectorAll('iframe')].map(look);
+  const result = document.createElement('pre');
+  result.id = 'found';
+  result.textContent = JSON.stringify(all);
+  document.body.replaceChildren(result);
+});
+""" % (LEAST_LETTERS, LEAST_CONTRAST)
+
+
+def harness(reports):
+    """A page of frames: each report at each width. Their own scripts, had they any, do not run."""
+    frames = "".join(
+        f'<iframe sandbox="allow-same-origin" data-name="{name}" data-width="{width}" width="{width}" '
+        f'height="{HEIGHT}" style="border:0" srcdoc="{html.escape(page)}"></iframe>'
+        for name, page in reports.items()
+        for width in WIDTHS
+    )
+    return f"<!doctype html><meta charset=utf-8><script>{LOOK}</script><body>{frames}"
+
+
+def looked_at(reports, dark):
+    with tempfile.TemporaryDirectory() as folder:
+        page = pathlib.Path(folder) / "harness.html"
+        page.write_text(harness(reports), encoding="utf-8")
+        command = [
+            CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder}/profile",
+            f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--virtual-time-budget=20000",
+            "--dump-dom", page.as_uri(),
+        ]  # fmt: skip
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
+    found = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.S)
+    return json.loads(html.unescape(found.group(1)))
+
+
+@unittest.skipUnless(CHROMIUM and SAMPLES.exists(), "needs chromium and the sample reports")
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        subprocess.run([SAMPLES, cls.folder.name], check=True, capture_output=True)
+        cls.reports = {
+            path.parent.name: path.read_text(encoding="utf-8")
+            for path in sorted(pathlib.Path(cls.folder.name).glob("*/report.html"))
+        }
+        cls.light = looked_at(cls.reports, dark=False)
+
+    def each(self, found, check):
+        for one in found:
+            with self.subTest(report=one["name"], width=one["width"]):
+                check(one)
+
+    def test_all_were_looked_at(self):
+        self.assertEqual(
+            sorted((one["name"], one["width"]) for one in self.light),
+            sorted((name, width) for name in self.reports for width in WIDTHS),
+        )
+        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep"):
+            self.assertIn(command, self.reports)
+
+    def test_nothing_is_cut_at_the_side(self):
+        def check(one):
+            self.assertLessEqual(one["overflow"], 0)
+            self.assertEqual(one["cut"], [], "tables scroll within a box of their own")
+
+        self.each(self.light, check)
+
+    def test_letters_are_large_enough(self):
+        def check(one):
+            self.assertEqual(one["small"], [])
+            for plot, letters in one["plots"]:
+                self.assertGreaterEqual(letters, LEAST_LETTERS - 0.1, plot)
+
+        self.assertGreater(sum(len(one["plots"]) for one in self.light), 50, "plots have letters")
+        self.each(self.light, check)
+
+    def test_the_matrix_needs_no_scrolling(self):
+        def check(one):
+            self.assertIsNotNone(one["matrixEnds"])
+            if one["width"] == 1280:
+                self.assertLess(one["matrixEnds"], HEIGHT)
+
+        self.each(self.light, check)
+
+    def test_words_stand_out_light_and_dark(self):
+        few = {name: self.reports[name] for name in ("compare", "cost", "stability")}
+        dark = looked_at(few, dark=True)
+        self.assertNotEqual(dark[0]["paper"], self.light[0]["paper"], "the browser was asked for dark")
+        self.each(self.light + dark, lambda one: self.assertEqual(one["faint"], []))
+
+    def test_no_script_is_needed(self):
+        for name, page in self.reports.items():
+            self.assertNotIn("<script", page, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

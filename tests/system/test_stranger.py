@@ -1,0 +1,107 @@
+"""An engine of the user's own: one TOML file, named where any other engine is named."""
+
+import csv
+import os
+import pathlib
+import shutil
+import sys
+import unittest
+
+from harness import BAD_INPUT, COLLISION, COUETTE, ENGINE_FAILED, HELD, SystemTest
+
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+# The example says "python3": the one that runs these tests has numpy.
+PATH = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
+
+
+class Stranger(SystemTest):
+    def run_with(self, command, case, engines, *arguments):
+        return self.run_program(
+            command, case, "--engines", engines, "--out", self.out, "--quiet", *arguments,
+            env={"PATH": PATH},
+        )  # fmt: skip
+
+    def own(self, text):
+        """A copy of the example that may be changed, described by `text`."""
+        folder = self.folder / "own"
+        folder.mkdir(exist_ok=True)
+        shutil.copy(EXAMPLES / "python/engine.py", folder)
+        (folder / "mine.toml").write_text(text, encoding="utf-8")
+        return folder / "mine.toml"
+
+    def refused(self, text, *words):
+        done = self.run_with("lockstep", COUETTE, self.own(text), "--quick")
+        self.assert_status(done, BAD_INPUT)
+        for word in words:
+            self.assertIn(word, done.error_lines()[0])
+
+    def test_the_example_is_its_mirror_to_rounding(self):
+        done = self.run_with(
+            "lockstep", COUETTE, EXAMPLES / "python/engine.toml", "--quick", "--starts=2"
+        )
+        self.assert_status(done, HELD)
+        self.assertIn("numpy: same to rounding over 2 starts", done.stdout)
+
+    def test_beside_an_engine_of_the_program_and_its_own_mirror(self):
+        case = self.write(
+            "case.toml",
+            f'[case]\nname = "own"\nextends = "{COLLISION}"\n'
+            "[collision]\npsi = { from = 0, to = 4, count = 5 }\n",
+        )
+        done = self.run_with("collide", case, f"grain,{EXAMPLES / 'python/engine.toml'}")
+        self.assertIn(done.status, (HELD, 1), str(done))
+        with open(self.out / "collisions.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(
+            {"grain", "numpy", "grain-as-numpy"}, {row["engine"] for row in rows}
+        )
+        springs = [
+            row for row in rows
+            if row["engine"] == "numpy" and row["variant"] == "spring_dashpot-tension"
+        ]  # fmt: skip
+        self.assertEqual({"held"}, {row["verdict_declared"] for row in springs})
+        self.assertLess(max(float(row["own_scheme"] or 0) for row in springs), 1e-12)
+
+    def test_of_the_command_line(self):
+        folder = self.own("").parent
+        done = self.run_program(
+            "lockstep", COUETTE, f"--engine=mine=python3 {folder / 'engine.py'}", "--engines=mine",
+            "--out", self.out, "--quiet", "--quick", "--starts=1", env={"PATH": PATH},
+        )  # fmt: skip
+        self.assert_status(done, HELD)
+        self.assertIn("mine: same to rounding", done.stdout)
+
+    def test_another_program_under_the_same_version_is_another_engine(self):
+        mine = self.own('name = "mine"\ncommand = ["python3", "engine.py"]\n')
+        arguments = ("lockstep", COUETTE, mine, "--quick", "--starts=1")
+        self.assert_status(self.run_with(*arguments), HELD)
+        self.assert_status(self.run_with(*arguments), HELD)
+        program = mine.parent / "engine.py"
+        program.write_text(program.read_text(encoding="utf-8") + "# changed\n", encoding="utf-8")
+        done = self.run_with(*arguments)
+        self.assert_status(done, BAD_INPUT)
+        self.assertIn("program", done.error_lines()[0])
+
+    def test_bad_files(self):
+        command = 'command = ["python3", "engine.py"]\n'
+        self.refused(command, "mine.toml", "name is missing")
+        self.refused('name = "mine"\n', "mine.toml", "command is missing")
+        self.refused(f'name = "grain"\n{command}', 'name = "grain"', "is taken")
+        self.refused(f'name = "mine.toml"\n{command}', "is that of a file")
+        self.refused(f'name = "a b"\n{command}', "must be of letters")
+        self.refused(f'name = "mine"\nfoldr = "x"\n{command}', "foldr", "did you mean folder?")
+        self.refused(f'name = "mine"\nfolder = "nowhere"\n{command}', "is no folder")
+        self.refused('name = "mine"\ncommand = ["no-such-program"]\n', "no-such-program", "PATH")
+        done = self.run_with("lockstep", COUETTE, "./none.toml", "--quick")
+        self.assert_status(done, BAD_INPUT)
+        self.assertIn("no such file", done.error_lines()[0])
+
+    def test_a_program_that_speaks_no_protocol_fails(self):
+        mine = self.own('name = "mine"\ncommand = ["true"]\n')
+        done = self.run_with("lockstep", COUETTE, mine, "--quick", "--starts=1")
+        self.assert_status(done, ENGINE_FAILED)
+        self.assertIn("mine: ended (exit status 0) during hello", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,287 @@
+// Snapshots made by hand: a sound one, and each fault once.
+#include <gsl/gsl_rng.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "adapters/audit.hpp"
+#include "adapters/near_pairs.hpp"
+#include "support/random.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace {
+
+using namespace crossgrain;
+using test::smallMass;
+using test::smallRadius;
+
+constexpr double dt = 1e-5;
+constexpr double depth = 1e-5;  // of both contacts [m]
+
+/// Disk 0 lies between disk 1 and a wall disk on a turning wheel, pressed into both; disk 2 is far
+/// off.
+class Audit : public testing::Test {
+ protected:
+  Audit() {
+    scene_.law = test::thesisLaw();
+    scene_.dt = dt;
+    const double reach = 2.0 * smallRadius - depth;
+    test::addDisk(scene_, smallRadius, smallMass, {0.0, 0.0}, Vec2::Zero());
+    test::addDisk(scene_, smallRadius, smallMass, {reach, 0.0}, Vec2::Zero());
+    test::addDisk(scene_, smallRadius, smallMass, {0.05, 0.05}, {0.1, 0.0});
+    scene_.bodies = {test::diskWall({-reach, 0.0}, smallRadius)};
+    scene_.bodies[0].centre = {-0.05, 0.0};
+    scene_.bodies[0].motion = test::rotating(1.0);
+    can_.lawOptions = {{"normal", {"linear"}}};
+    realised_.dt = dt;
+    realised_.precision = "double";
+
+    shown_.position = scene_.disks.position;
+    shown_.velocity = scene_.disks.velocity;
+    shown_.spin = {{0.0, 0.0, 0.0}};
+    shown_.wallPosition = scene_.bodies[0].diskPosition;
+    shown_.bodies.resize(1);
+    shown_.bodies[0].centre = scene_.bodies[0].centre;
+    shown_.bodies[0].angularVelocity = 1.0;
+    Contacts& contacts = shown_.contacts.emplace();
+    contacts.i = {0, 0};
+    contacts.j = {1, 3};
+    contacts.normal = {Vec2(-1.0, 0.0), Vec2(1.0, 0.0)};
+    contacts.overlap = {depth, depth};
+    const double fn = scene_.law.kn * depth;
+    contacts.normalForce = {fn, fn};
+    contacts.tangentialForce = {0.5 * scene_.law.mu * fn, 0.0};
+  }
+
+  AuditBasis basis() const { return auditBasis(scene_, can_, realised_); }
+  std::string why() const { return whyUnsound(shown_, basis(), 0.0); }
+  std::string whyOfLaw() const { return whyNotOfLaw(shown_, basis(), scene_.law); }
+  Contacts& contacts() { return *shown_.contacts; }
+
+  Scene scene_;
+  Capabilities can_;
+  Realised realised_;
+  Snapshot shown_;
+};
+
+void expectSays(const std::string& why, const std::string& part) {
+  EXPECT_NE(why.find(part), std::string::npos) << "'" << why << "' without '" << part << "'";
+}
+
+TEST_F(Audit, SoundSnapshotsPass) {
+  EXPECT_EQ(why(), "");
+  EXPECT_EQ(whyOfLaw(), "");
+  shown_.contacts.reset();
+  EXPECT_EQ(why(), "") << "what is not shown is not asked for";
+}
+
+TEST_F(Audit, Times) {
+  shown_.positionTime = -5.0;
+  expectSays(why(), "positions are of t = -5 s, before the start");
+  shown_.positionTime = 3.5 * dt;
+  expectSays(why(), "3.500 steps of 1e-05 s: not a whole number");
+  shown_.positionTime = 3.0 * dt;
+  expectSays(why(), "not of 0 s that advance reached");
+  shown_.positionTime = 0.0;
+  shown_.velocityTime = 2.0 * dt;
+  expectSays(why(), "velocities are of t = 2e-05 s, more than a step");
+  shown_.velocityTime = 0.0;
+  shown_.contactTime = -3.0 * dt;
+  expectSays(why(), "contacts are of t = -3e-05 s");
+  shown_.contactTime = 0.0;
+  shown_.contactInterval = -1.0;
+  expectSays(why(), "which is no interval");
+  shown_.contactInterval = 1.0;
+  expectSays(why(), "longer than the 0 s since the start");
+}
+
+TEST_F(Audit, Places) {
+  shown_.position[2] = {1e300, 0.0};
+  expectSays(why(), "disk 2 is at (1e+300, 0) m, outside of the scene");
+  shown_.position[2] = {0.05, std::nan("")};
+  expectSays(why(), "disk 2 is at");
+  shown_.position[2] = {0.05, 0.05};
+  shown_.velocity[2] = {0.0, 1e9};
+  expectSays(why(), "disk 2 moves at 1e+09 m/s");
+  shown_.velocity[2] = {0.1, 0.0};
+  shown_.wallPosition[0].y() = 1e-4;
+  expectSays(why(), "wall disk 0 is at");
+  shown_.wallPosition[0].y() = 0.0;
+  shown_.bodies[0].angle = 1.0;
+  expectSays(why(), "has turned by 1 rad, not by 0 rad");
+}
+
+TEST_F(Audit, Shapes) {
+  shown_.position.pop_back();
+  expectSays(why(), "2 positions are shown, not 3");
+}
+
+TEST_F(Audit, Ids) {
+  contacts().i[1] = 3;
+  contacts().j[1] = 3;
+  expectSays(why(), "contact 1 is of 3 and 3");
+  contacts().i[1] = -1;
+  expectSays(why(), "contact 1 is of -1 and 3");
+  contacts().i[1] = 0;
+  contacts().j[1] = 4;
+  expectSays(why(), "a later id below 4");
+  contacts().j[1] = 1;
+  expectSays(why(), "(disk 0 with disk 1) is listed twice");
+}
+
+TEST_F(Audit, Normals) {
+  contacts().normal[1] *= 2.0;
+  expectSays(why(), "contact 1 (disk 0 with wall disk 0): its normal has length 2, not 1");
+  contacts().normal[1] = {-1.0, 0.0};
+  expectSays(why(), "its normal is (-1.0000, 0.0000), from the positions (1.0000, 0.0000)");
+}
+
+TEST_F(Audit, Overlaps) {
+  contacts().overlap[0] = -1.0;
+  expectSays(why(),
+             "contact 0 (disk 0 with disk 1): overlaps by -1 m, from the positions by 1e-05");
+}
+
+TEST_F(Audit, MissingContacts) {
+  for (std::vector<double>* each :
+       {&contacts().overlap, &contacts().normalForce, &contacts().tangentialForce})
+    each->pop_back();
+  contacts().i.pop_back();
+  contacts().j.pop_back();
+  contacts().normal.pop_back();
+  expectSays(why(), "no contact of disk 0 with wall disk 0, which overlap by 1e-05 m");
+}
+
+TEST_F(Audit, InventedContacts) {
+  const Vec2 apart = scene_.disks.position[0] - scene_.disks.position[2];
+  contacts().i.push_back(0);
+  contacts().j.push_back(2);
+  contacts().normal.push_back(apart.normalized());
+  contacts().overlap.push_back(2.0 * smallRadius - apart.norm());
+  contacts().normalForce.push_back(0.0);
+  contacts().tangentialForce.push_back(0.0);
+  EXPECT_EQ(why(), "") << "a pair that was looked at, without a force";
+  contacts().normalForce.back() = 1.0;
+  expectSays(why(), "contact 2 (disk 0 with disk 2): a force of 1 N passes a gap");
+}
+
+/// No two that touch are passed over, wherever a far one puts the squares, and none comes twice.
+TEST(NearPairs, AreAllThatTouch) {
+  const Random random = randomStream(1, 0);
+  const auto number = [&](double most) { return most * gsl_rng_uniform(random.get()); };
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Vec2> place;
+    std::vector<double> radius;
+    const double width = number(20.0), height = trial % 5 == 0 ? 0.0 : number(20.0);
+    for (int k = 0; k < 1 + trial % 60; ++k) {
+      place.emplace_back(number(width) - 5.0, number(height));
+      radius.push_back(0.1 + number(1.0));
+    }
+    if (trial % 7 == 0) place.front() = {1e9, 0.0};
+    const std::size_t moving = place.size() / 2 + 1;
+    std::multiset<std::pair<std::size_t, std::size_t>> found, wanted;
+    const auto touch = [&](std::size_t i, std::size_t j) {
+      return (place[i] - place[j]).norm() < radius[i] + radius[j];
+    };
+    nearPairs(place, radius, moving, [&](std::size_t i, std::size_t j) {
+      if (touch(i, j)) found.emplace(i, j);
+    });
+    for (std::size_t i = 0; i < moving; ++i)
+      for (std::size_t j = i + 1; j < place.size(); ++j)
+        if (touch(i, j)) wanted.emplace(i, j);
+    EXPECT_EQ(found, wanted) << "trial " << trial;
+  }
+}
+
+/// Planes are followed where they do not turn.
+TEST_F(Audit, Planes) {
+  scene_.bodies.push_back(test::planeWall({0.0, -smallRadius + depth}, {0.0, 1.0}));
+  scene_.disks.position[1].y() = shown_.position[1].y() = 0.0;
+  shown_.bodies.emplace_back();
+  shown_.position[1].y() += 1e-3;  // off the plane, and off disk 0
+  shown_.contacts->i = {0, 0};
+  shown_.contacts->j = {3, 4};
+  shown_.contacts->normal = {Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
+  EXPECT_EQ(why(), "");
+  shown_.contacts->j[1] = 3;
+  shown_.contacts->i[1] = 1;
+  EXPECT_NE(why(), "");
+}
+
+/// Contacts a step older than positions are looked for where disks were then.
+TEST_F(Audit, StaggeredContacts) {
+  shown_.bodies[0].angularVelocity = scene_.bodies[0].motion.angularVelocity = 0.0;
+  for (Vec2& velocity : shown_.velocity) velocity = {0.3, -0.2};
+  shown_.velocity[0] = Vec2::Zero();
+  shown_.velocity[1] = {1.5 * depth / dt, 0.0};  // has left since
+  for (std::size_t i = 0; i < 3; ++i) shown_.position[i] += dt * shown_.velocity[i];
+  shown_.positionTime = dt;
+  shown_.velocityTime = 0.5 * dt;
+  EXPECT_EQ(whyUnsound(shown_, basis(), dt), "");
+  shown_.contactTime = dt;
+  expectSays(whyUnsound(shown_, basis(), dt), "overlaps by 1e-05 m, from the positions by -5e-06");
+}
+
+/// Rigid disks have moved on since their impulse, and no pair is asked for.
+TEST_F(Audit, RigidContacts) {
+  can_.lawOptions["normal"] = {"rigid"};
+  shown_.velocity[1] = {20.0 * depth / dt, 0.0};
+  shown_.position[1] += dt * shown_.velocity[1];
+  shown_.positionTime = shown_.velocityTime = shown_.contactTime = dt;
+  shown_.bodies[0].angle = dt;
+  EXPECT_EQ(whyNoContacts(shown_, basis()), "");
+  shown_.velocity[1].setZero();
+  expectSays(whyNoContacts(shown_, basis()), "overlaps by 1e-05 m, from the positions by -0.00019");
+  shown_.position[1].x() -= 19.0 * depth;
+  EXPECT_EQ(whyNoContacts(shown_, basis()), "")
+      << "moved out of another as deep as disk 0 lies in the wall";
+}
+
+TEST_F(Audit, SinglePrecisionIsRounded) {
+  contacts().overlap[0] += 1e-9;
+  EXPECT_NE(why(), "");
+  realised_.precision = "float";
+  EXPECT_EQ(why(), "");
+}
+
+TEST_F(Audit, NormalForces) {
+  contacts().normalForce[1] *= 1.02;
+  expectSays(whyOfLaw(), "contact 1 (disk 0 with wall disk 0): f_n is");
+  EXPECT_EQ(why(), "") << "the law is the expensive part";
+}
+
+TEST_F(Audit, DashpotsAreHeldToTheVelocitiesShown) {
+  shown_.velocity[1] = {-0.5, 0.0};
+  EXPECT_NE(whyOfLaw(), "");
+  contacts().normalForce[0] += 0.5 * scene_.law.gn;
+  EXPECT_EQ(whyOfLaw(), "");
+}
+
+TEST_F(Audit, TangentialForces) {
+  contacts().tangentialForce[1] = 1.01 * scene_.law.mu * contacts().normalForce[1];
+  expectSays(whyOfLaw(), "|f_t| is");
+  scene_.law.conventions.dashpot = Dashpot::outside;
+  shown_.spin = {{1e3, 0.0, 0.0}};
+  EXPECT_EQ(whyOfLaw(), "") << "the dashpot's part is not bounded";
+}
+
+TEST_F(Audit, RigidDisksDoNotPull) {
+  can_.lawOptions["normal"] = {"rigid"};
+  scene_.law.normal = NormalLaw::rigid;
+  contacts().normalForce[1] = -1e-3;
+  expectSays(whyOfLaw(), "rigid disks do not pull");
+}
+
+TEST_F(Audit, Costs) {
+  Stats stats{100, 3, 0.1, 0.1, {}};
+  EXPECT_EQ(whyNoStats(stats, dt, 100.0 * dt), "");
+  stats.steps = static_cast<std::uint64_t>(-1);
+  expectSays(whyNoStats(stats, dt, 100.0 * dt), "18446744073709551615 steps are counted");
+  stats.steps = 100;
+  stats.cpuSeconds = -1.0;
+  expectSays(whyNoStats(stats, dt, 100.0 * dt), "which cannot be");
+}
+
+}  // namespace
