@@ -30,13 +30,14 @@ void tell(const ThesisResults& results, const CommandLine& line) {
   fmt::print("report: {}\n", (line.run.out / "report.html").string());
 }
 
-int thesis(const CommandLine& line, bool strict, double budget) {
+int thesis(const CommandLine& line, bool strict, double budget,
+           const std::optional<std::string>& earlier) {
   const auto file = line.inputs.empty() ? hereOrInstalled(line.quick ? quickLadder : wholeLadder)
                                         : line.inputs.front();
   const ThesisLadder ladder = loadLadder(file, line.overrides);
   RunStore store(line.run, "thesis", keysOfLegs(ladder));
-  if (line.run.dryRun) return told(ladderPlan(ladder, line.run, store));
-  const ThesisResults results = climbLadder(ladder, line.run, store, budget);
+  if (line.run.dryRun) return told(ladderPlan(ladder, line.run, store, earlier));
+  const ThesisResults results = climbLadder(ladder, line.run, store, budget, earlier);
   writeReport(results, line.run.out);
 
   if (line.json)
@@ -60,7 +61,7 @@ int thesis(const CommandLine& line, bool strict, double budget) {
 Action declareThesis(CLI::App& app, CommandLine& line) {
   struct Options {
     bool strict = false;
-    std::optional<std::string> budget;
+    std::optional<std::string> budget, earlier;
   };
   const auto own = std::make_shared<Options>();
   addInputs(app, line, "ladder",
@@ -69,11 +70,15 @@ Action declareThesis(CLI::App& app, CommandLine& line) {
   addPackings(app, line);
   addText(app, "--budget", own->budget,
           "no run begins that would end later, e.g. 90s, 10m, 2h (default: all are run)", "TIME");
+  addText(
+      app, "--from", own->earlier,
+      "results.json of an earlier sitting: its finished runs are taken, whichever build made them",
+      "FILE");
   addFlag(app, "--strict", own->strict, "a claim that is undecided counts as falling short");
   return [&line, own] {
     const double budget =
         own->budget ? secondsOf(*own->budget) : std::numeric_limits<double>::infinity();
-    return resumably(line.run, [&] { return thesis(line, own->strict, budget); });
+    return resumably(line.run, [&] { return thesis(line, own->strict, budget, own->earlier); });
   };
 }
 
@@ -83,6 +88,7 @@ extern const Command thesisCommand = {
     "thesis", "the thesis' claims, one by one: reproduced or refuted, per engine, with a number",
     "crossgrain thesis --quick --out out                       # minutes\n"
     "crossgrain thesis --budget 2h --out out                   # and again, until all is run\n"
+    "crossgrain thesis --budget 2h --from before/results.json --out out\n"
     "crossgrain thesis --engines grain,yade --budget 8h --out out",
     declareThesis};
 

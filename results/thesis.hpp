@@ -63,7 +63,9 @@ struct ThesisRun {
   std::string leg, engine;
   int packing = 0;
   std::uint64_t seed = 0;
-  CouetteRun run;                   ///< averaged over the leg's last rotations, on the case's rings
+  std::string key = {};      ///< of all that it depends on, so that another sitting takes it up
+  std::string program = {};  ///< that made it: "0.3.0 (7902f0e)"
+  CouetteRun run;            ///< averaged over the leg's last rotations, on the case's rings
   std::vector<RingAverages> finer;  ///< the same time on narrower rings: about d/3
   std::vector<ThesisSpan> history;  ///< from the closing of the ring to the end
 };
@@ -92,7 +94,7 @@ struct ClaimRow {
   std::string reading;  ///< "wall spacing 2.5 mm, as printed"
   std::vector<ClaimFigure> figures;  ///< the first is the one that the table shows
   ClaimVerdict verdict = ClaimVerdict::undecided;
-  std::string why;                ///< the reason, by rule, with the numbers
+  std::string why;  ///< the reason, by rule, with the numbers
   /// Of a refuted claim: why it fails, or where it would hold, as far as that was found.
   std::vector<std::string> reasons;
   std::vector<std::string> legs;  ///< that it rests on

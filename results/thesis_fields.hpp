@@ -49,6 +49,8 @@ void fields(auto& io, ThesisRun& run) {
   io("engine", run.engine);
   io("packing", run.packing);
   io("seed", run.seed);
+  io("key", run.key);
+  io("program", run.program);
   io("run", run.run);
   io("finer", run.finer);
   io("history", run.history);

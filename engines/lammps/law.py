@@ -55,15 +55,3 @@ class Law:
         if self.dashpot:
             found["gt"] = self.gt
         return found
-
-    def effects(self, scene):
-        called = {
-            "normal_damping": self.gn > 0,
-            "friction": self.friction,
-            "tangential_spring": self.kt > 0,
-            "tangential_damping": self.gt > 0,
-            "rotation": self.friction and scene["rotation"],
-            "gravity": any(scene["gravity"]),
-            "moving_walls": any(body["motion"]["kind"] != "fixed" for body in scene["bodies"]),
-        }
-        return [name for name, calls in called.items() if calls]

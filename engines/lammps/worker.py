@@ -18,6 +18,7 @@ import numpy as np
 import crossgrain_worker
 from build import Scene, check
 from contacts import read_contacts, read_plane_contacts
+from crossgrain_answers import effects_called, effects_without_bottom, setting
 from crossgrain_walls import Body
 from law import Law
 from library import Lammps
@@ -25,23 +26,14 @@ from library import Lammps
 CHUNK = 1000  # steps between two looks at the number of contacts
 
 
-def setting(name, default, unit, doc):
-    return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []}
-
-
 class Worker:
     def __init__(self):
         self.lammps = Lammps()
 
     def capabilities(self):
-        effects = "normal_damping friction tangential_spring tangential_damping rotation gravity"
         return {
             "version": self.lammps.version(),
-            "effects": {
-                **{name: "optional" for name in f"{effects} moving_walls".split()},
-                "bottom_friction": "never",
-                "bottom_spin_friction": "never",
-            },
+            "effects": effects_without_bottom(),
             "law_options": {
                 "normal": ["linear"],
                 "damper": ["constant"],
@@ -98,7 +90,7 @@ class Worker:
             "precision": "double",
             "integrator": "position_verlet",
             "velocity_lag": 0.0,
-            "effects": self.law.effects(scene),
+            "effects": effects_called(self.law, scene),
             "pairs": [{"pair": "all", **self.law.coefficients()}],
             "deviations": [],
         }

@@ -45,18 +45,6 @@ class Law:
         """Told when the masses are set to so many times what they were, which must not change a
         force."""
 
-    def effects(self, scene):
-        called = {
-            "normal_damping": self.gn > 0,
-            "friction": self.friction,
-            "tangential_spring": self.kt > 0,
-            "tangential_damping": self.gt > 0,
-            "rotation": self.friction and scene["rotation"],
-            "gravity": any(scene["gravity"]),
-            "moving_walls": any(body["motion"]["kind"] != "fixed" for body in scene["bodies"]),
-        }
-        return [name for name, calls in called.items() if calls]
-
 
 def kinds_of_disks(radius, mass):
     """Ids of the first two disks of each kind by the kind's name."""

@@ -23,6 +23,7 @@ from yade import O, utils
 import build
 import crossgrain_worker
 from contacts import read_contacts, xy, z
+from crossgrain_answers import effects_called, effects_without_bottom, setting
 from crossgrain_walls import Body
 from law import representative_pairs
 from mindlin import Mindlin
@@ -40,20 +41,11 @@ def close_yades_servers():
         ).start()
 
 
-def setting(name, default, unit, doc):
-    return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []}
-
-
 class Yade:
     def capabilities(self):
-        effects = "normal_damping friction tangential_spring tangential_damping rotation gravity"
         return {
             "version": yade.config.version,
-            "effects": {
-                **{name: "optional" for name in f"{effects} moving_walls".split()},
-                "bottom_friction": "never",
-                "bottom_spin_friction": "never",
-            },
+            "effects": effects_without_bottom(),
             "law_options": {
                 "normal": list(LAWS),
                 "damper": ["constant", "critical"],
@@ -149,7 +141,7 @@ class Yade:
             "precision": "double",
             "integrator": "position_verlet",
             "velocity_lag": 0.0,
-            "effects": self.law.effects(scene),
+            "effects": effects_called(self.law, scene),
             "pairs": pairs,
             "deviations": [],
         }

@@ -23,10 +23,6 @@ constexpr const char* earlier = "earlier";
 constexpr const char* versionKey = "engine version";
 constexpr const char* wayOut = "take another folder, or --fresh, which sets aside what is there";
 
-std::string thisProgram() {
-  return fmt::format("{} ({})", programVersion, programBuild);
-}
-
 /// An object, empty if there is none.
 json parsed(const std::optional<std::string>& text) {
   const json document = text ? json::parse(*text, nullptr, /*allow_exceptions=*/false) : json();

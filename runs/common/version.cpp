@@ -1,8 +1,14 @@
 #include "runs/common/version.hpp"
 
+#include <fmt/format.h>
+
 namespace crossgrain::inline runs {
 
 const char* const programVersion = CROSSGRAIN_VERSION;
 const char* const programBuild = CROSSGRAIN_BUILD;
+
+std::string thisProgram() {
+  return fmt::format("{} ({})", programVersion, programBuild);
+}
 
 }  // namespace crossgrain::inline runs

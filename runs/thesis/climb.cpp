@@ -13,6 +13,7 @@
 #include "results/thesis_fields.hpp"
 #include "runs/common/brief_timing.hpp"
 #include "runs/common/head.hpp"
+#include "runs/common/version.hpp"
 #include "runs/couette/frame.hpp"
 #include "runs/couette/unfinished_run.hpp"
 #include "runs/thesis/carrying.hpp"
@@ -51,8 +52,14 @@ std::string roughly(double seconds) {
 
 }  // namespace
 
-Climb::Climb(const ThesisLadder& ladder, const RunCommand& command, RunStore& store, double budget)
-    : ladder_(ladder), command_(command), store_(store), budget_(budget), progress_(command.quiet) {
+Climb::Climb(const ThesisLadder& ladder, const RunCommand& command, RunStore& store, double budget,
+             EarlierRuns earlier)
+    : ladder_(ladder),
+      command_(command),
+      store_(store),
+      budget_(budget),
+      earlier_(std::move(earlier)),
+      progress_(command.quiet) {
   for (EngineEntry& entry : selectEngines(command.engines)) engines_.push_back({std::move(entry)});
   for (const LadderLeg& leg : ladder.legs) checkEngineSections(leg.setup);
 }
@@ -187,8 +194,15 @@ KeptTask<ThesisRun> Climb::taskOf(const LadderStep& step) const {
   return task;
 }
 
+const ThesisRun* Climb::earlier(const LadderStep& step, const CaseKeys& key) const {
+  const auto found = earlier_.find(keyOfRun(ladder_.legs[step.leg].setup, key));
+  return found == earlier_.end() ? nullptr : &found->second;
+}
+
 Climb::Outcome Climb::runStep(const LadderStep& step, const std::string& name, const CaseKeys& key,
                               const std::function<void(double)>& progress) const {
+  if (const ThesisRun* found = earlier(step, key))
+    return {*found, true, "made earlier, by crossgrain " + found->program};
   const LadderLeg& leg = ladder_.legs[step.leg];
   const EngineEntry& entry = engines_[step.engine].entry;
   ThesisRun result;
@@ -220,6 +234,8 @@ Climb::Outcome Climb::runStep(const LadderStep& step, const std::string& name, c
                            Json(key).dump()};
     result = runLeg(task, {ladder_.finerRings, ladder_.settlingSnapshots}, progress);
     result.leg = leg.name;
+    result.key = keyOfRun(leg.setup, key);
+    result.program = thisProgram();
     learn(step, elapsed() - began, toDo);
     return {result, true, roughly(result.run.stats->wallSeconds)};
   } catch (const Interrupted&) {

@@ -15,6 +15,7 @@
 #include "runs/common/options.hpp"
 #include "runs/common/progress.hpp"
 #include "runs/common/run_store.hpp"
+#include "runs/thesis/earlier_runs.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -34,8 +35,11 @@ struct ClimbingEngine {
 ///   askEngines ── holdAgainstMirrors ── run ── results
 class Climb {
  public:
-  /// All outlive it. @throws BadInput for an engine that is not installed
-  Climb(const ThesisLadder& ladder, const RunCommand& command, RunStore& store, double budget);
+  /// All outlive it.
+  /// @param earlier  runs that need not be made again
+  /// @throws BadInput for an engine that is not installed
+  Climb(const ThesisLadder& ladder, const RunCommand& command, RunStore& store, double budget,
+        EarlierRuns earlier);
 
   /// Which engine can run which leg, and how long a step takes it.
   void askEngines();
@@ -61,6 +65,8 @@ class Climb {
   double predicted(const LadderStep& step) const;
   /// @param share  of the run that took so long: the rest was done before
   void learn(const LadderStep& step, double seconds, double share) const;
+  /// Its earlier run, if there is one.
+  const ThesisRun* earlier(const LadderStep& step, const CaseKeys& key) const;
   double elapsed() const;
   std::string label(const LadderStep& step) const;
 
@@ -68,6 +74,7 @@ class Climb {
   const RunCommand& command_;
   RunStore& store_;
   double budget_;
+  EarlierRuns earlier_;
   Progress progress_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::vector<LadderStep> steps_;

@@ -22,7 +22,12 @@ std::string Climb::plan() const {
     work.what = "runs";
     const auto task = taskOf(step);
     const auto kept = store_.find(task.name, task.key);
-    count(work, kept ? std::optional(kept->at("run")) : std::nullopt);
+    std::optional<nlohmann::json> run;
+    if (kept)
+      run = kept->at("run");
+    else if (const ThesisRun* before = earlier(step, task.key))
+      run = jsonOf(before->run);
+    count(work, run);
   }
   std::string head = fmt::format("{}: {} legs\n", ladder_.file.string(), ladder_.legs.size());
   for (const LadderRung& rung : ladder_.rungs) {
@@ -87,6 +92,7 @@ ThesisResults Climb::results() const {
     engine.status = EngineStatus::failed;
     engine.reason = run.run.reason;
   }
+  std::ranges::copy(madeByOthers(results.runs), std::back_inserter(results.notes));
   return results;
 }
 

@@ -39,15 +39,19 @@ std::vector<ClaimRow> allClaims(const ThesisResults& results, const ClaimRules& 
   return claims;
 }
 
+EarlierRuns earlierIn(const std::optional<std::filesystem::path>& file) {
+  return file ? readEarlierRuns(*file) : EarlierRuns();
+}
+
 }  // namespace
 
 ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                          double budget) {
+                          double budget, const std::optional<std::filesystem::path>& earlier) {
   const auto started = std::chrono::steady_clock::now();
   const ClaimRules rules = loadClaimRules(ladder.rules);  // what is wrong with them is said now
   ClaimReasons reasons;
   if (ladder.reasons) reasons = loadClaimReasons(*ladder.reasons, rules);
-  Climb climb(ladder, command, store, budget);
+  Climb climb(ladder, command, store, budget, earlierIn(earlier));
   std::optional<CollideResults> collisions;
   if (!ladder.collisions.empty()) collisions = collideEngines(ladder.collisions, command, store);
   climb.askEngines();
@@ -64,8 +68,9 @@ ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command,
   return results;
 }
 
-std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store) {
-  Climb climb(ladder, command, store, std::numeric_limits<double>::infinity());
+std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
+                       const std::optional<std::filesystem::path>& earlier) {
+  Climb climb(ladder, command, store, std::numeric_limits<double>::infinity(), earlierIn(earlier));
   climb.askEngines();
   return climb.plan();
 }

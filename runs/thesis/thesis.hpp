@@ -19,14 +19,17 @@ std::map<std::string, CaseKeys> keysOfLegs(const ThesisLadder& ladder);
 /// side; then judges the thesis' claims by all that is there.
 /// @param store   of the command, opened with keysOfLegs()
 /// @param budget  no run begins that is predicted to end later than this after the command [s]
+/// @param earlier  results.json of an earlier sitting, whose finished runs are taken as they are
 /// @returns finished and failed runs, as results/thesis_kept.hpp keeps them; what was left out is
 /// in the notes
 /// @throws BadInput, OutputError, Interrupted
 ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                          double budget = std::numeric_limits<double>::infinity());
+                          double budget = std::numeric_limits<double>::infinity(),
+                          const std::optional<std::filesystem::path>& earlier = std::nullopt);
 
 /// What climbLadder() would run, for people.
-std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store);
+std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
+                       const std::optional<std::filesystem::path>& earlier = std::nullopt);
 
 /// The same runs judged again by the rules that they hold. Whole runs, of earlier files, are kept
 /// as results/thesis_kept.hpp says.

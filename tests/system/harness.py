@@ -11,6 +11,7 @@ import pty
 import re
 import struct
 import subprocess
+import sys
 import tempfile
 import termios
 import time
@@ -18,6 +19,8 @@ import unittest
 import uuid
 
 PROGRAM = os.environ["CROSSGRAIN"]
+# Examples and engines of tests say "python3": the one that runs these tests has numpy, the first in PATH need not.
+os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
 CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
 COUETTE = CASES / "couette/quick.toml"
 COLLISION = CASES / "collision/figure-4-3.toml"

@@ -1,25 +1,20 @@
 """An engine of the user's own: one TOML file, named where any other engine is named."""
 
 import csv
-import os
 import pathlib
 import shutil
-import sys
 import unittest
 
 from harness import BAD_INPUT, COLLISION, COUETTE, ENGINE_FAILED, HELD, SystemTest
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
-# The example says "python3": the one that runs these tests has numpy.
-PATH = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
 
 
 class Stranger(SystemTest):
     def run_with(self, command, case, engines, *arguments):
         return self.run_program(
             command, case, "--engines", engines, "--out", self.out, "--quiet", *arguments,
-            env={"PATH": PATH},
-        )  # fmt: skip
+        )
 
     def own(self, text):
         """A copy of the example that may be changed, described by `text`."""
@@ -66,7 +61,7 @@ class Stranger(SystemTest):
         folder = self.own("").parent
         done = self.run_program(
             "lockstep", COUETTE, f"--engine=mine=python3 {folder / 'engine.py'}", "--engines=mine",
-            "--out", self.out, "--quiet", "--quick", "--starts=1", env={"PATH": PATH},
+            "--out", self.out, "--quiet", "--quick", "--starts=1",
         )  # fmt: skip
         self.assert_status(done, HELD)
         self.assertIn("mine: same to rounding", done.stdout)

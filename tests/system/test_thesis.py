@@ -137,6 +137,34 @@ class Thesis(SystemTest):
             self.run_program("report", self.out, "--reasons", reasons), BAD_INPUT, "reasons.toml:2", "C99"
         )
 
+    def test_another_sitting_takes_finished_runs_from_the_results_alone(self):
+        self.assert_status(self.climb(), HELD)
+        first = self.results()
+        for run in first["runs"]:
+            run["program"] = "0.0.1 (of another build)"
+        missing = first["runs"].pop()
+        before = self.folder / "before.json"
+        before.write_text(json.dumps(first), encoding="utf-8")
+        plan = self.climb("--from", before, "--dry-run", out=self.folder / "second")
+        self.assertIn("3 runs: 2 finished, 1 to do", plan.stdout)
+        self.assert_status(self.climb("--from", before, out=self.folder / "second"), HELD)
+        second = json.loads((self.folder / "second/results.json").read_text(encoding="utf-8"))
+        self.assertEqual(first["runs"], second["runs"][:2])
+        made = second["runs"][2]
+        self.assertNotEqual("0.0.1 (of another build)", made["program"])
+        self.assertEqual((missing["key"], missing["history"]), (made["key"], made["history"]))
+        told = [note for note in second["notes"] if note.startswith("2 of 3 runs were made by crossgrain 0.0.1")]
+        self.assertEqual(1, len(told), second["notes"])
+
+        # Another seed makes other packings: nothing of it can be taken.
+        plan = self.climb("--from", before, "--seed=2", "--dry-run", out=self.folder / "third")
+        self.assertIn("3 runs: 0 finished, 3 to do", plan.stdout)
+        first["kind"] = "collide"
+        before.write_text(json.dumps(first), encoding="utf-8")
+        self.assert_one_line(
+            self.climb("--from", before, out=self.folder / "fourth"), BAD_INPUT, "--from", "'crossgrain collide'"
+        )
+
     def test_interrupted_runs_go_on_to_the_bit(self):
         longer = "--set=averaging.snapshots_per_rotation=400", "--set=averaging.settle_rotations=10.0"
         whole = self.folder / "whole"
