@@ -40,7 +40,8 @@ struct Capabilities {
   bool warmHandover = false;
   bool checkpoints = false;
   bool slidingFlags = false;
-  bool energyLedger = false;  ///< that it can keep one
+  bool tangentialRestitution = true;  ///< of rigid contacts: an e_t0 other than 0
+  bool energyLedger = false;          ///< that it can keep one
   std::vector<SettingSpec> settings;
 };
 

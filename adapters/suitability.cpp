@@ -86,6 +86,9 @@ std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene) {
     found.push_back({name, fmt::format("has {} = {}, not {}", name, fmt::join(values, " | "),
                                        lawOptionValue(scene.law, name))});
   }
+  if (sameLaw && scene.law.normal == NormalLaw::rigid && scene.law.et0 != 0.0 &&
+      !can.tangentialRestitution)
+    found.push_back({tangentialRestitutionName, "has no tangential restitution (e_t0 = 0)"});
   return found;
 }
 
@@ -101,6 +104,7 @@ ContactLaw lawAsRun(const Capabilities& can, ContactLaw law) {
     if (option == "normal" || option == "tangential" || option == "damper") continue;
     if (!values.empty() && !has(can, law, option)) setLawOption(law, option, values.front());
   }
+  if (!can.tangentialRestitution && law.normal == NormalLaw::rigid) law.et0 = 0.0;
   return law;
 }
 

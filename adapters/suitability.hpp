@@ -14,6 +14,10 @@ struct Mismatch {
   bool effectMissing = false;  ///< an effect that the engine cannot simulate at all
 };
 
+/// In `[run] may_differ`: an engine of rigid contacts that has none runs a scene of e_t0 ≠ 0 with
+/// 0.
+inline constexpr const char* tangentialRestitutionName = "tangential_restitution";
+
 /// Whether the engine has the normal law itself, not another one in its place.
 bool hasNormalLaw(const Capabilities& can, const ContactLaw& law);
 

@@ -1,6 +1,8 @@
 #include "cases/engine_file.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -32,8 +34,10 @@ fs::path inFolder(const std::string& word, const fs::path& folder) {
 }
 
 /// Of a program that is changed while its version stays: the command, and the files that it names.
-std::string stampOf(const ProgramCall& call, const std::string& file) {
+std::string stampOf(const ProgramCall& call, const std::string& file,
+                    const std::vector<fs::path>& needs = {}) {
   std::string content = file;
+  for (const fs::path& path : needs) content += contentOf(path);
   for (const std::string& word : call.argv) {
     content += word + '\0';
     std::error_code none;
@@ -51,6 +55,15 @@ std::string whyNoProgram(const ProgramCall& call) {
     return isProgram(path) ? "" : fmt::format("{} is no program", path.string());
   }
   return isOnPath(program) ? "" : fmt::format("there is no program '{}' in PATH", program);
+}
+
+/// Which file it lacks, and what to do about it; empty: none.
+std::string whyIncomplete(const std::vector<fs::path>& needs, const std::string& install) {
+  const auto lacking =
+      std::ranges::find_if(needs, [](const fs::path& file) { return !fs::exists(file); });
+  if (lacking == needs.end()) return {};
+  const std::string why = fmt::format("there is no {}", lacking->lexically_normal().string());
+  return install.empty() ? why : fmt::format("{} ({})", why, install);
 }
 
 /// What a worker in Python imports, beside what the caller's environment or the file has.
@@ -94,8 +107,11 @@ EngineEntry loadEngineFile(const fs::path& file) {
   in.require("name", name);
   in.read("summary", summary);
   in.require("command", call.argv);
-  std::string folder = ".";
+  std::string folder = ".", install;
   in.read("folder", folder);
+  std::vector<std::string> words;
+  in.read("needs", words);
+  in.read("install", install);
   Reader environment = in.section("environment");
   for (const std::string& variable : environment.keys())
     environment.read(variable, call.environment[variable]);
@@ -106,8 +122,14 @@ EngineEntry loadEngineFile(const fs::path& file) {
     in.fail("command", "must be a program and its arguments, as [\"python3\", \"engine.py\"]");
   call.folder = fs::absolute(file).parent_path() / folder;
   if (!fs::is_directory(call.folder)) in.fail("folder", "is no folder");
-  call.stamp = stampOf(call, contentOf(file));
+  std::vector<fs::path> needs;
+  for (const std::string& word : words) needs.push_back(call.folder / word);
+  call.stamp = stampOf(call, contentOf(file), needs);
   EngineEntry entry = entryOf(std::move(name), std::move(summary), std::move(call));
+  entry.missing = [program = std::move(entry.missing), needs, install] {
+    const std::string why = program();
+    return why.empty() ? whyIncomplete(needs, install) : why;
+  };
   entry.settings = std::move(settings);
   return entry;
 }

@@ -10,6 +10,7 @@
 #include "adapters/effects.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
 #include "averaging/weights.hpp"
 #include "support/nearest.hpp"
 
@@ -25,6 +26,7 @@ std::vector<std::string> deviationNames() {
   for (const Effect effect : allEffects) names.push_back(toString(effect));
   for (const LawOption& option : lawOptions()) names.emplace_back(option.name);
   names.emplace_back("rounding");
+  names.emplace_back(tangentialRestitutionName);
   return names;
 }
 

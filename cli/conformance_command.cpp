@@ -41,8 +41,10 @@ void print(const ConformanceResults& results) {
 
 int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {
   using enum ConformanceOutcome;
+  const EngineEntry entry = entryOf(options.engine);
+  if (options.out) makeDirectory(*options.out);  // before minutes of work that it is to hold
   const ConformanceResults results =
-      runConformance({entryOf(options.engine), line.only, line.run.quiet, line.run.commandLine});
+      runConformance({entry, line.only, line.run.quiet, line.run.commandLine});
   if (options.out) writeReport(results, *options.out);
   if (line.json)
     fmt::print("{}\n", toJson(results).dump());

@@ -9,6 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "adapters/registry.hpp"
+#include "cases/engine_file.hpp"
+#include "cases/engine_shelf.hpp"
 #include "cli/command.hpp"
 #include "cli/parse_errors.hpp"
 #include "cli/reference.hpp"
@@ -43,6 +46,8 @@ int runProgram(int argc, char** argv) {
   app.set_version_flag("-V,--version", programVersion);
   app.require_subcommand(1);
   app.footer(footer(nullptr));
+
+  for (const auto& file : shelvedEngines()) addEngine(loadEngineFile(file));
 
   std::vector<Action> actions;
   for (const Command* command : commands()) {

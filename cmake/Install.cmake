@@ -18,8 +18,10 @@ install(CODE [[
 ]])
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
-install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
-        FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp")
+install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/node engines/rapier engines/box2d-v3
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
+        PATTERN node_modules EXCLUDE)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters

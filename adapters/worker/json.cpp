@@ -80,6 +80,7 @@ json toJson(const Capabilities& can) {
           {"checkpoints", can.checkpoints},
           {"sliding_flags", can.slidingFlags},
           {"energy_ledger", can.energyLedger},
+          {"tangential_restitution", can.tangentialRestitution},
           {"settings", settings}};
 }
 
@@ -99,6 +100,7 @@ Capabilities capabilitiesFromJson(const json& in) {
   can.checkpoints = in.value("checkpoints", false);
   can.slidingFlags = in.at("sliding_flags");
   can.energyLedger = in.value("energy_ledger", false);
+  can.tangentialRestitution = in.value("tangential_restitution", true);
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
                             item.at("doc"), item.at("choices")});

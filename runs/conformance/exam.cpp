@@ -27,6 +27,7 @@ ContactLaw followed(const Capabilities& can, ContactLaw law) {
   for (const auto& [name, values] : can.lawOptions)
     if (std::ranges::find(values, lawOptionValue(law, name)) == values.end())
       setLawOption(law, name, values.back());
+  if (!can.tangentialRestitution) law.et0 = 0.0;
   return law;
 }
 
@@ -63,6 +64,7 @@ ContactLaw Exam::law() const {
 Scene Exam::simplified(const Scene& whole) const {
   std::vector<std::string> effects;
   for (const Effect effect : allEffects) effects.push_back(toString(effect));
+  effects.emplace_back(tangentialRestitutionName);
   return adaptScene(can, whole, effects).scene;
 }
 

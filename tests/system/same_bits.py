@@ -27,7 +27,7 @@ BASELINE = {
 # Without YADE, whose bits are its package's, and mirrors, which are grain.
 ENGINES = "grain,box2d-penalty,box2d-impulse"
 COMMANDS = {
-    "compare": ["compare", "cases/couette/quick.toml", "--engines", "grain"],
+    "compare": ["compare", "cases/couette/quick.toml", "--engines", "grain", "--set=preparation.packings=2"],
     "collide": ["collide", "cases/collision", "--engines", ENGINES],
     "stability": ["stability", "cases/hard", "--engines", ENGINES, "--quick"],
 }

@@ -102,7 +102,7 @@ class CollideWorkerDies(FailureTest):
             *settings(
                 run__mirrors="false",
                 collision__psi="{ from = 0.0, to = 4.0, count = 100 }",
-                collision__steps_per_contact=1000,
+                collision__steps_per_contact=400,
             ),
         ]  # fmt: skip
         running = self.start(*self.arguments)

@@ -24,7 +24,7 @@ BUILD = pathlib.Path(os.environ["CROSSGRAIN_BUILD"])
 INSIDE_PROGRAMS = {"yade": "yade"}
 
 # Programs that are asked for before they are used.
-OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff", "chromium"}
+OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff", "chromium", "node", "nodejs", "npm"}
 
 
 def sources(pattern):

@@ -97,6 +97,7 @@ class Yade(SystemTest):
                 collision__psi=[0.5, 2.0],
                 collision__steps_per_contact=1000,
             ),
+            "-k", "*-cut",
         )  # fmt: skip
         self.assert_status(done, HELD)  # its dashpot is outside the Coulomb test: a model difference
         self.assertEqual("", done.stderr)

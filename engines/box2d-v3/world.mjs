@@ -1,0 +1,161 @@
+// The scene as bodies and shapes of Box2D 3: in single precision, and in a unit of length that suits Box2D's
+// constants, in which the smallest disk has a radius of about five, as for Box2D 2 (engines/box2d).
+
+import {readFileSync} from 'node:fs';
+
+const home = new URL('../node/node_modules/box2d3-wasm/', import.meta.url);
+const {default: Box2D} = await import(new URL('build/dist/es/compat/Box2D.compat.mjs', home));
+const b2 = await Box2D();
+const MOST_CONTACTS = 64;    // of one disk at a time
+const THICKNESS = 20;        // of planes, in units: what lies behind one comes out in front of it
+const FAR = 1e4;             // half a plane's length, in units
+
+export const version = `box2d3-wasm ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
+
+/// What the binding makes lives until it is deleted.
+function once(object, use) {
+  const result = use(object);
+  object.delete();
+  return result;
+}
+const xy = (vector) => once(vector, ({x, y}) => [x, y]);
+
+export class Box2dWorld {
+  constructor({disks, bodies, law, gravity, dt, rotation, number}) {
+    this.unit = 2 ** Math.round(Math.log2(Math.min(...disks.map((disk) => disk.radius)) / 5));
+    this.dt = dt;
+    this.count = disks.length;
+    this.kinds = [...new Set(disks.map((disk) => disk.mass))];  // the walls are one kind more
+    this.idOf = new Map();                                      // shape's index → id
+    this.makeWorld(gravity, law, number);
+    this.disks = disks.map((disk) => this.disk_(disk, rotation));
+    this.walls = bodies.map((body) => this.body(body.moves ? 'b2_kinematicBody' : 'b2_staticBody', body.start));
+    this.moving = bodies.map((body) => body.moves);
+    bodies.forEach((body, b) => body.offset.forEach((at, k) => this.circle(this.walls[b], at, body.diskRadius[k], this.kinds.length)));
+    bodies.forEach((body, b) => body.planes.forEach((plane) => this.plane(this.walls[b], body.fromCentre(plane.point), plane.normal)));
+    this.describe(law, bodies.length > 0);
+  }
+
+  free() { b2.b2DestroyWorld(this.world); }
+
+  toUnits(metres) { return new b2.b2Vec2(metres[0] / this.unit, metres[1] / this.unit); }
+
+  makeWorld(gravity, law, number) {
+    const how = b2.b2DefaultWorldDef();
+    how.gravity = this.toUnits(gravity);
+    how.enableSleep = how.enableContinuous = false;
+    how.maximumLinearSpeed = 1e6;  // its usual limit is 0.3 m/s here
+    // Slower impacts do not rebound: with 0 a column of disks under gravity never comes to rest.
+    how.restitutionThreshold = 2 * this.dt * Math.hypot(...gravity) / this.unit;
+    how.contactHertz = number('contact_hertz');
+    how.contactDampingRatio = number('contact_damping');
+    this.world = b2.b2CreateWorld(how);
+    how.delete();
+    const mass = (kind) => this.kinds[Number(kind)] ?? Infinity;
+    b2.b2World_SetRestitutionCallback(this.world, (_, a, __, b) => law.restitution(mass(a), mass(b)));
+    b2.b2World_SetFrictionCallback(this.world, () => law.friction);
+  }
+
+  body(type, at, disk) {
+    const how = b2.b2DefaultBodyDef();
+    how.type = b2.b2BodyType[type];
+    how.position = this.toUnits(at);
+    how.enableSleep = false;
+    how.allowFastRotation = true;
+    if (disk) {
+      how.linearVelocity = this.toUnits(disk.velocity);
+      how.angularVelocity = disk.spin;
+      if (disk.locked) how.motionLocks = Object.assign(how.motionLocks, {angularZ: true});
+    }
+    return once(how, () => b2.b2CreateBody(this.world, how));
+  }
+
+  disk_(disk, rotation) {
+    const body = this.body('b2_dynamicBody', disk.position, {...disk, locked: !rotation});
+    this.circle(body, [0, 0], disk.radius, this.kinds.indexOf(disk.mass));
+    const data = new b2.b2MassData();
+    data.mass = disk.mass;
+    data.rotationalInertia = disk.inertia / this.unit ** 2;
+    data.center = new b2.b2Vec2(0, 0);
+    b2.b2Body_SetMassData(body, data);
+    data.delete();
+    return body;
+  }
+
+  shape(kind, make) {
+    const how = b2.b2DefaultShapeDef();
+    how.updateBodyMass = false;
+    how.material.userMaterialId = BigInt(kind);
+    const id = once(how, () => make(how));
+    this.idOf.set(id.index1, this.idOf.size);
+  }
+
+  circle(body, at, radius, kind) {
+    const circle = new b2.b2Circle();
+    circle.center = this.toUnits(at);
+    circle.radius = radius / this.unit;
+    this.shape(kind, (how) => b2.b2CreateCircleShape(body, how, circle));
+    circle.delete();
+  }
+
+  plane(body, at, normal) {
+    const middle = this.toUnits([at[0] - THICKNESS * this.unit * normal[0], at[1] - THICKNESS * this.unit * normal[1]]);
+    const box = b2.b2MakeOffsetBox(FAR, THICKNESS, middle, b2.b2MakeRot(Math.atan2(-normal[0], normal[1])));
+    this.shape(this.kinds.length, (how) => b2.b2CreatePolygonShape(body, how, box));
+  }
+
+  describe(law, walls) {
+    const name = (mass) => `${(mass * 1e3).toPrecision(4)} g`, few = this.kinds.slice(0, 4);
+    const friction = law.friction > 0 ? {mu: law.friction} : {};
+    this.pairs = few.flatMap((mass, a) => [
+      ...few.slice(a).map((other) => ({pair: `${name(mass)} with ${name(other)}`, en: law.restitution(mass, other)})),
+      ...(walls ? [{pair: `${name(mass)} with wall`, en: law.restitution(mass, Infinity)}] : []),
+    ]).map((pair) => ({...pair, et0: 0, ...friction}));
+    this.deviations = [{name: 'slop', value: 0.005 * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
+  }
+
+  placeWalls(now, next) {
+    this.walls.forEach((wall, b) => {
+      if (!this.moving[b]) return;
+      const target = new b2.b2Transform();
+      target.p = this.toUnits(next[b].centre);
+      target.q = b2.b2MakeRot(next[b].angle);
+      b2.b2Body_SetTargetTransform(wall, target, this.dt);
+      target.delete();
+    });
+  }
+
+  /// One substep: of tangential impulses Box2D tells those of its last one alone.
+  step() { b2.b2World_Step(this.world, this.dt, 1); }
+
+  disk(i) {
+    const metres = (vector) => xy(vector).map((x) => x * this.unit);
+    return {
+      position: metres(b2.b2Body_GetPosition(this.disks[i])),
+      velocity: metres(b2.b2Body_GetLinearVelocity(this.disks[i])),
+      spin: b2.b2Body_GetAngularVelocity(this.disks[i]),
+    };
+  }
+
+  /// Of the last step. Box2D's normals point from A to B, its tangents along −z × normal.
+  impulses(visit) {
+    for (let n = 0; n < this.count; ++n)
+      for (const data of b2.b2Body_GetContactData(this.disks[n], MOST_CONTACTS)) {
+        const a = this.idOf.get(data.shapeIdA.index1), b = this.idOf.get(data.shapeIdB.index1);
+        if (Math.min(a, b) === n)
+          once(data.manifold, (manifold) => {
+            const away = a < b ? -1 : 1;
+            for (let k = 0; k < manifold.pointCount; ++k)
+              once(manifold.GetPoint(k), (at) => {
+                const pressing = at.totalNormalImpulse * this.unit, along = -at.tangentImpulse * this.unit;
+                if (pressing === 0 && along === 0) return;
+                visit(n, Math.max(a, b), pressing, along, () => ({
+                  normal: xy(manifold.normal).map((x) => away * x),
+                  point: xy(at.point).map((x) => x * this.unit),
+                }));
+              });
+          });
+        data.delete();
+      }
+  }
+}

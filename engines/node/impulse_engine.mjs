@@ -1,0 +1,192 @@
+// A scene on an engine of rigid contacts and impulses: what all such engines do alike. An engine brings a world,
+//
+//     new World({disks, bodies, law, gravity, dt, rotation, number})    throws Unsupported
+//         disks   [{position, velocity, spin, radius, mass, inertia}]
+//         bodies  of crossgrain_walls.mjs
+//         number  (name) → a setting's value
+//     world.placeWalls(states, next)   where each body is now and after the next step
+//     world.step()
+//     world.disk(i) → {position, velocity, spin}
+//     world.impulses(visit)            visit(i, j, normal impulse ≥ 0, tangential along z × normal, place), i < j, of those
+//                                      that are not 0; place() → {normal towards i, point}
+//     world.pairs, world.deviations, world.gap   what the engine makes of the law; how far apart it lets disks touch
+//
+// in SI units, ids as the protocol's: disks, then wall disks, then planes.
+
+import {Body} from './crossgrain_walls.mjs';
+import {Unsupported} from './crossgrain_worker.mjs';
+import {RigidLaw} from './rigid_law.mjs';
+
+const EFFECTS = ['normal_damping', 'friction', 'rotation', 'gravity', 'moving_walls'];
+
+export class ImpulseEngine {
+  /// @param about  {name, version, integrator, dt: its usual step [s], settings}
+  constructor(about, World) {
+    this.about = about;
+    this.World = World;
+  }
+
+  capabilities() {
+    return {
+      version: this.about.version,
+      effects: Object.fromEntries(EFFECTS.map((name) => [name, 'optional'])),
+      law_options: {normal: ['rigid'], lever_arm: ['overlap_middle'], velocity_arm: ['lever_arm'], plane_arm: ['middle']},
+      precisions: ['float'],
+      instant_contacts: true,
+      accumulated_contacts: true,
+      warm_handover: false,
+      sliding_flags: false,
+      tangential_restitution: false,
+      settings: [{name: 'dt', default: this.about.dt, unit: 's', doc: "time step; 0: the case's", choices: []},
+                 ...this.about.settings],
+    };
+  }
+
+  load(scene, arrays, settings) {
+    if (scene.bottom && scene.bottom.mu > 0) throw new Unsupported('has no bottom_friction');
+    const defaults = Object.fromEntries(this.capabilities().settings.map((s) => [s.name, s.default]));
+    const number = (name) => settings[name] ?? defaults[name];
+    this.dt = number('dt') || scene.dt;
+    this.disks = scene.disks;
+    this.law = new RigidLaw(scene.law);
+    this.friction = this.law.friction > 0;
+    const rotation = this.friction && scene.rotation;
+    this.bodies = scene.bodies.map((body, b) =>
+      new Body(body, arrays[`bodies.${b}.disk_position`], arrays[`bodies.${b}.disk_radius`]));
+    this.owner = [...this.bodies.flatMap((body, b) => Array.from(body.diskRadius, () => b)),
+                  ...this.bodies.flatMap((body, b) => body.planes.map(() => b))];
+    this.radius = [...arrays['disks.radius'], ...this.bodies.flatMap((body) => [...body.diskRadius])];
+    const disks = Array.from({length: this.disks}, (_, i) => ({
+      position: [arrays['disks.position'][2 * i], arrays['disks.position'][2 * i + 1]],
+      velocity: [arrays['disks.velocity'][2 * i], arrays['disks.velocity'][2 * i + 1]],
+      spin: rotation ? arrays['disks.spin'][i] : 0,
+      radius: arrays['disks.radius'][i],
+      mass: arrays['disks.mass'][i],
+      inertia: arrays['disks.inertia'][i],
+    }));
+    this.world?.free();
+    this.world = new this.World(
+      {disks, bodies: this.bodies, law: this.law, gravity: scene.gravity, dt: this.dt, rotation, number});
+    this.steps = this.evaluations = 0;
+    this.seconds = 0;
+    this.clearSums();
+    const called = {
+      normal_damping: scene.law.normal === 'rigid' ? scene.law.en < 1 : scene.law.gn > 0,
+      friction: this.friction,
+      rotation,
+      gravity: scene.gravity.some((g) => g !== 0),
+      moving_walls: this.bodies.some((body) => body.moves),
+    };
+    const {pairs, deviations} = this.world;
+    return {
+      engine: this.about.name, version: this.about.version, dt: this.dt, precision: 'float',
+      integrator: this.about.integrator, velocity_lag: this.dt / 2,
+      effects: EFFECTS.filter((name) => called[name]), pairs,
+      deviations: [...this.law.deviations(pairs.map((pair) => pair.en)), ...deviations],
+    };
+  }
+
+  clearSums() {
+    this.sums = new Map();  // i · (number of ids) + j → {normal, tangential}: impulses [N s]
+    this.onBodies = this.bodies.map(() => ({force: [0, 0], torque: 0}));
+    this.summed = 0;
+  }
+
+  advance(t) {
+    const began = performance.now();
+    for (const target = Math.round(t / this.dt); this.steps < target; ++this.steps) {
+      const now = this.bodies.map((body) => body.state(this.steps * this.dt));
+      const next = this.bodies.map((body) => body.state((this.steps + 1) * this.dt));
+      this.world.placeWalls(now, next);
+      this.world.step();
+      this.add(next);
+    }
+    this.seconds += (performance.now() - began) / 1e3;
+    return this.steps * this.dt;
+  }
+
+  /// Impulses of the last step to the sums.
+  add(states) {
+    const ids = this.radius.length + this.owner.length;
+    this.last = new Map();
+    this.lastOnBodies = this.bodies.map(() => ({force: [0, 0], torque: 0}));
+    this.world.impulses((i, j, pressing, along, place) => {
+      ++this.evaluations;
+      const key = i * ids + j;
+      for (const list of [this.last, this.sums]) {
+        const sum = list.get(key) ?? {i, j, pressing: 0, along: 0};
+        sum.pressing += pressing;
+        sum.along += along;
+        list.set(key, sum);
+      }
+      if (j < this.disks) return;
+      const {normal, point} = place();
+      const b = this.owner[j - this.disks], {centre} = states[b], arm = [point[0] - centre[0], point[1] - centre[1]];
+      const push = [-(pressing * normal[0] - along * normal[1]), -(pressing * normal[1] + along * normal[0])];
+      for (const on of [this.lastOnBodies[b], this.onBodies[b]]) {
+        on.force[0] += push[0];
+        on.force[1] += push[1];
+        on.torque += arm[0] * push[1] - arm[1] * push[0];
+      }
+    });
+    ++this.summed;
+  }
+
+  snapshot(report) {
+    const t = this.steps * this.dt, accumulated = report === 'accumulated';
+    const states = this.bodies.map((body) => body.state(t));
+    const disks = Array.from({length: this.disks}, (_, i) => this.world.disk(i));
+    const wallDisks = this.bodies.flatMap((body, b) => body.offset.map((offset) => body.placed(offset, states[b])));
+    const arrays = {
+      position: ['f64', disks.flatMap((disk) => disk.position)],
+      velocity: ['f64', disks.flatMap((disk) => disk.velocity)],
+      wall_position: ['f64', wallDisks.flat()],
+    };
+    if (this.friction) arrays.spin = ['f64', disks.map((disk) => disk.spin)];
+    const steps = accumulated ? this.summed : Math.min(1, this.steps), interval = steps * this.dt;
+    const snapshot = {position_time: t, velocity_time: t, contact_time: t, contact_interval: interval};
+    const onBodies = accumulated ? this.onBodies : this.lastOnBodies;
+    snapshot.bodies = states.map(({centre, velocity, angle, spin}, b) => ({
+      centre, velocity, angle, angular_velocity: spin,
+      ...(steps > 0 && {force: onBodies[b].force.map((f) => f / interval), torque: onBodies[b].torque / interval}),
+    }));
+    if (steps > 0 && report !== 'none') {
+      const positions = [...disks.map((disk) => disk.position), ...wallDisks];
+      this.addContacts(arrays, accumulated ? this.sums : this.last, interval, positions, states);
+      if (accumulated) this.clearSums();
+    }
+    return [snapshot, arrays];
+  }
+
+  /// Mean forces over an interval, with the geometry of now.
+  addContacts(arrays, impulses, interval, positions, states) {
+    const list = [...impulses.values()].sort((a, b) => a.i - b.i || a.j - b.j);
+    const geometry = list.map(({i, j}) =>
+      j < positions.length ? this.ofDisks(i, j, positions) : this.ofPlane(i, j - positions.length, positions, states));
+    arrays['contacts.i'] = ['i32', list.map((c) => c.i)];
+    arrays['contacts.j'] = ['i32', list.map((c) => c.j)];
+    arrays['contacts.normal'] = ['f64', geometry.flatMap((g) => g.normal)];
+    arrays['contacts.overlap'] = ['f64', geometry.map((g) => g.overlap)];
+    arrays['contacts.normal_force'] = ['f64', list.map((c) => c.pressing / interval)];
+    arrays['contacts.tangential_force'] = ['f64', list.map((c) => c.along / interval)];
+  }
+
+  ofDisks(i, j, positions) {
+    const apart = [positions[i][0] - positions[j][0], positions[i][1] - positions[j][1]], distance = Math.hypot(...apart);
+    return {normal: apart.map((x) => x / distance), overlap: this.radius[i] + this.radius[j] - distance};
+  }
+
+  ofPlane(i, plane, positions, states) {
+    const b = this.owner[this.owner.length - this.bodies.reduce((n, body) => n + body.planes.length, 0) + plane];
+    const before = this.bodies.slice(0, b).reduce((n, body) => n + body.planes.length, 0), body = this.bodies[b];
+    const {point, normal} = body.planes[plane - before], still = {centre: [0, 0], angle: states[b].angle};
+    const foot = body.placed(body.fromCentre(point), states[b]), turned = body.placed(normal, still);
+    const gap = (positions[i][0] - foot[0]) * turned[0] + (positions[i][1] - foot[1]) * turned[1];
+    return {normal: turned, overlap: this.radius[i] - gap};
+  }
+
+  stats() {
+    return {steps: this.steps, contact_evaluations: this.evaluations, wall_seconds: this.seconds,
+            cpu_seconds: this.seconds, counters: {}};
+  }
+}

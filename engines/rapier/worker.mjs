@@ -1,0 +1,18 @@
+// A worker of crossgrain that runs scenes on Rapier:  node worker.mjs
+//
+// README.md of this folder says what Rapier makes of a scene. RAPIER in the environment is another version's package.
+
+import {ImpulseEngine} from '../node/impulse_engine.mjs';
+import {serve} from '../node/crossgrain_worker.mjs';
+import {RapierWorld, version} from './world.mjs';
+
+serve(new ImpulseEngine({
+  name: 'rapier',
+  version,
+  integrator: 'semi_implicit_euler with sequential impulses',
+  dt: 5e-4,
+  settings: [
+    {name: 'iterations', default: 4, unit: '-', doc: 'of the solver, each a part of the step', choices: []},
+    {name: 'natural_frequency', default: 30, unit: '1/s', doc: 'of what pushes overlaps apart', choices: []},
+  ],
+}, RapierWorld));

@@ -1,0 +1,113 @@
+// The scene as Rapier's rigid bodies and colliders, in SI units and single precision.
+
+import {createRequire} from 'node:module';
+
+const require = createRequire(new URL('../node/', import.meta.url));
+const RAPIER = require(process.env.RAPIER ?? '@dimforge/rapier2d-compat');
+await RAPIER.init();
+
+export const version = RAPIER.version();
+
+export class RapierWorld {
+  constructor({disks, bodies, law, gravity, dt, rotation, number}) {
+    this.world = new RAPIER.World({x: gravity[0], y: gravity[1]});
+    this.world.timestep = dt;
+    // What Rapier takes as small is a share of this.
+    this.world.lengthUnit = 2 * Math.min(...disks.map((disk) => disk.radius));
+    this.world.integrationParameters.numSolverIterations = number('iterations');
+    this.world.integrationParameters.contact_natural_frequency = number('natural_frequency');
+    this.law = law;
+    this.count = disks.length;
+    this.idOf = new Map();  // collider's handle → id
+    this.colliders = [];    // by id
+    this.setCoefficients(disks, bodies.length > 0);
+    this.placeDisks(disks, rotation);
+    this.walls = bodies.map((body) => this.wall(body));
+    bodies.forEach((body, b) => body.offset.forEach((offset, k) =>
+      this.add(RAPIER.ColliderDesc.ball(body.diskRadius[k]).setTranslation(...offset), this.ofWalls, this.walls[b])));
+    bodies.forEach((body, b) => body.planes.forEach(({point, normal}) => {
+      const at = body.fromCentre(point);
+      const plane = RAPIER.ColliderDesc.halfspace({x: normal[0], y: normal[1]}).setTranslation(...at);
+      this.add(plane, this.ofWalls, this.walls[b]);
+    }));
+  }
+
+  free() { this.world.free(); }
+
+  /// Rapier has a restitution for each collider, and takes the mean of two. Those of disks are their own among
+  /// equals, so that pairs of equals are right; the walls' makes the mean over kinds of disks right.
+  setCoefficients(disks, walls) {
+    const masses = [...new Set(disks.map((disk) => disk.mass))];
+    this.ofMass = new Map(masses.map((mass) => [mass, this.law.restitution(mass, mass)]));
+    const needed = masses.map((mass) => 2 * this.law.restitution(mass, Infinity) - this.ofMass.get(mass));
+    this.ofWalls = needed.reduce((sum, e) => sum + e, 0) / needed.length;
+    this.pairs = [];
+    const row = (pair, en) => this.pairs.push({pair, en, et0: 0, ...(this.law.friction > 0 && {mu: this.law.friction})});
+    const named = masses.slice(0, 4).map((mass) => [`${(mass * 1e3).toPrecision(4)} g`, this.ofMass.get(mass)]);
+    named.forEach(([name, e], a) => {
+      named.slice(a).forEach(([other, f]) => row(`${name} with ${other}`, (e + f) / 2));
+      if (walls) row(`${name} with wall`, (e + this.ofWalls) / 2);
+    });
+    this.deviations = [];
+  }
+
+  placeDisks(disks, rotation) {
+    this.disks = disks.map((disk) => {
+      const body = RAPIER.RigidBodyDesc.dynamic().setTranslation(...disk.position).setLinvel(...disk.velocity)
+                     .setAngvel(disk.spin).setCanSleep(false);
+      const own = this.world.createRigidBody(rotation ? body : body.lockRotations());
+      this.add(RAPIER.ColliderDesc.ball(disk.radius), this.ofMass.get(disk.mass), own);
+      own.setAdditionalMassProperties(disk.mass, {x: 0, y: 0}, disk.inertia, true);
+      return own;
+    });
+  }
+
+  wall(body) {
+    const {centre} = body.state(0);
+    const kind = body.moves ? RAPIER.RigidBodyDesc.kinematicPositionBased() : RAPIER.RigidBodyDesc.fixed();
+    return this.world.createRigidBody(kind.setTranslation(...centre));
+  }
+
+  add(shape, restitution, body) {
+    const collider = this.world.createCollider(
+      shape.setDensity(0).setFriction(this.law.friction).setRestitution(restitution), body);
+    this.idOf.set(collider.handle, this.colliders.length);
+    this.colliders.push(collider.handle);
+  }
+
+  placeWalls(now, next) {
+    this.walls.forEach((wall, b) => {
+      if (!wall.isKinematic()) return;
+      wall.setNextKinematicTranslation({x: next[b].centre[0], y: next[b].centre[1]});
+      wall.setNextKinematicRotation(next[b].angle);
+    });
+  }
+
+  step() { this.world.step(); }
+
+  disk(i) {
+    const position = this.disks[i].translation(), velocity = this.disks[i].linvel();
+    return {position: [position.x, position.y], velocity: [velocity.x, velocity.y], spin: this.disks[i].angvel()};
+  }
+
+  /// Of the last step. Rapier's normals point from the first collider to the second, its tangents along
+  /// −z × normal; its points are where it found them before it moved the disks.
+  impulses(visit) {
+    const {narrowPhase, bodies} = this.world;
+    for (let i = 0; i < this.count; ++i)
+      narrowPhase.contactPairsWith(this.colliders[i], (other) => {
+        const j = this.idOf.get(other);
+        if (j < i) return;
+        narrowPhase.contactPair(this.colliders[i], other, bodies, (manifold, flipped) => {
+          for (let k = 0; k < manifold.numContacts(); ++k) {
+            const pressing = manifold.contactImpulse(k), along = manifold.contactTangentImpulse(k);
+            if (pressing === 0 && along === 0) continue;
+            visit(i, j, pressing, along, () => {
+              const normal = manifold.normal(), away = flipped ? 1 : -1, point = manifold.solverContactPoint(k);
+              return {normal: [away * normal.x, away * normal.y], point: [point.x, point.y]};
+            });
+          }
+        });
+      });
+  }
+}
