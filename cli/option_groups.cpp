@@ -48,6 +48,7 @@ void addNames(const std::string& list, std::vector<std::string>& names) {
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
     if (namesEngineFile(names.back())) names.back() = addStranger(loadEngineFile(names.back()));
+    addMirrorOfShelved(names.back());
   }
 }
 

@@ -75,9 +75,34 @@ class Scene:
         kind = np.concatenate(
             [np.full(n, DISKS), *(np.full(len(b.disk_ids), k) for k, b in enumerate(bodies, 2))]
         )
-        depth = 2.0 * self.radius.max()  # of the box along z
-        reach = 2.0 * np.abs(position).max() + 4.0 * depth
         zero = np.zeros(len(kind))
+        skin *= self.radius[:n].min()
+        self.set_up(position, kind, skin)
+        self.lammps.create_atoms(kind, np.column_stack([position, zero]))
+        self.lammps.scatter("radius", self.radius)
+        mass = np.ones(len(kind))  # a wall's plays no part: nothing integrates it
+        mass[:n] = arrays["disks.mass"]
+        self.lammps.scatter("rmass", mass)
+        self.lammps.scatter("v", np.column_stack([velocity, zero]))
+        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
+        self.set_law(skin, dt)
+        for k, body in enumerate(bodies, 2):
+            self.leave_out_pairs(k)
+            for number, plane in zip(body.plane_numbers, body.planes):
+                self.raise_plane(number, plane)
+        self.stretch_springs()
+        self.integrate()
+        for k, body in enumerate(bodies, 2):
+            self.move(k, body)
+
+    def extent(self, position):
+        """Half of the box along z, and along x and y [m]."""
+        depth = 2.0 * self.radius.max()
+        return depth, 2.0 * np.abs(position).max() + 4.0 * depth
+
+    def set_up(self, position, kind, skin):
+        """An empty box for atoms of that many types."""
+        depth, reach = self.extent(position)
         self.run(
             f"""units si
             dimension 2
@@ -87,19 +112,15 @@ class Scene:
             newton off
             comm_modify vel yes
             region everywhere block {-reach!r} {reach!r} {-reach!r} {reach!r} {-depth!r} {depth!r}
-            create_box {1 + len(bodies)} everywhere"""
+            create_box {1 + len(self.bodies)} everywhere"""
         )
-        self.lammps.create_atoms(kind, np.column_stack([position, zero]))
-        self.lammps.scatter("radius", self.radius)
-        mass = np.ones(len(kind))  # a wall's plays no part: nothing integrates it
-        mass[:n] = arrays["disks.mass"]
-        self.lammps.scatter("rmass", mass)
-        self.lammps.scatter("v", np.column_stack([velocity, zero]))
-        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
+
+    def set_law(self, skin, dt):
+        """The law, the lists and what is asked for of contacts."""
         self.run(
             f"""pair_style granular
             pair_coeff * * {self.law.words()}
-            neighbor {skin * self.radius[:n].min()!r} {"bin" if self.atoms > FEW else "nsq"}
+            neighbor {skin!r} {"bin" if self.atoms > FEW else "nsq"}
             neigh_modify delay 0 every 1 check yes
             timestep {dt!r}
             group disks type {DISKS}
@@ -108,14 +129,6 @@ class Scene:
             thermo_style custom step
             thermo 0"""
         )
-        for k, body in enumerate(bodies, 2):
-            self.leave_out_pairs(k)
-            for number, plane in zip(body.plane_numbers, body.planes):
-                self.raise_plane(number, plane)
-        self.stretch_springs()
-        self.integrate()
-        for k, body in enumerate(bodies, 2):
-            self.move(k, body)
 
     def run(self, lines):
         for line in lines.splitlines():
@@ -130,15 +143,20 @@ class Scene:
             reset_timestep 0"""
         )
 
+    def put_first_forces(self):
+        """Where those that a run is set up with are not the law's."""
+
     def integrate(self):
         gravity = math.hypot(*self.scene["gravity"])
         if gravity > 0:
             x, y = (g / gravity for g in self.scene["gravity"])
             self.lammps.command(f"fix gravity disks gravity {gravity!r} vector {x!r} {y!r} 0")
-        # Without rotation torques are summed up and spin nothing.
-        style = f"nve/sphere {shape_of(self.arrays)}" if self.rotation else "nve"
-        self.lammps.command(f"fix motion disks {style}")
+        self.lammps.command(f"fix motion disks {self.motion_style()}")
         self.lammps.command("fix plane all enforce2d")
+
+    def motion_style(self):
+        # Without rotation torques are summed up and spin nothing.
+        return f"nve/sphere {shape_of(self.arrays)}" if self.rotation else "nve"
 
     def leave_out_pairs(self, kind):
         """Of wall disks with each other."""

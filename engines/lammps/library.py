@@ -10,23 +10,29 @@ SCALAR, VECTOR, ARRAY, ROWS, COLUMNS = 0, 1, 2, 4, 5  # types
 
 
 class Lammps:
-    """One instance. An error within LAMMPS ends the process; its text is the last in the log."""
+    """One instance. An error within LAMMPS ends the process; its text is the last in the log.
 
-    def __init__(self):
-        self.library = ctypes.CDLL(SHARED)
-        self.library.lammps_open_no_mpi.restype = ctypes.c_void_p
+    shared  the library: a descendant of LAMMPS may have the same interface
+    options of its command line"""
+
+    def __init__(self, shared=SHARED, options=(b"-nocite",)):
+        self.library = ctypes.CDLL(shared)
         self.library.lammps_extract_compute.restype = ctypes.c_void_p
         self.library.lammps_extract_fix.restype = ctypes.c_void_p
         self.library.lammps_get_natoms.restype = ctypes.c_double
-        arguments = [b"lammps", b"-log", b"none", b"-nocite"]
-        self.handle = ctypes.c_void_p(
-            self.library.lammps_open_no_mpi(
-                len(arguments), (ctypes.c_char_p * len(arguments))(*arguments), None
-            )
+        arguments = [b"lammps", b"-log", b"none", *options]
+        self.handle = ctypes.c_void_p()
+        self.library.lammps_open_no_mpi(
+            len(arguments),
+            (ctypes.c_char_p * len(arguments))(*arguments),
+            ctypes.byref(self.handle),
         )
 
     def version(self):
         return str(self.library.lammps_version(self.handle))
+
+    def atoms(self):
+        return int(self.library.lammps_get_natoms(self.handle))
 
     def command(self, line):
         self.library.lammps_command(self.handle, line.encode())
@@ -54,7 +60,7 @@ class Lammps:
 
     def gather(self, name, components):
         """A quantity of all atoms in the order of their ids, (n, components) or (n,)."""
-        n = int(self.library.lammps_get_natoms(self.handle))
+        n = self.atoms()
         values = np.empty((n, components))
         self.library.lammps_gather_atoms(
             self.handle, name.encode(), 1, components, values.ctypes.data_as(ctypes.c_void_p)
@@ -84,7 +90,7 @@ class Lammps:
 
     def fix_array(self, name, columns):
         """The first columns of a fix's array of all atoms, in the order of ids."""
-        n = int(self.library.lammps_get_natoms(self.handle))
+        n = self.atoms()
         pointer = self.library.lammps_extract_fix(self.handle, name.encode(), ATOM, ARRAY, 0, 0)
         rows = ctypes.cast(pointer, ctypes.POINTER(ctypes.POINTER(ctypes.c_double)))
         own = np.array([rows[atom][:columns] for atom in range(n)])
@@ -92,6 +98,6 @@ class Lammps:
 
     def ids(self):
         """Of the atoms in LAMMPS' own order, which changes as it sorts them."""
-        n = int(self.library.lammps_get_natoms(self.handle))
+        n = self.atoms()
         self.library.lammps_extract_atom.restype = ctypes.POINTER(ctypes.c_int)
         return np.array(self.library.lammps_extract_atom(self.handle, b"id")[:n])

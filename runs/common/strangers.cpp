@@ -46,6 +46,11 @@ std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities&
   return mirror;
 }
 
+void addMirror(const EngineEntry& entry) {
+  if (const auto can = capabilitiesOf(entry, patience))
+    if (auto mirror = mirrorOf(entry.name, *can)) addEngine(std::move(*mirror));
+}
+
 }  // namespace
 
 std::vector<std::string> conventionsInWords(const LawConventionSets& conventions) {
@@ -69,9 +74,20 @@ LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
 std::string addStranger(EngineEntry entry) {
   const std::string name = entry.name;
   addEngine(std::move(entry));
-  if (const auto can = capabilitiesOf(*findEngine(name), patience))
-    if (auto mirror = mirrorOf(name, *can)) addEngine(std::move(*mirror));
+  addMirror(*findEngine(name));
   return name;
+}
+
+void addMirrorOfShelved(const std::string& name) {
+  const std::size_t known = engineRegistry().size();
+  for (std::size_t k = builtInEngines(); k < known; ++k) {
+    const EngineEntry& entry = engineRegistry()[k];
+    const bool hasOne = std::ranges::find(engineRegistry(), entry.name, &EngineEntry::mirrors) !=
+                        engineRegistry().end();
+    if ((entry.name == name || name == "all") && entry.mirrors.empty() && !hasOne &&
+        entry.missing().empty())
+      addMirror(entry);
+  }
 }
 
 }  // namespace crossgrain::inline runs

@@ -14,6 +14,10 @@ namespace crossgrain::inline runs {
 /// @returns its name
 std::string addStranger(EngineEntry entry);
 
+/// The same mirror for an engine that came with the program as a file, unless it has one; for
+/// "all", for each of them that can be started.
+void addMirrorOfShelved(const std::string& name);
+
 /// Conventions as such a mirror's worker is told them, "lever_arm=radius,contact_point", and back.
 std::vector<std::string> conventionsInWords(const LawConventionSets& conventions);
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words);

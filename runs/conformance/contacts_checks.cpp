@@ -208,11 +208,16 @@ void slidingFlagsMarkTheBound(Exam& it) {
   ContactLaw cut = fullLaw();
   cut.conventions.tension = Tension::cut;  // where it can: then every convention's bound is µ f_n
   Encounter pair = crookedEncounter();
-  std::vector<double> spins = {pair.spins[0]};
-  if (it.rigid()) spins.push_back(100.0);  // a rigid impact slides or sticks, as a whole
+  // A rigid impact slides or sticks, as a whole; and a spring alone, held to µ |f_n|, hardly
+  // slides.
+  const std::vector<std::pair<double, double>> spinsAndFrictions =
+      it.rigid()
+          ? std::vector{std::pair{pair.spins[0], cut.mu}, std::pair{100.0, cut.mu}}
+          : std::vector{std::pair{pair.spins[0], cut.mu}, std::pair{pair.spins[0], 0.1 * cut.mu}};
   int sliding = 0, sticking = 0;
-  for (const double spin : spins) {
+  for (const auto& [spin, friction] : spinsAndFrictions) {
     pair.spins[0] = spin;
+    cut.mu = friction;
     const Scene scene = encounterScene(pair, followed(it.can, cut), steps);
     it.load(scene);
     const ContactLaw& law = scene.law;

@@ -24,7 +24,7 @@ BUILD = pathlib.Path(os.environ["CROSSGRAIN_BUILD"])
 INSIDE_PROGRAMS = {"yade": "yade"}
 
 # Programs that are asked for before they are used.
-OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff", "chromium", "node", "nodejs", "npm"}
+OPTIONAL_PROGRAMS = {"sudo", "ccache", "groff", "chromium", "node", "nodejs", "npm", "liggghts"}
 
 
 def sources(pattern):

@@ -1,0 +1,205 @@
+"""Scenes on LAMMPS through its C library, or on a descendant of it that says the same in other words."""
+
+import math
+import time
+
+import numpy as np
+from build import Scene, check
+from contacts import read_contacts, read_plane_contacts
+from crossgrain_answers import effects_called, effects_without_bottom, setting
+from crossgrain_walls import Body
+from law import Law
+from library import Lammps
+
+CHUNK = 1000  # steps between two looks at the number of contacts
+
+
+class Engine:
+    """What a descendant says otherwise: the members up to __init__, and `contacts_of_pairs`."""
+
+    name = "lammps"
+    Law, Scene, check = Law, Scene, staticmethod(check)
+    conventions = {
+        "tangential": ["none", "viscous", "spring", "spring_dashpot"],
+        "dashpot": ["inside"],
+        "spring_reset": ["spring_only"],
+        "velocity_arm": ["radius"],
+        "plane_arm": ["radius"],
+    }
+
+    def __init__(self, lammps=None):
+        self.lammps = lammps or Lammps()
+
+    def contacts_of_pairs(self, position):
+        return read_contacts(self.lammps, self.made, position)
+
+    def capabilities(self):
+        return {
+            "version": self.lammps.version(),
+            "effects": effects_without_bottom(),
+            "law_options": {
+                "normal": ["linear"],
+                "damper": ["constant"],
+                "tension": ["allow"],
+                "coulomb_bound": ["magnitude"],
+                "spring_update": ["before"],
+                "lever_arm": ["overlap_middle"],
+                "damping_velocity": ["lagged"],
+                "integrator": ["position_verlet"],
+                **self.conventions,
+            },
+            "precisions": ["double"],
+            "instant_contacts": True,
+            "accumulated_contacts": False,
+            "warm_handover": False,
+            "sliding_flags": True,
+            "settings": [
+                setting("dt", 0.0, "s", "time step; 0: the case's"),
+                setting(
+                    "skin",
+                    0.2,
+                    "smallest radius",
+                    "how far lists reach beyond disks that touch; changes the speed only",
+                ),
+            ],
+        }
+
+    def load(self, scene, arrays, settings):
+        self.law = self.Law(scene["law"])
+        self.bodies = [
+            Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
+            for b, body in enumerate(scene["bodies"])
+        ]
+        self.check(scene, self.bodies, arrays)
+        self.dt = settings.get("dt", 0.0) or scene["dt"]
+        self.gravity = np.array(scene["gravity"])
+        self.disks = scene["disks"]
+        self.mass, self.inertia = arrays["disks.mass"], arrays["disks.inertia"]
+        self.rotation = self.law.friction and scene["rotation"]
+        self.lammps.command("clear")
+        self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.law, self.rotation)
+        self.made.place(settings.get("skin", 0.2), self.dt)
+        self.lammps.command("run 0 post no")
+        self.made.put_first_forces()
+        self.steps = self.evaluations = 0
+        self.wall_seconds = self.cpu_seconds = 0.0
+        return {
+            "engine": self.name,
+            "version": self.lammps.version(),
+            "dt": self.dt,
+            "precision": "double",
+            "integrator": "position_verlet",
+            "velocity_lag": 0.0,
+            "effects": effects_called(self.law, scene),
+            "pairs": [{"pair": "all", **self.law.coefficients()}],
+            "deviations": [],
+        }
+
+    def advance(self, t):
+        wall, cpu = time.perf_counter(), time.thread_time()
+        target = math.floor(t / self.dt + 0.5)
+        while self.steps < target:
+            chunk = min(target - self.steps, CHUNK)
+            self.lammps.command(f"run {chunk} pre no post no")
+            self.steps += chunk
+            self.evaluations += chunk * self.lammps.count_of_compute("ids")
+        self.wall_seconds += time.perf_counter() - wall
+        self.cpu_seconds += time.thread_time() - cpu
+        return self.steps * self.dt
+
+    def snapshot(self, report):
+        if report == "accumulated":
+            raise ValueError("has no accumulated contacts")
+        now = self.steps * self.dt
+        position = self.lammps.gather("x", 3)[:, :2]
+        velocity = self.lammps.gather("v", 3)[:, :2]
+        spin = self.lammps.gather("omega", 3)[:, 2]
+        n = self.disks
+        snapshot = {
+            "position_time": now,
+            "velocity_time": now,
+            "contact_time": now,
+            "contact_interval": 0.0,
+        }
+        arrays = {
+            "position": ("f64", position[:n]),
+            "velocity": ("f64", velocity[:n]),
+            "wall_position": ("f64", position[n:]),
+        }
+        if self.law.friction:
+            arrays["spin"] = ("f64", spin[:n])
+        force = self.lammps.gather("f", 3)[:, :2]
+        torque = self.lammps.gather("torque", 3)[:, 2]
+        on_planes = [self.lammps.fix_array(f"plane{k}", 4)[:, 1:3] for k in range(self.made.planes)]
+        if report == "instant":
+            arrays.update(self.contacts(position, velocity, spin, force, torque, on_planes))
+        snapshot["bodies"] = [
+            self.body_snapshot(body, now, position, force, torque, on_planes)
+            for body in self.bodies
+        ]
+        return snapshot, arrays
+
+    def contacts(self, position, velocity, spin, force, torque, on_planes):
+        """LAMMPS tells forces of pairs from the velocities that it has when it is asked, and the step
+        from those before its second half kick; so these are put there while it is asked. It answers
+        once in a step: nobody else may ask for "pairs"."""
+        if self.steps:
+            before, turning = velocity.copy(), spin.copy()
+            n = self.disks
+            before[:n] -= 0.5 * self.dt * force[:n] / self.mass[:, None]
+            if self.rotation:
+                turning[:n] -= 0.5 * self.dt * torque[:n] / self.inertia
+            self.put_velocities(before, turning)
+        of_pairs = self.contacts_of_pairs(position)
+        if self.steps:
+            self.put_velocities(velocity, spin)
+        columns = [of_pairs, *read_plane_contacts(self.made, self.bodies, position, on_planes)]
+        i, j, normal, overlap, pressing, tangential = map(np.concatenate, zip(*columns))
+        return {
+            "contacts.i": ("i32", i),
+            "contacts.j": ("i32", j),
+            "contacts.normal": ("f64", normal),
+            "contacts.overlap": ("f64", overlap),
+            "contacts.normal_force": ("f64", pressing),
+            "contacts.tangential_force": ("f64", tangential),
+            "contacts.sliding": ("u8", self.law.sliding(pressing, tangential)),
+        }
+
+    def put_velocities(self, velocity, spin):
+        zero = np.zeros(len(spin))
+        self.lammps.scatter("v", np.column_stack([velocity, zero]))
+        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
+
+    def body_snapshot(self, body, now, position, force, torque, on_planes):
+        centre, velocity, angle, spin = body.state(now)
+        members = body.disk_ids
+        total = force[members].sum(axis=0)
+        arm = position[members] - centre
+        moment = (torque[members] + arm[:, 0] * force[members, 1] - arm[:, 1] * force[members, 0]).sum()
+        points = body.plane_points(now)
+        for k, point in zip(body.plane_numbers, points):
+            on_plane = -on_planes[k][: self.disks]
+            total = total + on_plane.sum(axis=0)
+            # Where a disk's centre is projected onto the plane.
+            normal = self.made.plane_normals[k]
+            gap = (position[: self.disks] - point) @ normal
+            arm = position[: self.disks] - gap[:, None] * normal - centre
+            moment += (arm[:, 0] * on_plane[:, 1] - arm[:, 1] * on_plane[:, 0]).sum()
+        return {
+            "centre": centre.tolist(),
+            "angle": angle,
+            "velocity": velocity.tolist(),
+            "angular_velocity": spin,
+            "force": total.tolist(),
+            "torque": float(moment),
+        }
+
+    def stats(self):
+        return {
+            "steps": self.steps,
+            "contact_evaluations": self.evaluations,
+            "wall_seconds": self.wall_seconds,
+            "cpu_seconds": self.cpu_seconds,
+            "counters": {},
+        }
+

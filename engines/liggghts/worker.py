@@ -1,0 +1,34 @@
+"""A worker of crossgrain that runs scenes on LIGGGHTS, through its C library:  python3 worker.py
+
+LIGGGHTS descends from LAMMPS and is driven as it is (../lammps/engine.py); here is what it says in other words.
+README.md of this folder says what LIGGGHTS makes of a scene.
+"""
+
+import os
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [os.path.join(HERE, "..", "lammps"), os.path.join(HERE, "..", "python")]
+sys.dont_write_bytecode = True
+
+import crossgrain_worker
+from engine import Engine
+from liggghts_law import Law
+from liggghts_scene import Liggghts, Scene, check, read_contacts
+
+
+class LiggghtsEngine(Engine):
+    name = "liggghts"
+    Law, Scene, check = Law, Scene, staticmethod(check)
+    conventions = {
+        "tangential": ["none", "spring", "spring_dashpot"],
+        "dashpot": ["outside"],
+        "spring_reset": ["total"],
+        "velocity_arm": ["lever_arm"],
+    }
+
+    def contacts_of_pairs(self, position):
+        return read_contacts(self.lammps, self.made, position)
+
+
+crossgrain_worker.serve(LiggghtsEngine(Liggghts()))
