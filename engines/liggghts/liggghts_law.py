@@ -1,6 +1,7 @@
 """The scene's linear law in LIGGGHTS' terms: model hooke/stiffness, tangential history or no_history."""
 
 import numpy as np
+from crossgrain_answers import demand_linear
 from crossgrain_worker import Unsupported
 
 KINDS = ("none", "spring", "spring_dashpot")
@@ -12,18 +13,13 @@ class Law:
 
     def __init__(self, law):
         kind = law["tangential"]
-        if law["normal"] != "linear":
-            raise Unsupported(f'has normal = linear, not "{law["normal"]}"')
-        if kind not in KINDS:
-            raise Unsupported(f'has tangential = {" | ".join(KINDS)}, not "{kind}"')
+        demand_linear(law, KINDS)
         self.friction = kind != "none" and law["mu"] > 0
         self.kn, self.gn = law["kn"], law["gn"]
         self.mu = law["mu"] if self.friction else 0.0
         self.kt = law["kt"] if self.friction else 0.0
         self.dashpot = self.friction and kind == "spring_dashpot"
         self.gt = law["gt"] if self.dashpot else 0.0
-        if (self.gn > 0 or self.gt > 0) and law["damper"] != "constant":
-            raise Unsupported(f'has damper = "constant", not "{law["damper"]}"')
         if self.friction and self.kt == 0:
             raise Unsupported("has friction by springs alone: kt must be > 0")
 

@@ -1,5 +1,7 @@
 """What workers of engines that know disks, walls and a Coulomb law answer alike."""
 
+from crossgrain_worker import Unsupported
+
 EFFECTS = (
     "normal_damping",
     "friction",
@@ -20,6 +22,22 @@ def effects_without_bottom():
 def setting(name, default, unit, doc):
     """Of `capabilities`: a setting that takes any number."""
     return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []}
+
+
+def demand_linear(law, kinds):
+    """Of `load`: the linear law with a tangential part of one of those kinds.
+
+    @raise Unsupported"""
+    if law["normal"] != "linear":
+        raise Unsupported(f'has normal = linear, not "{law["normal"]}"')
+    demand_tangential(law, kinds)
+    if (law["gn"] > 0 or law["gt"] > 0) and law["damper"] != "constant":
+        raise Unsupported(f'has damper = "constant", not "{law["damper"]}"')
+
+
+def demand_tangential(law, kinds):
+    if law["tangential"] not in kinds:
+        raise Unsupported(f'has tangential = {" | ".join(kinds)}, not "{law["tangential"]}"')
 
 
 def effects_called(law, scene):

@@ -1,5 +1,6 @@
 """What YADE's contact laws have in common."""
 
+from crossgrain_answers import demand_tangential
 from crossgrain_worker import Unsupported
 
 MOST_KINDS = 4  # of disks in the table of pairs: a longer one tells a reader nothing
@@ -16,8 +17,7 @@ class Law:
 
     def __init__(self, law):
         kind = law["tangential"]
-        if kind not in ("none", "spring", "spring_dashpot"):
-            raise Unsupported(f'has tangential = none | spring | spring_dashpot, not "{kind}"')
+        demand_tangential(law, ("none", "spring", "spring_dashpot"))
         self.friction = kind != "none" and law["mu"] > 0
         self.kn, self.gn = law["kn"], law["gn"]
         self.mu = law["mu"] if self.friction else 0.0
