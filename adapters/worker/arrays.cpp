@@ -124,6 +124,16 @@ std::vector<Value> ArrayReader::read(const std::string& name, const char* type,
   return values;
 }
 
+std::vector<double> ArrayReader::numbers(const std::string& name) const {
+  const Entry& entry = find(name);
+  const auto widened = [](const auto& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  if (entry.type == "i32") return widened(i32(name, entry.count));
+  if (entry.type == "u8") return widened(u8(name, entry.count));
+  return f64(name, entry.count);
+}
+
 std::vector<double> ArrayReader::f64(const std::string& name, std::size_t count) const {
   std::vector<double> values = read<double>(name, "f64", count);
   for (std::size_t k = 0; k < count; ++k)

@@ -54,6 +54,9 @@ class ArrayReader {
   std::vector<std::int32_t> i32(const std::string& name, std::size_t count) const;
   std::vector<std::uint8_t> u8(const std::string& name, std::size_t count) const;
 
+  /// An array of any type and count, as numbers.
+  std::vector<double> numbers(const std::string& name) const;
+
   /// Number of elements of an array. @throws std::runtime_error if there is none of that name
   std::size_t count(const std::string& name) const { return find(name).count; }
 

@@ -45,11 +45,12 @@ std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Rea
 }
 
 WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
-                           double timeout)
+                           double timeout, ExchangeListener listener)
     : name_(std::move(name)),
       scratch_(std::filesystem::absolute(scratch)),
       log_(scratch_ / (name_ + ".log")),
-      timeout_(timeout) {
+      timeout_(timeout),
+      listener_(std::move(listener)) {
   try {
     std::filesystem::create_directories(scratch_);
     process_ = std::make_unique<ChildProcess>(call, log_);
@@ -145,6 +146,23 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
 }
 
 json WorkerEngine::exchange(const json& request, const std::string& what) const {
+  if (!listener_) return answerTo(request, what);
+  Exchange heard{request, {}, {}, {}, {}};
+  const auto file = request.value("file", std::string());
+  if (request.at("request") == "load") heard.sent = keptContent(file);
+  try {
+    heard.answer = answerTo(request, what);
+  } catch (const EngineFailure& failure) {
+    heard.failure = failure.what();
+    listener_(heard);
+    throw;
+  }
+  if (request.at("request") == "snapshot") heard.received = keptContent(file);
+  listener_(heard);
+  return heard.answer;
+}
+
+json WorkerEngine::answerTo(const json& request, const std::string& what) const {
   const auto deadline =
       ChildProcess::Clock::now() + std::chrono::duration_cast<ChildProcess::Clock::duration>(
                                        std::chrono::duration<double>(timeout_));
