@@ -14,11 +14,13 @@ bool namesEngineFile(const std::string& name);
 ///
 ///   name = "my-engine"                   # as --engines, reports and [engines.NAME] say it
 ///   summary = "what it is"
-///   command = ["python3", "engine.py"]   # the worker (adapters/worker/README.md); no shell reads it
-///   folder = "."                         # where it is started; relative to this file, which is the default
-///   [environment]                        # beside the caller's
+///   command = ["python3", "engine.py"]   # the worker (adapters/worker/README.md); no shell reads
+///   it folder = "."                         # where it is started; relative to this file, which is
+///   the default memory = 4e9                         # most address space that it may have
+///   [bytes]; no limit unless said [environment]                        # beside the caller's
 ///   OMP_NUM_THREADS = "1"
-///   [settings]                           # of the engine, where a case says nothing under [engines.NAME]
+///   [settings]                           # of the engine, where a case says nothing under
+///   [engines.NAME]
 ///
 /// Its stamp holds this file's content and that of every word of the command that is a file.
 /// @throws BadInput

@@ -1,15 +1,13 @@
 #include "adapters/worker/exchange.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <span>
 
 #include "adapters/worker/answer.hpp"
-#include "adapters/worker/descriptor.hpp"
+#include "adapters/worker/regular_file.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -24,20 +22,11 @@ constexpr const char* mark =
 
 }  // namespace
 
-// O_NONBLOCK: opening a pipe would wait for who writes to it.
 std::string keptContent(const std::filesystem::path& file) {
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  struct stat status {};
-  if (in.get() < 0 || ::fstat(in.get(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
-  if (static_cast<std::size_t>(status.st_size) > longestKeptFile) return {};
-  std::string content(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t got = ::read(in.get(), content.data() + done, content.size() - done);
-    if (got == 0 || (got < 0 && errno != EINTR)) break;
-    if (got > 0) done += static_cast<std::size_t>(got);
-  }
-  content.resize(done);
+  const RegularFile in(file);
+  if (in.size() > longestKeptFile) return {};
+  std::string content(in.size(), '\0');
+  content.resize(in.read(0, std::as_writable_bytes(std::span(content))));
   return content;
 }
 

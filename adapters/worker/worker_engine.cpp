@@ -40,7 +40,7 @@ std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Rea
     throw;
   } catch (const std::exception& error) {
     fail(fmt::format("its answer to {} is unusable: {}", what,
-                     asOneLine(error.what(), longestReason)));
+                     asOneLine(withoutPrefix(error.what()), longestReason)));
   }
 }
 
@@ -50,6 +50,7 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
       scratch_(std::filesystem::absolute(scratch)),
       log_(scratch_ / (name_ + ".log")),
       timeout_(timeout),
+      memory_(call.memory),
       listener_(std::move(listener)) {
   try {
     std::filesystem::create_directories(scratch_);
@@ -89,7 +90,11 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
                   {"scene", toJson(scene, arrays)},
                   {"settings", toJson(settings)},
                   {"file", file.path().string()}};
-  request["arrays"] = arrays.write(file.path());
+  try {
+    request["arrays"] = arrays.write(file.path());
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
   const json reply = ask(request, "load");
   return understand("load", [&] {
     Realised realised = realisedFromJson(reply.at("realised"));
@@ -138,7 +143,10 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
   const json reply = exchange(request, what);
   return understand(what, [&]() -> json {
-    if (reply.at("ok").get<bool>()) return reply;
+    if (reply.at("ok").get<bool>()) {
+      requireAnswerTo(request.at("request"), reply);
+      return reply;
+    }
     const std::string reason = asOneLine(reply.at("what"), longestReason);
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
     throw EngineFailure(failure(reason));
@@ -166,6 +174,9 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
   const auto deadline =
       ChildProcess::Clock::now() + std::chrono::duration_cast<ChildProcess::Clock::duration>(
                                        std::chrono::duration<double>(timeout_));
+  if (const std::string extra = process_->unasked(); !extra.empty())
+    fail(fmt::format("before {} it answered what nobody had asked: '{}'", what,
+                     asOneLine(extra, 60)));
   std::string line;
   try {
     process_->sendLine(request.dump(), deadline);
@@ -200,7 +211,9 @@ std::string WorkerEngine::howItEnded(const std::string& what) const {
   const std::string how =
       ended ? fmt::format("ended ({})", process_->exitText()) : "closed its descriptors";
   const std::string words = lastWords(log_);
-  return fmt::format("{} during {}{}{}", how, what, words.empty() ? "" : "; ", words);
+  const std::string limit =
+      memory_ > 0 ? fmt::format("; its memory is limited to {:g} bytes", double(memory_)) : "";
+  return fmt::format("{} during {}{}{}{}", how, what, words.empty() ? "" : "; ", words, limit);
 }
 
 void WorkerEngine::fail(const std::string& what) const {

@@ -64,6 +64,7 @@ class WorkerEngine final : public Engine {
   std::filesystem::path scratch_;
   std::filesystem::path log_;
   double timeout_;
+  std::uint64_t memory_;  ///< that it is limited to [bytes]; 0: it is not
   ExchangeListener listener_;
   mutable std::unique_ptr<ChildProcess> process_;
   mutable std::string firstFailure_;

@@ -176,7 +176,7 @@ class Worker:
         total = force[members].sum(axis=0)
         arm = position[members] - centre
         moment = (torque[members] + arm[:, 0] * force[members, 1] - arm[:, 1] * force[members, 0]).sum()
-        points = body.plane_points(now)
+        points, _ = body.plane_states(now)
         for k, point in zip(body.plane_numbers, points):
             on_plane = -on_planes[k][: self.disks]
             total = total + on_plane.sum(axis=0)

@@ -254,7 +254,7 @@ class Yade:
             then = time_ - self.dt
             ids = body.disk_ids + body.plane_ids
             force, torque = forces[0][ids], forces[1][ids]
-            points = np.concatenate([body.disk_states(then)[0], body.plane_points(then)])
+            points = np.concatenate([body.disk_states(then)[0], body.plane_states(then)[0]])
             arm = points - body.state(then)[0]
             snapshot["force"] = force.sum(axis=0).tolist()
             snapshot["torque"] = float(
