@@ -1,5 +1,6 @@
 #include "adapters/worker/json.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "adapters/law_options.hpp"
@@ -34,6 +35,23 @@ json unlessNone(double constant) {
 double orNone(const json& in, const char* key) {
   const auto found = in.find(key);
   return found == in.end() || found->is_null() ? 0.0 : found->get<double>();
+}
+
+/// A count: converted as it is −1 would be 2⁶⁴ − 1, in silence.
+std::uint64_t countFrom(const json& in, const char* key) {
+  constexpr double most = 9007199254740992.0;  // 2⁵³: beyond it numbers of JSON have gaps
+  const json& value = in.at(key);
+  const double number = value.is_number() ? value.get<double>() : -1.0;
+  if (!(number >= 0.0 && number <= most && number == std::floor(number)))
+    throw std::runtime_error(fmt::format("{} is {}, not a whole number ≥ 0", key, value.dump()));
+  return static_cast<std::uint64_t>(number);
+}
+
+/// @throws std::exception naming a time that no clock shows
+double secondsFrom(const json& in, const char* key) {
+  const double seconds = in.at(key);
+  if (!(seconds >= 0.0)) throw std::runtime_error(fmt::format("{} is {} s", key, seconds));
+  return seconds;
 }
 
 /// @throws std::exception naming an option or a value that no law has
@@ -176,10 +194,10 @@ json toJson(const Stats& stats) {
 
 Stats statsFromJson(const json& in) {
   Stats stats;
-  stats.steps = in.at("steps");
-  stats.contactEvaluations = in.at("contact_evaluations");
-  stats.wallSeconds = in.at("wall_seconds");
-  stats.cpuSeconds = in.at("cpu_seconds");
+  stats.steps = countFrom(in, "steps");
+  stats.contactEvaluations = countFrom(in, "contact_evaluations");
+  stats.wallSeconds = secondsFrom(in, "wall_seconds");
+  stats.cpuSeconds = secondsFrom(in, "cpu_seconds");
   in.at("counters").get_to(stats.counters);
   return stats;
 }
