@@ -8,7 +8,7 @@ import shutil
 import struct
 import unittest
 
-from harness import BAD_INPUT, CASES, COLLISION, COUETTE, ENGINE_FAILED, HELD, SystemTest
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, ENGINE_FAILED, HELD, SystemTest, recorded_exchanges
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 CPP = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "examples/cpp/engine.toml"
@@ -41,17 +41,12 @@ centre = [-0.01, -0.02]
 
 
 def last_disk(recording):
-    """Position and spin of the first disk in the last snapshot of a recording (runs/README.md)."""
-    with open(recording, "rb") as file:
-        next(file)
-        while line := file.readline():
-            exchange = json.loads(line)
-            file.read(exchange["sent"])
-            arrays = file.read(exchange["received"])
-            if arrays:
-                offset = {each["name"]: each["offset"] for each in exchange["answer"]["arrays"]}
-                found = [*struct.unpack_from("<2d", arrays, offset["position"])]
-                found += struct.unpack_from("<d", arrays, offset["spin"])
+    """Position and spin of the first disk in the last snapshot of a recording."""
+    for _, answer, arrays in recorded_exchanges(recording):
+        if arrays:
+            offset = {each["name"]: each["offset"] for each in answer["arrays"]}
+            found = [*struct.unpack_from("<2d", arrays, offset["position"])]
+            found += struct.unpack_from("<d", arrays, offset["spin"])
     return found
 
 
