@@ -9,6 +9,7 @@
 
 #include "adapters/effects.hpp"
 #include "adapters/scene.hpp"
+#include "adapters/scene_limits.hpp"
 #include "adapters/snapshot.hpp"
 
 namespace crossgrain {
@@ -42,6 +43,7 @@ struct Capabilities {
   bool slidingFlags = false;
   bool energyLedger = false;  ///< that it can keep one
   std::vector<SettingSpec> settings;
+  SceneLimits limits;
 };
 
 /// Something an engine does otherwise than the scene says.

@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 3> supportNames = {"optional", "always", "never"};
+constexpr std::array<std::string_view, 2> restitutionNames = {"pair", "body"};
 constexpr std::array<std::string_view, 3> reportNames = {"none", "instant", "accumulated"};
 
 Effect effectFromName(const std::string& name) {
@@ -63,6 +64,42 @@ void checkLawOptions(const Capabilities& can) {
   }
 }
 
+json motionsJson(const std::vector<Motion::Kind>& kinds) {
+  json names = json::array();
+  for (const Motion::Kind kind : kinds) names.push_back(toString(kind));
+  return names;
+}
+
+std::optional<std::vector<Motion::Kind>> motionsFrom(const json& in, const char* key) {
+  if (!in.contains(key)) return std::nullopt;
+  std::vector<Motion::Kind> kinds;
+  for (const json& name : in.at(key)) kinds.push_back(valueOf<Motion::Kind>(name, motionNames));
+  return kinds;
+}
+
+void addLimits(json& out, const SceneLimits& limits) {
+  if (limits.inertia) out["inertia"] = *limits.inertia;
+  if (limits.wallMotions) out["wall_motions"] = motionsJson(*limits.wallMotions);
+  if (limits.planeMotions) out["plane_motions"] = motionsJson(*limits.planeMotions);
+  if (limits.restitutionPerBody) out["restitution"] = std::string(restitutionNames[1]);
+}
+
+/// @throws std::exception naming what is none
+SceneLimits limitsFrom(const json& in) {
+  SceneLimits limits;
+  if (in.contains("inertia")) {
+    limits.inertia = in.at("inertia").get<std::vector<double>>();
+    if (limits.inertia->empty()) throw std::runtime_error("inertia has no value");
+  }
+  limits.wallMotions = motionsFrom(in, "wall_motions");
+  limits.planeMotions = motionsFrom(in, "plane_motions");
+  enum class Restitution { pair, body };
+  if (in.contains("restitution"))
+    limits.restitutionPerBody =
+        valueOf<Restitution>(in.at("restitution"), restitutionNames) == Restitution::body;
+  return limits;
+}
+
 json toJson(const SettingValue& value) {
   return std::visit([](const auto& held) { return json(held); }, value);
 }
@@ -88,17 +125,19 @@ json toJson(const Capabilities& can) {
                         {"unit", spec.unit},
                         {"doc", spec.doc},
                         {"choices", spec.choices}});
-  return {{"version", can.version},
-          {"effects", effects},
-          {"law_options", can.lawOptions},
-          {"precisions", precisions},
-          {"instant_contacts", can.instantContacts},
-          {"accumulated_contacts", can.accumulatedContacts},
-          {"warm_handover", can.warmHandover},
-          {"checkpoints", can.checkpoints},
-          {"sliding_flags", can.slidingFlags},
-          {"energy_ledger", can.energyLedger},
-          {"settings", settings}};
+  json out = {{"version", can.version},
+              {"effects", effects},
+              {"law_options", can.lawOptions},
+              {"precisions", precisions},
+              {"instant_contacts", can.instantContacts},
+              {"accumulated_contacts", can.accumulatedContacts},
+              {"warm_handover", can.warmHandover},
+              {"checkpoints", can.checkpoints},
+              {"sliding_flags", can.slidingFlags},
+              {"energy_ledger", can.energyLedger},
+              {"settings", settings}};
+  addLimits(out, can.limits);
+  return out;
 }
 
 Capabilities capabilitiesFromJson(const json& in) {
@@ -120,6 +159,7 @@ Capabilities capabilitiesFromJson(const json& in) {
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
                             item.at("doc"), item.at("choices")});
+  can.limits = limitsFrom(in);
   return can;
 }
 

@@ -62,6 +62,7 @@ class Yade:
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
             },
+            "plane_motions": ["fixed", "translating", "oscillating"],
             "precisions": ["double"],
             "instant_contacts": True,
             "accumulated_contacts": False,

@@ -162,6 +162,18 @@ class Stranger(SystemTest):
             for value, of_mirror in zip(ends[name], ends["mirror"]):
                 self.assertAlmostEqual(value, of_mirror, delta=1e-11 + 1e-9 * abs(of_mirror), msg=name)
 
+    def test_a_scene_beyond_its_limits_is_refused_before_it_is_loaded(self):
+        mine = self.own('name = "mine"\ncommand = ["python3", "engine.py"]\n')
+        program = mine.parent / "engine.py"
+        text = program.read_text(encoding="utf-8")
+        text = text.replace('"settings": [],', '"settings": [], "plane_motions": ["fixed"],')
+        text = text.replace("def load(self, scene, arrays, settings):\n", "def load(self, *_):\n        os.abort()\n")
+        program.write_text(text, encoding="utf-8")
+        case = self.write("turning.toml", TURNING)
+        done = self.run_program("record", case, "--engines", mine, "--out", self.folder / "none.rec")
+        self.assert_status(done, BAD_INPUT)
+        self.assertIn("has planes that are fixed, not rotating", done.error_lines()[0])
+
     def test_a_program_that_speaks_no_protocol_fails(self):
         mine = self.own('name = "mine"\ncommand = ["true"]\n')
         done = self.run_with("lockstep", COUETTE, mine, "--quick", "--starts=1")
