@@ -110,7 +110,7 @@ Action declareReplay(CLI::App& app, CommandLine& line) {
 extern const Command replayCommand = {
     "replay", "asks an engine what a recording asked: the first request answered otherwise",
     "crossgrain replay run.rec --engines examples/python/engine.toml\n"
-    "crossgrain replay run.rec --engines grain-as-numpy --tolerance 1e-9",
+    "crossgrain replay run.rec --engines examples/python/engine.toml --tolerance 1e-9 --json",
     declareReplay};
 
 }  // namespace crossgrain::inline cli

@@ -12,6 +12,7 @@
 #include "runs/common/advance.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/version.hpp"
+#include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -53,6 +54,11 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
                                {"case", setup.name},
                                {"harness", programVersion},
                                {"timeout", setup.run.timeout}});
+  // Of what did not run no file is to stand in the way of the next try.
+  const auto forget = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  };
   Recorded recorded;
   try {
     const auto engine =
@@ -75,9 +81,10 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
   } catch (const EngineFailure& failure) {
     recorded.failure = failure.what();
   } catch (const UnsupportedScene&) {
-    // It did not run: no file is to stand in the way of the next try.
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
+    forget();
+    throw;
+  } catch (const BadInput&) {
+    forget();
     throw;
   }
   return recorded;

@@ -17,7 +17,7 @@ struct RecordOptions {
   std::size_t looks = 10;
 };
 
-/// What came of a recording; the file is there in any case.
+/// What came of a recording.
 struct Recorded {
   std::string version;        ///< of the engine; empty if it did not say
   double time = 0.0;          ///< that was reached [s]
@@ -27,7 +27,7 @@ struct Recorded {
 
 /// Runs one engine on the first scene of a case, of a cell packing 0, and writes every request and
 /// answer to a file (adapters/worker/exchange.hpp) as they pass.
-/// @throws BadInput, OutputError, Interrupted; UnsupportedScene, and then there is no file
+/// @throws UnsupportedScene, BadInput, and then there is no file; OutputError, Interrupted
 Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::filesystem::path& file,
                    const RecordOptions& options);
 

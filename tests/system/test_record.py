@@ -79,6 +79,11 @@ class Record(SystemTest):
         self.assert_status(done, BAD_INPUT)
         self.assertIn("kt must be > 0", done.error_lines()[0])
         self.assertFalse(self.file.exists())
+        done = self.run_program(
+            "record", COLLISION, "--engine=gone=/no/such/program", "--engines=gone", "--out", self.file
+        )
+        self.assert_status(done, BAD_INPUT)
+        self.assertFalse(self.file.exists())
 
     def test_bad_input(self):
         self.file.write_text("mine", encoding="utf-8")
