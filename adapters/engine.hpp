@@ -9,6 +9,7 @@
 
 #include "adapters/effects.hpp"
 #include "adapters/scene.hpp"
+#include "adapters/scene_limits.hpp"
 #include "adapters/snapshot.hpp"
 
 namespace crossgrain {
@@ -43,6 +44,7 @@ struct Capabilities {
   bool tangentialRestitution = true;  ///< of rigid contacts: an e_t0 other than 0
   bool energyLedger = false;          ///< that it can keep one
   std::vector<SettingSpec> settings;
+  SceneLimits limits;
 };
 
 /// Something an engine does otherwise than the scene says.

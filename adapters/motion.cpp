@@ -5,6 +5,10 @@
 
 namespace crossgrain {
 
+std::string toString(Motion::Kind kind) {
+  return std::string(motionNames[static_cast<std::size_t>(kind)]);
+}
+
 BodyState stateAt(const Motion& motion, const Vec2& centre, double t) {
   BodyState now;
   now.centre = centre;

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <string>
+#include <string_view>
+
 #include "adapters/vec2.hpp"
 
 namespace crossgrain {
@@ -16,6 +20,11 @@ struct Motion {
   double radialVelocity = 0.0;    ///< radial: dR/dt of the ring's radius, < 0 shrinks [m/s]
   double radialEnd = 0.0;         ///< radial: time at which the ring stops [s]
 };
+
+/// As in the worker protocol and in messages, in enum order.
+inline constexpr std::array<std::string_view, 5> motionNames = {"fixed", "rotating", "translating",
+                                                                "oscillating", "radial"};
+std::string toString(Motion::Kind kind);
 
 /// Where a body is and how fast, at one instant.
 /// A member at reference offset d from the centre (|d| = R) is at

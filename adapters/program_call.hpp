@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,6 +16,7 @@ struct ProgramCall {
   std::vector<std::string> argv;  ///< the program, looked up in PATH, and its arguments
   std::filesystem::path folder;   ///< in which it is started; empty: the caller's
   std::map<std::string, std::string> environment;  ///< set beside what the caller has
+  std::uint64_t memory = 0;  ///< most address space that it may have [bytes]; 0: no limit
   /// Of the program as it is now: becomes part of its version, so that runs of another are not
   /// taken up. Empty: its version says enough.
   std::string stamp;

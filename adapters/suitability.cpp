@@ -137,6 +137,9 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
         if (toString(effect) == mismatch.name) removeEffect(adapted.scene, effect);
   }
   adapted.scene.law = lawAsRun(can, adapted.scene.law);
+  const std::vector<std::string> beyond =
+      beyondLimits(can.limits, adapted.scene, !hasNormalLaw(can, scene.law));
+  if (!beyond.empty()) throw UnsupportedScene(fmt::format("{}", fmt::join(beyond, "; ")));
   // Double is what a scene says where nobody chose: an engine of floats that runs it tells its
   // rounding itself.
   const bool has = std::ranges::find(can.precisions, scene.precision) != can.precisions.end();

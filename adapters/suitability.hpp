@@ -41,7 +41,8 @@ struct Adapted {
   std::vector<Deviation> deviations;
 };
 
-/// @throws UnsupportedScene naming every mismatch that is not in mayDiffer, and where to list them
+/// @throws UnsupportedScene naming every mismatch that is not in mayDiffer, and where to list them;
+/// or what is then still beyond the engine's limits, which no case can have it run
 Adapted adaptScene(const Capabilities& can, const Scene& scene,
                    const std::vector<std::string>& mayDiffer);
 

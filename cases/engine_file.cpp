@@ -112,6 +112,8 @@ EngineEntry loadEngineFile(const fs::path& file) {
   std::vector<std::string> words;
   in.read("needs", words);
   in.read("install", install);
+  double memory = 0.0;
+  in.read("memory", memory, between(1e6, 1e18, "bytes"));
   Reader environment = in.section("environment");
   for (const std::string& variable : environment.keys())
     environment.read(variable, call.environment[variable]);
@@ -120,6 +122,7 @@ EngineEntry loadEngineFile(const fs::path& file) {
   if (const std::string why = whyNoName(name); !why.empty()) in.fail("name", why);
   if (call.argv.empty() || call.argv.front().empty())
     in.fail("command", "must be a program and its arguments, as [\"python3\", \"engine.py\"]");
+  call.memory = static_cast<std::uint64_t>(memory);
   call.folder = fs::absolute(file).parent_path() / folder;
   if (!fs::is_directory(call.folder)) in.fail("folder", "is no folder");
   std::vector<fs::path> needs;

@@ -12,16 +12,16 @@ bool namesEngineFile(const std::string& name);
 
 /// An engine of the user's own, from a TOML file:
 ///
-///   name = "my-engine"                   # as --engines, reports and [engines.NAME] say it
+///   name = "my-engine"       # as --engines, reports and [engines.NAME] say it
 ///   summary = "what it is"
-///   command = ["python3", "engine.py"]   # the worker (adapters/worker/README.md); no shell reads
-///   it folder = "."                         # where it is started; relative to this file, which is
-///   the default needs = ["model.bin"]                # files that it reads, without which it is
-///   not started install = "make model"               # what to do where one of them is missing
-///   [environment]                        # beside the caller's
+///   command = ["python3", "engine.py"]  # the worker (adapters/worker/README.md), without a shell
+///   folder = "."             # where it is started, relative to this file; that is the default
+///   needs = ["model.bin"]    # files that it reads, without which it is not started
+///   install = "make model"   # what to do where one of them is missing
+///   memory = 4e9             # most address space that it may have [bytes]; no limit unless said
+///   [environment]            # beside the caller's
 ///   OMP_NUM_THREADS = "1"
-///   [settings]                           # of the engine, where a case says nothing under
-///   [engines.NAME]
+///   [settings]               # of the engine, where a case says nothing under [engines.NAME]
 ///
 /// Its stamp holds this file's content and that of its needs and of every word of the command that
 /// is a file.

@@ -56,6 +56,10 @@ int listEngines(const CommandLine& line) {
       fmt::print("  {:<22} {}\n", toString(effect), supportMark(support));
     for (const auto& [option, values] : can.lawOptions)
       fmt::print("  {:<22} {}\n", option, fmt::join(values, " | "));
+    // As the protocol names them.
+    for (const char* limit : {"inertia", "wall_motions", "plane_motions", "restitution"})
+      if (row["capabilities"].contains(limit))
+        fmt::print("  {:<22} {}\n", limit, row["capabilities"][limit].dump());
     for (const SettingSpec& setting : can.settings)
       fmt::print("  setting {:<14} {} [{}]\n", setting.name, setting.doc,
                  setting.unit.empty() ? "-" : setting.unit);

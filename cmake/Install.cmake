@@ -1,6 +1,7 @@
 # What `cmake --install` and `cpack` lay out:
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
 #   share/crossgrain/cases, engines  what it reads at run time
+#   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
 #   share/man/man1, share/bash-completion/completions  made by the program itself
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
@@ -22,7 +23,10 @@ install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
         FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
         PATTERN node_modules EXCLUDE)
-install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
+install(FILES README.md LICENSE CHANGELOG.md docs/your-engine.md adapters/worker/protocol.schema.json
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging

@@ -5,9 +5,16 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
+#include <iterator>
+#include <set>
+#include <span>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "adapters/worker/regular_file.hpp"
 
 namespace crossgrain {
 namespace {
@@ -15,29 +22,59 @@ namespace {
 using nlohmann::json;
 
 /// The end of a file of whatever length.
-std::string tailOf(const std::filesystem::path& file, std::streamoff bytes) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) return {};
-  const std::streamoff size = in.tellg();
-  in.seekg(std::max<std::streamoff>(0, size - bytes));
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+std::string tailOf(const std::filesystem::path& file, std::size_t bytes) {
+  const RegularFile in(file);
+  std::string text(std::min(bytes, in.size()), '\0');
+  text.resize(in.read(in.size() - text.size(), std::as_writable_bytes(std::span(text))));
+  return text;
 }
+
+/// What an answer to each request holds. A checkpoint's holds nothing.
+constexpr std::pair<std::string_view, std::string_view> contents[] = {{"hello", "capabilities"},
+                                                                      {"load", "realised"},
+                                                                      {"advance", "time"},
+                                                                      {"snapshot", "snapshot"},
+                                                                      {"stats", "stats"}};
 
 }  // namespace
 
 json parseAnswer(const std::string& line) {
-  const auto holdDepth = [](int depth, json::parse_event_t, json&) {
+  std::vector<std::set<std::string>> keys;  // of each object that is being read
+  const auto hold = [&](int depth, json::parse_event_t event, json& parsed) {
+    using enum json::parse_event_t;
     if (depth > deepestAnswer)
       throw std::runtime_error(
           fmt::format("has more than {} objects and lists in each other", deepestAnswer));
+    if (event == object_start) keys.emplace_back();
+    if (event == object_end && !keys.empty()) keys.pop_back();
+    if (event == key && !keys.back().insert(parsed.get<std::string>()).second)
+      throw std::runtime_error(fmt::format("has the key '{}' twice in one object",
+                                           asOneLine(parsed.get<std::string>(), 60)));
     return true;
   };
-  json answer = json::parse(line, holdDepth, false);
+  json answer = json::parse(line, hold, false);
   if (!answer.is_object())
     throw std::runtime_error(fmt::format("is not a JSON object: '{}'", asOneLine(line, 60)));
   return answer;
+}
+
+void requireAnswerTo(const std::string& request, const json& answer) {
+  const auto wanted = std::ranges::find(contents, request, [](auto& each) { return each.first; });
+  if (wanted == std::end(contents) || answer.contains(wanted->second)) return;
+  for (const auto& [other, content] : contents)
+    if (answer.contains(content))
+      throw std::runtime_error(fmt::format("it has '{}', which answers {}, and no '{}'", content,
+                                           other, wanted->second));
+  std::vector<std::string> there;
+  for (const auto& [key, value] : answer.items()) there.push_back(key);
+  throw std::runtime_error(
+      fmt::format("it has no '{}' (it has: {})", wanted->second, fmt::join(there, ", ")));
+}
+
+std::string withoutPrefix(const std::string& what) {
+  const std::size_t end = what.find("] ");
+  return what.starts_with("[json.exception.") && end != std::string::npos ? what.substr(end + 2)
+                                                                          : what;
 }
 
 std::string asOneLine(const std::string& text, std::size_t longest) {
@@ -54,7 +91,7 @@ std::string asOneLine(const std::string& text, std::size_t longest) {
 }
 
 std::string lastWords(const std::filesystem::path& log) {
-  constexpr std::streamoff looked = std::streamoff{64} << 10;
+  constexpr std::size_t looked = std::size_t{64} << 10;
   constexpr std::size_t lines = 3, longest = 200;
   std::istringstream in(tailOf(log, looked));
   std::deque<std::string> last;

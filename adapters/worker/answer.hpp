@@ -19,8 +19,16 @@ inline constexpr int deepestAnswer = 16;
 /// Longest reason that a worker can give [bytes]; it becomes part of one line.
 inline constexpr std::size_t longestReason = 500;
 
-/// The JSON object of that line. @throws std::runtime_error: what it is instead
+/// The JSON object of that line. @throws std::runtime_error: what it is instead, or the key that it
+/// has twice, of which one reader would take the first and another the last
 nlohmann::json parseAnswer(const std::string& line);
+
+/// @throws std::runtime_error where an answer holds nothing that answers that request, saying which
+/// other it answers
+void requireAnswerTo(const std::string& request, const nlohmann::json& answer);
+
+/// What an exception of the JSON library says, without the library's own numbers.
+std::string withoutPrefix(const std::string& what);
 
 /// The text in one line of valid UTF-8, with an ellipsis where it has more than `longest` bytes.
 std::string asOneLine(const std::string& text, std::size_t longest);

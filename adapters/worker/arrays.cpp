@@ -2,15 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 #include <system_error>
+
+#include "adapters/worker/descriptor.hpp"
 
 namespace crossgrain {
 namespace {
@@ -54,28 +54,31 @@ void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
   add(name, flat(values));
 }
 
+// A worker knows where the next file will be and may have put something there: opening a pipe would
+// wait for ever, following a link would write what it points to.
 nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes_.data()),
-            static_cast<std::streamsize>(bytes_.size()));
-  out.close();
-  if (!out)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(),
+  ::unlink(file.c_str());
+  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  std::size_t done = 0;
+  while (out.get() >= 0 && done < bytes_.size()) {
+    const ssize_t put = ::write(out.get(), bytes_.data() + done, bytes_.size() - done);
+    if (put < 0 && errno != EINTR) break;
+    if (put > 0) done += static_cast<std::size_t>(put);
+  }
+  const int error = errno;
+  if (out.get() < 0 || done < bytes_.size())
+    throw std::system_error(error ? error : EIO, std::generic_category(),
                             fmt::format("cannot write {}", file.string()));
   return list_;
 }
 
-// O_NONBLOCK: opening a pipe would wait for who writes to it.
 ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json& list)
-    : file_(file.filename().string()),
-      in_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
-  if (in_.get() < 0)
+    : file_(file.filename().string()), in_(file) {
+  if (in_.state() == RegularFile::State::missing)
     throw std::runtime_error(fmt::format("there is no array file {}", file.string()));
-  struct stat status {};
-  if (::fstat(in_.get(), &status) != 0 || !S_ISREG(status.st_mode))
+  if (in_.state() == RegularFile::State::special)
     throw std::runtime_error(fmt::format("{} is not a regular file", file_));
-  const auto length = static_cast<std::size_t>(status.st_size);
+  const std::size_t length = in_.size();
 
   for (const nlohmann::json& item : list) {
     const auto name = item.at("name").get<std::string>();
@@ -93,7 +96,8 @@ ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json
       throw std::runtime_error(
           fmt::format("{} is too short: {} needs {} × {} bytes from byte {}, the file has {} bytes",
                       file_, name, entry.count, size, entry.offset, length));
-    arrays_[name] = entry;
+    if (!arrays_.try_emplace(name, entry).second)
+      throw std::runtime_error(fmt::format("{}: {} is listed twice", file_, name));
   }
 }
 
@@ -113,15 +117,19 @@ std::vector<Value> ArrayReader::read(const std::string& name, const char* type,
                                          entry.count, entry.type, count, type));
   std::vector<Value> values(count);
   const auto bytes = std::as_writable_bytes(std::span(values));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got = ::pread(in_.get(), bytes.data() + done, bytes.size() - done,
-                                static_cast<off_t>(entry.offset + done));
-    if (got > 0)
-      done += static_cast<std::size_t>(got);
-    else if (got == 0 || errno != EINTR)
-      throw std::runtime_error(fmt::format("cannot read {} of {}", name, file_));
-  }
+  if (in_.read(entry.offset, bytes) != bytes.size())
+    throw std::runtime_error(fmt::format("cannot read {} of {}", name, file_));
   return values;
+}
+
+std::vector<double> ArrayReader::numbers(const std::string& name) const {
+  const Entry& entry = find(name);
+  const auto widened = [](const auto& values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  if (entry.type == "i32") return widened(i32(name, entry.count));
+  if (entry.type == "u8") return widened(u8(name, entry.count));
+  return f64(name, entry.count);
 }
 
 std::vector<double> ArrayReader::f64(const std::string& name, std::size_t count) const {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/vec2.hpp"
-#include "adapters/worker/descriptor.hpp"
+#include "adapters/worker/regular_file.hpp"
 
 namespace crossgrain {
 
@@ -25,7 +25,7 @@ class ArrayWriter {
   void add(const std::string& name, std::span<const std::uint8_t> values);
   void add(const std::string& name, std::span<const Vec2> values);
 
-  /// Writes the file. @returns the list that describes it
+  /// Writes the file anew, whatever lies under its name. @returns the list that describes it
   /// @throws std::runtime_error naming the file
   nlohmann::json write(const std::filesystem::path& file) const;
 
@@ -42,8 +42,7 @@ class ArrayWriter {
 /// alone, however long the file is.
 class ArrayReader {
  public:
-  /// Checks the list against the length of the file, which must be a regular one: a pipe or a
-  /// device might never end.
+  /// Checks the list against the length of the file, which must be a regular one.
   ArrayReader(const std::filesystem::path& file, const nlohmann::json& list);
 
   bool has(const std::string& name) const { return arrays_.contains(name); }
@@ -53,6 +52,9 @@ class ArrayReader {
   std::vector<Vec2> vec2(const std::string& name, std::size_t count) const;
   std::vector<std::int32_t> i32(const std::string& name, std::size_t count) const;
   std::vector<std::uint8_t> u8(const std::string& name, std::size_t count) const;
+
+  /// An array of any type and count, as numbers.
+  std::vector<double> numbers(const std::string& name) const;
 
   /// Number of elements of an array. @throws std::runtime_error if there is none of that name
   std::size_t count(const std::string& name) const { return find(name).count; }
@@ -68,7 +70,7 @@ class ArrayReader {
   std::vector<Value> read(const std::string& name, const char* type, std::size_t count) const;
 
   std::string file_;
-  Descriptor in_;
+  RegularFile in_;
   std::map<std::string, Entry> arrays_;
 };
 

@@ -1,5 +1,6 @@
 #include "adapters/worker/json.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "adapters/law_options.hpp"
@@ -11,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 3> supportNames = {"optional", "always", "never"};
+constexpr std::array<std::string_view, 2> restitutionNames = {"pair", "body"};
 constexpr std::array<std::string_view, 3> reportNames = {"none", "instant", "accumulated"};
 
 Effect effectFromName(const std::string& name) {
@@ -36,6 +38,23 @@ double orNone(const json& in, const char* key) {
   return found == in.end() || found->is_null() ? 0.0 : found->get<double>();
 }
 
+/// A count: converted as it is −1 would be 2⁶⁴ − 1, in silence.
+std::uint64_t countFrom(const json& in, const char* key) {
+  constexpr double most = 9007199254740992.0;  // 2⁵³: beyond it numbers of JSON have gaps
+  const json& value = in.at(key);
+  const double number = value.is_number() ? value.get<double>() : -1.0;
+  if (!(number >= 0.0 && number <= most && number == std::floor(number)))
+    throw std::runtime_error(fmt::format("{} is {}, not a whole number ≥ 0", key, value.dump()));
+  return static_cast<std::uint64_t>(number);
+}
+
+/// @throws std::exception naming a time that no clock shows
+double secondsFrom(const json& in, const char* key) {
+  const double seconds = in.at(key);
+  if (!(seconds >= 0.0)) throw std::runtime_error(fmt::format("{} is {} s", key, seconds));
+  return seconds;
+}
+
 /// @throws std::exception naming an option or a value that no law has
 void checkLawOptions(const Capabilities& can) {
   ContactLaw law;
@@ -43,6 +62,42 @@ void checkLawOptions(const Capabilities& can) {
     if (values.empty()) throw std::runtime_error(fmt::format("law_options: {} has no value", name));
     for (const std::string& value : values) setLawOption(law, name, value);
   }
+}
+
+json motionsJson(const std::vector<Motion::Kind>& kinds) {
+  json names = json::array();
+  for (const Motion::Kind kind : kinds) names.push_back(toString(kind));
+  return names;
+}
+
+std::optional<std::vector<Motion::Kind>> motionsFrom(const json& in, const char* key) {
+  if (!in.contains(key)) return std::nullopt;
+  std::vector<Motion::Kind> kinds;
+  for (const json& name : in.at(key)) kinds.push_back(valueOf<Motion::Kind>(name, motionNames));
+  return kinds;
+}
+
+void addLimits(json& out, const SceneLimits& limits) {
+  if (limits.inertia) out["inertia"] = *limits.inertia;
+  if (limits.wallMotions) out["wall_motions"] = motionsJson(*limits.wallMotions);
+  if (limits.planeMotions) out["plane_motions"] = motionsJson(*limits.planeMotions);
+  if (limits.restitutionPerBody) out["restitution"] = std::string(restitutionNames[1]);
+}
+
+/// @throws std::exception naming what is none
+SceneLimits limitsFrom(const json& in) {
+  SceneLimits limits;
+  if (in.contains("inertia")) {
+    limits.inertia = in.at("inertia").get<std::vector<double>>();
+    if (limits.inertia->empty()) throw std::runtime_error("inertia has no value");
+  }
+  limits.wallMotions = motionsFrom(in, "wall_motions");
+  limits.planeMotions = motionsFrom(in, "plane_motions");
+  enum class Restitution { pair, body };
+  if (in.contains("restitution"))
+    limits.restitutionPerBody =
+        valueOf<Restitution>(in.at("restitution"), restitutionNames) == Restitution::body;
+  return limits;
 }
 
 json toJson(const SettingValue& value) {
@@ -70,18 +125,20 @@ json toJson(const Capabilities& can) {
                         {"unit", spec.unit},
                         {"doc", spec.doc},
                         {"choices", spec.choices}});
-  return {{"version", can.version},
-          {"effects", effects},
-          {"law_options", can.lawOptions},
-          {"precisions", precisions},
-          {"instant_contacts", can.instantContacts},
-          {"accumulated_contacts", can.accumulatedContacts},
-          {"warm_handover", can.warmHandover},
-          {"checkpoints", can.checkpoints},
-          {"sliding_flags", can.slidingFlags},
-          {"energy_ledger", can.energyLedger},
-          {"tangential_restitution", can.tangentialRestitution},
-          {"settings", settings}};
+  json out = {{"version", can.version},
+              {"effects", effects},
+              {"law_options", can.lawOptions},
+              {"precisions", precisions},
+              {"instant_contacts", can.instantContacts},
+              {"accumulated_contacts", can.accumulatedContacts},
+              {"warm_handover", can.warmHandover},
+              {"checkpoints", can.checkpoints},
+              {"sliding_flags", can.slidingFlags},
+              {"energy_ledger", can.energyLedger},
+              {"tangential_restitution", can.tangentialRestitution},
+              {"settings", settings}};
+  addLimits(out, can.limits);
+  return out;
 }
 
 Capabilities capabilitiesFromJson(const json& in) {
@@ -104,6 +161,7 @@ Capabilities capabilitiesFromJson(const json& in) {
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
                             item.at("doc"), item.at("choices")});
+  can.limits = limitsFrom(in);
   return can;
 }
 
@@ -178,10 +236,10 @@ json toJson(const Stats& stats) {
 
 Stats statsFromJson(const json& in) {
   Stats stats;
-  stats.steps = in.at("steps");
-  stats.contactEvaluations = in.at("contact_evaluations");
-  stats.wallSeconds = in.at("wall_seconds");
-  stats.cpuSeconds = in.at("cpu_seconds");
+  stats.steps = countFrom(in, "steps");
+  stats.contactEvaluations = countFrom(in, "contact_evaluations");
+  stats.wallSeconds = secondsFrom(in, "wall_seconds");
+  stats.cpuSeconds = secondsFrom(in, "cpu_seconds");
   in.at("counters").get_to(stats.counters);
   return stats;
 }

@@ -10,8 +10,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 5> motionNames = {"fixed", "rotating", "translating",
-                                                         "oscillating", "radial"};
 json pairOf(const Vec2& v) {
   return json::array({v.x(), v.y()});
 }

@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "adapters/worker/descriptor.hpp"
+#include "adapters/worker/stray_processes.hpp"
 
 namespace crossgrain {
 namespace {
@@ -30,9 +31,18 @@ namespace {
 
 struct ChildSide {
   int requests, replies, log, nothing, failure;
-  const char* folder;  ///< empty: where the parent is
+  const char* folder;    ///< empty: where the parent is
+  std::uint64_t memory;  ///< [bytes]; 0: no limit but the parent's
   pid_t parent;
 };
+
+/// A limit of the child's own, within what it may have.
+void limit(__rlimit_resource resource, rlim_t most) {
+  rlimit own{};
+  ::getrlimit(resource, &own);
+  own.rlim_cur = std::min(most, own.rlim_max);
+  ::setrlimit(resource, &own);
+}
 
 /// Between fork and exec only async-signal-safe calls are allowed: another thread of the parent may
 /// have held any lock at the moment of the fork.
@@ -45,10 +55,8 @@ struct ChildSide {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
-  rlimit file{};
-  ::getrlimit(RLIMIT_FSIZE, &file);
-  file.rlim_cur = std::min<rlim_t>(longestFile, file.rlim_max);
-  ::setrlimit(RLIMIT_FSIZE, &file);
+  limit(RLIMIT_FSIZE, longestFile);
+  if (side.memory > 0) limit(RLIMIT_AS, side.memory);
 
   // First out of the way of 0 … 4, then into place; dup2 clears close-on-exec.
   const int requests = ::fcntl(side.requests, F_DUPFD_CLOEXEC, 10);
@@ -76,7 +84,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 
 /// This process' environment and what the call adds, with another HOME where its own cannot be
 /// used.
-std::vector<std::string> environmentOf(const ProgramCall& call,
+std::vector<std::string> environmentOf(const ProgramCall& call, const std::string& mark,
                                        const std::filesystem::path& otherwise) {
   const char* home = std::getenv("HOME");
   std::error_code missing;
@@ -86,10 +94,11 @@ std::vector<std::string> environmentOf(const ProgramCall& call,
   for (char** each = environ; *each; ++each) {
     const std::string_view variable = *each;
     const std::string name(variable.substr(0, variable.find('=')));
-    if ((usable || name != "HOME") && !call.environment.contains(name))
+    if ((usable || name != "HOME") && name != workerMark && !call.environment.contains(name))
       variables.emplace_back(variable);
   }
   for (const auto& [name, value] : call.environment) variables.push_back(name + "=" + value);
+  variables.push_back(fmt::format("{}={}", workerMark, mark));
   if (!usable && !call.environment.contains("HOME"))
     variables.push_back("HOME=" + otherwise.string());
   return variables;
@@ -120,8 +129,9 @@ std::string describeExit(const siginfo_t& info) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const ProgramCall& call, const std::filesystem::path& log) {
-  const std::vector<std::string> variables = environmentOf(call, log.parent_path());
+ChildProcess::ChildProcess(const ProgramCall& call, const std::filesystem::path& log)
+    : mark_(newWorkerMark()) {
+  const std::vector<std::string> variables = environmentOf(call, mark_, log.parent_path());
   const std::vector<char*> arguments = pointers(call.argv), environment = pointers(variables);
 
   // A socket for the requests, because writing to it can be kept from raising SIGPIPE.
@@ -133,13 +143,14 @@ ChildProcess::ChildProcess(const ProgramCall& call, const std::filesystem::path&
   Descriptor replyOurs(reply[0]), replyTheirs(reply[1]);
   if (::pipe2(failure, O_CLOEXEC) != 0) systemFailure("pipe", errno);
   Descriptor failureOurs(failure[0]), failureTheirs(failure[1]);
-  Descriptor logFile(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  ::unlink(log.c_str());  // an earlier worker may have put a pipe or a link there
+  Descriptor logFile(::open(log.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (logFile.get() < 0) systemFailure(log.string(), errno);
   Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (nothing.get() < 0) systemFailure("/dev/null", errno);
 
   const ChildSide side{requestTheirs.get(), replyTheirs.get(),   logFile.get(), nothing.get(),
-                       failureTheirs.get(), call.folder.c_str(), ::getpid()};
+                       failureTheirs.get(), call.folder.c_str(), call.memory,   ::getpid()};
   pid_ = ::fork();
   if (pid_ < 0) systemFailure("fork", errno);
   if (pid_ == 0) becomeChild(side, arguments.data(), environment.data());
@@ -201,6 +212,16 @@ std::string ChildProcess::receiveLine(Clock::time_point deadline, std::size_t lo
   }
 }
 
+std::string ChildProcess::unasked() {
+  pollfd entry{out_, POLLIN, 0};
+  if (received_.empty() && ::poll(&entry, 1, 0) > 0) {
+    char buffer[256];
+    const ssize_t count = ::read(out_, buffer, sizeof buffer);
+    if (count > 0) received_.append(buffer, static_cast<std::size_t>(count));
+  }
+  return received_.substr(0, received_.find('\n'));
+}
+
 void ChildProcess::closeInput() {
   if (in_ >= 0) ::close(in_);
   in_ = -1;
@@ -231,6 +252,7 @@ void ChildProcess::reap() {
   siginfo_t info{};
   while (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {
   }
+  killMarkedProcesses(mark_);
   exitText_ = describeExit(info);
   pid_ = -1;
 }

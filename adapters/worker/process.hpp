@@ -37,7 +37,8 @@ inline constexpr std::uint64_t longestFile = std::uint64_t{4} << 30;
 /// descriptor 4. Its input is empty, its output and error go to a log file.
 ///
 /// It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and the whole
-/// group is killed when this object goes. It does not outlive its parent either: the kernel kills
+/// group is killed when this object goes, and so are children that have left it, as far as they are
+/// found (stray_processes.hpp). It does not outlive its parent either: the kernel kills
 /// it when the **thread** that made this object ends (Linux' PR_SET_PDEATHSIG), so that thread must
 /// live for as long as the child is wanted.
 ///
@@ -62,13 +63,17 @@ class ChildProcess {
   /// @throws ProcessTimeout, ProcessEnded, ProcessBabble
   std::string receiveLine(Clock::time_point deadline, std::size_t longest);
 
+  /// The line that the child has said, or begun, and nobody has received; empty: none.
+  std::string unasked();
+
   /// The child's descriptor 3 comes to its end.
   void closeInput();
 
   /// Whether the child ended by itself within that time.
   bool waitForExit(std::chrono::milliseconds patience);
 
-  /// Kills the child's whole process group and waits until the child has gone.
+  /// Kills the child's whole process group, what else it started, and waits until the child has
+  /// gone.
   void kill();
 
   /// How it ended: "exit status 3", "signal 11 (Segmentation fault)"; empty while it runs.
@@ -83,6 +88,7 @@ class ChildProcess {
   int in_ = -1;     ///< our end of the child's descriptor 3
   int out_ = -1;    ///< our end of the child's descriptor 4
   std::string received_;
+  std::string mark_;  ///< in the environment of all that it starts
   std::string exitText_;
 };
 

@@ -40,16 +40,18 @@ std::invoke_result_t<Read> WorkerEngine::understand(const std::string& what, Rea
     throw;
   } catch (const std::exception& error) {
     fail(fmt::format("its answer to {} is unusable: {}", what,
-                     asOneLine(error.what(), longestReason)));
+                     asOneLine(withoutPrefix(error.what()), longestReason)));
   }
 }
 
 WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
-                           double timeout)
+                           double timeout, ExchangeListener listener)
     : name_(std::move(name)),
       scratch_(std::filesystem::absolute(scratch)),
       log_(scratch_ / (name_ + ".log")),
-      timeout_(timeout) {
+      timeout_(timeout),
+      memory_(call.memory),
+      listener_(std::move(listener)) {
   try {
     std::filesystem::create_directories(scratch_);
     process_ = std::make_unique<ChildProcess>(call, log_);
@@ -88,7 +90,11 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
                   {"scene", toJson(scene, arrays)},
                   {"settings", toJson(settings)},
                   {"file", file.path().string()}};
-  request["arrays"] = arrays.write(file.path());
+  try {
+    request["arrays"] = arrays.write(file.path());
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
   const json reply = ask(request, "load");
   return understand("load", [&] {
     Realised realised = realisedFromJson(reply.at("realised"));
@@ -137,7 +143,10 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
   const json reply = exchange(request, what);
   return understand(what, [&]() -> json {
-    if (reply.at("ok").get<bool>()) return reply;
+    if (reply.at("ok").get<bool>()) {
+      requireAnswerTo(request.at("request"), reply);
+      return reply;
+    }
     const std::string reason = asOneLine(reply.at("what"), longestReason);
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
     throw EngineFailure(failure(reason));
@@ -145,9 +154,29 @@ json WorkerEngine::ask(const json& request, const std::string& what) const {
 }
 
 json WorkerEngine::exchange(const json& request, const std::string& what) const {
+  if (!listener_) return answerTo(request, what);
+  Exchange heard{request, {}, {}, {}, {}};
+  const auto file = request.value("file", std::string());
+  if (request.at("request") == "load") heard.sent = keptContent(file);
+  try {
+    heard.answer = answerTo(request, what);
+  } catch (const EngineFailure& failure) {
+    heard.failure = failure.what();
+    listener_(heard);
+    throw;
+  }
+  if (request.at("request") == "snapshot") heard.received = keptContent(file);
+  listener_(heard);
+  return heard.answer;
+}
+
+json WorkerEngine::answerTo(const json& request, const std::string& what) const {
   const auto deadline =
       ChildProcess::Clock::now() + std::chrono::duration_cast<ChildProcess::Clock::duration>(
                                        std::chrono::duration<double>(timeout_));
+  if (const std::string extra = process_->unasked(); !extra.empty())
+    fail(fmt::format("before {} it answered what nobody had asked: '{}'", what,
+                     asOneLine(extra, 60)));
   std::string line;
   try {
     process_->sendLine(request.dump(), deadline);
@@ -182,7 +211,9 @@ std::string WorkerEngine::howItEnded(const std::string& what) const {
   const std::string how =
       ended ? fmt::format("ended ({})", process_->exitText()) : "closed its descriptors";
   const std::string words = lastWords(log_);
-  return fmt::format("{} during {}{}{}", how, what, words.empty() ? "" : "; ", words);
+  const std::string limit =
+      memory_ > 0 ? fmt::format("; its memory is limited to {:g} bytes", double(memory_)) : "";
+  return fmt::format("{} during {}{}{}{}", how, what, words.empty() ? "" : "; ", words, limit);
 }
 
 void WorkerEngine::fail(const std::string& what) const {

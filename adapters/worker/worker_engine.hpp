@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "adapters/worker/exchange.hpp"
 #include "adapters/worker/process.hpp"
 
 namespace crossgrain {
@@ -27,9 +28,10 @@ class WorkerEngine final : public Engine {
   /// @param call     the program; its stamp becomes part of the version
   /// @param scratch  directory for array files and the log NAME.log; made if there is none
   /// @param timeout  longest wait for one answer [s]
+  /// @param listener is told every exchange, hello too
   /// @throws EngineFailure
   WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
-               double timeout);
+               double timeout, ExchangeListener listener = {});
   ~WorkerEngine() override;
 
   Capabilities capabilities() const override { return capabilities_; }
@@ -45,7 +47,9 @@ class WorkerEngine final : public Engine {
 
  private:
   nlohmann::json ask(const nlohmann::json& request, const std::string& what) const;
+  /// The answer, heard by the listener, too.
   nlohmann::json exchange(const nlohmann::json& request, const std::string& what) const;
+  nlohmann::json answerTo(const nlohmann::json& request, const std::string& what) const;
   /// Ends the worker and throws.
   [[noreturn]] void fail(const std::string& what) const;
   /// Runs `read` on a reply; what it throws becomes an EngineFailure that says which reply.
@@ -60,6 +64,8 @@ class WorkerEngine final : public Engine {
   std::filesystem::path scratch_;
   std::filesystem::path log_;
   double timeout_;
+  std::uint64_t memory_;  ///< that it is limited to [bytes]; 0: it is not
+  ExchangeListener listener_;
   mutable std::unique_ptr<ChildProcess> process_;
   mutable std::string firstFailure_;
   Capabilities capabilities_;

@@ -12,13 +12,25 @@ namespace crossgrain_worker {
 struct Vector {
   double x = 0.0, y = 0.0;
 };
-inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
-inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y}; }
-inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y}; }
-inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+inline Vector operator+(Vector a, Vector b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vector operator-(Vector a, Vector b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Vector operator*(double s, Vector a) {
+  return {s * a.x, s * a.y};
+}
+inline double dot(Vector a, Vector b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(Vector a, Vector b) {
+  return a.x * b.y - a.y * b.x;
+}
 /// z × a
-inline Vector turned(Vector a) { return {-a.y, a.x}; }
+inline Vector turned(Vector a) {
+  return {-a.y, a.x};
+}
 
 struct Plane {
   Vector point, normal;
@@ -36,7 +48,7 @@ class Body {
     for (std::size_t k = 0; k < radius.size(); ++k)
       offset_.push_back(Vector{diskPosition[2 * k], diskPosition[2 * k + 1]} - start_);
     for (const auto& plane : description.at("planes"))
-      planes_.push_back({vectorOf(plane.at("point")), vectorOf(plane.at("normal"))});
+      planesAtStart_.push_back({vectorOf(plane.at("point")), vectorOf(plane.at("normal"))});
     at(0.0);
   }
 
@@ -62,25 +74,25 @@ class Body {
       shift = speed * std::min(t, end);
       outward = t < end ? speed : 0.0;
     }
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto turn = [&](Vector a) { return Vector{c * a.x - s * a.y, s * a.x + c * a.y}; };
     position.clear();
     diskVelocity.clear();
+    planes.clear();
     for (const Vector& start : offset_) {
       const double apart = std::hypot(start.x, start.y);
       const double scale = apart > 0.0 ? 1.0 + shift / apart : 1.0;
-      const double c = scale * std::cos(angle), s = scale * std::sin(angle);
-      const Vector arm{c * start.x - s * start.y, s * start.x + c * start.y};
+      const Vector arm = scale * turn(start);
       const double stretch = apart > 0.0 ? outward / (scale * apart) : 0.0;
       position.push_back(centre + arm);
       diskVelocity.push_back(velocity + stretch * arm + spin * turned(arm));
     }
+    for (const Plane& plane : planesAtStart_)
+      planes.push_back({centre + turn(plane.point - start_), turn(plane.normal)});
   }
 
-  /// Planes only translate.
-  std::vector<Plane> planes() const {
-    std::vector<Plane> now = planes_;
-    for (Plane& plane : now) plane.point = plane.point + (centre - start_);
-    return now;
-  }
+  /// Velocity of the body's material at a place, as planes have it.
+  Vector velocityAt(Vector place) const { return velocity + spin * turned(place - centre); }
 
   bool moves() const { return kind_ != "fixed"; }
 
@@ -91,13 +103,15 @@ class Body {
   std::string kind_;
   Vector start_;
   std::vector<Vector> offset_;
-  std::vector<Plane> planes_;
+  std::vector<Plane> planesAtStart_;
 
  public:
   Vector centre, velocity;
   double angle = 0.0, spin = 0.0;
   std::vector<double> radius;                  ///< of the wall disks [m]
   std::vector<Vector> position, diskVelocity;  ///< of the wall disks
+  /// They turn and shift with the body; in radial motion they stay.
+  std::vector<Plane> planes;
 };
 
 }  // namespace crossgrain_worker

@@ -22,23 +22,19 @@ def shape_of(arrays):
 
 
 def check(scene, bodies, arrays):
-    """@raise Unsupported for what LAMMPS cannot do and no law option names"""
+    """@raise Unsupported for what LAMMPS cannot do and its capabilities do not say"""
     bottom = scene.get("bottom")
     if bottom and bottom["mu"] > 0:
         raise Unsupported("has no bottom_friction")
     if scene["rotation"] and shape_of(arrays) is None:
         raise Unsupported("has moments of inertia of disks (m a²/2) or spheres (2/5 m a²) only")
     for body in bodies:
-        if body.kind == "radial":
-            raise Unsupported(f"has no radial motion of walls, as of {body.name}")
         for plane in body.planes:
             if sorted(map(abs, plane["normal"])) != [0, 1]:
                 raise Unsupported(
                     f"has planes along x or y only; one of {body.name} has the normal "
                     f"{tuple(plane['normal'])}"
                 )
-        if body.planes and body.kind != "fixed":
-            raise Unsupported(f"has planes at rest only, not with {body.kind} motion as of {body.name}")
 
 
 class Scene:

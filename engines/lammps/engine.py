@@ -15,7 +15,7 @@ CHUNK = 1000  # steps between two looks at the number of contacts
 
 
 class Engine:
-    """What a descendant says otherwise: the members up to __init__, and `contacts_of_pairs`."""
+    """What a descendant says otherwise: the members before __init__, and `contacts_of_pairs`."""
 
     name = "lammps"
     Law, Scene, check = Law, Scene, staticmethod(check)
@@ -25,6 +25,12 @@ class Engine:
         "spring_reset": ["spring_only"],
         "velocity_arm": ["radius"],
         "plane_arm": ["radius"],
+    }
+
+    limits = {
+        "inertia": [0.5, 0.4],
+        "wall_motions": ["fixed", "rotating", "translating", "oscillating"],
+        "plane_motions": ["fixed"],
     }
 
     def __init__(self, lammps=None):
@@ -48,6 +54,7 @@ class Engine:
                 "integrator": ["position_verlet"],
                 **self.conventions,
             },
+            **self.limits,
             "precisions": ["double"],
             "instant_contacts": True,
             "accumulated_contacts": False,
@@ -176,7 +183,7 @@ class Engine:
         total = force[members].sum(axis=0)
         arm = position[members] - centre
         moment = (torque[members] + arm[:, 0] * force[members, 1] - arm[:, 1] * force[members, 0]).sum()
-        points = body.plane_points(now)
+        points, _ = body.plane_states(now)
         for k, point in zip(body.plane_numbers, points):
             on_plane = -on_planes[k][: self.disks]
             total = total + on_plane.sum(axis=0)

@@ -5,7 +5,6 @@ import ctypes
 import build
 import numpy as np
 from contacts import turned
-from crossgrain_worker import Unsupported
 from library import ARRAY, LOCAL, Lammps
 
 SHARED = "libliggghts.so.3"
@@ -33,15 +32,6 @@ class Liggghts(Lammps):
         pointer = self.library.lammps_extract_compute(self.handle, b"partners", 1, 1)
         partners = ctypes.cast(pointer, ctypes.POINTER(ctypes.c_double))
         return round(sum(partners[: self.atoms()])) // 2
-
-
-def check(scene, bodies, arrays):
-    """@raise Unsupported for what LIGGGHTS cannot do and no law option names"""
-    build.check(scene, bodies, arrays)
-    if scene["rotation"] and build.shape_of(arrays) != "disc":
-        raise Unsupported("has moments of inertia of disks (m a²/2) only")
-    if any(body.planes for body in bodies):
-        raise Unsupported("has no planes: its worker does not offer them")
 
 
 class Scene(build.Scene):

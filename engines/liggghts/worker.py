@@ -14,18 +14,20 @@ sys.dont_write_bytecode = True
 import crossgrain_worker
 from engine import Engine
 from liggghts_law import Law
-from liggghts_scene import Liggghts, Scene, check, read_contacts
+from liggghts_scene import Liggghts, Scene, read_contacts
 
 
 class LiggghtsEngine(Engine):
     name = "liggghts"
-    Law, Scene, check = Law, Scene, staticmethod(check)
+    Law, Scene = Law, Scene
     conventions = {
         "tangential": ["none", "spring", "spring_dashpot"],
         "dashpot": ["outside"],
         "spring_reset": ["total"],
         "velocity_arm": ["lever_arm"],
     }
+
+    limits = Engine.limits | {"inertia": [0.5], "plane_motions": []}
 
     def contacts_of_pairs(self, position):
         return read_contacts(self.lammps, self.made, position)

@@ -1,11 +1,8 @@
 // Prescribed motion of wall bodies: the closed forms of adapters/motion.hpp, for those that stay rigid.
 
-import {Unsupported} from './crossgrain_worker.mjs';
-
 /// A rigid body of wall disks and planes at any time. Vectors are [x, y].
 export class Body {
   constructor(description, diskPosition, diskRadius) {
-    if (description.motion.kind === 'radial') throw new Unsupported('has no walls whose disks move apart');
     this.motion = description.motion;
     this.start = description.centre;
     this.diskRadius = diskRadius;

@@ -18,6 +18,7 @@ import {Unsupported} from './crossgrain_worker.mjs';
 import {RigidLaw} from './rigid_law.mjs';
 
 const EFFECTS = ['normal_damping', 'friction', 'rotation', 'gravity', 'moving_walls'];
+const MOTIONS = ['fixed', 'rotating', 'translating', 'oscillating'];
 
 export class ImpulseEngine {
   /// @param about  {name, version, integrator, dt: its usual step [s], settings}
@@ -31,6 +32,8 @@ export class ImpulseEngine {
       version: this.about.version,
       effects: Object.fromEntries(EFFECTS.map((name) => [name, 'optional'])),
       law_options: {normal: ['rigid'], lever_arm: ['overlap_middle'], velocity_arm: ['lever_arm'], plane_arm: ['middle']},
+      wall_motions: MOTIONS,
+      plane_motions: MOTIONS,
       precisions: ['float'],
       instant_contacts: true,
       accumulated_contacts: true,

@@ -56,7 +56,20 @@ class Body:
             velocity + np.column_stack([stretch * x - spin * y, stretch * y + spin * x]),
         )
 
-    def plane_points(self, t):
-        """Points of the planes at time t; planes only translate."""
-        shift = self.state(t)[0] - self.centre
-        return np.array([plane["point"] for plane in self.planes]).reshape(-1, 2) + shift
+    def plane_states(self, t):
+        """Points and normals of the planes at time t. They turn and shift with the body; in radial
+        motion they stay."""
+        centre, _, angle, _ = self.state(t)
+        cos, sin = math.cos(angle), math.sin(angle)
+        turn = np.array([[cos, sin], [-sin, cos]])  # of vectors in rows
+        point, normal = (
+            np.array([plane[key] for plane in self.planes], float).reshape(-1, 2)
+            for key in ("point", "normal")
+        )
+        return centre + (point - self.centre) @ turn, normal @ turn
+
+    def velocity_at(self, t, place):
+        """Velocity of the body's material at places, (n, 2), as planes have it."""
+        centre, velocity, _, spin = self.state(t)
+        arm = place - centre
+        return velocity + spin * np.column_stack([-arm[:, 1], arm[:, 0]])

@@ -24,7 +24,7 @@ WHITE = (1, 1, 1)  # without a colour YADE reseeds Python's random numbers for o
 
 
 def check(scene, bodies):
-    """@raise Unsupported for what YADE cannot do and no law option names"""
+    """@raise Unsupported for what YADE cannot do and its capabilities do not say"""
     bottom = scene.get("bottom")
     if bottom and bottom["mu"] > 0:
         raise Unsupported("has no bottom_friction")
@@ -35,8 +35,6 @@ def check(scene, bodies):
                     f"has planes along x or y only; one of {body.name} has the normal "
                     f"{tuple(plane['normal'])}"
                 )
-        if body.planes and body.kind in ("rotating", "radial"):
-            raise Unsupported(f"has no planes with {body.kind} motion, as of {body.name}")
 
 
 def place_disks(arrays, rotation):

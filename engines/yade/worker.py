@@ -62,6 +62,7 @@ class Yade:
                 "damping_velocity": ["lagged"],
                 "integrator": ["position_verlet"],
             },
+            "plane_motions": ["fixed", "translating", "oscillating"],
             "precisions": ["double"],
             "instant_contacts": True,
             "accumulated_contacts": False,
@@ -254,7 +255,7 @@ class Yade:
             then = time_ - self.dt
             ids = body.disk_ids + body.plane_ids
             force, torque = forces[0][ids], forces[1][ids]
-            points = np.concatenate([body.disk_states(then)[0], body.plane_points(then)])
+            points = np.concatenate([body.disk_states(then)[0], body.plane_states(then)[0]])
             arm = points - body.state(then)[0]
             snapshot["force"] = force.sum(axis=0).tolist()
             snapshot["torque"] = float(

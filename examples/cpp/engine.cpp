@@ -3,8 +3,9 @@
 //     g++ -O2 -std=c++17 -I../../engines/cpp engine.cpp -o engine
 //     crossgrain conformance examples/cpp/engine.toml
 //
-// Linear springs and dashpots, Coulomb friction with a tangential spring; semi-implicit Euler steps.
-// Every formula is that of adapters/worker/README.md; disks first, then wall disks, then planes.
+// Linear springs and dashpots, Coulomb friction with a tangential spring; semi-implicit Euler
+// steps. Every formula is that of adapters/worker/README.md; disks first, then wall disks, then
+// planes.
 
 #include <chrono>
 #include <ctime>
@@ -28,8 +29,8 @@ class Engine {
  public:
   static Json capabilities() {
     Json effects;  // what is missing is "never"
-    for (const char* name : {"normal_damping", "friction", "tangential_spring", "tangential_damping",
-                             "rotation", "gravity", "moving_walls"})
+    for (const char* name : {"normal_damping", "friction", "tangential_spring",
+                             "tangential_damping", "rotation", "gravity", "moving_walls"})
       effects[name] = "optional";
     const auto only = [](const char* value) { return Json::array({value}); };
     return {{"version", "1"},
@@ -102,11 +103,10 @@ class Engine {
                                    {"gravity", gravity_.x != 0.0 || gravity_.y != 0.0},
                                    {"moving_walls", moving}})
       if (on) effects.push_back(name);
-    return {{"engine", "plain"},       {"version", "1"},
-            {"dt", dt_},               {"precision", "double"},
-            {"effects", effects},      {"integrator", "semi_implicit_euler"},
-            {"velocity_lag", dt_ / 2}, {"pairs", Json::array()},
-            {"deviations", Json::array()}};
+    return {
+        {"engine", "plain"},       {"version", "1"},         {"dt", dt_},
+        {"precision", "double"},   {"effects", effects},     {"integrator", "semi_implicit_euler"},
+        {"velocity_lag", dt_ / 2}, {"pairs", Json::array()}, {"deviations", Json::array()}};
   }
 
   double advance(double t) {
@@ -121,8 +121,9 @@ class Engine {
 
   Json snapshot(const std::string& contacts, ArrayFile& arrays) {
     std::vector<double> position = flat(position_), velocity = flat(velocity_);
-    arrays.add("wall_position",
-               std::vector<double>(position.begin() + 2 * static_cast<long>(disks_), position.end()));
+    arrays.add(
+        "wall_position",
+        std::vector<double>(position.begin() + 2 * static_cast<long>(disks_), position.end()));
     position.resize(2 * disks_);
     velocity.resize(2 * disks_);
     arrays.add("position", position);
@@ -141,8 +142,11 @@ class Engine {
                         {"force", {onBody_[b].x, onBody_[b].y}},
                         {"torque", torqueOnBody_[b]}});
     }
-    return {{"position_time", now()},   {"velocity_time", now()}, {"contact_time", now()},
-            {"contact_interval", 0.0}, {"bodies", bodies}};
+    return {{"position_time", now()},
+            {"velocity_time", now()},
+            {"contact_time", now()},
+            {"contact_interval", 0.0},
+            {"bodies", bodies}};
   }
 
   Json stats() const {
@@ -202,8 +206,8 @@ class Engine {
         if (distance >= reach) continue;
         const Vector n = (1.0 / distance) * apart;
         const double rim = radius_[i] * spin_[i] + radius_[j] * spin_[j];
-        const Contact c = contact(i, j, n, reach - distance, velocity_[i] - velocity_[j], rim,
-                                  remembered(i, j));
+        const Contact c =
+            contact(i, j, n, reach - distance, velocity_[i] - velocity_[j], rim, remembered(i, j));
         if (j < disks_) {
           force_[j] = force_[j] - forceOf(c);
           torque_[j] -= radius_[j] * c.ft;
@@ -213,25 +217,31 @@ class Engine {
       }
       std::size_t plane = radius_.size();
       for (std::size_t b = 0; b < bodies_.size(); ++b)
-        for (const Plane& p : bodies_[b].planes()) {
+        for (const Plane& p : bodies_[b].planes) {
           const double height = dot(position_[i] - p.point, p.normal);
           const std::size_t id = plane++;
           if (height >= radius_[i]) continue;
+          const Vector foot = position_[i] - height * p.normal;
           const Contact c = contact(i, id, p.normal, radius_[i] - height,
-                                    velocity_[i] - bodies_[b].velocity, radius_[i] * spin_[i],
-                                    remembered(i, id));
-          push(b, position_[i] - height * p.normal, c, 0.0);
+                                    velocity_[i] - bodies_[b].velocityAt(foot),
+                                    radius_[i] * spin_[i], remembered(i, id));
+          push(b, foot, c, 0.0);
         }
     }
     evaluations_ += contacts_.size();
   }
 
   /// The law for one pair; keeps its spring, lists it, and adds its force to disk i.
-  Contact contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative, double rim,
-                  double spring) {
+  Contact contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
+                  double rim, double spring) {
     const double slip = dot(relative, turned(n)) - rim;
-    Contact c{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), n, overlap,
-              kn_ * overlap - gn_ * dot(relative, n), 0.0, false};
+    Contact c{static_cast<std::int32_t>(i),
+              static_cast<std::int32_t>(j),
+              n,
+              overlap,
+              kn_ * overlap - gn_ * dot(relative, n),
+              0.0,
+              false};
     if (friction_) {
       const double bound = mu_ * std::max(c.fn, 0.0), trial = -kt_ * spring - gt_ * slip;
       c.sliding = std::abs(trial) > bound;

@@ -101,14 +101,14 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
 }
 
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
-                                    double timeout) {
+                                    double timeout, ExchangeListener listener) {
   if (entry.missing)
     if (const std::string why = entry.missing(); !why.empty())
       throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
   const ProgramCall call = entry.command
                                ? entry.command()
                                : std::vector<std::string>{ownProgram(), "__serve", entry.name};
-  return std::make_unique<WorkerEngine>(entry.name, call, scratch, timeout);
+  return std::make_unique<WorkerEngine>(entry.name, call, scratch, timeout, std::move(listener));
 }
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {

@@ -7,6 +7,7 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
+#include "adapters/worker/exchange.hpp"
 #include "cases/case.hpp"
 
 namespace crossgrain::inline runs {
@@ -36,8 +37,9 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
 std::string ownProgram();
 
 /// Starts the engine's worker. @throws EngineFailure, BadInput if it is not installed
+/// @param listener  is told every request and answer
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
-                                    double timeout);
+                                    double timeout, ExchangeListener listener = {});
 
 /// The settings of one engine in a case, its time step by the rule of engine_step.hpp. @throws
 /// BadInput for one that the engine does not have, or of another type or choice, naming the nearest

@@ -43,6 +43,16 @@ def settings(**changes):
     ]
 
 
+def recorded_exchanges(recording):
+    """Request, answer and the array file of the answer of each exchange of a recording (runs/README.md)."""
+    with open(recording, "rb") as file:
+        next(file)
+        while line := file.readline():
+            exchange = json.loads(line)
+            file.seek(exchange["sent"], 1)
+            yield exchange["request"], exchange["answer"], file.read(exchange["received"])
+
+
 def environment(changes):
     """This process' environment with changes; None takes a variable away."""
     merged = os.environ | (changes or {})

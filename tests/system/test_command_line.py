@@ -67,7 +67,7 @@ class Help(SystemTest):
                     words = shlex.split(example, comments=True)[1:]
                     if "--out" not in words:
                         done = self.run_program(*words)
-                        if command in ("report", "diff"):  # of what another command left
+                        if command in ("report", "diff", "replay"):  # of what another command left
                             self.assert_one_line(done, BAD_INPUT, words[1])
                         else:
                             self.assert_status(done, HELD)

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "adapters/grain.hpp"
@@ -80,6 +82,62 @@ TEST(Suitability, AnEffectThatAnEngineCannotDoWithoutIsAMismatchToo) {
   const auto found = mismatches(can, oneDisk());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].reason, "cannot do without gravity");
+}
+
+TEST(Suitability, ASceneBeyondTheLimitsIsRefusedWhateverMayDiffer) {
+  Capabilities can;
+  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+  Scene scene = oneDisk();
+  scene.bodies.push_back({"wheel", {0, 0}, {{1.0, 0.0}}, {0.1}, {}, {}});
+  scene.bodies.push_back({"floor", {0, 0}, {}, {}, {Plane{}}, {}});
+  scene.bodies[1].motion.kind = Motion::Kind::rotating;
+  const auto refusal = [&](const SceneLimits& limits) -> std::string {
+    can.limits = limits;
+    try {
+      adaptScene(can, scene, {"gravity", "friction", "moving_walls"});
+    } catch (const UnsupportedScene& refused) {
+      return refused.what();
+    }
+    return "";
+  };
+  const double q = scene.disks.inertia[0] /
+                   (scene.disks.mass[0] * scene.disks.radius[0] * scene.disks.radius[0]);
+  using enum Motion::Kind;
+  // Limits with one of their members set.
+  const auto only = [](auto member, auto value) {
+    SceneLimits limits;
+    limits.*member = std::move(value);
+    return limits;
+  };
+  const auto inertia = &SceneLimits::inertia;
+  const auto walls = &SceneLimits::wallMotions, planes = &SceneLimits::planeMotions;
+  const SceneLimits perBody = only(&SceneLimits::restitutionPerBody, true);
+  EXPECT_EQ(refusal({}), "");
+  EXPECT_EQ(refusal(only(inertia, std::vector{q})), "");
+  EXPECT_EQ(
+      refusal(only(inertia, std::vector{0.1 * q, 2.0 * q})),
+      fmt::format("has moments of inertia of {} | {} m a², not {:.6g} m a²", 0.1 * q, 2.0 * q, q));
+  EXPECT_EQ(refusal(only(walls, std::vector{fixed})), "");
+  EXPECT_EQ(refusal(only(walls, std::vector{translating, radial})),
+            "has walls that are translating | radial, not fixed as wheel is");
+  EXPECT_EQ(refusal(only(planes, std::vector{fixed, translating})),
+            "has planes that are fixed | translating, not rotating as those of floor are");
+  EXPECT_EQ(refusal(only(planes, std::vector<Motion::Kind>{})), "has no planes, as floor has");
+  EXPECT_EQ(refusal(perBody), "");  // the law is its own
+  can.lawOptions["normal"] = {"rigid"};
+  scene.law.gn = 0.1;
+  const std::string several =
+      "has one restitution for each body, and the soft law gives this scene's pairs several";
+  const auto soft = [&] { return beyondLimits(perBody, scene, true); };
+  EXPECT_EQ(soft(), std::vector{several});
+  scene.bodies.clear();
+  EXPECT_TRUE(soft().empty());
+  // What a case lets an engine leave out is no longer there to be refused.
+  can.lawOptions.clear();
+  can.effects[Effect::movingWalls] = Support::never;
+  scene.bodies.push_back({"floor", {0, 0}, {}, {}, {Plane{}}, {}});
+  scene.bodies[0].motion.kind = Motion::Kind::rotating;
+  EXPECT_EQ(refusal(only(planes, std::vector{fixed})), "");
 }
 
 TEST(Suitability, BothEffectsOfThePlateCanBeDropped) {

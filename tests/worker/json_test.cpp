@@ -126,6 +126,10 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   for (const auto& [effect, support] : can.effects) told[effect] = support;
   EXPECT_EQ(back.effects, told);
   EXPECT_EQ(back.lawOptions, can.lawOptions);
+  EXPECT_EQ(back.limits.inertia, can.limits.inertia);
+  EXPECT_EQ(back.limits.wallMotions, can.limits.wallMotions);
+  EXPECT_EQ(back.limits.planeMotions, can.limits.planeMotions);
+  EXPECT_EQ(back.limits.restitutionPerBody, can.limits.restitutionPerBody);
   EXPECT_EQ(back.slidingFlags, true);
   EXPECT_EQ(back.warmHandover, false);
   EXPECT_EQ(back.energyLedger, true);

@@ -25,6 +25,7 @@ Capabilities ToyEngine::capabilities() const {
   can.energyLedger = true;
   can.settings.push_back({"threads", 1.0, "", "how many", {}});
   can.settings.push_back({"mode", std::string("fast"), "", "which", {"fast", "slow"}});
+  can.limits = {{{0.5, 0.1 + 0.2}}, {{Motion::Kind::radial}}, {}, true};
   if (mischief_ == "option") can.lawOptions["colour"] = {"red"};
   if (mischief_ == "value") can.lawOptions["tension"] = {"red"};
   if (mischief_ == "no value") can.lawOptions["tension"] = {};
@@ -75,6 +76,20 @@ double ToyEngine::advance(double t) {
   if (mischief_ == "disk" && ::ftruncate(1, off_t{5} << 30) != 0) std::abort();
   if (mischief_ == "print") std::puts("{\"ok\":false} printed, not said");
   if (mischief_ == "offspring" && ::fork() == 0) ::pause();
+  if (mischief_ == "daemon" && ::fork() == 0) {
+    ::setsid();
+    if (::fork() != 0) ::_exit(0);
+    ::pause();
+  }
+  if (mischief_ == "more") say("{\"ok\":true,\"time\":0.5}\n{\"ok\":true,\"time\":0.6}\n");
+  if (mischief_ == "order") say("{\"ok\":true,\"stats\":{}}\n");
+  if (mischief_ == "typo") say("{\"ok\":true,\"tmie\":0.5}\n");
+  if (mischief_ == "type") say("{\"ok\":true,\"time\":\"soon\"}\n");
+  if (mischief_ == "twice") say("{\"ok\":true,\"time\":0.5,\"time\":0.6}\n");
+  if (mischief_ == "memory") {
+    void* volatile const room = std::malloc(std::size_t{4} << 30);
+    if (!room) std::exit(4);
+  }
   steps_ = static_cast<std::uint64_t>(std::llround(t / scene_.dt));
   return static_cast<double>(steps_) * scene_.dt;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -170,6 +171,51 @@ TEST_F(Worker, HasBoundsOnWhatItWrites) {
             "contacts, more than 500 of 5 bodies");
 }
 
+TEST_F(Worker, AnswersWhatItIsAsked) {
+  const std::string advance = "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) ";
+  EXPECT_EQ(advanceFailure("order"),
+            advance + "is unusable: it has 'stats', which answers stats, and no 'time'");
+  EXPECT_EQ(advanceFailure("typo"), advance + "is unusable: it has no 'time' (it has: ok, tmie)");
+  EXPECT_EQ(advanceFailure("type"), advance + "is unusable: type must be number, but is string");
+  EXPECT_EQ(advanceFailure("twice"), advance + "has the key 'time' twice in one object");
+  const auto engine = start("more");
+  engine->load(test::toyScene(), {});
+  engine->advance(0.5);
+  EXPECT_EQ(failureOf([&] { engine->advance(0.6); }),
+            "toy, toy at t = 0.5 s: before advance(t = 0.6 s) it answered what nobody had asked: "
+            "'{\"ok\":true,\"time\":0.6}'");
+}
+
+TEST_F(Worker, HoldsNobodyWithWhatItPutsInTheScratchFolder) {
+  const auto engine = start("exit");
+  const auto victim = scratch_ / "victim";
+  std::ofstream(victim) << "mine";
+  ASSERT_EQ(::mkfifo((scratch_ / "toy-1.bin").c_str(), 0600), 0);
+  engine->load(test::toyScene(), {});
+  std::filesystem::create_symlink(victim, scratch_ / "toy-2.bin");
+  engine->load(test::toyScene(), {});
+  EXPECT_EQ(std::filesystem::file_size(victim), 4u);
+  const auto log = scratch_ / "toy.log";
+  std::filesystem::remove(log);
+  ASSERT_EQ(::mkfifo(log.c_str(), 0600), 0);
+  EXPECT_EQ(failureOf([&] { engine->advance(0.5); }),
+            "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s)");
+  EXPECT_EQ(failureOf([&] { start("")->load(test::toyScene(), {}); }), "no failure");
+}
+
+TEST_F(Worker, IsHeldToItsMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer's shadow takes all address space there is";
+#endif
+  ProgramCall call = toyCommand("memory");
+  call.memory = std::uint64_t{1} << 30;
+  WorkerEngine engine("toy", call, scratch_, 20.0);
+  engine.load(test::toyScene(), {});
+  EXPECT_EQ(failureOf([&] { engine.advance(0.5); }),
+            "toy, toy at t = 0 s: ended (exit status 4) during advance(t = 0.5 s); its memory is "
+            "limited to 1.07374e+09 bytes");
+}
+
 TEST_F(Worker, SaysAtOnceWhatCannotBe) {
   EXPECT_EQ(failureOf([&] { start("option"); }),
             "toy: its answer to hello is unusable: unknown law option 'colour' (there are: normal, "
@@ -212,15 +258,23 @@ TEST_F(Worker, LeavesNoChild) {
 
 TEST_F(Worker, LeavesNoGrandchild) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // orphans come to this process
-  {
-    const auto worker = start("offspring");
-    worker->load(test::toyScene(), {});
-    worker->advance(0.5);
+  for (const char* mischief : {"offspring", "daemon"}) {
+    SCOPED_TRACE(mischief);
+    {
+      const auto worker = start(mischief);
+      worker->load(test::toyScene(), {});
+      worker->advance(0.5);
+    }
+    // The daemon's parent, which ended by itself, is an orphan, too.
+    int killed = 0, status = 0;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (killed == 0 && std::chrono::steady_clock::now() < deadline)
+      if (::waitpid(-1, &status, WNOHANG) > 0)
+        killed += WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+      else
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(killed, 1);
   }
-  int status = 0;
-  ASSERT_GT(::waitpid(-1, &status, 0), 0);
-  ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(WTERMSIG(status), SIGKILL);
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 

@@ -1,0 +1,70 @@
+#include "adapters/scene_limits.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/effects.hpp"
+
+namespace crossgrain {
+namespace {
+
+bool has(const std::vector<Motion::Kind>& kinds, Motion::Kind kind) {
+  return std::ranges::find(kinds, kind) != kinds.end();
+}
+
+std::string inWords(const std::vector<Motion::Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Motion::Kind kind : kinds) names.push_back(toString(kind));
+  return fmt::format("{}", fmt::join(names, " | "));
+}
+
+/// The first of a scene that is none of them.
+std::optional<double> otherInertia(const std::vector<double>& allowed, const Disks& disks) {
+  constexpr double roundings = 1e-9;  // of J = q m a² and back
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const double q = disks.inertia[k] / (disks.mass[k] * disks.radius[k] * disks.radius[k]);
+    if (std::ranges::none_of(allowed, [&](double a) { return std::abs(q - a) <= roundings * a; }))
+      return q;
+  }
+  return std::nullopt;
+}
+
+/// Whether contacts of this scene have several reduced masses.
+bool pairsDiffer(const Scene& scene) {
+  const auto [least, most] = std::ranges::minmax(scene.disks.mass);
+  return least != most || scene.wallDiskCount() + scene.planeCount() > 0;
+}
+
+}  // namespace
+
+std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& scene,
+                                      bool softLawStoodFor) {
+  std::vector<std::string> reasons;
+  if (limits.inertia && effectsOf(scene).contains(Effect::rotation))
+    if (const auto q = otherInertia(*limits.inertia, scene.disks))
+      reasons.push_back(fmt::format("has moments of inertia of {} m a², not {:.6g} m a²",
+                                    fmt::join(*limits.inertia, " | "), *q));
+  for (const WallBody& body : scene.bodies) {
+    const std::string kind = toString(body.motion.kind);
+    if (limits.wallMotions && !body.diskRadius.empty() &&
+        !has(*limits.wallMotions, body.motion.kind))
+      reasons.push_back(fmt::format("has walls that are {}, not {} as {} is",
+                                    inWords(*limits.wallMotions), kind, body.name));
+    if (!limits.planeMotions || body.planes.empty()) continue;
+    if (limits.planeMotions->empty())
+      reasons.push_back(fmt::format("has no planes, as {} has", body.name));
+    else if (!has(*limits.planeMotions, body.motion.kind))
+      reasons.push_back(fmt::format("has planes that are {}, not {} as those of {} are",
+                                    inWords(*limits.planeMotions), kind, body.name));
+  }
+  if (limits.restitutionPerBody && softLawStoodFor && scene.law.gn > 0.0 &&
+      !scene.disks.mass.empty() && pairsDiffer(scene))
+    reasons.emplace_back(
+        "has one restitution for each body, and the soft law gives this scene's pairs several");
+  return reasons;
+}
+
+}  // namespace crossgrain

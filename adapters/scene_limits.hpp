@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/scene.hpp"
+
+namespace crossgrain {
+
+/// Which scenes an engine can hold, beside its effects and its law: said before any is loaded, so
+/// that one it cannot hold is refused before anything starts. What is absent is not limited, or the
+/// engine refuses it itself.
+struct SceneLimits {
+  std::optional<std::vector<double>> inertia;             ///< q of J = q m a² that disks may have
+  std::optional<std::vector<Motion::Kind>> wallMotions;   ///< of bodies with wall disks
+  std::optional<std::vector<Motion::Kind>> planeMotions;  ///< of those with planes; empty: none
+  /// Of rigid contacts: each body has one restitution, so that a soft law, whose restitution
+  /// depends on the masses of the pair, cannot be stood for where pairs differ.
+  bool restitutionPerBody = false;
+};
+
+/// What in a scene is beyond them, one clause each. Empty: nothing.
+/// @param softLawStoodFor  the engine has rigid contacts in place of the scene's law
+std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& scene,
+                                      bool softLawStoodFor);
+
+}  // namespace crossgrain
