@@ -24,6 +24,7 @@
 #include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/figures.hpp"
+#include "reports/thesis/overview.hpp"
 #include "reports/thesis/reading_changes.hpp"
 #include "reports/thesis/regime_map.hpp"
 #include "reports/thesis/report.hpp"
@@ -72,7 +73,8 @@ const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
                                            {"distributions.csv", distributionsCsv}},
                                           compareFigures,
                                           noPictures,
-                                          averagePage};
+                                          averagePage,
+                                          averageOverview};
 
 const Kind<ConformanceResults> conformanceKind = {
     {{"junit.xml", conformanceJunit}}, conformanceFigures, noPictures, conformancePage};
@@ -83,8 +85,11 @@ const Kind<EffectsResults> effectsKind = {
 const Kind<LockstepResults> lockstepKind = {
     {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage, lockstepOverview};
 
-const Kind<RevResults> revKind = {
-    {{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}}, revFigures, noPictures, revPage};
+const Kind<RevResults> revKind = {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
+                                  revFigures,
+                                  noPictures,
+                                  revPage,
+                                  revOverview};
 
 const Kind<CollideResults> collideKind = {
     {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
@@ -109,7 +114,8 @@ const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
                                          {"readings.csv", readingsCsv}},
                                         thesisFigures,
                                         noPictures,
-                                        thesisPage};
+                                        thesisPage,
+                                        thesisOverview};
 
 const Kind<CompareResults>& kindOf(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageKind : compareKind;

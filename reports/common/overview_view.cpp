@@ -25,11 +25,16 @@ Json cellView(const Overview& overview, const OverviewCell& cell, const std::str
           {"anchor", cell.anchor},  {"state", meaningOf(overview, cell.state)}};
 }
 
+bool isWrapped(const Overview& overview) {
+  return overview.columns.size() > mostColumns;
+}
+
 /// What the marks stand for, of those that occur.
 Json legendOf(const Overview& overview) {
   std::set<CellState> seen;
   for (const OverviewRow& row : overview.rows)
     for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
+  if (isWrapped(overview)) seen.erase(CellState::notApplicable);  // such cells are not there
   Json legend = Json::array();
   for (const CellState state : seen) {
     const CellLook look = lookOf(state);
@@ -65,11 +70,9 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   Json conclusion = Json::array();
   for (const std::string& sentence : overview.conclusion)
     conclusion.push_back(symbolsHtml(sentence));
-  view["overview"] = {{"rowsAre", overview.rowsAre},
-                      {"columns", std::move(columns)},
-                      {"rows", std::move(rows)},
-                      {"legend", legendOf(overview)},
-                      {"conclusion", std::move(conclusion)}};
+  view["overview"] = {{"many", isWrapped(overview)},   {"rowsAre", overview.rowsAre},
+                      {"columns", std::move(columns)}, {"rows", std::move(rows)},
+                      {"legend", legendOf(overview)},  {"conclusion", std::move(conclusion)}};
 }
 
 }  // namespace crossgrain::reports
