@@ -134,7 +134,9 @@ int ownerOf(const Curve& curve, const std::vector<LegendEntry>& legend) {
   if (!curve.name.empty() && curve.style.pointType == 0) return -1;
   const int styled = only([&](const LegendEntry& entry) { return entry.style == curve.style; });
   if (styled >= 0) return styled;
-  return only([&](const LegendEntry& entry) { return entry.style.colour == curve.style.colour; });
+  const auto coloured = std::ranges::find(
+      legend, curve.style.colour, [](const LegendEntry& entry) { return entry.style.colour; });
+  return coloured == legend.end() ? -1 : static_cast<int>(coloured - legend.begin());
 }
 
 int keyRoom(const Figure& figure, const std::string& axes, const std::vector<LegendEntry>& legend) {
@@ -146,7 +148,7 @@ int keyRoom(const Figure& figure, const std::string& axes, const std::vector<Leg
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves)
       if (!curve.name.empty() && isSeen(panel, curve) && ownerOf(curve, legend) < 0) return 0;
-  constexpr double tick = 12.0, title = 32.0;  // letters above the axes [px]
+  constexpr double tick = 12.0, title = 40.0;  // letters above the axes [px]
   const double upper = static_cast<double>(heightOf(figure)) - all.front()[3];
   return std::max(0, static_cast<int>(upper - (titled ? title : tick)));
 }

@@ -20,8 +20,8 @@ struct LegendEntry {
 /// figures.
 std::vector<LegendEntry> sharedLegend(const std::vector<Figure>& figures);
 
-/// Whose a curve is: the entry of its name, else of its style, else the only one of its colour;
-/// −1: nobody's.
+/// Whose a curve is: the entry of its name, else of its style, else the first of its colour; −1:
+/// nobody's.
 int ownerOf(const Curve& curve, const std::vector<LegendEntry>& legend);
 
 /// How much of the figure's upper end its key takes, where the page's legend says the same; else 0.

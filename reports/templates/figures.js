@@ -73,11 +73,11 @@
     name.textContent = curve.name || (curve.owner >= 0 ? names[curve.owner] : '');
     if (name.textContent) tip.append(name);
     if (point[3]) line('', point[3]);
-    if (panel.columns.length) line('', panel.columns[Math.round(point[0])] || '');
-    else line(panel.xLabel, inWords(point[0]));
+    const barred = typeof point[2] === 'number' ? ' ± ' + inWords(point[2]) : '';  // across, where rows are
     if (panel.rows.length) line('', panel.rows[Math.round(point[1])] || '');
-    else line(panel.yLabel, inWords(point[1]));
-    if (typeof point[2] === 'number') tip.lastChild.append(' ± ' + inWords(point[2]));
+    if (panel.columns.length) line('', panel.columns[Math.round(point[0])] || '');
+    else line(panel.xLabel, inWords(point[0]) + (panel.rows.length ? barred : ''));
+    if (!panel.rows.length) line(panel.yLabel, inWords(point[1]) + barred);
     tip.hidden = false;
     const room = document.documentElement.clientWidth - tip.offsetWidth - 8;
     tip.style.left = Math.max(4, Math.min(event.clientX + 14, room)) + 'px';

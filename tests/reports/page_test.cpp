@@ -3,9 +3,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "reports/collide/report.hpp"
 #include "reports/collide/table.hpp"
+#include "reports/common/figure_data.hpp"
 #include "reports/common/svg.hpp"
 #include "reports/couette/overview.hpp"
+#include "reports/couette/report.hpp"
 #include "reports/report.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
@@ -66,6 +69,37 @@ TEST(Pages, AreSelfContainedAndWellFilled) {
     for (const char* notANumber : {"nan", "NaN", "-inf", "null"})
       EXPECT_FALSE(has(page, std::string(">") + notANumber)) << notANumber;
     EXPECT_TRUE(has(page, "</html>"));
+  }
+}
+
+/// How many parts gnuplot named in a drawing.
+std::size_t partsOf(const std::string& svg) {
+  std::size_t parts = 0;
+  for (std::size_t at = 0; (at = svg.find("id=\"gnuplot_plot_", at)) != std::string::npos; ++at)
+    ++parts;
+  return parts;
+}
+
+TEST(FigureData, NamesWhatIsInTheDrawings) {
+  for (const Written* written : {&compared(), &collided()}) {
+    const fs::path plots = written->folder.path() / "plots";
+    const auto figures = written == &compared()
+                             ? reports::compareFigures(sample::compareResults(4, 300))
+                             : reports::collideFigures(sample::collideResults());
+    for (const reports::Figure& figure : figures) {
+      const std::string svg = readFile(plots / (figure.name + ".svg")).value();
+      const auto data =
+          reports::figureData(figure, readFile(plots / (figure.name + ".axes")).value(), {});
+      ASSERT_FALSE(data.is_null()) << figure.name;
+      std::size_t parts = 0;
+      for (const json& panel : data["panels"])
+        for (const json& curve : panel["curves"])
+          for (const json& part : curve["parts"]) {
+            ++parts;
+            EXPECT_TRUE(has(svg, "id=\"" + part.get<std::string>() + "\"")) << figure.name << part;
+          }
+      EXPECT_EQ(parts, partsOf(svg)) << figure.name;
+    }
   }
 }
 
@@ -407,6 +441,66 @@ TEST(RevPage, SaysWhatItIs) {
   EXPECT_TRUE(has(page, "Nothing was run and nothing compared but ways of averaging"));
   // Under "near d" of the first method, and dashes where no width was there to meet at.
   EXPECT_TRUE(has(page, "<td class=\"n\">0.95 (1 %)</td><td class=\"n\">–</td>"));
+}
+
+TEST(Svg, LosesItsTop) {
+  const std::string svg =
+      "<svg \n width=\"560\" height=\"380\"\n viewBox=\"0 0 560 380\"\n><g/></svg>";
+  EXPECT_EQ(reports::withoutTop(svg, 30),
+            "<svg \n width=\"560\" height=\"350\"\n viewBox=\"0 30 560 350\"\n><g/></svg>");
+  EXPECT_EQ(reports::withoutTop(svg, 0), svg);
+}
+
+/// Two engines in two panels, the second with an unnamed companion of its colour.
+std::vector<reports::Figure> twoPanels() {
+  using namespace reports;
+  const LineStyle black{"#000000", 7, false}, red{"#d55e00", 5, false}, open{"#d55e00", 4, false};
+  Panel panel;
+  panel.curves = {{"ours", black, Draw::linesAndPoints, {{0.0, 1.0, {}}}},
+                  {"theirs", red, Draw::linesAndPoints, {{0.0, 2.0, 0.5}}},
+                  {"", open, Draw::points, {{0.5, 1.0, {}}}},
+                  {"slope −2", {"#888888", 0, true}, Draw::lines, {{0.0, 1.0, {}}}}};
+  Figure figure;
+  figure.name = "one";
+  figure.panels = {panel};
+  Figure other = figure;
+  other.name = "two";
+  return {figure, other};
+}
+
+TEST(FigureData, FindsWhoseCurvesAre) {
+  using namespace reports;
+  const auto figures = twoPanels();
+  const auto legend = sharedLegend(figures);
+  ASSERT_EQ(legend.size(), 2u);  // a guide is nobody's
+  const auto& curves = figures[0].panels[0].curves;
+  EXPECT_EQ(ownerOf(curves[0], legend), 0);
+  EXPECT_EQ(ownerOf(curves[1], legend), 1);
+  EXPECT_EQ(ownerOf(curves[2], legend), 1);
+  EXPECT_EQ(ownerOf(curves[3], legend), -1);
+  EXPECT_TRUE(sharedLegend({figures[0]}).empty()) << "nothing is shared by one panel";
+
+  const json data = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", legend);
+  const json& panel = data["panels"][0];
+  EXPECT_EQ(panel["box"], json({80.0, 540.0, 80.0, 320.0}));
+  EXPECT_EQ(panel["curves"][1]["parts"], json({"gnuplot_plot_2", "gnuplot_plot_3"}));
+  EXPECT_EQ(panel["curves"][1]["points"], json::parse("[[0.0, 2.0, 0.5]]"));
+  EXPECT_TRUE(figureData(figures[0], "", legend).is_null());
+  EXPECT_TRUE(figureData(figures[0], "80 540 60\n", legend).is_null());
+}
+
+TEST(FigureData, LeavesOutAKeyThatThePageHas) {
+  using namespace reports;
+  auto figures = twoPanels();
+  const std::string axes = "80 540 60 300 0 1 0.5 2.5\n";
+  const auto legend = sharedLegend(figures);
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 0) << "the guide's name would be lost";
+  figures[0].panels[0].curves.pop_back();
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 380 - 300 - 12);
+  EXPECT_EQ(figureData(figures[0], axes, legend)["height"], 380 - 68);
+  EXPECT_EQ(keyRoom(figures[0], axes, {}), 0);
+  figures[0].panels[0].key = Key::none;
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 0);
 }
 
 TEST(Svg, IsShortenedWithoutTouchingWords) {
