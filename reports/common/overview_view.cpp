@@ -15,14 +15,23 @@ std::string meaningOf(const Overview& overview, CellState state) {
   return own == overview.states.end() ? std::string(lookOf(state).words) : own->words;
 }
 
+/// Where it leads: a part of this page, or another page.
+std::string linkOf(const std::string& anchor) {
+  return anchor.empty() || anchor.find('/') != std::string::npos ? anchor : "#" + anchor;
+}
+
 Json cellView(const Overview& overview, const OverviewCell& cell, const std::string& column) {
   const CellLook look = lookOf(cell.state);
   std::string title = meaningOf(overview, cell.state);
   if (!cell.words.empty()) title += ": " + cell.words;
-  return {{"asked", column},        {"mark", look.mark},
-          {"class", look.cssClass}, {"title", title},
-          {"shown", cell.shown},    {"words", symbolsHtml(cell.words)},
-          {"anchor", cell.anchor},  {"state", meaningOf(overview, cell.state)}};
+  return {{"asked", column},
+          {"mark", look.mark},
+          {"class", look.cssClass},
+          {"title", title},
+          {"shown", cell.shown},
+          {"words", symbolsHtml(cell.words)},
+          {"link", linkOf(cell.anchor)},
+          {"state", meaningOf(overview, cell.state)}};
 }
 
 bool isWrapped(const Overview& overview) {
@@ -51,8 +60,9 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   const std::vector<LineStyle> styles = engineStyles(engines);
   Json columns = Json::array(), rows = Json::array();
   for (const OverviewColumn& column : overview.columns)
-    columns.push_back(
-        {{"name", symbolsHtml(column.name)}, {"asks", column.asks}, {"anchor", column.anchor}});
+    columns.push_back({{"name", symbolsHtml(column.name)},
+                       {"asks", column.asks},
+                       {"link", linkOf(column.anchor)}});
   for (const OverviewRow& row : overview.rows) {
     Json cells = Json::array();
     for (std::size_t k = 0; k < row.cells.size(); ++k)

@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr std::size_t mostNames = 6;   ///< ids are short
+constexpr std::size_t mostIds = 6;     ///< ids are short
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
 CellState stateOf(ClaimVerdict verdict) {
@@ -131,7 +131,7 @@ std::string whatIsRefuted(const ThesisResults& results) {
     }
     all += ids.size();
     if (!ids.empty())
-      parts.push_back(fmt::format("{} {}", listedShortly(ids, mostNames), inWords(engine)));
+      parts.push_back(fmt::format("{} {}", listedShortly(ids, mostIds), inWords(engine)));
   }
   if (parts.empty()) return {};
   std::string words = "Refuted: ";
