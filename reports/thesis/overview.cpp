@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview_marks.hpp"
 #include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/thesis/report.hpp"
@@ -39,7 +40,7 @@ const ClaimFigure* decidingFigure(const ClaimRow& claim) {
   return decides == claim.figures.end() ? &claim.figures.front() : &*decides;
 }
 
-/// "C⁻¹ [4 … 7]; reproduced under wall spacing 7 mm"
+/// "C⁻¹ [4 … 7]; ✓ under wall spacing 7 mm"
 std::string wordsOf(const std::vector<const ClaimRow*>& readings, const ClaimFigure* figure) {
   std::string words;
   if (figure) {
@@ -50,8 +51,8 @@ std::string wordsOf(const std::vector<const ClaimRow*>& readings, const ClaimFig
     const ClaimRow& other = *readings[k];
     if (other.verdict == readings.front()->verdict || other.verdict == ClaimVerdict::undecided)
       continue;
-    words += fmt::format("{}{} under {}", words.empty() ? "" : "; ", nameOf(other.verdict),
-                         other.reading);
+    words += fmt::format("{}{} under {}", words.empty() ? "" : "; ",
+                         lookOf(stateOf(other.verdict)).mark, other.reading);
     break;  // the table has the others
   }
   return words;

@@ -368,28 +368,8 @@ TEST(CollidePage, EveryScoreIsThere) {
   EXPECT_TRUE(has(page, "<td class=\"n agree\">✓ 0.0024<small>0.0012</small></td>"));
 }
 
-/// What `average` writes: one run of one source, nothing run by crossgrain.
-CompareResults averaged() {
-  CompareResults results = sample::compareResults(1, 100);
-  results.head.kind = "average";
-  results.head.command = "crossgrain average cases/a.toml snapshots.csv";
-  results.engines.resize(1);
-  results.runs.resize(1);
-  CouetteRun& run = results.runs.front();
-  run.realised.reset();
-  run.stats.reset();
-  run.picture.reset();
-  results.agreement.clear();
-  results.ensemble.clear();
-  results.packings.clear();
-  results.averaging = {};
-  results.averaging.method = "slicing";
-  results.averaging.snapshots = 12;
-  return results;
-}
-
 TEST(AveragePage, SaysWhatItIs) {
-  const Written written(averaged());
+  const Written written(sample::averageResults());
   const std::string page = withoutImages(written.page);
   EXPECT_TRUE(has(page, "<p class=\"kicker\">crossgrain average</p>"));
   EXPECT_TRUE(
@@ -411,16 +391,7 @@ TEST(AveragePage, SaysWhatItIs) {
 }
 
 TEST(RevPage, SaysWhatItIs) {
-  RevResults results;
-  results.head.schema = schemaVersion;
-  results.head.kind = kindRev;
-  results.engine = "grain";
-  results.averaging.snapshots = 3;
-  results.averaging.lineWidth = 1.0;
-  for (const char* method : {"slicing", "centre"})
-    results.curves.push_back(
-        {method, "volume_fraction", "1", 0.12, {0.5, 1.0, 2.2}, {0.7, 0.8, 0.8}, {0.1, 0.1, 0.1}});
-  results.meetings = {{"centre", "volume_fraction", 1.0, 0.95, 0.01}};
+  RevResults results = sample::revResults();
   const std::string page = withoutImages(Written(results).page);
   EXPECT_TRUE(has(page, "crossgrain rev"));
   // 0.1/0.7 apart in the narrowest ring, the same from 1 d on.

@@ -117,7 +117,7 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstReading) {
   const OverviewCell& refuted = overview.rows[0].cells[1];
   EXPECT_EQ(refuted.state, CellState::bad);
   EXPECT_EQ(refuted.shown, "9.00\u00a0d");
-  EXPECT_EQ(refuted.words, "C⁻¹ [4 … 7]; reproduced under wall spacing 7 mm");
+  EXPECT_EQ(refuted.words, "C⁻¹ [4 … 7]; ✓ under wall spacing 7 mm");
   EXPECT_EQ(refuted.anchor, "C5");
   EXPECT_EQ(overview.rows[0].cells[2].state, CellState::undecided);
   EXPECT_EQ(overview.rows[1].name, "no engine");

@@ -175,6 +175,7 @@ class Pages(unittest.TestCase):
             path.parent.name: path.read_text(encoding="utf-8")
             for path in sorted(pathlib.Path(cls.folder.name).glob("*/report.html"))
         }
+        cls.reports["site"] = (pathlib.Path(cls.folder.name) / "site/index.html").read_text(encoding="utf-8")
         cls.light = looked_at(cls.reports, dark=False)
 
     def each(self, found, check):
@@ -187,7 +188,7 @@ class Pages(unittest.TestCase):
             sorted((one["name"], one["width"]) for one in self.light),
             sorted((name, width) for name in self.reports for width in WIDTHS),
         )
-        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep"):
+        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "thesis", "average", "rev"):
             self.assertIn(command, self.reports)
 
     def test_nothing_is_cut_at_the_side(self):
@@ -215,7 +216,7 @@ class Pages(unittest.TestCase):
         self.each(self.light, check)
 
     def test_words_stand_out_light_and_dark(self):
-        few = {name: self.reports[name] for name in ("compare", "cost", "stability")}
+        few = {name: self.reports[name] for name in ("compare", "cost", "stability", "thesis", "site")}
         dark = looked_at(few, dark=True)
         self.assertNotEqual(dark[0]["paper"], self.light[0]["paper"], "the browser was asked for dark")
         self.each(self.light + dark, lambda one: self.assertEqual(one["faint"], []))
