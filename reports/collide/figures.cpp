@@ -180,10 +180,12 @@ void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
 std::vector<Figure> collideFigures(const CollideResults& results) {
   const std::vector<LineStyle> order = engineStyles(results.engines);
   Styles styles;
-  for (std::size_t k = 0; k < order.size(); ++k) styles[results.engines[k].name] = order[k];
+  for (std::size_t k = 0; k < order.size(); ++k)
+    styles.emplace_back(results.engines[k].name, order[k]);
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      styles.try_emplace(curve.engine, engineStyle(styles.size()));
+      if (std::ranges::find(styles, curve.engine, &Styles::value_type::first) == styles.end())
+        styles.emplace_back(curve.engine, engineStyle(styles.size()));
 
   std::vector<Figure> figures;
   std::size_t index = 0;

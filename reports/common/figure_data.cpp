@@ -44,8 +44,8 @@ std::size_t heightOf(const Figure& figure) {
 }
 
 std::string partName(const Figure& figure, std::size_t element, std::size_t plot) {
-  const std::string name = fmt::format("gnuplot_plot_{}", element);
-  return isMultiplot(figure) ? name + static_cast<char>('a' + plot % 26) : name;
+  const std::string number = std::to_string(element);
+  return isMultiplot(figure) ? number + static_cast<char>('a' + plot % 26) : number;
 }
 
 Json pointsOf(const Panel& panel, const Curve& curve) {
@@ -134,6 +134,7 @@ int ownerOf(const Curve& curve, const std::vector<LegendEntry>& legend) {
   if (!curve.name.empty() && curve.style.pointType == 0) return -1;
   const int styled = only([&](const LegendEntry& entry) { return entry.style == curve.style; });
   if (styled >= 0) return styled;
+  if (curve.draw == Draw::blocks || curve.draw == Draw::tiles) return -1;  // colours of their own
   const auto coloured = std::ranges::find(
       legend, curve.style.colour, [](const LegendEntry& entry) { return entry.style.colour; });
   return coloured == legend.end() ? -1 : static_cast<int>(coloured - legend.begin());

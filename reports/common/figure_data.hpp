@@ -20,8 +20,8 @@ struct LegendEntry {
 /// figures.
 std::vector<LegendEntry> sharedLegend(const std::vector<Figure>& figures);
 
-/// Whose a curve is: the entry of its name, else of its style, else the first of its colour; −1:
-/// nobody's.
+/// Whose a curve is: the entry of its name, else of its style, else, of lines and points, the first
+/// of its colour; −1: nobody's.
 int ownerOf(const Curve& curve, const std::vector<LegendEntry>& legend);
 
 /// How much of the figure's upper end its key takes, where the page's legend says the same; else 0.
@@ -30,8 +30,8 @@ int keyRoom(const Figure& figure, const std::string& axes, const std::vector<Leg
 
 /// {top [px: left out, keyRoom()], height [px: of what is left], panels [{box [px: left, right,
 /// upper, lower], x, y [at left or lower, at right or upper], logX, logY, xLabel, yLabel (gnuplot's
-/// enhanced text), rows, columns [name], curves [{name, owner, parts [id in the SVG], points [[x,
-/// y, half bar | null, place]]}]}]}
+/// enhanced text), rows, columns [name], curves [{name, owner, parts ["2a" of gnuplot_plot_2a],
+/// points [[x, y, half bar | null, place]]}]}]}
 /// @param axes  what gnuplot wrote of them (writeFigure()); where it does not fit the figure, null
 Json figureData(const Figure& figure, const std::string& axes,
                 const std::vector<LegendEntry>& legend);

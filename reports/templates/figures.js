@@ -105,7 +105,7 @@
     for (const panel of figure.data.panels)
       for (const curve of panel.curves)
         for (const part of curve.parts) {
-          const element = figure.svg.querySelector('[id="' + part + '"]');
+          const element = figure.svg.querySelector('[id="gnuplot_plot_' + part + '"]');
           if (element) element.style.display = hidden.has(curve.owner) ? 'none' : '';
         }
   }

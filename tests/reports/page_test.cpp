@@ -96,7 +96,8 @@ TEST(FigureData, NamesWhatIsInTheDrawings) {
         for (const json& curve : panel["curves"])
           for (const json& part : curve["parts"]) {
             ++parts;
-            EXPECT_TRUE(has(svg, "id=\"" + part.get<std::string>() + "\"")) << figure.name << part;
+            EXPECT_TRUE(has(svg, "id=\"gnuplot_plot_" + part.get<std::string>() + "\""))
+                << figure.name << part;
           }
       EXPECT_EQ(parts, partsOf(svg)) << figure.name;
     }
@@ -454,7 +455,7 @@ TEST(FigureData, FindsWhoseCurvesAre) {
   const json data = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", legend);
   const json& panel = data["panels"][0];
   EXPECT_EQ(panel["box"], json({80.0, 540.0, 80.0, 320.0}));
-  EXPECT_EQ(panel["curves"][1]["parts"], json({"gnuplot_plot_2", "gnuplot_plot_3"}));
+  EXPECT_EQ(panel["curves"][1]["parts"], json({"2", "3"}));
   EXPECT_EQ(panel["curves"][1]["points"], json::parse("[[0.0, 2.0, 0.5]]"));
   EXPECT_TRUE(figureData(figures[0], "", legend).is_null());
   EXPECT_TRUE(figureData(figures[0], "80 540 60\n", legend).is_null());
