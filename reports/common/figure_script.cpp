@@ -251,8 +251,9 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
                       "GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX) }}\n");
 }
 
+/// Room for the axis' name, whose letters may reach below the line. [letters]
 double bottomMargin(const Figure& figure) {
-  return figure.rowNames > 0 ? 3.8 : 3.2;
+  return figure.rowNames > 0 ? 3.8 : 3.5;
 }
 
 constexpr const char* frame =
