@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <optional>
 #include <sstream>
 
 #include "reports/common/gnuplot.hpp"
