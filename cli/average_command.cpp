@@ -1,6 +1,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/report.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/couette/average.hpp"
@@ -14,7 +15,7 @@ int average(const CommandLine& line) {
   const CompareResults results = averageSnapshots(setup, line.snapshots, line.run.commandLine);
   store.begin();
   writeReport(results, line.run.out);
-  return averaged(line, results.averaging);
+  return averaged(line, results.averaging, reports::averageOverview(results));
 }
 
 Action declareAverage(CLI::App& app, CommandLine& line) {

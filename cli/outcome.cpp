@@ -8,12 +8,14 @@ void printFailure(const std::string& reason) {
   fmt::print(stderr, "crossgrain: {}\n", reason);
 }
 
-int averaged(const CommandLine& line, const CouetteAveraging& averaging) {
-  if (line.json)
+int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview) {
+  if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
-  else
-    fmt::print("{} snapshots averaged\nreport: {}\n", averaging.snapshots,
-               (line.run.out / "report.html").string());
+    return exitHeld;
+  }
+  fmt::print("{} snapshots averaged\n", averaging.snapshots);
+  printOverview(overview);
+  fmt::print("report: {}\n", (line.run.out / "report.html").string());
   return exitHeld;
 }
 

@@ -13,7 +13,7 @@ namespace crossgrain::inline cli {
 void printFailure(const std::string& reason);
 
 /// What the commands that only average print. @returns an ExitStatus
-int averaged(const CommandLine& line, const CouetteAveraging& averaging);
+int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview);
 
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
 void printOverview(const Overview& overview);

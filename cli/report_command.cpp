@@ -11,6 +11,7 @@
 #include "results/schema.hpp"
 #include "runs/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
+#include "support/files.hpp"
 #include "support/folder_lock.hpp"
 
 namespace crossgrain::inline cli {
@@ -32,37 +33,71 @@ nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& fold
   throw BadInput(fmt::format("{}: {}", (folder / "results.json").string(), error.what()));
 }
 
-int rebuildReports(const CommandLine& line, const std::optional<fs::path>& reasons, bool open) {
-  if (open) requireBrowser();
+struct Options {
+  std::optional<std::string> reasons, site;
+  bool open = false;
+};
+
+std::optional<fs::path> pathOf(const std::optional<std::string>& text) {
+  return text ? std::optional<fs::path>(*text) : std::nullopt;
+}
+
+int rebuildReports(const CommandLine& line, const Options& options) {
   for (const fs::path& folder : line.inputs) {
-    const nlohmann::json results = concludedAnew(readResults(folder), folder, reasons);
+    const nlohmann::json results =
+        concludedAnew(readResults(folder), folder, pathOf(options.reasons));
     const FolderLock lock(folder, "report");
     writeReport(results, folder);
     fmt::print("report: {}\n", (folder / "report.html").string());
-    if (open) openPage(folder / "report.html");
+    if (options.open) openPage(folder / "report.html");
   }
+  return exitHeld;
+}
+
+/// The folders stay as they are.
+int makeSite(const CommandLine& line, const Options& options) {
+  const fs::path site = *options.site;
+  if (fs::exists(site / "results.json"))
+    throw BadInput(
+        fmt::format("--out {}: holds results of its own; give a new folder, or that of "
+                    "an earlier site",
+                    site.string()));
+  std::vector<std::pair<fs::path, nlohmann::json>> results;
+  for (const fs::path& folder : line.inputs)
+    results.emplace_back(folder,
+                         concludedAnew(readResults(folder), folder, pathOf(options.reasons)));
+  makeDirectory(site);
+  const FolderLock lock(site, "report");
+  writeSite(results, site);
+  fmt::print("site: {}\n", (site / "index.html").string());
+  if (options.open) openPage(site / "index.html");
   return exitHeld;
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {
   addInputs(app, line, "folder", "folders that hold a results.json", 1, anyNumber);
-  const auto reasons = std::make_shared<std::optional<std::string>>();
-  const auto open = std::make_shared<bool>(false);
-  addText(app, "--reasons", *reasons,
+  const auto options = std::make_shared<Options>();
+  addText(app, "--out", options->site,
+          "write the reports there, in folders of their own, and an index.html of all: engines × "
+          "reports (default: each in its folder)",
+          "SITE");
+  addText(app, "--reasons", options->reasons,
           "of thesis: reasons found for refuted claims, in place of those that it was given",
           "FILE");
-  addFlag(app, "--open", *open, "show them in the browser");
-  return [&line, reasons, open] {
-    return rebuildReports(line, *reasons ? std::optional<fs::path>(**reasons) : std::nullopt,
-                          *open);
+  addFlag(app, "--open", options->open, "show them in the browser");
+  return [&line, options] {
+    if (options->open) requireBrowser();
+    return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
   };
 }
 
 }  // namespace
 
-extern const Command reportCommand = {"report", "rebuild reports from results.json",
-                                      "crossgrain report out\n"
-                                      "crossgrain report out --open",
-                                      declareReport};
+extern const Command reportCommand = {
+    "report", "rebuild reports from results.json, or make one site of several",
+    "crossgrain report out\n"
+    "crossgrain report out --open\n"
+    "crossgrain report out/compare out/collide --out site",
+    declareReport};
 
 }  // namespace crossgrain::inline cli

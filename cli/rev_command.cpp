@@ -1,6 +1,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/report.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/couette/rev.hpp"
@@ -14,7 +15,7 @@ int rev(const CommandLine& line) {
   const RevResults results = revStudy(setup, line.snapshots, line.run.commandLine, line.run.quiet);
   store.begin();
   writeReport(results, line.run.out);
-  return averaged(line, results.averaging);
+  return averaged(line, results.averaging, reports::revOverview(results));
 }
 
 Action declareRev(CLI::App& app, CommandLine& line) {

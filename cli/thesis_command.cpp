@@ -10,6 +10,7 @@
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
 #include "reports/report.hpp"
+#include "reports/thesis/overview.hpp"
 #include "reports/thesis/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/thesis/thesis.hpp"
@@ -22,11 +23,11 @@ namespace {
 constexpr const char* wholeLadder = "cases/couette/thesis/ladder.toml";
 constexpr const char* quickLadder = "cases/couette/thesis/ladder-quick.toml";
 
-/// Claims, then what they lack, then where the report is.
+/// Claims, then what they lack, then all of it at a glance and where the report is.
 void tell(const ThesisResults& results, const CommandLine& line) {
   fmt::print("{}", reports::claimsText(results));
   for (const std::string& note : results.notes) fmt::print("{}\n", note);
-  for (const std::string& count : reports::claimCounts(results)) fmt::print("{}\n", count);
+  printOverview(reports::thesisOverview(results));
   fmt::print("report: {}\n", (line.run.out / "report.html").string());
 }
 

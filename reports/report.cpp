@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <concepts>
 #include <optional>
 #include <stdexcept>
 
@@ -24,6 +26,7 @@
 #include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/figures.hpp"
+#include "reports/thesis/overview.hpp"
 #include "reports/thesis/reading_changes.hpp"
 #include "reports/thesis/regime_map.hpp"
 #include "reports/thesis/report.hpp"
@@ -72,7 +75,8 @@ const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
                                            {"distributions.csv", distributionsCsv}},
                                           compareFigures,
                                           noPictures,
-                                          averagePage};
+                                          averagePage,
+                                          averageOverview};
 
 const Kind<ConformanceResults> conformanceKind = {
     {{"junit.xml", conformanceJunit}}, conformanceFigures, noPictures, conformancePage};
@@ -83,8 +87,11 @@ const Kind<EffectsResults> effectsKind = {
 const Kind<LockstepResults> lockstepKind = {
     {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage, lockstepOverview};
 
-const Kind<RevResults> revKind = {
-    {{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}}, revFigures, noPictures, revPage};
+const Kind<RevResults> revKind = {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
+                                  revFigures,
+                                  noPictures,
+                                  revPage,
+                                  revOverview};
 
 const Kind<CollideResults> collideKind = {
     {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
@@ -109,7 +116,8 @@ const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
                                          {"readings.csv", readingsCsv}},
                                         thesisFigures,
                                         noPictures,
-                                        thesisPage};
+                                        thesisPage,
+                                        thesisOverview};
 
 const Kind<CompareResults>& kindOf(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageKind : compareKind;
@@ -129,15 +137,26 @@ std::optional<std::string> draw(const std::vector<Figure>& figures,
   return std::nullopt;
 }
 
+template <typename Results>
+std::vector<EngineRow> enginesOf(const Results& results) {
+  if constexpr (requires { results.engines; })
+    return results.engines;
+  else if constexpr (std::same_as<Results, ConformanceResults>)
+    return {results.engine};
+  else
+    return {{results.engine, "", "", "", EngineStatus::ran, ""}};  // whose snapshots
+}
+
 /// @param document  results.json
 template <typename Results>
-void write(const Kind<Results>& kind, const Results& results, Json document,
-           const std::filesystem::path& dir) {
+ReportDigest write(const Kind<Results>& kind, const Results& results, Json document,
+                   const std::filesystem::path& dir) {
   makeDirectory(dir);
+  ReportDigest digest{results.head, enginesOf(results), {}};
   if (kind.overview) {
-    const Overview overview = kind.overview(results);
-    document["overview"] = toJson(overview);
-    writeFile(dir / "summary.md", overviewMarkdown(overview, titleOf(results.head)));
+    digest.overview = kind.overview(results);
+    document["overview"] = toJson(*digest.overview);
+    writeFile(dir / "summary.md", overviewMarkdown(*digest.overview, titleOf(results.head)));
   }
   writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
@@ -150,6 +169,7 @@ void write(const Kind<Results>& kind, const Results& results, Json document,
 
   writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
   if (missing) throw std::runtime_error(*missing);
+  return digest;
 }
 
 }  // namespace
@@ -190,7 +210,7 @@ void writeReport(const ThesisResults& results, const std::filesystem::path& dir)
   write(thesisKind, results, toJson(results), dir);
 }
 
-void writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
+ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
   checkSchema(results, "results");
   const std::string kind = results.at("kind");
   if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
@@ -203,9 +223,27 @@ void writeReport(const nlohmann::json& results, const std::filesystem::path& dir
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
   if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
   const CompareResults compared = compareFromJson(results);
-  write(kindOf(compared), compared, results, dir);
+  return write(kindOf(compared), compared, results, dir);
 } catch (const FieldError& error) {
   throw BadInput(fmt::format("{}: {}", (dir / "results.json").string(), error.what()));
+}
+
+void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,
+               const std::filesystem::path& site) {
+  makeDirectory(site);
+  std::vector<std::filesystem::path> folders;
+  for (const auto& [folder, document] : results) folders.push_back(folder);
+  const std::vector<std::string> names = siteFolders(folders);
+  std::vector<SiteReport> reports;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    SiteReport report{names[k], writeReport(results[k].second, site / names[k]), {}};
+    for (const auto& entry : std::filesystem::directory_iterator(site / names[k]))
+      if (entry.path().extension() == ".csv")
+        report.tables.push_back(entry.path().filename().string());
+    std::ranges::sort(report.tables);
+    reports.push_back(std::move(report));
+  }
+  writeIndex(reports, site);
 }
 
 nlohmann::json readResults(const std::filesystem::path& dir) {

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
+#include "reports/site/site.hpp"
 #include "results/collision.hpp"
 #include "results/conformance.hpp"
 #include "results/cost.hpp"
@@ -24,7 +27,8 @@ namespace crossgrain {
 /// still written before the error is thrown.
 /// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
 ///         BadInput for JSON that is no such document
-void writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
+/// @returns what the report opens with
+reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
 void writeReport(const CollideResults& results, const std::filesystem::path& dir);
 void writeReport(const ConformanceResults& results, const std::filesystem::path& dir);
 void writeReport(const CostResults& results, const std::filesystem::path& dir);
@@ -34,6 +38,12 @@ void writeReport(const EffectsResults& results, const std::filesystem::path& dir
 void writeReport(const LockstepResults& results, const std::filesystem::path& dir);
 void writeReport(const RevResults& results, const std::filesystem::path& dir);
 void writeReport(const ThesisResults& results, const std::filesystem::path& dir);
+
+/// Writes the reports of several results into folders of their own below `site`, named after
+/// theirs, and an index of all. @throws as writeReport()
+/// @param results  each with the folder that it was read from
+void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,
+               const std::filesystem::path& site);
 
 /// Reads dir/results.json back, to rebuild its report.
 /// @throws BadInput if there is none, it is not JSON, or its schema is not this version's

@@ -33,7 +33,8 @@ struct OverviewCell {
   std::string unit = {};             ///< "margins", "s"
   std::string shown = {};            ///< the number with its unit as people read it: "0.31 margins"
   std::string words = {};            ///< what the number is of, or why there is none
-  std::string anchor = {};  ///< id of the page's heading that has the evidence; empty: none
+  /// Id of the page's heading that has the evidence or, with a slash, a page beside it; empty: none
+  std::string anchor = {};
 };
 
 struct OverviewColumn {

@@ -41,7 +41,7 @@ EngineOutcomes outcomesOf(const CollideResults& results, const std::string& engi
       for (const CollisionQuantity& quantity : scoredQuantities())
         if (const auto& score = declaredScore(*curve).of[quantity.id];
             score && score->held == false)
-          addOnce(all.quantities, std::string(quantity.label));
+          addOnce(all.quantities, quantityWords(quantity));
     }
   return all;
 }

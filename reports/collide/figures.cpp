@@ -89,11 +89,11 @@ Panel sweepPanel(const CollisionVariant& variant, const Styles& styles) {
   panel.level = 0.0;
   panel.curves = asymptotes(variant, panel.xRange->high);
   if (auto line = pointsOf(variant.oracle, 1); !line.empty())
-    panel.curves.push_back({"", oracleStyle, Draw::lines, std::move(line), 3.0});
+    panel.curves.push_back({"oracle", oracleStyle, Draw::lines, std::move(line), 3.0});
   for (const auto& [engine, style] : styles)
     if (const CollisionCurve* curve = coarsestCurve(variant, engine))
       panel.curves.push_back(
-          {"", style, Draw::points, pointsOf(curve->points, markStride(curve->points)), 1.0});
+          {engine, style, Draw::points, pointsOf(curve->points, markStride(curve->points)), 1.0});
   panel.curves.push_back(noLimitMarks(variant));
   return panel;
 }
@@ -113,7 +113,7 @@ Panel errorPanel(const CollisionVariant& variant, const Styles& styles) {
       if (psi && found && expected) points.push_back({*psi, std::abs(*found - *expected), {}});
     }
     std::ranges::sort(points, {}, &Point::x);
-    panel.curves.push_back({"", style, Draw::lines, std::move(points), 1.2});
+    panel.curves.push_back({engine, style, Draw::lines, std::move(points), 1.2});
   }
   return panel;
 }
@@ -180,10 +180,12 @@ void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
 std::vector<Figure> collideFigures(const CollideResults& results) {
   const std::vector<LineStyle> order = engineStyles(results.engines);
   Styles styles;
-  for (std::size_t k = 0; k < order.size(); ++k) styles[results.engines[k].name] = order[k];
+  for (std::size_t k = 0; k < order.size(); ++k)
+    styles.emplace_back(results.engines[k].name, order[k]);
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      styles.try_emplace(curve.engine, engineStyle(styles.size()));
+      if (std::ranges::find(styles, curve.engine, &Styles::value_type::first) == styles.end())
+        styles.emplace_back(curve.engine, engineStyle(styles.size()));
 
   std::vector<Figure> figures;
   std::size_t index = 0;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "reports/collide/table.hpp"
 #include "reports/common/figure.hpp"
@@ -9,7 +10,7 @@
 /// What the plots of collisions share.
 namespace crossgrain::reports {
 
-using Styles = std::map<std::string, LineStyle>;  ///< by engine
+using Styles = std::vector<std::pair<std::string, LineStyle>>;  ///< of engines, in their order
 
 inline const LineStyle oracleStyle{"#999999", 0, false};
 

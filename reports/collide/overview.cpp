@@ -70,7 +70,7 @@ bool isTheLaw(const CollisionCurve& curve) {
 
 void look(Errors& errors, const CollisionCurve& curve, const CollisionQuantity& quantity,
           const std::string& place, const std::string& anchor) {
-  const std::string words = fmt::format("{}, {}", quantity.label, place);
+  const std::string words = fmt::format("{}, {}", quantityWords(quantity), place);
   const auto shareOf = [](const std::optional<QuantityScore>& score) -> std::optional<double> {
     if (!score || !score->limit || !score->held || *score->limit <= 0.0) return std::nullopt;
     return score->max / *score->limit;

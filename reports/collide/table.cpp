@@ -115,4 +115,42 @@ std::optional<std::string> lawWords(const std::string& option, const LawValue& v
   return spaced(option) + " " + readableSetting(constant);
 }
 
+std::string quantityWords(const CollisionQuantity& quantity) {
+  using enum QuantityId;
+  switch (quantity.id) {
+    case psiF:
+      return "tangential rebound Ψ_f";
+    case en:
+      return "restitution e_n";
+    case beta:
+      return "tangential restitution β";
+    case et:
+      return "tangential restitution of the centres e_t";
+    case centrePsiF:
+      return "tangential velocity of the centres";
+    case reboundAngle:
+      return "rebound angle";
+    case spinI:
+      return "spin ω_i";
+    case spinJ:
+      return "spin ω_j";
+    case maxOverlap:
+      return "largest overlap";
+    case lostNormalDamping:
+      return "energy lost to the normal dashpot";
+    case lostTangential:
+      return "energy lost tangentially";
+    case lostTangentialDamping:
+      return "energy lost to the tangential dashpot";
+    case lostStiffening:
+      return "energy lost to stiffening";
+    case lostSliding:
+      return "energy lost to sliding";
+    case lostStored:
+      return "energy left in the tangential spring";
+    default:
+      return std::string(quantity.label);
+  }
+}
+
 }  // namespace crossgrain::reports

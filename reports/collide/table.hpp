@@ -73,4 +73,7 @@ std::optional<double> numberAt(const std::vector<double>& list, std::size_t plac
 /// "mu 0.44", "tension cut"; absent for a constant that is not finite.
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value);
 
+/// A quantity in plain words, its symbol beside them: "restitution e_n".
+std::string quantityWords(const CollisionQuantity& quantity);
+
 }  // namespace crossgrain::reports

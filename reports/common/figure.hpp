@@ -12,6 +12,7 @@ struct Point {
   double x = 0.0, y = 0.0;
   std::optional<double> error;  ///< half length of the bar: upright, in panels with rows across
   std::string label{};          ///< beside the point, printed as it is; empty: none
+  std::string place{};          ///< told of it on the page only: "ring 3"; empty: its x will do
 };
 
 /// How everything that belongs to one engine looks in every plot.
@@ -73,6 +74,15 @@ struct Figure {
 /// Makes the y axis logarithmic where all values are positive and differ tenfold or more, so that
 /// one engine far off does not flatten the others.
 void chooseLogY(Panel& panel);
+
+/// Whether a point is drawn, wherever the axes end: it is finite, and positive on a log axis.
+bool drawable(const Panel& panel, const Point& point);
+
+/// Whether anything of a curve lies within the panel: a key names nothing else.
+bool isSeen(const Panel& panel, const Curve& curve);
+
+/// The range of the y axis where it is not gnuplot's to choose.
+std::optional<Range> yRange(const Panel& panel);
 
 /// Whether there is anything to draw; a figure without is not written.
 bool hasPoints(const Panel& panel);

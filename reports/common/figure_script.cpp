@@ -21,11 +21,6 @@ std::string quoted(const std::string& words) {
   return result + "'";
 }
 
-bool drawable(const Panel& panel, const Point& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logX || point.x > 0.0) &&
-         (!panel.logY || point.y > 0.0);
-}
-
 /// The range of a log axis: whole decades, at most eight of the data since below lies noise about
 /// zero; a narrow one just holds its data. The panel's line is on it in any case.
 std::optional<Range> logRange(const Panel& panel) {
@@ -45,10 +40,6 @@ std::optional<Range> logRange(const Panel& panel) {
   if (high < 50.0 * low) return Range{low / 1.3, high * 1.3};
   return Range{std::pow(10.0, std::floor(std::log10(low) + 1e-9)),
                std::pow(10.0, std::ceil(std::log10(high) - 1e-9))};
-}
-
-std::optional<Range> yRange(const Panel& panel) {
-  return !panel.yRange && panel.logY ? logRange(panel) : panel.yRange;
 }
 
 /// 1, 2, 5, 10, … within a log axis too short for powers of ten alone; empty: gnuplot's choice.
@@ -118,18 +109,6 @@ std::string blocksElement(const std::string& source, const std::string& colour) 
       source, colour);
 }
 
-/// Whether anything of a curve lies within the panel: a key names nothing else.
-bool isSeen(const Panel& panel, const Curve& curve) {
-  const auto y = yRange(panel);
-  const auto within = [](const std::optional<Range>& range, double value) {
-    return !range || (value >= range->low && value <= range->high);
-  };
-  return std::ranges::any_of(curve.points, [&](const Point& point) {
-    return drawable(panel, point) && within(panel.xRange, point.x) &&
-           (!panel.rows.empty() || within(y, point.y));
-  });
-}
-
 std::string titleOf(const std::string& name) {
   return name.empty() ? "notitle" : fmt::format("title {} noenhanced", quoted(name));
 }
@@ -151,6 +130,7 @@ std::string lookOf(const Curve& curve, bool across) {
                                       : "linespoints " + line + " " + marks;
 }
 
+/// @see elementCount()
 std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
                          bool across, bool seen) {
   const std::string source = fmt::format("'{}' index {}", data, index);
@@ -265,32 +245,38 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
     script += (k == 0 ? "" : ", \\\n    ") + plotElements(data, firstBlock + k, panel.curves[k],
                                                           !panel.rows.empty(),
                                                           isSeen(panel, panel.curves[k]));
-  return script + "\n";
+  return script + fmt::format(
+                      "\n  if (terminal eq 'svg') {{ print sprintf('%.6g %.6g %.6g %.6g %.9g %.9g "
+                      "%.9g %.9g', GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, "
+                      "GPVAL_TERM_YMAX, GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX) }}\n");
 }
 
+/// Room for the axis' name, whose letters may reach below the line. [letters]
 double bottomMargin(const Figure& figure) {
-  return figure.rowNames > 0 ? 3.8 : 3.2;
+  return figure.rowNames > 0 ? 3.8 : 3.5;
 }
 
 constexpr const char* frame =
     "set border 3 lc rgb '#444444'\nset tics nomirror out scale 0.6\nset grid lc rgb '#e4e4e4' lw "
     "0.7 dt solid\n";
 
+const Curve* firstNamed(const Figure& figure, const std::string& name) {
+  for (const Panel& panel : figure.panels)
+    for (const Curve& curve : panel.curves)
+      if (curve.name == name && isSeen(panel, curve)) return &curve;
+  return nullptr;
+}
+
 /// A plot without height across the figure's upper edge: gnuplot breaks a key into lines by the
 /// width of the plot that it belongs to.
 std::string keyAbove(const Figure& figure) {
-  std::vector<std::string> names;
   std::string entries;
-  for (const Panel& panel : figure.panels)
-    for (const Curve& curve : panel.curves) {
-      if (curve.name.empty() || !isSeen(panel, curve) ||
-          std::ranges::find(names, curve.name) != names.end())
-        continue;
-      names.push_back(curve.name);
-      entries +=
-          fmt::format("{}2 with {} lc rgb '{}' title {} noenhanced", entries.empty() ? "" : ", ",
-                      lookOf(curve, false), curve.style.colour, quoted(curve.name));
-    }
+  for (const std::string& name : namesAbove(figure)) {
+    const Curve& curve = *firstNamed(figure, name);
+    entries +=
+        fmt::format("{}2 with {} lc rgb '{}' title {} noenhanced", entries.empty() ? "" : ", ",
+                    lookOf(curve, false), curve.style.colour, quoted(name));
+  }
   if (entries.empty()) return {};
   return fmt::format(
       "  unset border\n  set tics scale 0\n  set format ''\n  unset grid\n  unset object\n  unset "
@@ -323,7 +309,7 @@ std::string terminals(const Figure& figure, std::size_t rows) {
   std::string script = fmt::format(
       "  if (terminal eq 'svg') {{\n"
       "    set terminal svg size {0},{1} font 'sans-serif,13' background rgb 'white'\n"
-      "    set output '{2}.svg'\n  }}\n"
+      "    set output '{2}.svg'\n    set print '{2}.axes'\n  }}\n"
       "  if (terminal eq 'pdfcairo') {{\n"
       "    set terminal pdfcairo size {3}in,{4}in font 'sans-serif,10'\n"
       "    set output '{2}.pdf'\n  }}\n",
@@ -338,6 +324,47 @@ std::string terminals(const Figure& figure, std::size_t rows) {
 }
 
 }  // namespace
+
+bool drawable(const Panel& panel, const Point& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logX || point.x > 0.0) &&
+         (!panel.logY || point.y > 0.0);
+}
+
+std::optional<Range> yRange(const Panel& panel) {
+  return !panel.yRange && panel.logY ? logRange(panel) : panel.yRange;
+}
+
+bool isSeen(const Panel& panel, const Curve& curve) {
+  const auto y = yRange(panel);
+  const auto within = [](const std::optional<Range>& range, double value) {
+    return !range || (value >= range->low && value <= range->high);
+  };
+  return std::ranges::any_of(curve.points, [&](const Point& point) {
+    return drawable(panel, point) && within(panel.xRange, point.x) &&
+           (!panel.rows.empty() || within(y, point.y));
+  });
+}
+
+std::size_t elementCount(const Curve& curve) {
+  if (curve.draw == Draw::tiles) return 1;
+  if (curve.draw == Draw::blocks) return hasBars(curve) ? 3 : 1;
+  return 1 + (hasBars(curve) ? 1 : 0) + (hasLabels(curve) ? 1 : 0);
+}
+
+bool isMultiplot(const Figure& figure) {
+  return figure.panels.size() > 1 || figure.keyAbove;
+}
+
+std::vector<std::string> namesAbove(const Figure& figure) {
+  std::vector<std::string> names;
+  if (!figure.keyAbove) return names;
+  for (const Panel& panel : figure.panels)
+    for (const Curve& curve : panel.curves)
+      if (!curve.name.empty() && isSeen(panel, curve) &&
+          std::ranges::find(names, curve.name) == names.end())
+        names.push_back(curve.name);
+  return names;
+}
 
 void chooseLogY(Panel& panel) {
   double low = INFINITY, high = -INFINITY;
@@ -359,7 +386,7 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   const std::string data = figure.name + ".dat";
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
-  const bool several = figure.panels.size() > 1 || figure.keyAbove;
+  const bool several = isMultiplot(figure);
   const std::string room = figure.keyAbove ? " title \"\\n\\n\"" : "";  // two lines for the key
   std::string script = fmt::format(
       "# gnuplot {0}.gp\nreset\nset encoding utf8\nset bmargin {4}\nset datafile missing '?'\n{5}"
@@ -381,7 +408,7 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   }
   if (figure.keyAbove) script += keyAbove(figure);
   script += several ? "  unset multiplot\n" : "";
-  script += "  unset output\n}\n";
+  script += "  unset output\n  set print\n}\n";
   writeFile(dir / data, blocks);
   writeFile(dir / (figure.name + ".gp"), script);
   return figure.name + ".gp";

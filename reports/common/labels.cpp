@@ -78,10 +78,49 @@ std::string mathHtml(std::string_view words) {
   return html;
 }
 
-std::string symbolsHtml(const std::string& words) {
+namespace {
+
+/// Symbols of one letter, "k_n", "σ_rφ", "M_zr", not names of several.
+std::string withSubscripts(const std::string& html) {
+  if (html.find('_') == std::string::npos) return html;
   static const std::regex symbol(
-      "(^|[ (/,=])([a-zA-Z]|µ|Ψ|γ|ω|σ|ε|ν)_((?:[a-z]|φ){1,2}[0-9]?)(?![a-zA-Z_0-9])");
-  return std::regex_replace(kainjow::mustache::html_escape(words), symbol, "$1$2<sub>$3</sub>");
+      "(^|[ (/,=|>]|"
+      "·|⟨|−|Ω|π|Δ)([a-zA-Z]|µ|Ψ|γ|ω|σ|ε|ν)_((?:[a-z]|φ){1,2}[0-9]?|div)(?![a-zA-Z_0-9])");
+  return std::regex_replace(html, symbol, "$1$2<sub>$3</sub>");
+}
+
+/// Elements whose text is to be shown as it is.
+bool isVerbatim(std::string_view tag) {
+  for (const std::string_view name : {"<pre", "<code", "<style", "<script", "<title"})
+    if (tag.starts_with(name) &&
+        (tag.size() == name.size() || tag[name.size()] == ' ' || tag[name.size()] == '>'))
+      return true;
+  return false;
+}
+
+}  // namespace
+
+std::string symbolsHtml(const std::string& words) {
+  return withSubscripts(kainjow::mustache::html_escape(words));
+}
+
+std::string pageWithSymbols(const std::string& html) {
+  std::string result;
+  result.reserve(html.size() + html.size() / 50);
+  for (std::size_t at = 0; at < html.size();) {
+    const std::size_t open = std::min(html.find('<', at), html.size());
+    result += withSubscripts(html.substr(at, open - at));
+    if (open == html.size()) break;
+    const std::string_view tag = std::string_view(html).substr(open, 16);
+    const std::size_t end =
+        isVerbatim(tag)
+            ? html.find(fmt::format("</{}", tag.substr(1, tag.find_first_of(" >") - 1)), open)
+            : html.find('>', open);
+    const std::size_t next = std::min(end, html.size());
+    result.append(html, open, next - open);
+    at = next;
+  }
+  return result;
 }
 
 std::string spaced(std::string_view name) {

@@ -31,6 +31,9 @@ std::string mathHtml(std::string_view words);
 /// for sentences, in which names that people gave may have such marks too.
 std::string symbolsHtml(const std::string& words);
 
+/// A page in whose text such symbols are written so; what is in tags, <pre> and <code> stays.
+std::string pageWithSymbols(const std::string& html);
+
 /// mathHtml() in gnuplot's enhanced text: "σ_{rφ}".
 std::string mathGnuplot(std::string_view words);
 

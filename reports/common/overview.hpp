@@ -14,6 +14,9 @@ namespace crossgrain::reports {
 /// @param engines  of the results: rows that are engines get their colours
 void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines);
 
+/// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.
+inline constexpr std::size_t mostColumns = 10;
+
 /// Where the terminal's form is printed.
 struct TextLook {
   std::size_t width = 160;  ///< [characters]

@@ -22,7 +22,7 @@ constexpr CellLook lookOf(CellState state) {
       CellLook{"?", "open", "undecided", "36"},
       CellLook{"•", "figure", "a figure that nothing is judged by", "0"},
       CellLook{"–", "none", "not measured", "2"},
-      CellLook{"·", "none", "does not apply", "2"}};
+      CellLook{"·", "none nothing", "does not apply", "2"}};
   return looks[static_cast<std::size_t>(state)];
 }
 

@@ -4,6 +4,7 @@
 
 #include "reports/common/overview.hpp"
 #include "reports/common/overview_marks.hpp"
+#include "reports/common/sentences.hpp"
 
 namespace crossgrain::reports {
 
@@ -53,6 +54,29 @@ std::vector<std::size_t> blocksOf(const std::vector<std::size_t>& widths, std::s
   return begins;
 }
 
+/// How much of the matrix there are lines for.
+struct Shown {
+  std::size_t rows = 0, blocks = 0;
+};
+
+/// Each block has a head and a row at least; what is left out takes a line.
+Shown shownOf(const Overview& overview, std::size_t blocks) {
+  const std::size_t lines = mostOverviewLines - overview.conclusion.size();
+  if (blocks * (1 + overview.rows.size()) <= lines) return {overview.rows.size(), blocks};
+  const std::size_t each = std::max<std::size_t>((lines - 1) / blocks, 2);
+  const std::size_t rows = std::min(overview.rows.size(), each - 1);
+  return {rows, std::min(blocks, (lines - 1) / (1 + rows))};
+}
+
+/// "… and 3 more rows and 1 more column: in the report"; empty: nothing is left out.
+std::string leftOut(std::size_t rows, std::size_t columns) {
+  std::vector<std::string> parts;
+  if (rows > 0) parts.push_back(fmt::format("{} more row{}", rows, rows == 1 ? "" : "s"));
+  if (columns > 0)
+    parts.push_back(fmt::format("{} more column{}", columns, columns == 1 ? "" : "s"));
+  return parts.empty() ? std::string() : fmt::format("… and {}: in the report\n", listed(parts));
+}
+
 std::string coloured(const OverviewCell& cell, const std::string& text, const TextLook& look) {
   if (!look.coloured) return text;
   return fmt::format("\033[{}m{}\033[0m", lookOf(cell.state).terminal, text);
@@ -73,24 +97,57 @@ std::string forTable(const std::string& text) {
   return safe;
 }
 
+std::string headOf(const std::string& corner, const std::vector<std::string>& names) {
+  std::string text = fmt::format("| {} |", forTable(corner));
+  for (const std::string& name : names) text += fmt::format(" {} |", forTable(name));
+  text += "\n|---|";
+  for (std::size_t k = 0; k < names.size(); ++k) text += "---|";
+  return text + "\n";
+}
+
+/// A question per column.
+std::string lying(const Overview& overview) {
+  std::vector<std::string> names;
+  for (const OverviewColumn& column : overview.columns) names.push_back(column.name);
+  std::string text = headOf(overview.rowsAre, names);
+  for (const OverviewRow& row : overview.rows) {
+    text += fmt::format("| {} |", forTable(row.name));
+    for (const OverviewCell& cell : row.cells) text += fmt::format(" {} |", forTable(textOf(cell)));
+    text += "\n";
+  }
+  return text;
+}
+
+/// A question per row.
+std::string standing(const Overview& overview) {
+  std::vector<std::string> names;
+  for (const OverviewRow& row : overview.rows) names.push_back(row.name);
+  std::string text = headOf("", names);
+  for (std::size_t k = 0; k < overview.columns.size(); ++k) {
+    const OverviewColumn& column = overview.columns[k];
+    text += fmt::format("| {} |",
+                        forTable(column.name + (column.asks.empty() ? "" : ": ") + column.asks));
+    for (const OverviewRow& row : overview.rows)
+      text += fmt::format(" {} |", forTable(textOf(row.cells[k])));
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string overviewText(const Overview& overview, const TextLook& look) {
   if (overview.rows.empty() || overview.columns.empty()) return {};
   const std::vector<std::size_t> widths = widthsOf(overview);
   const std::vector<std::size_t> begins = blocksOf(widths, look.width);
-  const std::size_t blocks = begins.size() - 1;
-  // Each block has a head; a line more says what was left out.
-  const std::size_t room = (mostOverviewLines - overview.conclusion.size()) / blocks - 1;
-  const bool cut = overview.rows.size() > room;
-  const std::size_t shown = cut ? room - 1 : overview.rows.size();
+  const Shown shown = shownOf(overview, begins.size() - 1);
   std::string text;
-  for (std::size_t b = 0; b < blocks; ++b) {
+  for (std::size_t b = 0; b < shown.blocks; ++b) {
     std::string head = padded(overview.rowsAre, widths[0]);
     for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
       head += std::string(gap, ' ') + padded(overview.columns[k].name, widths[k + 1]);
     text += withoutEnd(head);
-    for (std::size_t r = 0; r < shown; ++r) {
+    for (std::size_t r = 0; r < shown.rows; ++r) {
       const OverviewRow& row = overview.rows[r];
       std::string line = padded(row.name, widths[0]);
       for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
@@ -98,27 +155,17 @@ std::string overviewText(const Overview& overview, const TextLook& look) {
                 coloured(row.cells[k], padded(textOf(row.cells[k]), widths[k + 1]), look);
       text += withoutEnd(line);
     }
-    if (cut) text += fmt::format("… and {} more: in the report\n", overview.rows.size() - shown);
   }
+  text +=
+      leftOut(overview.rows.size() - shown.rows, overview.columns.size() - begins[shown.blocks]);
   for (const std::string& sentence : overview.conclusion) text += sentence + "\n";
   return text;
 }
 
 std::string overviewMarkdown(const Overview& overview, const std::string& title) {
   std::string text = fmt::format("# {}\n", forTable(title));
-  if (!overview.rows.empty() && !overview.columns.empty()) {
-    text += fmt::format("\n| {} |", forTable(overview.rowsAre));
-    for (const OverviewColumn& column : overview.columns)
-      text += fmt::format(" {} |", forTable(column.name));
-    text += "\n|---|";
-    for (std::size_t k = 0; k < overview.columns.size(); ++k) text += "---|";
-    for (const OverviewRow& row : overview.rows) {
-      text += fmt::format("\n| {} |", forTable(row.name));
-      for (const OverviewCell& cell : row.cells)
-        text += fmt::format(" {} |", forTable(textOf(cell)));
-    }
-    text += "\n";
-  }
+  if (!overview.rows.empty() && !overview.columns.empty())
+    text += "\n" + (overview.columns.size() > mostColumns ? standing(overview) : lying(overview));
   for (const std::string& sentence : overview.conclusion)
     text += fmt::format("\n{}\n", forTable(sentence));
   return text;

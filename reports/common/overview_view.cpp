@@ -15,14 +15,27 @@ std::string meaningOf(const Overview& overview, CellState state) {
   return own == overview.states.end() ? std::string(lookOf(state).words) : own->words;
 }
 
+/// Where it leads: a part of this page, or another page.
+std::string linkOf(const std::string& anchor) {
+  return anchor.empty() || anchor.find('/') != std::string::npos ? anchor : "#" + anchor;
+}
+
 Json cellView(const Overview& overview, const OverviewCell& cell, const std::string& column) {
   const CellLook look = lookOf(cell.state);
   std::string title = meaningOf(overview, cell.state);
   if (!cell.words.empty()) title += ": " + cell.words;
-  return {{"asked", column},        {"mark", look.mark},
-          {"class", look.cssClass}, {"title", title},
-          {"shown", cell.shown},    {"words", symbolsHtml(cell.words)},
-          {"anchor", cell.anchor},  {"state", meaningOf(overview, cell.state)}};
+  return {{"asked", column},
+          {"mark", look.mark},
+          {"class", look.cssClass},
+          {"title", title},
+          {"shown", cell.shown},
+          {"words", symbolsHtml(cell.words)},
+          {"link", linkOf(cell.anchor)},
+          {"state", meaningOf(overview, cell.state)}};
+}
+
+bool isWrapped(const Overview& overview) {
+  return overview.columns.size() > mostColumns;
 }
 
 /// What the marks stand for, of those that occur.
@@ -30,6 +43,7 @@ Json legendOf(const Overview& overview) {
   std::set<CellState> seen;
   for (const OverviewRow& row : overview.rows)
     for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
+  if (isWrapped(overview)) seen.erase(CellState::notApplicable);  // such cells are not there
   Json legend = Json::array();
   for (const CellState state : seen) {
     const CellLook look = lookOf(state);
@@ -46,8 +60,9 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   const std::vector<LineStyle> styles = engineStyles(engines);
   Json columns = Json::array(), rows = Json::array();
   for (const OverviewColumn& column : overview.columns)
-    columns.push_back(
-        {{"name", symbolsHtml(column.name)}, {"asks", column.asks}, {"anchor", column.anchor}});
+    columns.push_back({{"name", symbolsHtml(column.name)},
+                       {"asks", column.asks},
+                       {"link", linkOf(column.anchor)}});
   for (const OverviewRow& row : overview.rows) {
     Json cells = Json::array();
     for (std::size_t k = 0; k < row.cells.size(); ++k)
@@ -65,11 +80,9 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   Json conclusion = Json::array();
   for (const std::string& sentence : overview.conclusion)
     conclusion.push_back(symbolsHtml(sentence));
-  view["overview"] = {{"rowsAre", overview.rowsAre},
-                      {"columns", std::move(columns)},
-                      {"rows", std::move(rows)},
-                      {"legend", legendOf(overview)},
-                      {"conclusion", std::move(conclusion)}};
+  view["overview"] = {{"many", isWrapped(overview)},   {"rowsAre", overview.rowsAre},
+                      {"columns", std::move(columns)}, {"rows", std::move(rows)},
+                      {"legend", legendOf(overview)},  {"conclusion", std::move(conclusion)}};
 }
 
 }  // namespace crossgrain::reports

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "reports/common/base64.hpp"
+#include "reports/common/figure_data.hpp"
 #include "reports/common/headings.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
@@ -36,6 +37,8 @@ mustache::data toMustache(const Json& view) {
     return array;
   }
   if (view.is_boolean()) return mustache::data{view.get<bool>()};
+  if (view.is_number_integer()) return mustache::data{view.dump()};
+  if (view.is_number()) return mustache::data{readable(view.get<double>())};
   const std::string words = view.is_string() ? view.get<std::string>() : std::string();
   return words.empty() ? mustache::data{false} : mustache::data{words};
 }
@@ -67,13 +70,33 @@ void addWidths(Json& view, const std::string& svg) {
   view["wide"] = width > column;
 }
 
+/// As text of a script element: no tag can begin in it.
+std::string forScript(const Json& data) {
+  std::string text = data.dump();
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+/// Of the page, for all its figures.
+Json legendView(const std::vector<Figure>& figures) {
+  Json entries = Json::array();
+  for (const LegendEntry& entry : sharedLegend(figures))
+    entries.push_back(
+        {{"name", entry.name}, {"colour", entry.style.colour}, {"dashed", entry.style.dashed}});
+  return entries;
+}
+
 /// The caption is HTML.
+/// @param top  of the picture that is left out [px]
 Json imageView(const Illustrations& shown, const std::string& file, const std::string& alt,
-               const std::string& caption) {
+               const std::string& caption, int top = 0) {
   const auto svg = readFile(shown.plots / (file + ".svg"));
   if (!svg) return nullptr;
-  return {{"file", file},  {"alt", alt},  {"caption", caption}, {"image", base64(compactSvg(*svg))},
-          {"wide", false}, {"least", ""}, {"most", ""}};
+  return {{"file", file},       {"alt", alt},
+          {"caption", caption}, {"image", base64(compactSvg(withoutTop(*svg, top)))},
+          {"wide", false},      {"least", ""},
+          {"most", ""},         {"data", ""}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -103,7 +126,7 @@ std::string render(const std::string& name, const Json& view) {
   std::string result = page.render(data);
   if (!page.is_valid())
     throw std::logic_error(fmt::format("template {}: {}", name, page.error_message()));
-  return withAnchors(result);
+  return pageWithSymbols(withAnchors(result));
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
@@ -118,9 +141,13 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
                 const std::vector<std::string>& notes, const Illustrations& shown) {
   const CaseHead& setup = head.setup;
   const std::string machine = machineInWords(head.machine);
+  const Json legend = shown.missing ? Json::array() : legendView(shown.figures);
   const bool averages = head.kind == kindAverage || head.kind == kindRev;
   return {
       {"style", templates().at("style.css")},
+      {"script", templates().at("figures.js")},
+      {"legend", legend},
+      {"hasLegend", !legend.empty()},
       {"title", titleOf(head)},
       {"kicker", "crossgrain " + head.kind},
       {"heading", headingOf(setup)},
@@ -141,13 +168,18 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
 Json figureViews(const Illustrations& shown, std::string_view prefix) {
   Json views = Json::array();
   if (shown.missing) return views;
-  for (const Figure& figure : shown.figures)
-    if (figure.name.starts_with(prefix))
-      if (Json view = imageView(shown, figure.name, figure.title, mathHtml(figure.caption));
-          !view.is_null()) {
-        addWidths(view, *readFile(shown.plots / (figure.name + ".svg")));
-        views.push_back(std::move(view));
-      }
+  const std::vector<LegendEntry> legend = sharedLegend(shown.figures);
+  for (const Figure& figure : shown.figures) {
+    if (!figure.name.starts_with(prefix)) continue;
+    const std::string axes = readFile(shown.plots / (figure.name + ".axes")).value_or("");
+    Json view = imageView(shown, figure.name, figure.title, mathHtml(figure.caption),
+                          keyRoom(figure, axes, legend));
+    if (view.is_null()) continue;
+    addWidths(view, *readFile(shown.plots / (figure.name + ".svg")));
+    if (const Json data = figureData(figure, axes, legend); !data.is_null())
+      view["data"] = forScript(data);
+    views.push_back(std::move(view));
+  }
   return views;
 }
 

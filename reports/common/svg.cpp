@@ -71,6 +71,17 @@ std::string hexColours(const std::string& svg) {
 
 }  // namespace
 
+std::string withoutTop(const std::string& svg, int top) {
+  static const std::regex size(R"re(height="(\d+)"(\s+)viewBox="0 0 (\d+) (\d+)")re");
+  std::smatch found;
+  if (top <= 0 || !std::regex_search(svg, found, size)) return svg;
+  const int left = std::stoi(found[1]) - top;
+  return found.prefix().str() +
+         fmt::format("height=\"{}\"{}viewBox=\"0 {} {} {}\"", left, found[2].str(), top,
+                     found[3].str(), left) +
+         found.suffix().str();
+}
+
 std::string compactSvg(const std::string& svg) {
   // Beside blanks: what is so anyway, by SVG's defaults or for a tspan by its text.
   static const std::vector<std::pair<std::regex, const char*>> shorter = {

@@ -8,4 +8,7 @@ namespace crossgrain::reports {
 /// short colours, no empty groups, no blanks between elements.
 std::string compactSvg(const std::string& svg);
 
+/// What gnuplot made without its upper part. @param top  [px] that is left out
+std::string withoutTop(const std::string& svg, int top);
+
 }  // namespace crossgrain::reports

@@ -160,7 +160,7 @@ Json accuracyGroups(const CostResults& results, const std::vector<CostEngine>& e
     if (!rows.empty())
       groups.push_back({{"title", fmt::format("{}, {}; time of {}", toString(kind), unitOf(kind),
                                               timeUnit(kind))},
-                        {"span", std::to_string(targetsOf(results).size() + 2)},
+                        {"span", targetsOf(results).size() + 2},
                         {"rows", std::move(rows)}});
   }
   return groups;

@@ -45,7 +45,7 @@ Json cheapestGroups(const CostResults& results, const std::vector<CostEngine>& e
     }
     groups.push_back(
         {{"title", fmt::format("{}: {}", toString(measure.kind), measureHtml(measure.name))},
-         {"span", std::to_string(targets.size() + 1)},
+         {"span", targets.size() + 1},
          {"rows", std::move(lines)}});
   }
   return groups;

@@ -19,7 +19,7 @@ std::string ratioText(const CostPoint& point, const CostPoint* base) {
 Json knobRow(const CostPoints& points, CostKind kind, const CostEngine& engine,
              const OtherSetting& setting, std::size_t index) {
   Json line = headOf(engine);
-  line["number"] = std::to_string(index + 1);
+  line["number"] = index + 1;
   line["setting"] = settingWords(setting.knob, setting.setting);
   line["cells"] = Json::array();
   bool any = false;

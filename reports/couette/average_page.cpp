@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/compare_views.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/couette/state_view.hpp"
 
@@ -42,13 +44,8 @@ std::string extentOf(const CompareResults& results, const Engines& engines) {
 void addAverageSummary(Json& view, const CompareResults& results, const Engines& engines) {
   const auto snapshots = results.averaging.snapshots;
   view["sentences"] = Json::array();
-  if (engines.empty() || engines.front().finished.empty()) {
-    view["lead"] = "Nothing was averaged.";
-    return;
-  }
-  view["lead"] = fmt::format("{} of {} averaged: {}.",
-                             counted(static_cast<std::size_t>(snapshots), "snapshot"),
-                             engines.front().name, extentOf(results, engines));
+  view["lead"] = averageLead(results, engines);
+  if (engines.empty() || engines.front().finished.empty()) return;
   if (const std::string times = timesOf(engines); !times.empty())
     view["sentences"].push_back("The snapshots are of " + times + ".");
   for (const std::string& state : stateSentences(results, engines))
@@ -69,10 +66,18 @@ void addAverageSummary(Json& view, const CompareResults& results, const Engines&
 
 }  // namespace
 
+std::string averageLead(const CompareResults& results, const Engines& engines) {
+  if (engines.empty() || engines.front().finished.empty()) return "Nothing was averaged.";
+  return fmt::format("{} of {} averaged: {}.",
+                     counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
+                     engines.front().name, extentOf(results, engines));
+}
+
 std::string averagePage(const CompareResults& results, const Illustrations& shown) {
   const Engines engines = engineRuns(results);
   Json view = studyView(results, shown);
   addAverageSummary(view, results, engines);
+  addOverview(view, averageOverview(results), results.engines);
   view["columns"] = columnsView(engines);
   addStateTable(view, engines);
   addStates(view, results, engines);

@@ -25,6 +25,7 @@ Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
     Point point{*x, sign * *difference / *margin, {}};
     if (const auto low = finite(ring.low), high = finite(ring.high); low && high)
       point.error = 0.5 * (*high - *low) / *margin;
+    point.place = fmt::format("ring {}", ring.ring + 1);
     curve.points.push_back(std::move(point));
   }
   return curve;

@@ -24,8 +24,7 @@ Json tableRow(const std::string& label, const std::string& unit, const Engines& 
 }
 
 Json group(const std::string& title, const Engines& engines, Json rows) {
-  return {
-      {"title", title}, {"span", std::to_string(engines.size() + 2)}, {"rows", std::move(rows)}};
+  return {{"title", title}, {"span", engines.size() + 2}, {"rows", std::move(rows)}};
 }
 
 Cell fromRealised(std::string Realised::*member) {

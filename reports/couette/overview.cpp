@@ -195,7 +195,6 @@ Overview compareOverview(const CompareResults& results) {
        "Is the engine the law that it declares? Side by side with its mirror, step by "
        "step; the change of a constant that would part the mirror from itself as far.",
        results.lockstep ? "lockstep" : ""},
-      {"collisions", "Do two disks collide as theory says? crossgrain collide tells.", ""},
       {"averages against " + reference,
        "The endpoint that says most, as its distance from the reference in margins.",
        results.endpoints.rows.empty() ? "" : "agreement"},
@@ -205,11 +204,8 @@ Overview compareOverview(const CompareResults& results) {
   for (const EngineRuns& engine : engineRuns(results))
     overview.rows.push_back({engine.name,
                              true,
-                             {lockstepOf(results, engine),
-                              {CellState::notMeasured, {}, "", {}, {}, {}},
-                              averagesOf(results, engine),
-                              costOfEngine(engine),
-                              lostOf(results, engine)}});
+                             {lockstepOf(results, engine), averagesOf(results, engine),
+                              costOfEngine(engine), lostOf(results, engine)}});
   overview.conclusion = compareConclusion(results);
   return overview;
 }

@@ -1,12 +1,20 @@
 #pragma once
 
+#include "reports/couette/engine_runs.hpp"
 #include "results/compare.hpp"
 #include "results/overview.hpp"
+#include "results/rev.hpp"
 
 namespace crossgrain::reports {
 
-/// An engine per row: its own law, collisions, averages against the reference, cost, runs lost.
+/// An engine per row: its own law, averages against the reference, cost, runs lost.
 Overview compareOverview(const CompareResults& results);
+
+/// Whose snapshots: in which state, how steady, how well balanced, and what the fits give.
+Overview averageOverview(const CompareResults& results);
+
+/// A field per row, a weight per column: from which ring width on the weight hardly matters.
+Overview revOverview(const RevResults& results);
 
 /// Of endpoints of one pair: the row that says most, the farthest of those with the gravest answer;
 /// null without one.
@@ -22,5 +30,11 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 
 /// At most three sentences: who agrees with whom on what, what is to blame, what to do next.
 std::vector<std::string> compareConclusion(const CompareResults& results);
+
+/// "40 snapshots of yade averaged: 12 fields in 20 rings."
+std::string averageLead(const CompareResults& results, const std::vector<EngineRuns>& engines);
+
+/// "400 snapshots of grain: 12 fields under 5 weights, in rings of widths from 0.1 to 4 d."
+std::string revLead(const RevResults& results);
 
 }  // namespace crossgrain::reports

@@ -70,6 +70,7 @@ std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& en
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
     if (error) point.error = *error * std::abs(factor);
+    point.place = fmt::format("ring {}", ring + 1);
     points.push_back(point);
   }
   return points;

@@ -7,8 +7,11 @@
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
+#include "reports/couette/rev_fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -28,10 +31,6 @@ const std::array<MethodStyle, 5>& methodStyles() {
                                                      {"line_heaviside", {"#cc79a7", 13, true}}}};
   return styles;
 }
-
-/// The fields that are drawn; the table and the CSV file have all.
-constexpr std::array drawnFields = {"volume_fraction", "azimuthal_velocity", "spin",
-                                    "fabric_trace",    "stress_rr",          "stress_pr"};
 
 Curve drawnCurve(const RevCurve& curve, const MethodStyle& method) {
   Curve drawn{spaced(method.name), method.style, Draw::linesAndPoints, {}, 1.2};
@@ -82,7 +81,7 @@ std::string meetingOf(const RevResults& results, const char* field, const char* 
 /// A row per field: where centre and line averages come closest to slicing near d and 2 d.
 Json meetingRows(const RevResults& results) {
   Json rows = Json::array();
-  for (const char* const field : drawnFields) {
+  for (const char* const field : drawnRevFields) {
     Json cells = Json::array();
     for (const char* method : {"centre", "line_gaussian", "line_heaviside"})
       for (const double near : {1.0, 2.0}) cells.push_back(meetingOf(results, field, method, near));
@@ -96,36 +95,15 @@ Json meetingRows(const RevResults& results) {
 
 std::vector<Figure> revFigures(const RevResults& results) {
   std::vector<Figure> figures;
-  for (const char* const field : drawnFields)
+  for (const char* const field : drawnRevFields)
     if (Figure figure = fieldFigure(results, field); !figure.panels.empty())
       figures.push_back(std::move(figure));
   return figures;
 }
 
-namespace {
-
-/// "400 snapshots of grain: 12 fields under 5 weights, in rings of widths from 0.1 to 4 d."
-std::string leadOf(const RevResults& results) {
-  std::set<std::string> fields, methods;
-  std::set<double> widths;
-  for (const RevCurve& curve : results.curves) {
-    fields.insert(curve.field);
-    methods.insert(curve.method);
-    widths.insert(curve.width.begin(), curve.width.end());
-  }
-  if (widths.empty()) return "No ring fits into the cell: nothing was averaged.";
-  return fmt::format("{} of {}: {} under {}, in rings of widths from {} to {} d.",
-                     counted(static_cast<std::size_t>(results.averaging.snapshots), "snapshot"),
-                     results.engine, counted(fields.size(), "field"),
-                     counted(methods.size(), "weight"), readableSetting(*widths.begin()),
-                     readableSetting(*widths.rbegin()));
-}
-
-}  // namespace
-
 std::string revPage(const RevResults& results, const Illustrations& shown) {
   Json view = commonView(results.head, std::nullopt, results.notes, shown);
-  view["lead"] = leadOf(results);
+  view["lead"] = revLead(results);
   view["sentences"] = {
       "Nothing was run and nothing compared but ways of averaging the same "
       "snapshots: what depends on the ring's width or on the weight is a matter "
@@ -133,6 +111,7 @@ std::string revPage(const RevResults& results, const Illustrations& shown) {
   if (const auto width = results.averaging.lineWidth)
     view["sentences"].push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
                                             readableSetting(width)));
+  addOverview(view, revOverview(results), {});
   view["figures"] = figureViews(shown, "rev_");
   view["meetings"] = meetingRows(results);
   view["files"] =

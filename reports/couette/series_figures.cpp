@@ -74,6 +74,7 @@ Panel seriesPanel(const CouetteFrame& frame, const std::vector<EngineRuns>& engi
           blockMeans(valuesOf(series, "t_s"), valuesOf(series, plot.name), rate.value_or(1.0)),
           1.0};
       if (curve.points.empty()) continue;
+      for (Point& point : curve.points) point.place = fmt::format("packing {}", run->packing);
       panel.curves.push_back(std::move(curve));
       name.clear();
     }
@@ -94,6 +95,7 @@ std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check)
     if (!x || !value || !reference || *reference == 0.0) continue;
     Point point{*x, *value / *reference, {}};
     if (error) point.error = *error / std::abs(*reference);
+    point.place = fmt::format("ring {}", ring + 1);
     points.push_back(point);
   }
   return points;

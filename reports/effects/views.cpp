@@ -196,7 +196,7 @@ Json effectTable(const EffectsResults& results, const std::string& engine) {
   const EffectVariant* whole = wholeVariant(results, engine);
   const auto step = whole ? finite(whole->step) : std::nullopt;
   Json table = {{"fields", Json::array()},
-                {"span", std::to_string(fields.size() + 3)},
+                {"span", fields.size() + 3},
                 {"wholeStep", readable(step ? std::optional(*step * 1e6) : std::nullopt)},
                 {"wholeContacts", whole ? readableCount(whole->contacts) : std::string(absentText)},
                 {"scales", scales(results, engine, fields)},

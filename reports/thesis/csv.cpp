@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "reports/common/csv_row.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/thesis/report.hpp"
@@ -5,12 +8,16 @@
 namespace crossgrain::reports {
 
 std::string claimsCsv(const ThesisResults& results) {
-  std::string table = "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why\n";
+  std::string table =
+      "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why,figure_verdict,"
+      "reasons\n";
   for (const ClaimRow& claim : results.claims) {
     const auto line = [&](const ClaimFigure& figure) {
       table += row(claim.id, claim.engine, claim.carrier, claim.reading, figure.name, figure.value,
                    figure.standardError, figure.low, figure.high, figure.unit,
-                   std::string(nameOf(claim.verdict)), claim.why);
+                   std::string(nameOf(claim.verdict)), claim.why,
+                   figure.verdict ? std::string(nameOf(*figure.verdict)) : std::string(),
+                   fmt::format("{}", fmt::join(claim.reasons, " ")));
     };
     for (const ClaimFigure& figure : claim.figures) line(figure);
     if (claim.figures.empty()) line({});

@@ -5,7 +5,9 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
+#include "reports/thesis/overview.hpp"
 #include "reports/thesis/reading_changes.hpp"
 #include "reports/thesis/report.hpp"
 
@@ -123,13 +125,13 @@ Json legRows(const ThesisResults& results) {
                 {"rotations", rotationsOf(leg)},
                 {"engine", "not run"}};
     const std::vector<LegRuns> runs = runsOf(results, leg);
-    row["span"] = std::to_string(std::max<std::size_t>(runs.size(), 1));
+    row["span"] = std::max<std::size_t>(runs.size(), 1);
     if (runs.empty()) rows.push_back(row);
     for (const LegRuns& own : runs) {
       const double each = own.packings * rotations;
       const auto& history = own.first->history;
       row["engine"] = own.engine;
-      row["packings"] = std::to_string(own.packings);
+      row["packings"] = own.packings;
       row["wall"] = readableDuration(own.wall / each);
       row["cpu"] = readableDuration(own.cpu / each);
       row["pressures"] = history.empty()
@@ -161,7 +163,7 @@ void addReadings(Json& view, const ThesisResults& results) {
                                 {"engine", of.engine},
                                 {"labels", fmt::format("{}", fmt::join(labels, ", "))},
                                 {"rotations", of.rotations},
-                                {"pairs", std::to_string(of.pairs)},
+                                {"pairs", of.pairs},
                                 {"changes", cells}});
   }
   view["hasReadings"] = !view["readings"].empty();
@@ -217,6 +219,7 @@ void addThesisSummary(Json& view, const ThesisResults& results) {
 std::string thesisPage(const ThesisResults& results, const Illustrations& shown) {
   Json view = commonView(results.head, results.elapsed, results.notes, shown);
   addThesisSummary(view, results);
+  addOverview(view, thesisOverview(results), results.engines);
   view["claims"] = claimRows(results, shown);
   view["hasClaims"] = !results.claims.empty();
   view["legs"] = legRows(results);

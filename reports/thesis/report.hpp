@@ -10,8 +10,9 @@
 /// What is written of a climb through the thesis' claims.
 namespace crossgrain::reports {
 
-/// id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why
-/// One row per figure, in the claims' order; a claim without any figure has one row.
+/// id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why,figure_verdict,reasons
+/// One row per figure, in the claims' order; a claim without any figure has one row. Verdict, why
+/// and reasons are the claim's; a figure that is told only has no verdict of its own.
 std::string claimsCsv(const ThesisResults& results);
 
 /// leg,engine,packing,from_rotation,to_rotation,outer_pressure,wheel_torque,wheel_contacts,

@@ -3,8 +3,12 @@
 #include <cstdlib>
 #include <set>
 
+#include "reports/collide/report.hpp"
 #include "reports/collide/table.hpp"
+#include "reports/common/figure_data.hpp"
 #include "reports/common/svg.hpp"
+#include "reports/couette/overview.hpp"
+#include "reports/couette/report.hpp"
 #include "reports/report.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
@@ -60,11 +64,43 @@ TEST(Pages, AreSelfContainedAndWellFilled) {
     const std::string page = withoutImages(written->page);
     EXPECT_FALSE(has(page, "{{")) << page.substr(page.find("{{"), 80);
     EXPECT_FALSE(has(page, "}}")) << page.substr(page.find("}}") - 80, 80);
-    for (const char* outside : {"http:", "https:", "src=", "<link", "<script", "@import", "url("})
+    for (const char* outside : {"http:", "https:", "src=", "<link", "@import", "url("})
       EXPECT_FALSE(has(page, outside)) << outside;
     for (const char* notANumber : {"nan", "NaN", "-inf", "null"})
       EXPECT_FALSE(has(page, std::string(">") + notANumber)) << notANumber;
     EXPECT_TRUE(has(page, "</html>"));
+  }
+}
+
+/// How many parts gnuplot named in a drawing.
+std::size_t partsOf(const std::string& svg) {
+  std::size_t parts = 0;
+  for (std::size_t at = 0; (at = svg.find("id=\"gnuplot_plot_", at)) != std::string::npos; ++at)
+    ++parts;
+  return parts;
+}
+
+TEST(FigureData, NamesWhatIsInTheDrawings) {
+  for (const Written* written : {&compared(), &collided()}) {
+    const fs::path plots = written->folder.path() / "plots";
+    const auto figures = written == &compared()
+                             ? reports::compareFigures(sample::compareResults(4, 300))
+                             : reports::collideFigures(sample::collideResults());
+    for (const reports::Figure& figure : figures) {
+      const std::string svg = readFile(plots / (figure.name + ".svg")).value();
+      const auto data =
+          reports::figureData(figure, readFile(plots / (figure.name + ".axes")).value(), {});
+      ASSERT_FALSE(data.is_null()) << figure.name;
+      std::size_t parts = 0;
+      for (const json& panel : data["panels"])
+        for (const json& curve : panel["curves"])
+          for (const json& part : curve["parts"]) {
+            ++parts;
+            EXPECT_TRUE(has(svg, "id=\"gnuplot_plot_" + part.get<std::string>() + "\""))
+                << figure.name << part;
+          }
+      EXPECT_EQ(parts, partsOf(svg)) << figure.name;
+    }
   }
 }
 
@@ -145,9 +181,10 @@ TEST(ComparePage, ShowsLooksCarriersAndAlarms) {
                   "2 pairs; agree is held endpoint by endpoint, disagree over the endpoints of "
                   "each pair, at 5 % each."));
   EXPECT_TRUE(has(page, "by grain~yade, B = 0.00200 margins"));
-  EXPECT_TRUE(has(page,
-                  "yade: by its mirror grain~yade (ε_eq 1.00×10⁻⁵; 16 windows alike leave at "
-                  "most 19 % of states unlike)"));
+  EXPECT_TRUE(
+      has(page,
+          "yade: by its mirror grain~yade (ε<sub>eq</sub> 1.00×10⁻⁵; 16 windows alike leave at "
+          "most 19 % of states unlike)"));
   EXPECT_FALSE(has(page, "packings decide with 90 % chance<"));
   EXPECT_TRUE(has(single().page, "12 to 20 packings decide with 90 % chance<"));
 }
@@ -332,34 +369,17 @@ TEST(CollidePage, EveryScoreIsThere) {
   EXPECT_TRUE(has(page, "<td class=\"n agree\">✓ 0.0024<small>0.0012</small></td>"));
 }
 
-/// What `average` writes: one run of one source, nothing run by crossgrain.
-CompareResults averaged() {
-  CompareResults results = sample::compareResults(1, 100);
-  results.head.kind = "average";
-  results.head.command = "crossgrain average cases/a.toml snapshots.csv";
-  results.engines.resize(1);
-  results.runs.resize(1);
-  CouetteRun& run = results.runs.front();
-  run.realised.reset();
-  run.stats.reset();
-  run.picture.reset();
-  results.agreement.clear();
-  results.ensemble.clear();
-  results.packings.clear();
-  results.averaging = {};
-  results.averaging.method = "slicing";
-  results.averaging.snapshots = 12;
-  return results;
-}
-
 TEST(AveragePage, SaysWhatItIs) {
-  const Written written(averaged());
+  const Written written(sample::averageResults());
   const std::string page = withoutImages(written.page);
   EXPECT_TRUE(has(page, "<p class=\"kicker\">crossgrain average</p>"));
   EXPECT_TRUE(
       has(page, "<p class=\"lead\">12 snapshots of grain averaged: 7 fields in 20 rings.</p>"))
       << page.substr(page.find("class=\"lead\""), 200);
   EXPECT_TRUE(has(page, "Nothing was run and nothing compared"));
+  const std::size_t matrix = page.find("id=\"overview\"");
+  ASSERT_NE(matrix, std::string::npos);
+  EXPECT_TRUE(has(page.substr(matrix, 4000), "regime"));
   EXPECT_TRUE(has(page, "The case: its cell, rings and weights"));
   for (const char* claim : {"crossgrain compare", "could be compared",
                             "No engine reports any "
@@ -372,24 +392,87 @@ TEST(AveragePage, SaysWhatItIs) {
 }
 
 TEST(RevPage, SaysWhatItIs) {
-  RevResults results;
-  results.head.schema = schemaVersion;
-  results.head.kind = kindRev;
-  results.engine = "grain";
-  results.averaging.snapshots = 3;
-  results.averaging.lineWidth = 1.0;
-  for (const char* method : {"slicing", "centre"})
-    results.curves.push_back(
-        {method, "volume_fraction", "1", 0.12, {0.5, 1.0, 2.2}, {0.7, 0.8, 0.8}, {0.1, 0.1, 0.1}});
-  results.meetings = {{"centre", "volume_fraction", 1.0, 0.95, 0.01}};
+  RevResults results = sample::revResults();
   const std::string page = withoutImages(Written(results).page);
   EXPECT_TRUE(has(page, "crossgrain rev"));
+  // 0.1/0.7 apart in the narrowest ring, the same from 1 d on.
+  results.curves[1].mean[0] = 0.8;
+  const Overview overview = reports::revOverview(results);
+  ASSERT_EQ(overview.rows.size(), 1u);
+  EXPECT_EQ(overview.rows[0].name, "volume fraction");
+  EXPECT_EQ(overview.rows[0].cells[1].shown, "≥ 1 d");
+  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notMeasured);
+  EXPECT_EQ(overview.conclusion[1], "Within 5 % of slicing in every field: centre from 1 d.");
+  results.curves[1].mean[2] = 0.9;
+  EXPECT_EQ(reports::revOverview(results).rows[0].cells[1].state, CellState::borderline);
+  EXPECT_TRUE(has(reports::revOverview(results).conclusion[1],
+                  "Further off at any width: centre (volume fraction)"));
   EXPECT_TRUE(has(page,
                   "3 snapshots of grain: 1 field under 2 weights, in rings of widths from 0.5 "
                   "to 2.2 d."));
   EXPECT_TRUE(has(page, "Nothing was run and nothing compared but ways of averaging"));
   // Under "near d" of the first method, and dashes where no width was there to meet at.
   EXPECT_TRUE(has(page, "<td class=\"n\">0.95 (1 %)</td><td class=\"n\">–</td>"));
+}
+
+TEST(Svg, LosesItsTop) {
+  const std::string svg =
+      "<svg \n width=\"560\" height=\"380\"\n viewBox=\"0 0 560 380\"\n><g/></svg>";
+  EXPECT_EQ(reports::withoutTop(svg, 30),
+            "<svg \n width=\"560\" height=\"350\"\n viewBox=\"0 30 560 350\"\n><g/></svg>");
+  EXPECT_EQ(reports::withoutTop(svg, 0), svg);
+}
+
+/// Two engines in two panels, the second with an unnamed companion of its colour.
+std::vector<reports::Figure> twoPanels() {
+  using namespace reports;
+  const LineStyle black{"#000000", 7, false}, red{"#d55e00", 5, false}, open{"#d55e00", 4, false};
+  Panel panel;
+  panel.curves = {{"ours", black, Draw::linesAndPoints, {{0.0, 1.0, {}}}},
+                  {"theirs", red, Draw::linesAndPoints, {{0.0, 2.0, 0.5}}},
+                  {"", open, Draw::points, {{0.5, 1.0, {}}}},
+                  {"slope −2", {"#888888", 0, true}, Draw::lines, {{0.0, 1.0, {}}}}};
+  Figure figure;
+  figure.name = "one";
+  figure.panels = {panel};
+  Figure other = figure;
+  other.name = "two";
+  return {figure, other};
+}
+
+TEST(FigureData, FindsWhoseCurvesAre) {
+  using namespace reports;
+  const auto figures = twoPanels();
+  const auto legend = sharedLegend(figures);
+  ASSERT_EQ(legend.size(), 2u);  // a guide is nobody's
+  const auto& curves = figures[0].panels[0].curves;
+  EXPECT_EQ(ownerOf(curves[0], legend), 0);
+  EXPECT_EQ(ownerOf(curves[1], legend), 1);
+  EXPECT_EQ(ownerOf(curves[2], legend), 1);
+  EXPECT_EQ(ownerOf(curves[3], legend), -1);
+  EXPECT_TRUE(sharedLegend({figures[0]}).empty()) << "nothing is shared by one panel";
+
+  const json data = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", legend);
+  const json& panel = data["panels"][0];
+  EXPECT_EQ(panel["box"], json({80.0, 540.0, 80.0, 320.0}));
+  EXPECT_EQ(panel["curves"][1]["parts"], json({"2", "3"}));
+  EXPECT_EQ(panel["curves"][1]["points"], json::parse("[[0.0, 2.0, 0.5]]"));
+  EXPECT_TRUE(figureData(figures[0], "", legend).is_null());
+  EXPECT_TRUE(figureData(figures[0], "80 540 60\n", legend).is_null());
+}
+
+TEST(FigureData, LeavesOutAKeyThatThePageHas) {
+  using namespace reports;
+  auto figures = twoPanels();
+  const std::string axes = "80 540 60 300 0 1 0.5 2.5\n";
+  const auto legend = sharedLegend(figures);
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 0) << "the guide's name would be lost";
+  figures[0].panels[0].curves.pop_back();
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 380 - 300 - 12);
+  EXPECT_EQ(figureData(figures[0], axes, legend)["height"], 380 - 68);
+  EXPECT_EQ(keyRoom(figures[0], axes, {}), 0);
+  figures[0].panels[0].key = Key::none;
+  EXPECT_EQ(keyRoom(figures[0], axes, legend), 0);
 }
 
 TEST(Svg, IsShortenedWithoutTouchingWords) {

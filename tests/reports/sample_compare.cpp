@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "results/schema.hpp"
 #include "tests/reports/sample_common.hpp"
 #include "tests/reports/sample_results.hpp"
 
@@ -409,6 +410,39 @@ CompareResults compareResults(int packings, int disks) {
                                         {"carried", true}}};
   }
   return compareFromJson(results);
+}
+
+CompareResults averageResults() {
+  CompareResults results = compareResults(1, 100);
+  results.head.kind = "average";
+  results.head.command = "crossgrain average cases/a.toml snapshots.csv";
+  results.engines.resize(1);
+  results.runs.resize(1);
+  CouetteRun& run = results.runs.front();
+  run.realised.reset();
+  run.stats.reset();
+  run.picture.reset();
+  results.agreement.clear();
+  results.ensemble.clear();
+  results.packings.clear();
+  results.averaging = {};
+  results.averaging.method = "slicing";
+  results.averaging.snapshots = 12;
+  return results;
+}
+
+RevResults revResults() {
+  RevResults results;
+  results.head.schema = schemaVersion;
+  results.head.kind = kindRev;
+  results.engine = "grain";
+  results.averaging.snapshots = 3;
+  results.averaging.lineWidth = 1.0;
+  for (const char* method : {"slicing", "centre"})
+    results.curves.push_back(
+        {method, "volume_fraction", "1", 0.12, {0.5, 1.0, 2.2}, {0.7, 0.8, 0.8}, {0.1, 0.1, 0.1}});
+  results.meetings = {{"centre", "volume_fraction", 1.0, 0.95, 0.01}};
+  return results;
 }
 
 }  // namespace crossgrain::sample

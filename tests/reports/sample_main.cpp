@@ -15,5 +15,11 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::effectsResults(4), dir / "effects");
   crossgrain::writeReport(crossgrain::sample::stabilityResults(), dir / "stability");
   crossgrain::writeReport(crossgrain::sample::costResults(), dir / "cost");
+  crossgrain::writeReport(crossgrain::sample::averageResults(), dir / "average");
+  crossgrain::writeReport(crossgrain::sample::revResults(), dir / "rev");
+  crossgrain::writeReport(crossgrain::sample::thesisClaims(), dir / "thesis");
+  crossgrain::writeSite({{"lockstep", toJson(crossgrain::sample::lockstepResults())},
+                         {"thesis", toJson(crossgrain::sample::thesisClaims())}},
+                        dir / "site");
   std::printf("%s\n", dir.c_str());
 }

@@ -6,6 +6,7 @@
 #include "results/cost.hpp"
 #include "results/effects.hpp"
 #include "results/lockstep.hpp"
+#include "results/rev.hpp"
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
@@ -16,6 +17,12 @@ namespace crossgrain::sample {
 /// Three engines, a mirror, one engine that refused and one run that failed, text that HTML and
 /// gnuplot must not take literally, and absent numbers here and there.
 CompareResults compareResults(int packings, int disks);
+
+/// What `average` writes: one run of one source, nothing run by crossgrain.
+CompareResults averageResults();
+
+/// One field at one radius under two weights, which meet at one diameter.
+RevResults revResults();
 
 /// Two laws, several time steps, a sweep without points.
 CollideResults collideResults();
@@ -37,6 +44,9 @@ CostResults costResults();
 /// Eleven densities on the thesis' rings, two packings of an engine, one of another at low density;
 /// exponentials and powers that tests know.
 ThesisResults thesisResults();
+
+/// The claims alone, of two engines and of none: every verdict, and several readings.
+ThesisResults thesisClaims();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

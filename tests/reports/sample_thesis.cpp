@@ -2,6 +2,7 @@
 #include <map>
 #include <numbers>
 
+#include "results/schema.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::sample {
@@ -180,6 +181,33 @@ ThesisResults thesisResults() {
     if (label < 0.805) add("beta", 0, 1.05);
     results.legs.push_back(leg);
   }
+  return results;
+}
+
+ThesisResults thesisClaims() {
+  ThesisResults results;
+  results.head.schema = schemaVersion;
+  results.head.kind = "thesis";
+  results.engines = {{"grain", "", "", "", EngineStatus::ran, ""},
+                     {"yade", "", "", "", EngineStatus::ran, ""}};
+  for (int k = 1; k <= 27; ++k)
+    for (const char* engine : {"grain", "yade", "-"}) {
+      if ((std::string_view(engine) == "-") != (k == 2)) continue;
+      ClaimRow claim;
+      claim.id = "C" + std::to_string(k);
+      claim.claim = "The band is five diameters wide wherever the shear stress falls off.";
+      claim.engine = engine;
+      claim.reading = "default: wall spacing 2.5 mm";
+      claim.verdict = static_cast<ClaimVerdict>(k % 3);
+      claim.figures = {{"exponent of σ_rφ in the bulk", "d", -1.98, 0.02, -2.25, -1.75}};
+      claim.figures.front().verdict = claim.verdict;
+      claim.why = "it is −1.98";
+      if (k % 6 == 1) claim.reasons = {"The whole claim is reproduced under tension cut."};
+      results.claims.push_back(claim);
+      claim.reading = "wall spacing 7 mm";
+      claim.verdict = ClaimVerdict::reproduced;
+      results.claims.push_back(std::move(claim));
+    }
   return results;
 }
 

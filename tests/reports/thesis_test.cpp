@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/thesis/overview.hpp"
 #include "tests/reports/has.hpp"
 
 namespace crossgrain::reports {
@@ -44,6 +45,7 @@ ThesisResults twoClaims() {
   refuted.engine = "grain";
   refuted.reading = "default";
   refuted.figures = {{"C⁻¹", "d", 9.0, 0.5, 4.0, 7.0}, {"ν₀", "", 0.84, {}, {}, 0.87}};
+  refuted.figures[0].verdict = ClaimVerdict::refuted;
   refuted.verdict = ClaimVerdict::refuted;
   refuted.why = "it is 9, not 4 to 7";
   refuted.plot = "figure 6.5";
@@ -59,13 +61,18 @@ ThesisResults twoClaims() {
 }
 
 TEST(ThesisTables, HoldEveryFigureOfEveryClaim) {
-  EXPECT_EQ(claimsCsv(twoClaims()),
-            "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why\n"
-            "C5,grain,,default,C⁻¹,9,0.5,4,7,d,refuted,\"it is 9, not 4 to 7\"\n"
-            "C5,grain,,default,ν₀,0.84,,,0.87,,refuted,\"it is 9, not 4 to 7\"\n"
-            "C5,grain,,wall spacing 7 mm,C⁻¹,9,0.5,4,7,d,reproduced,\"it is 9, not 4 to 7\"\n"
-            "C5,grain,,wall spacing 7 mm,ν₀,0.84,,,0.87,,reproduced,\"it is 9, not 4 to 7\"\n"
-            "C6,grain,,,,,,,,,undecided,no runs\n");
+  EXPECT_EQ(
+      claimsCsv(twoClaims()),
+      "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why,figure_verdict,"
+      "reasons\n"
+      "C5,grain,,default,C⁻¹,9,0.5,4,7,d,refuted,\"it is 9, not 4 to 7\",refuted,Impacts dilate "
+      "it.\n"
+      "C5,grain,,default,ν₀,0.84,,,0.87,,refuted,\"it is 9, not 4 to 7\",,Impacts dilate it.\n"
+      "C5,grain,,wall spacing 7 mm,C⁻¹,9,0.5,4,7,d,reproduced,\"it is 9, not 4 to "
+      "7\",refuted,Impacts dilate it.\n"
+      "C5,grain,,wall spacing 7 mm,ν₀,0.84,,,0.87,,reproduced,\"it is 9, not 4 to "
+      "7\",,Impacts dilate it.\n"
+      "C6,grain,,,,,,,,,undecided,no runs,,\n");
 }
 
 TEST(ThesisTables, HoldEveryRotation) {
@@ -88,6 +95,52 @@ TEST(ThesisTables, CountAClaimOnceWhateverItsReadings) {
 TEST(ThesisTables, TellAClaimInALine) {
   EXPECT_EQ(claimsText(twoClaims()).substr(0, claimsText(twoClaims()).find('\n')),
             "C5   refuted    grain            C⁻¹: 9.00\u00a0±\u00a00.50 d [4 … 7]; default");
+}
+
+TEST(ThesisOverview, HasEveryClaimUnderItsFirstReading) {
+  ThesisResults results = twoClaims();
+  ClaimRow model = results.claims.front();
+  model.engine = "-";
+  model.id = "C1";
+  model.verdict = ClaimVerdict::reproduced;
+  model.figures.front().value.reset();
+  results.claims.insert(results.claims.begin(), model);
+  // The figure that refutes it is told, not the first.
+  std::swap(results.claims[1].figures[0], results.claims[1].figures[1]);
+  const Overview overview = thesisOverview(results);
+  ASSERT_EQ(overview.columns.size(), 3u);
+  EXPECT_EQ(overview.columns[1].name, "C5");
+  EXPECT_EQ(overview.columns[1].asks, "a zone is dilated");
+  ASSERT_EQ(overview.rows.size(), 2u);
+  EXPECT_EQ(overview.rows[0].name, "grain");
+  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notApplicable);
+  const OverviewCell& refuted = overview.rows[0].cells[1];
+  EXPECT_EQ(refuted.state, CellState::bad);
+  EXPECT_EQ(refuted.shown, "9.00\u00a0d");
+  EXPECT_EQ(refuted.words, "C⁻¹ [4 … 7]; ✓ under wall spacing 7 mm");
+  EXPECT_EQ(refuted.anchor, "C5");
+  EXPECT_EQ(overview.rows[0].cells[2].state, CellState::undecided);
+  EXPECT_EQ(overview.rows[1].name, "no engine");
+  EXPECT_FALSE(overview.rows[1].isEngine);
+  EXPECT_EQ(overview.rows[1].cells[0].state, CellState::good);
+  EXPECT_EQ(overview.rows[1].cells[0].shown, "");
+}
+
+TEST(ThesisOverview, ConcludesByRule) {
+  ThesisResults results = twoClaims();
+  EXPECT_EQ(thesisOverview(results).conclusion,
+            (std::vector<std::string>{
+                "Claims on grain: 0 reproduced, 1 refuted, 1 undecided.",
+                "Refuted: C5 on grain; the table of claims has what was found of the reason.",
+                "Next: the same command with a larger --budget runs the 1 of 2 legs that nobody "
+                "has run; what is undecided may rest on them."}));
+  results.claims.front().reasons.clear();
+  EXPECT_TRUE(has(thesisOverview(results).conclusion[1], "found of why, of 1 nothing."));
+  results.claims.pop_back();
+  EXPECT_EQ(thesisOverview(results).conclusion.back(), "Nothing is left to decide by these rules.");
+  results.claims.clear();
+  EXPECT_TRUE(thesisOverview(results).rows.empty());
+  EXPECT_TRUE(thesisOverview(results).conclusion.empty());
 }
 
 TEST(ThesisPage, SaysWhatWasFoundWhatItTookAndWhatNobodyRan) {

@@ -64,6 +64,30 @@ class Overview(SystemTest):
         wait_for(lambda: opened.exists() and opened.read_text(), 60, "the browser")
         self.assertEqual(str(self.out / "report.html"), opened.read_text())
 
+    def test_several_reports_are_one_site(self):
+        self.collide()
+        before = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
+        site = self.folder / "site"
+        done = self.run_program("report", self.out, self.out, "--out", site)
+        self.assert_status(done, HELD)
+        self.assertEqual(f"site: {site / 'index.html'}\n", done.stdout)
+        name = self.out.name
+        index = (site / "index.html").read_text(encoding="utf-8")
+        for page in (f"{name}/report.html", f"{name}-2/report.html"):
+            self.assertIn(f'href="{page}"', index)
+            self.assertTrue((site / page).exists(), page)
+        self.assertRegex((site / "summary.md").read_text(encoding="utf-8"), r"(?m)^\| grain \| ✓ (\d+) of \1 \|")
+        self.assert_status(self.run_program("report", self.out, "--out", site), HELD)
+        for path, content in before.items():
+            self.assertEqual(content, path.read_bytes(), "results are not touched")
+        self.assert_one_line(
+            self.run_program("report", self.out, "--out", self.out), BAD_INPUT, "--out", "results of its own"
+        )
+        self.assert_one_line(
+            self.run_program("report", site, "--out", self.folder / "other"), BAD_INPUT, "results.json"
+        )
+        self.assertFalse((self.folder / "other").exists())
+
     def test_without_a_browser_nothing_is_rebuilt(self):
         self.collide()
         (self.out / "report.html").unlink()

@@ -1,7 +1,7 @@
-"""Reports as a browser shows them: at three widths, light and dark, no script of their own run.
+"""Reports as a browser shows them: at three widths, light and dark, without their script, and what it adds.
 
 One start of Debian's chromium for all: every report is put into frames of these widths on one page, and a
-script of that page looks into them. Skipped where there is no chromium."""
+script of that page looks into them. Skipped where there is no chromium, which packages.txt has not."""
 
 import html
 import json
@@ -86,6 +86,55 @@ addEventListener('load', () => {
 """ % (LEAST_LETTERS, LEAST_CONTRAST)
 
 
+# Does what a reader does with a report's own script; what comes of it is JSON in the page's text.
+USE = r"""
+const later = () => new Promise(done => setTimeout(done, 300));
+async function use(frame) {
+  const doc = frame.contentDocument, view = frame.contentWindow, found = {errors: []};
+  view.addEventListener('error', event => found.errors.push(event.message));
+  found.pictures = doc.querySelectorAll('figure script').length;
+  await later();
+  view.dispatchEvent(new view.Event('beforeprint'));  // else only what is near the window's part is live
+  found.live = doc.querySelectorAll('.live').length;
+  const legend = [...doc.querySelectorAll('#legend span')];
+  found.legend = legend.map(entry => entry.textContent);
+  const shown = () => [...doc.querySelectorAll('.live')].map(live =>
+    [...live.shadowRoot.querySelectorAll('[id^=gnuplot_plot]')].filter(part => part.style.display !== 'none').length);
+  found.before = shown();
+  legend[1].click();
+  found.without = shown();
+  found.pressed = legend.map(entry => entry.getAttribute('aria-pressed'));
+  legend[1].dispatchEvent(new view.KeyboardEvent('keydown', {key: 'Enter', bubbles: true}));
+  found.again = shown();
+  legend[0].dispatchEvent(new view.MouseEvent('click', {bubbles: true, shiftKey: true}));
+  found.alone = legend.map(entry => entry.getAttribute('aria-pressed'));
+  doc.querySelector('#legend button').click();
+  found.all = shown();
+  const profile = doc.querySelector('#profiles ~ .figures figure');
+  const data = JSON.parse(profile.querySelector('script').textContent), panel = data.panels[0];
+  const curve = panel.curves[2], live = profile.querySelector('.live');
+  const [x, y] = curve.points[3], box = live.getBoundingClientRect();
+  const part = (value, ends) => (value - ends[0]) / (ends[1] - ends[0]);
+  const scale = box.height / (live.shadowRoot.querySelector('svg').viewBox.baseVal.height);
+  const left = box.left + scale * (panel.box[0] + part(x, panel.x) * (panel.box[1] - panel.box[0]));
+  const top = box.top + scale * (panel.box[3] + part(y, panel.y) * (panel.box[2] - panel.box[3]) - data.top);
+  live.dispatchEvent(new view.PointerEvent('pointermove', {clientX: left, clientY: top, bubbles: true}));
+  found.told = [...doc.querySelectorAll('.tip > *')].map(line => line.textContent);
+  found.expected = [curve.name, x, y];
+  live.dispatchEvent(new view.PointerEvent('pointerleave'));
+  found.gone = doc.querySelector('.tip').hidden;
+  return found;
+}
+addEventListener('load', async () => {
+  const found = await use(document.querySelector('iframe')).catch(error => ({errors: [String(error)]}));
+  const result = document.createElement('pre');
+  result.id = 'found';
+  result.textContent = JSON.stringify(found);
+  document.body.replaceChildren(result);
+});
+"""
+
+
 def harness(reports):
     """A page of frames: each report at each width. Their own scripts, had they any, do not run."""
     frames = "".join(
@@ -97,10 +146,10 @@ def harness(reports):
     return f"<!doctype html><meta charset=utf-8><script>{LOOK}</script><body>{frames}"
 
 
-def looked_at(reports, dark):
+def found_by(harness_page, dark=False):
     with tempfile.TemporaryDirectory() as folder:
         page = pathlib.Path(folder) / "harness.html"
-        page.write_text(harness(reports), encoding="utf-8")
+        page.write_text(harness_page, encoding="utf-8")
         command = [
             CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={folder}/profile",
             f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--virtual-time-budget=20000",
@@ -109,6 +158,10 @@ def looked_at(reports, dark):
         done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=True)
     found = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.S)
     return json.loads(html.unescape(found.group(1)))
+
+
+def looked_at(reports, dark):
+    return found_by(harness(reports), dark)
 
 
 @unittest.skipUnless(CHROMIUM and SAMPLES.exists(), "needs chromium and the sample reports")
@@ -122,6 +175,7 @@ class Pages(unittest.TestCase):
             path.parent.name: path.read_text(encoding="utf-8")
             for path in sorted(pathlib.Path(cls.folder.name).glob("*/report.html"))
         }
+        cls.reports["site"] = (pathlib.Path(cls.folder.name) / "site/index.html").read_text(encoding="utf-8")
         cls.light = looked_at(cls.reports, dark=False)
 
     def each(self, found, check):
@@ -134,7 +188,7 @@ class Pages(unittest.TestCase):
             sorted((one["name"], one["width"]) for one in self.light),
             sorted((name, width) for name in self.reports for width in WIDTHS),
         )
-        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep"):
+        for command in ("compare", "collide", "effects", "stability", "cost", "lockstep", "thesis", "average", "rev"):
             self.assertIn(command, self.reports)
 
     def test_nothing_is_cut_at_the_side(self):
@@ -162,14 +216,34 @@ class Pages(unittest.TestCase):
         self.each(self.light, check)
 
     def test_words_stand_out_light_and_dark(self):
-        few = {name: self.reports[name] for name in ("compare", "cost", "stability")}
+        few = {name: self.reports[name] for name in ("compare", "cost", "stability", "thesis", "site")}
         dark = looked_at(few, dark=True)
         self.assertNotEqual(dark[0]["paper"], self.light[0]["paper"], "the browser was asked for dark")
         self.each(self.light + dark, lambda one: self.assertEqual(one["faint"], []))
 
-    def test_no_script_is_needed(self):
+    def test_plots_answer(self):
+        frame = f'<iframe width="1280" height="100000" srcdoc="{html.escape(self.reports["compare"])}"></iframe>'
+        found = found_by(f"<!doctype html><meta charset=utf-8><script>{USE}</script><body>{frame}")
+        self.assertEqual(found["errors"], [])
+        self.assertGreater(found["live"], 10)
+        self.assertEqual(found["live"], found["pictures"])
+        self.assertEqual(found["legend"], ["grain", "yade", "box2d-impulse", "grain~yade"])
+        self.assertEqual(found["pressed"], ["true", "false", "true", "true"])
+        for before, without in zip(found["before"], found["without"]):
+            self.assertLess(without, before, "it is hidden in all plots")
+        self.assertEqual(found["again"], found["before"])
+        self.assertEqual(found["alone"], ["true", "false", "false", "false"])
+        self.assertEqual(found["all"], found["before"])
+        name, x, y = found["expected"]
+        self.assertEqual(found["told"][:2], [name, "ring 4"])
+        self.assertIn(f": {x:g}", found["told"][2])
+        self.assertIn(f": {y:g} ± ", found["told"][3])
+        self.assertTrue(found["gone"])
+
+    def test_pages_need_no_other_file(self):
         for name, page in self.reports.items():
-            self.assertNotIn("<script", page, name)
+            for outside in ("<script src", "<link", "http:", "https:", "import("):
+                self.assertNotIn(outside, page, name)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/site/site.hpp"
+#include "results/schema.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr std::size_t mostPlaces = 2;
+
+/// States that answer a question, the gravest first.
+constexpr std::array answers = {CellState::bad, CellState::borderline, CellState::undecided,
+                                CellState::modelDifference, CellState::good};
+
+const OverviewRow* rowOf(const Overview& overview, const std::string& engine) {
+  const auto found = std::ranges::find_if(
+      overview.rows, [&](const OverviewRow& row) { return row.isEngine && row.name == engine; });
+  return found == overview.rows.end() ? nullptr : &*found;
+}
+
+/// Questions of a report that came out so for an engine.
+Names questionsWith(const Overview& overview, const OverviewRow& row, CellState state) {
+  Names names;
+  for (std::size_t k = 0; k < row.cells.size(); ++k)
+    if (row.cells[k].state == state) names.push_back(overview.columns[k].name);
+  return names;
+}
+
+std::string pageOf(const SiteReport& report) {
+  return report.folder + "/report.html";
+}
+
+/// "compare quick"
+std::string nameOfReport(const SiteReport& report) {
+  const CaseHead& setup = report.digest.head.setup;
+  const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
+  return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
+}
+
+bool tookPart(const SiteReport& report, const std::string& engine) {
+  return std::ranges::find(report.digest.engines, engine, &EngineRow::name) !=
+         report.digest.engines.end();
+}
+
+/// A refuted claim is a finding about the thesis, not about the engine.
+OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const OverviewRow& row) {
+  const std::size_t reproduced = questionsWith(overview, row, CellState::good).size(),
+                    refuted = questionsWith(overview, row, CellState::bad).size();
+  cell.value = static_cast<double>(reproduced);
+  cell.shown = fmt::format("{} of {}", reproduced, reproduced + refuted);
+  cell.words = "decided claims reproduced";
+  return cell;
+}
+
+OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
+  OverviewCell cell{CellState::notApplicable, {}, "questions", {}, {}, {}};
+  const Overview* overview = report.digest.overview ? &*report.digest.overview : nullptr;
+  const OverviewRow* row = overview ? rowOf(*overview, engine) : nullptr;
+  if (!row && !tookPart(report, engine)) return cell;
+  cell.anchor = pageOf(report);
+  cell.state = CellState::figure;
+  if (!row) {
+    cell.words = "took part";
+    return cell;
+  }
+  if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), *overview, *row);
+  std::size_t answered = 0;
+  for (const CellState state : answers) answered += questionsWith(*overview, *row, state).size();
+  for (const CellState state : answers) {
+    const Names names = questionsWith(*overview, *row, state);
+    if (names.empty()) continue;
+    cell.state = state;
+    cell.value = static_cast<double>(names.size());
+    cell.shown = fmt::format("{} of {}", names.size(), answered);
+    if (state != CellState::good) cell.words = listedShortly(names, mostPlaces);
+    break;
+  }
+  return cell;
+}
+
+/// "ours and theirs in compare quick; …": rows with cells in that state.
+std::string whereWith(const Overview& overview, const Names& engines, CellState state) {
+  SaidOf said;
+  for (const OverviewRow& row : overview.rows)
+    if (const Names where = questionsWith(overview, row, state);
+        !where.empty() && std::ranges::find(engines, row.name) != engines.end())
+      said.add(row.name, listedShortly(where, mostPlaces));
+  std::string words;
+  for (const auto& [where, who] : said.all())
+    words += fmt::format("{}{} in {}", words.empty() ? "" : "; ", listed(who), where);
+  return words;
+}
+
+bool hasAny(const OverviewRow& row, std::initializer_list<CellState> states) {
+  return std::ranges::any_of(row.cells, [&](const OverviewCell& cell) {
+    return std::ranges::find(states, cell.state) != states.end();
+  });
+}
+
+/// @param engines  that are spoken of: mirrors are there for their peers
+std::vector<std::string> conclusionOf(const Overview& overview, const Names& engines) {
+  using enum CellState;
+  Names clean;
+  for (const OverviewRow& row : overview.rows)
+    if (std::ranges::find(engines, row.name) != engines.end() &&
+        hasAny(row, {good, modelDifference}) && !hasAny(row, {bad, borderline, undecided}))
+      clean.push_back(row.name);
+  std::vector<std::string> sentences;
+  if (!clean.empty())
+    sentences.push_back(fmt::format("Nothing is open, and nothing falls short, of {}.",
+                                    listedShortly(clean, 2 * mostPlaces)));
+  if (const std::string fell = whereWith(overview, engines, bad); !fell.empty())
+    sentences.push_back(fmt::format("Falls short: {}.", fell));
+  if (const std::string open = whereWith(overview, engines, undecided); !open.empty())
+    sentences.push_back(fmt::format("Undecided: {}; each report says what would decide.", open));
+  if (sentences.empty()) sentences.push_back("Nothing was judged in these reports.");
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
+  std::vector<EngineRow> engines;
+  for (const SiteReport& report : reports)
+    for (const EngineRow& engine : report.digest.engines)
+      if (std::ranges::find(engines, engine.name, &EngineRow::name) == engines.end())
+        engines.push_back(engine);
+  return engines;
+}
+
+Overview siteOverview(const std::vector<SiteReport>& reports) {
+  Overview overview;
+  overview.states = {{CellState::good, "all that is judged holds"},
+                     {CellState::figure, "took part; nothing is judged by engine"},
+                     {CellState::notApplicable, "not in it"}};
+  for (const SiteReport& report : reports)
+    overview.columns.push_back({nameOfReport(report), titleOf(report.digest.head), pageOf(report)});
+  for (const EngineRow& engine : siteEngines(reports)) {
+    OverviewRow row{engine.name, true, {}};
+    for (const SiteReport& report : reports) row.cells.push_back(cellOf(report, engine.name));
+    overview.rows.push_back(std::move(row));
+  }
+  Names engines;
+  for (const EngineRow& engine : siteEngines(reports))
+    if (engine.mirrors.empty()) engines.push_back(engine.name);
+  overview.conclusion = conclusionOf(overview, engines);
+  return overview;
+}
+
+}  // namespace crossgrain::reports

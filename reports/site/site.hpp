@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/engine_row.hpp"
+#include "results/head.hpp"
+#include "results/overview.hpp"
+
+/// Several reports in one folder, and the page that leads to them.
+namespace crossgrain::reports {
+
+/// What a report says at a glance.
+struct ReportDigest {
+  ResultsHead head;
+  std::vector<EngineRow> engines;
+  std::optional<Overview> overview;  ///< absent: it opens with none
+};
+
+struct SiteReport {
+  std::string folder;  ///< in the site's, where its report.html is
+  ReportDigest digest;
+  std::vector<std::string> tables;  ///< names of its CSV files
+};
+
+/// Of all reports, each once, so that its colour is that of its reports.
+std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
+
+/// Engines × reports: in each cell the gravest state that the report's own matrix has of the
+/// engine, and in how many of its questions.
+Overview siteOverview(const std::vector<SiteReport>& reports);
+
+/// Writes index.html and summary.md. @throws std::runtime_error where they cannot be written
+void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site);
+
+/// Names of folders in a site, of results in these: their own, in letters that an address may have,
+/// each once.
+std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& results);
+
+}  // namespace crossgrain::reports
