@@ -88,12 +88,25 @@ TEST(ThesisCases, ReadingsDifferInOneThing) {
 TEST(Ladders, OfTheThesisHoldEveryRowOfItsTableFirst) {
   const ThesisLadder ladder = loadLadder(thesisFolder / "ladder.toml");
   const auto steps = stepsOf(ladder, {{"grain"}});
-  for (std::size_t k = 0; k < std::size(table32); ++k) {
-    const LadderLeg& leg = ladder.legs[steps[k].leg];
-    EXPECT_EQ(leg.label, table32[k].nu);
-    EXPECT_EQ(leg.setup.particles.small, table32[k].small);
-    EXPECT_EQ(steps[k].packing, 0);
+  std::multiset<std::pair<double, int>> first, table;
+  for (const TableRow& row : table32) {
+    const LadderStep& step = steps[table.size()];
+    const LadderLeg& leg = ladder.legs[step.leg];
+    table.emplace(row.nu, row.small);
+    first.emplace(leg.label, leg.setup.particles.small);
+    EXPECT_EQ(step.packing, 0);
   }
+  EXPECT_EQ(first, table);
+}
+
+TEST(Ladders, OfTheThesisBeginWithNineThatSpanItsTable) {
+  const ThesisLadder ladder = loadLadder(thesisFolder / "ladder.toml");
+  const auto steps = stepsOf(ladder, {{"grain"}});
+  std::set<double> labels;
+  for (std::size_t k = 0; k < 9; ++k) labels.insert(ladder.legs[steps[k].leg].label);
+  EXPECT_EQ(labels.size(), 9u);
+  EXPECT_EQ(*labels.begin(), std::begin(table32)->nu);
+  EXPECT_EQ(*labels.rbegin(), std::rbegin(table32)->nu);
 }
 
 TEST(Ladders, BothHoldEveryFamilyAndLabelLegsByTheirDisks) {
