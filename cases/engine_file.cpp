@@ -131,7 +131,8 @@ EngineEntry loadEngineFile(const fs::path& file) {
   EngineEntry entry = entryOf(std::move(name), std::move(summary), std::move(call));
   entry.missing = [program = std::move(entry.missing), needs, install] {
     const std::string why = program();
-    return why.empty() ? whyIncomplete(needs, install) : why;
+    if (why.empty()) return whyIncomplete(needs, install);
+    return install.empty() ? why : fmt::format("{} ({})", why, install);
   };
   entry.settings = std::move(settings);
   return entry;

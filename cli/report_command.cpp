@@ -46,6 +46,7 @@ int rebuildReports(const CommandLine& line, const Options& options) {
   for (const fs::path& folder : line.inputs) {
     const nlohmann::json results =
         concludedAnew(readResults(folder), folder, pathOf(options.reasons));
+    if (options.open) requireBrowser();
     const FolderLock lock(folder, "report");
     writeReport(results, folder);
     fmt::print("report: {}\n", (folder / "report.html").string());
@@ -66,6 +67,7 @@ int makeSite(const CommandLine& line, const Options& options) {
   for (const fs::path& folder : line.inputs)
     results.emplace_back(folder,
                          concludedAnew(readResults(folder), folder, pathOf(options.reasons)));
+  if (options.open) requireBrowser();
   makeDirectory(site);
   const FolderLock lock(site, "report");
   writeSite(results, site);
@@ -86,7 +88,6 @@ Action declareReport(CLI::App& app, CommandLine& line) {
           "FILE");
   addFlag(app, "--open", options->open, "show them in the browser");
   return [&line, options] {
-    if (options->open) requireBrowser();
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);
   };
 }
