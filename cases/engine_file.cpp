@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
+#include <mutex>
 #include <sstream>
 
 #include "adapters/registry.hpp"
@@ -57,13 +60,29 @@ std::string whyNoProgram(const ProgramCall& call) {
   return isOnPath(program) ? "" : fmt::format("there is no program '{}' in PATH", program);
 }
 
-/// Which file it lacks, and what to do about it; empty: none.
-std::string whyIncomplete(const std::vector<fs::path>& needs, const std::string& install) {
+/// Which file it lacks; empty: none.
+std::string whyIncomplete(const std::vector<fs::path>& needs) {
   const auto lacking =
       std::ranges::find_if(needs, [](const fs::path& file) { return !fs::exists(file); });
   if (lacking == needs.end()) return {};
-  const std::string why = fmt::format("there is no {}", lacking->lexically_normal().string());
-  return install.empty() ? why : fmt::format("{} ({})", why, install);
+  return fmt::format("there is no {}", lacking->lexically_normal().string());
+}
+
+/// The call with its stamp, made when an engine is first started and kept: engines that nobody
+/// names cost a start of the program no reading of what they need.
+std::function<ProgramCall()> stampedOnce(ProgramCall call, std::string file,
+                                         std::vector<fs::path> needs) {
+  struct Once {
+    std::once_flag flag;
+    std::string stamp;
+  };
+  return [call = std::move(call), file = std::move(file), needs = std::move(needs),
+          once = std::make_shared<Once>()] {
+    std::call_once(once->flag, [&] { once->stamp = stampOf(call, file, needs); });
+    ProgramCall stamped = call;
+    stamped.stamp = once->stamp;
+    return stamped;
+  };
 }
 
 /// What a worker in Python imports, beside what the caller's environment or the file has.
@@ -127,12 +146,12 @@ EngineEntry loadEngineFile(const fs::path& file) {
   if (!fs::is_directory(call.folder)) in.fail("folder", "is no folder");
   std::vector<fs::path> needs;
   for (const std::string& word : words) needs.push_back(call.folder / word);
-  call.stamp = stampOf(call, contentOf(file), needs);
   EngineEntry entry = entryOf(std::move(name), std::move(summary), std::move(call));
+  entry.command = stampedOnce(entry.command(), contentOf(file), needs);
   entry.missing = [program = std::move(entry.missing), needs, install] {
-    const std::string why = program();
-    if (why.empty()) return whyIncomplete(needs, install);
-    return install.empty() ? why : fmt::format("{} ({})", why, install);
+    std::string why = program();
+    if (why.empty()) why = whyIncomplete(needs);
+    return why.empty() || install.empty() ? why : fmt::format("{} ({})", why, install);
   };
   entry.settings = std::move(settings);
   return entry;
