@@ -31,7 +31,7 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 /// At most three sentences: who agrees with whom on what, what is to blame, what to do next.
 std::vector<std::string> compareConclusion(const CompareResults& results);
 
-/// "40 snapshots of yade averaged: 12 fields in 20 rings."
+/// "40 snapshots of grain averaged: 12 fields in 20 rings."
 std::string averageLead(const CompareResults& results, const std::vector<EngineRuns>& engines);
 
 /// "400 snapshots of grain: 12 fields under 5 weights, in rings of widths from 0.1 to 4 d."
