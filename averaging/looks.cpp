@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/pocock.hpp"
+
 namespace crossgrain::inline averaging {
 
 namespace {
@@ -49,6 +51,7 @@ bool isFinal(Answer answer) {
 
 LookPlan looksAt(int first, int count, double alpha) {
   LookPlan plan;
+  plan.agreeAlpha = pocockLevel(count, alpha);
   plan.alpha.assign(static_cast<std::size_t>(count), alpha);
   for (int k = 1; k <= count; ++k) plan.packings.push_back(k * first);
   double left = alpha;
@@ -72,8 +75,7 @@ std::vector<std::optional<LookAnswer>> answersAfterLooks(std::span<const PairedS
   for (std::size_t look = 0; look < looks; ++look) {
     std::vector<PairedSample> seen;
     for (const PairedSample& sample : family) seen.push_back(firstOf(sample, plan.packings[look]));
-    const double alpha = plan.alpha[look];
-    const auto found = comparePaired(seen, 1.0 - alpha);
+    const auto found = comparePaired(seen, 1.0 - plan.agreeAlpha);
     for (std::size_t k = 0; k < family.size(); ++k) {
       if (!found[k] || (answers[k] && isFinal(answers[k]->answer))) continue;
       LookAnswer& own = answers[k] ? *answers[k] : answers[k].emplace();
@@ -81,7 +83,7 @@ std::vector<std::optional<LookAnswer>> answersAfterLooks(std::span<const PairedS
       own.answer = Answer::undecided;
       if (found[k]->verdict == Verdict::agree)
         own.answer = agreement(*found[k]);
-      else if (found[k]->verdict == Verdict::disagree)
+      else if (found[k]->pDisagree && *found[k]->pDisagree <= plan.alpha[look])
         own.answer = Answer::disagree;
       else if (found[k]->pDisagree && isBorderline(*found[k], family[k]))
         own.answer = Answer::borderline;

@@ -13,16 +13,22 @@
 /// each with its part of the chance of error, so that looking again is no new chance.
 namespace crossgrain::inline averaging {
 
-/// At how many packings is looked, and which part of α = 1 − confidence each look may spend. The
-/// union bound over looks keeps the whole at α whatever happens in between.
+/// At how many packings is looked, and at which levels each look tests, α = 1 − confidence. The two
+/// errors are apart, so each has the levels that serve it:
+/// - a false *agree* is one endpoint's matter and most endpoints agree, the earlier the better: the
+///   same level at each look (pocock.hpp);
+/// - a false *disagree* is the family's, and one that is missed at the last look is missed for
+/// good:
+///   most of α is kept for the last, and the union bound over looks holds whatever happens before.
 struct LookPlan {
   std::vector<int> packings;  ///< rising
-  std::vector<double> alpha;  ///< one for each; their sum is α
+  std::vector<double> alpha;  ///< for *disagree*, one for each look; their sum is α
+  double agreeAlpha;          ///< for *agree*, of every look
 };
 
-/// `count` looks at first, 2·first, …: the last spends half of α, the one before half of the rest,
-/// and so on, the first two the same: 1/8, 1/8, 1/4, 1/2 of α for four. Most is kept for the last,
-/// where there is most to see. @pre first, count >= 1
+/// `count` looks at first, 2·first, …: for *disagree* the last spends half of α, the one before
+/// half of the rest, and so on, the first two the same: 1/8, 1/8, 1/4, 1/2 of α for four.
+/// @pre first, count >= 1
 LookPlan looksAt(int first, int count, double alpha);
 
 /// What can be said of one endpoint of two engines.
@@ -49,13 +55,14 @@ struct LookAnswer {
   int lost = 0;          ///< of those looked at, that one engine has no value on
   double difference = 0.0;
   std::optional<double> standardError;
-  std::optional<double> low, high;  ///< (1 − 2α) interval, α that of the look
+  std::optional<double> low, high;  ///< (1 − 2α) interval, α that of *agree*
 };
 
 /// Answers after as many looks as `available` packings allow; each sample holds at least as many
 /// entries as the last of them, in the order in which packings were added. At every look:
-/// - agree: two one-sided t tests at the look's α (Schuirmann 1987), endpoint by endpoint;
-/// - disagree: |µ| ≤ margin rejected under Holm's (1979) procedure over the family at the look's α.
+/// - agree: two one-sided t tests at agreeAlpha (Schuirmann 1987), endpoint by endpoint;
+/// - disagree: |µ| ≤ margin rejected under Holm's (1979) procedure over the family at the look's
+///   alpha.
 /// Both are final. What is left after the last look is borderline if its interval holds ±margin and
 /// lies between 0 and ±2 margins, else undecided; with fewer than 4 packings always undecided.
 /// @returns absent where neither engine has anything; all absent before the first look

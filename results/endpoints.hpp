@@ -36,11 +36,12 @@ struct EndpointRow {
 /// One look as planned.
 struct LookRow {
   int packings = 0;
-  double alpha = 0.0;  ///< its part of 1 − confidence
+  double alpha = 0.0;  ///< its part of 1 − confidence, for *disagree*
 };
 
 struct LooksFindings {
   std::vector<LookRow> planned;
+  std::optional<double> agreeAlpha;  ///< the level of *agree* at each look
   std::size_t taken = 0;
   double budget = 0.0;  ///< [s]
   std::string ended;    ///< why no further look was taken

@@ -39,6 +39,7 @@ void fields(auto& io, LookRow& look) {
 
 void fields(auto& io, LooksFindings& looks) {
   io("planned", looks.planned);
+  io.present("agree_alpha", looks.agreeAlpha);
   io("taken", looks.taken);
   io("budget_s", looks.budget);
   io("ended", looks.ended);

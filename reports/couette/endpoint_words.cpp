@@ -103,10 +103,14 @@ std::string sentenceOf(const LooksFindings& looks) {
     packings.push_back(looks.planned[k].packings);
     spent += looks.planned[k].alpha;
   }
+  const std::string agree = looks.agreeAlpha ? fmt::format("agree tested at {:.3g} % in each; ",
+                                                           100.0 * *looks.agreeAlpha)
+                                             : "";
   return fmt::format(
-      "Looked at {} packings ({} of {}), {:.3g} of {:.3g} % chance of error spent; {}.",
-      fmt::join(packings, ", "), looks.taken, counted(looks.planned.size(), "look"), 100.0 * spent,
-      100.0 * all, looks.ended);
+      "Looked at {} packings ({} of {}), {}{:.3g} of {:.3g} % chance of a false disagree spent; "
+      "{}.",
+      fmt::join(packings, ", "), looks.taken, counted(looks.planned.size(), "look"), agree,
+      100.0 * spent, 100.0 * all, looks.ended);
 }
 
 std::string countsInWords(const std::vector<const EndpointRow*>& rows) {

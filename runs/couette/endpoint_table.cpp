@@ -146,7 +146,7 @@ struct JudgedEndpoint {
   std::optional<LookAnswer> found;
 };
 
-void addNeeds(std::vector<JudgedEndpoint>& judged, double alpha) {
+void addNeeds(std::vector<JudgedEndpoint>& judged, const LookPlan& plan) {
   std::map<std::string_view, Pooled> scatter;
   for (const JudgedEndpoint& one : judged)
     if (one.found && one.found->standardError) {
@@ -159,9 +159,11 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, double alpha) {
   for (JudgedEndpoint& one : judged) {
     const Pooled& pooled = scatter[one.tested.endpoint->name];
     if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
+    const double margin = one.tested.sample.margin - one.tested.sample.bias;
+    const bool toAgree = std::abs(one.found->difference) < margin;
     const auto range =
         packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof), pooled.dof,
-                    one.tested.sample.margin - one.tested.sample.bias, alpha);
+                    margin, toAgree ? plan.agreeAlpha : plan.alpha.back());
     if (!range) continue;
     const int more = one.row.packings + 1;
     one.row.needs = std::max(range->low, more);
@@ -180,7 +182,7 @@ void judge(const EndpointPair& pair, const std::vector<TestedEndpoint>& family,
 }
 
 std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPlan& plan) {
-  addNeeds(judged, plan.alpha.back());
+  addNeeds(judged, plan);
   std::vector<EndpointRow> rows;
   for (JudgedEndpoint& one : judged) rows.push_back(std::move(one.row));
   return rows;

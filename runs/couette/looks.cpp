@@ -41,6 +41,7 @@ class Sequence {
   Sequence(const Case& setup, Campaign& campaign, const RunCommand& command, double budget)
       : setup_(setup), campaign_(campaign), command_(command), plan_(looksOf(setup)) {
     findings_.looks.budget = budget;
+    findings_.looks.agreeAlpha = plan_.agreeAlpha;
     for (std::size_t k = 0; k < plan_.packings.size(); ++k)
       findings_.looks.planned.push_back({plan_.packings[k], plan_.alpha[k]});
     for (std::size_t e = 0; e < campaign.engines().size(); ++e)

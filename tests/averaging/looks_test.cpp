@@ -40,7 +40,9 @@ TEST(Looks, SplitTheChanceOfErrorInHalves) {
   ASSERT_EQ(plan.alpha.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_DOUBLE_EQ(plan.alpha[k], alpha[k]);
   EXPECT_DOUBLE_EQ(std::accumulate(plan.alpha.begin(), plan.alpha.end(), 0.0), 0.05);
+  EXPECT_NEAR(plan.agreeAlpha, 0.0194, 1e-4);  // Pocock: 2.067 standard errors
   EXPECT_EQ(looksAt(4, 1, 0.05).alpha, std::vector{0.05});
+  EXPECT_EQ(looksAt(4, 1, 0.05).agreeAlpha, 0.05);
   EXPECT_EQ(looksTaken(plan, 7), 0u);
   EXPECT_EQ(looksTaken(plan, 24), 3u);
   EXPECT_EQ(looksTaken(plan, 100), 4u);
@@ -170,7 +172,7 @@ TEST(Looks, ForecastPackingsThatDecideWithTheChanceAskedFor) {
   ASSERT_TRUE(packings);
   std::mt19937_64 generator(9);
   std::normal_distribution<double> normal;
-  const LookPlan plan{{*packings}, {0.025}};
+  const LookPlan plan{{*packings}, {0.025}, 0.025};
   int decided = 0;
   constexpr int trials = 2000;
   for (int t = 0; t < trials; ++t) {

@@ -174,9 +174,10 @@ TEST(ComparePage, ShowsLooksCarriersAndAlarms) {
   EXPECT_TRUE(has(page,
                   "Alarm. box2d-impulse against grain: 30 % of the disks are gone from the "
                   "cell."));
-  EXPECT_TRUE(has(page,
-                  "Looked at 4 packings (1 of 2 looks), 2.5 of 5 % chance of error spent; the "
-                  "budget."));
+  EXPECT_TRUE(
+      has(page,
+          "Looked at 4 packings (1 of 2 looks), 2.5 of 5 % chance of a false disagree spent; the "
+          "budget."));
   EXPECT_TRUE(has(page,
                   "2 pairs; agree is held endpoint by endpoint, disagree over the endpoints of "
                   "each pair, at 5 % each."));
