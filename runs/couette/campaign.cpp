@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -49,28 +50,49 @@ Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<Eng
   for (EngineEntry& entry : engines) engines_.push_back({std::move(entry)});
 }
 
+void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
+  struct Ending {
+    std::exception_ptr refused;  ///< named by the user, who is to resolve it
+    std::string failure;
+  };
+  std::vector<Ending> endings(engines_.size());
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < engines_.size(); ++e)
+    tasks.push_back({1.0, [this, e, &endings, &work] {
+                       throwIfInterrupted();
+                       CampaignEngine& own = engines_[e];
+                       if (!own.refusal.empty()) return;
+                       try {
+                         work(own);
+                       } catch (const UnsupportedScene& refusal) {
+                         // "all" means all that can.
+                         if (isNamed(command_.engines, own.entry))
+                           endings[e].refused = std::current_exception();
+                         else
+                           own.refusal = refusal.what();
+                       } catch (const EngineFailure& failure) {
+                         endings[e].failure = failure.what();  // its runs will tell, one by one
+                       }
+                     }});
+  runTasks(tasks, command_.jobs);
+  for (const Ending& ending : endings) {
+    if (!ending.failure.empty()) progress_.say(ending.failure);
+    if (ending.refused) std::rethrow_exception(ending.refused);
+  }
+}
+
 void Campaign::askEngines() {
   Packing unplaced;
   unplaced.disks = diskKinds(setup_.particles);
   const Scene scene = couetteScene(setup_, unplaced, dt_);
-  for (CampaignEngine& own : engines_) {
-    throwIfInterrupted();
-    const EngineEntry& entry = own.entry;
-    try {
-      const auto engine =
-          startEngine(entry, store_.scratch("ask-" + entry.name), setup_.run.timeout);
-      const Capabilities can = engine->capabilities();
-      own.version = can.version;
-      checkSuitable(can, entry, setup_, scene);
-      if (command_.dryRun) own.can = can;
-    } catch (const UnsupportedScene& refusal) {
-      // Asked for by name, a refusal is for the user to resolve; "all" means all that can.
-      if (isNamed(command_.engines, entry)) throw;
-      own.refusal = refusal.what();
-    } catch (const EngineFailure& failure) {
-      progress_.say(failure.what());  // its runs will tell, one by one
-    }
-  }
+  forEachEngine([&](CampaignEngine& own) {
+    const auto engine =
+        startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
+    const Capabilities can = engine->capabilities();
+    own.version = can.version;
+    checkSuitable(can, own.entry, setup_, scene);
+    if (command_.dryRun) own.can = can;
+  });
 }
 
 void Campaign::preparePackings(int count) {
@@ -124,24 +146,15 @@ void Campaign::timeEngines() {
   const double end =
       (setup_.averaging.settleRotations + setup_.averaging.rotations) * rotationTime(setup_);
   const Scene scene = couetteScene(setup_, packings_.front(), dt_);
-  for (CampaignEngine& own : engines_) {
-    throwIfInterrupted();
-    if (!own.refusal.empty()) continue;
-    try {
-      const LoadedEngine loaded =
-          loadEngine(own.entry, setup_, scene, store_.scratch("time-" + own.entry.name));
-      const double dt = loaded.realised.dt;
-      loaded.engine->advance(steps * dt);
-      own.can = loaded.can;
-      own.realised = loaded.realised;
-      own.predicted = loaded.engine->stats().wallSeconds / steps * end / dt;
-    } catch (const UnsupportedScene& refusal) {
-      if (isNamed(command_.engines, own.entry)) throw;
-      own.refusal = refusal.what();
-    } catch (const EngineFailure& failure) {
-      progress_.say(failure.what());  // its runs will tell, one by one
-    }
-  }
+  forEachEngine([&](CampaignEngine& own) {
+    const LoadedEngine loaded =
+        loadEngine(own.entry, setup_, scene, store_.scratch("time-" + own.entry.name));
+    const double dt = loaded.realised.dt;
+    loaded.engine->advance(steps * dt);
+    own.can = loaded.can;
+    own.realised = loaded.realised;
+    own.predicted = loaded.engine->stats().wallSeconds / steps * end / dt;
+  });
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {

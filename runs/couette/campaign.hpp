@@ -117,6 +117,9 @@ class Campaign {
   CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
 
  private:
+  /// Asks engines that have not refused, side by side, each for itself; failures are told in the
+  /// order of engines. @throws UnsupportedScene of an engine named
+  void forEachEngine(const std::function<void(CampaignEngine&)>& work);
   std::vector<KeptTask<CouetteRun>> tasksOf(const PlannedRuns& list) const;
   KeptTask<CouetteRun>::Outcome runOne(const Variant& variant, int packing,
                                        const std::function<void(double)>& progress) const;

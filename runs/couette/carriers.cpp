@@ -7,7 +7,6 @@
 
 #include "cases/endpoints.hpp"
 #include "runs/couette/endpoint_table.hpp"
-#include "runs/lockstep/changed_cases.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -81,20 +80,19 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
   }
 }
 
-std::vector<EndpointResponse> endpointResponses(const Case& setup, Campaign& campaign,
-                                                std::size_t engine, int packings) {
-  const std::string name = campaign.engines()[engine].name;
+std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
+                                                const std::string& engine,
+                                                const std::vector<ChangedCase>& changed,
+                                                std::span<const CouetteRun> runs, int packings) {
+  const auto count = static_cast<std::size_t>(packings);
   std::vector<CouetteRun> own;
   for (const CouetteRun& run : campaign.runs())
-    if (run.engine == name && run.packing < packings) own.push_back(run);
+    if (run.engine == engine && run.packing < packings) own.push_back(run);
   std::vector<EndpointResponse> responses;
-  for (const ChangedCase& changed : changedCases(setup)) {
-    const Variant variant{engine, "", &changed.setup, changed.name};
-    const auto runs = campaign.runSome({{{variant}, {0, packings}}}, "how averages respond");
+  for (std::size_t k = 0; k < changed.size(); ++k)
     for (const auto& [endpoint, margin] : setup.averaging.endpoints)
-      responses.push_back(responseTo(setup, own, runs, endpoint, changed.constant, responseChange,
-                                     static_cast<std::size_t>(packings)));
-  }
+      responses.push_back(responseTo(setup, own, runs.subspan(k * count, count), endpoint,
+                                     changed[k].constant, responseChange, count));
   return responses;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "results/endpoints.hpp"
 #include "results/lockstep_findings.hpp"
 #include "runs/couette/campaign.hpp"
+#include "runs/lockstep/changed_cases.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -16,11 +18,14 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
                                           const std::vector<std::string>& names,
                                           const LockstepFindings& found);
 
-/// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ: runs of one
-/// engine of the campaign with the case's law changed, on so many of its packings.
-/// @param engine  index of one that has run all of them with the case as it is
-std::vector<EndpointResponse> endpointResponses(const Case& setup, Campaign& campaign,
-                                                std::size_t engine, int packings);
+/// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ.
+/// @param engine   one that has run the first `packings` of the campaign with the case as it is
+/// @param changed  the case with its law changed
+/// @param runs     of that engine on as many packings with each of these in turn
+std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
+                                                const std::string& engine,
+                                                const std::vector<ChangedCase>& changed,
+                                                std::span<const CouetteRun> runs, int packings);
 
 /// Holds the whole run of each against its mirror's on the same packing, where chaos is as the
 /// responses show it. Sets `carried`, or the alarm.

@@ -64,17 +64,30 @@ class Sequence {
   }
 
  private:
-  /// Everyone runs the first packings, but those that mirrors may carry, which run one.
+  /// Everyone runs the first packings, but those that mirrors may carry, which run one. Beside them
+  /// runs what tells how averages respond, which is asked for where there are such.
   void firstLook() {
-    std::vector<Variant> whole, canaries;
+    std::vector<Variant> whole, canaries, changed;
     for (const std::size_t e : open_)
       (mayBeCarried(e) ? canaries : whole).push_back({e, "", &setup_});
+    std::vector<ChangedCase> cases;
+    std::size_t responding = 0;
+    if (const auto e = canaries.empty() ? std::optional<std::size_t>() : respondingEngine()) {
+      responding = *e;
+      cases = changedCases(setup_);
+    }
+    for (const ChangedCase& one : cases) changed.push_back({responding, "", &one.setup, one.name});
     const int packings = plan_.packings.front();
-    campaign_.add(
-        campaign_.runSome({{whole, {0, packings}}, {canaries, {0, 1}}}, "running engines"));
+    std::vector<CouetteRun> runs = campaign_.runSome(
+        {{whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}}, "running engines");
+    const auto firstChanged = runs.end() - static_cast<std::ptrdiff_t>(cases.size()) * packings;
+    const std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
+    runs.erase(firstChanged, runs.end());
+    campaign_.add(std::move(runs));
     if (canaries.empty()) return;
-    if (const auto e = respondingEngine())
-      findings_.responses = endpointResponses(setup_, campaign_, *e, packings);
+    if (!cases.empty() && finishedIn(nameOf(responding)) > 0)
+      findings_.responses =
+          endpointResponses(setup_, campaign_, nameOf(responding), cases, ofChanged, packings);
     judgeCanaries(setup_, campaign_, findings_.responses, findings_.carried);
     std::vector<Variant> themselves;
     for (const Variant& variant : canaries)
@@ -154,8 +167,7 @@ class Sequence {
   std::optional<std::size_t> respondingEngine() const {
     for (const std::size_t e : open_) {
       const auto& can = campaign_.capabilities(e);
-      if (can && !mayBeCarried(e) && hasNormalLaw(*can, setup_.law) && finishedIn(nameOf(e)) > 0)
-        return e;
+      if (can && !mayBeCarried(e) && hasNormalLaw(*can, setup_.law)) return e;
     }
     return std::nullopt;
   }
