@@ -145,7 +145,7 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
   const bool averages = head.kind == kindAverage || head.kind == kindRev;
   return {
       {"style", templates().at("style.css")},
-      {"script", templates().at("figures.js")},
+      {"script", templates().at("figures.js") + templates().at("tables.js")},
       {"legend", legend},
       {"hasLegend", !legend.empty()},
       {"title", titleOf(head)},

@@ -89,6 +89,39 @@ addEventListener('load', () => {
 # Does what a reader does with a report's own script; what comes of it is JSON in the page's text.
 USE = r"""
 const later = () => new Promise(done => setTimeout(done, 300));
+// A table of a reader's own making beside those of the page: what sorts it is the page's script.
+async function useTables(frame) {
+  const doc = frame.contentDocument, view = frame.contentWindow, found = {}, copied = [];
+  Object.defineProperty(view.navigator, 'clipboard', {value: {writeText: async text => { copied.push(text); }}});
+  const head = doc.querySelector('th.n.sorts'), table = head.closest('table'), body = table.tBodies[0];
+  const column = head.cellIndex, tools = table.closest('.scroll').nextElementSibling;
+  const made = ['3.2 ± 0.4', '–', '−3×10⁻⁴', '12', 'no limit', '2e-3'];
+  while (body.rows.length < made.length) body.append(body.rows[0].cloneNode(true));
+  while (body.rows.length > made.length) body.rows[0].remove();
+  made.forEach((text, k) => { body.rows[k].cells[column].textContent = text; });
+  const order = () => [...body.rows].map(row => row.cells[column].textContent);
+  head.click();
+  found.up = order();
+  head.dispatchEvent(new view.KeyboardEvent('keydown', {key: 'Enter', bubbles: true}));
+  found.down = order();
+  found.sorted = head.getAttribute('aria-sort');
+  tools.querySelector('button').click();
+  const block = doc.querySelector('pre');
+  block.nextElementSibling.querySelector('button').click();
+  await later();
+  found.csv = copied[0].trim().split('\n').slice(1).map(line => line.includes('12'));
+  found.lines = copied[0].trim().split('\n').length;
+  found.block = copied[1] === block.textContent;
+  const filter = doc.querySelector('.tools input');
+  const many = filter.closest('.tools').previousElementSibling.querySelector('tbody');
+  filter.value = 'no such words';
+  filter.dispatchEvent(new view.Event('input'));
+  found.hidden = [...many.rows].every(row => row.hidden);
+  filter.value = '';
+  filter.dispatchEvent(new view.Event('input'));
+  found.shown = [...many.rows].every(row => !row.hidden);
+  return found;
+}
 async function use(frame) {
   const doc = frame.contentDocument, view = frame.contentWindow, found = {errors: []};
   view.addEventListener('error', event => found.errors.push(event.message));
@@ -126,7 +159,9 @@ async function use(frame) {
   return found;
 }
 addEventListener('load', async () => {
-  const found = await use(document.querySelector('iframe')).catch(error => ({errors: [String(error)]}));
+  const [plots, tables] = document.querySelectorAll('iframe');
+  const found = await use(plots).catch(error => ({errors: [String(error)]}));
+  found.tables = await useTables(tables).catch(error => String(error));
   const result = document.createElement('pre');
   result.id = 'found';
   result.textContent = JSON.stringify(found);
@@ -221,9 +256,12 @@ class Pages(unittest.TestCase):
         self.assertNotEqual(dark[0]["paper"], self.light[0]["paper"], "the browser was asked for dark")
         self.each(self.light + dark, lambda one: self.assertEqual(one["faint"], []))
 
-    def test_plots_answer(self):
-        frame = f'<iframe width="1280" height="100000" srcdoc="{html.escape(self.reports["compare"])}"></iframe>'
-        found = found_by(f"<!doctype html><meta charset=utf-8><script>{USE}</script><body>{frame}")
+    def test_plots_and_tables_answer(self):
+        frames = "".join(
+            f'<iframe width="1280" height="100000" srcdoc="{html.escape(self.reports[name])}"></iframe>'
+            for name in ("compare", "collide")
+        )
+        found = found_by(f"<!doctype html><meta charset=utf-8><script>{USE}</script><body>{frames}")
         self.assertEqual(found["errors"], [])
         self.assertGreater(found["live"], 10)
         self.assertEqual(found["live"], found["pictures"])
@@ -239,6 +277,15 @@ class Pages(unittest.TestCase):
         self.assertIn(f": {x:g}", found["told"][2])
         self.assertIn(f": {y:g} ± ", found["told"][3])
         self.assertTrue(found["gone"])
+        tables = found["tables"]
+        self.assertIsInstance(tables, dict, tables)
+        self.assertEqual(tables["up"], ["−3×10⁻⁴", "2e-3", "3.2 ± 0.4", "12", "no limit", "–"])
+        self.assertEqual(tables["down"], ["12", "3.2 ± 0.4", "2e-3", "−3×10⁻⁴", "no limit", "–"])
+        self.assertEqual(tables["sorted"], "descending")
+        self.assertEqual(tables["lines"], 7)
+        self.assertTrue(tables["csv"][0], "rows in the order that is shown")
+        self.assertTrue(tables["block"])
+        self.assertTrue(tables["hidden"] and tables["shown"])
 
     def test_pages_need_no_other_file(self):
         for name, page in self.reports.items():
