@@ -51,6 +51,12 @@ struct Kind {
   Overview (*overview)(const Results&) = nullptr;  ///< null: its report opens with none
 };
 
+/// What the report's matrix says, for build servers.
+template <auto overviewOf, typename Results>
+std::string overviewJunit(const Results& results) {
+  return junitXml(results.head.kind, overviewCases(overviewOf(results), titleOf(results.head)));
+}
+
 template <typename Results>
 std::vector<Picture> noPictures(const Results&) {
   return {};
@@ -62,7 +68,8 @@ const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
                                            {"agreement.csv", agreementCsv},
                                            {"regimes.csv", regimesCsv},
                                            {"steadiness.csv", steadinessCsv},
-                                           {"distributions.csv", distributionsCsv}},
+                                           {"distributions.csv", distributionsCsv},
+                                           {"junit.xml", overviewJunit<compareOverview>}},
                                           compareFigures,
                                           comparePictures,
                                           comparePage,
@@ -85,7 +92,11 @@ const Kind<EffectsResults> effectsKind = {
     {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage, effectsOverview};
 
 const Kind<LockstepResults> lockstepKind = {
-    {{"lockstep.csv", lockstepCsv}}, lockstepFigures, noPictures, lockstepPage, lockstepOverview};
+    {{"lockstep.csv", lockstepCsv}, {"junit.xml", overviewJunit<lockstepOverview>}},
+    lockstepFigures,
+    noPictures,
+    lockstepPage,
+    lockstepOverview};
 
 const Kind<RevResults> revKind = {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
                                   revFigures,

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "reports/common/junit.hpp"
 #include "reports/common/view.hpp"
 #include "results/engine_row.hpp"
 #include "results/overview.hpp"
@@ -33,5 +35,12 @@ std::string overviewText(const Overview& overview, const TextLook& look);
 /// The same as Markdown, for the pages of build servers.
 /// @param title  its heading
 std::string overviewMarkdown(const Overview& overview, const std::string& title);
+
+/// The matrix as tests of a build server, one for each cell that answers a question: what holds
+/// passes, a model difference too; what falls short fails; borderline, undecided and not measured
+/// are skipped with their words, for nothing was shown. Figures and cells without a question are
+/// left out.
+/// @param group  "classname" of all
+std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string& group);
 
 }  // namespace crossgrain::reports

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
 #include "reports/common/templates.hpp"
 #include "reports/site/site.hpp"
+#include "results/schema.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {
@@ -71,6 +73,12 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
                {"meta", ""},
                {"reports", reportRows(reports)}};
   addOverview(view, overview, siteEngines(reports));
+  std::vector<JUnitCase> cases;
+  for (const SiteReport& report : reports)
+    if (report.digest.overview && report.digest.head.kind != kindThesis)
+      std::ranges::move(overviewCases(*report.digest.overview, report.folder),
+                        std::back_inserter(cases));
+  writeFile(site / "junit.xml", junitXml("reports", cases));
   writeFile(site / "summary.md", overviewMarkdown(overview, "crossgrain: " + heading));
   writeFile(site / "index.html", render("site.html", view));
 }

@@ -32,7 +32,8 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
 /// engine, and in how many of its questions.
 Overview siteOverview(const std::vector<SiteReport>& reports);
 
-/// Writes index.html and summary.md. @throws std::runtime_error where they cannot be written
+/// Writes index.html, summary.md and, of all but the thesis, which judges no engine, junit.xml.
+/// @throws std::runtime_error where they cannot be written
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site);
 
 /// Names of folders in a site, of results in these: their own, in letters that an address may have,

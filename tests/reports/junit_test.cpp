@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/collide/report.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "tests/reports/sample_results.hpp"
 
@@ -37,6 +38,26 @@ TEST(JUnit, WhatXmlCannotHoldIsReplaced) {
   const std::string xml = junitXml("x", {{"a<b & \"c\"", "\x1b[31m\xff\n", Outcome::passed, ""}});
   EXPECT_NE(xml.find("classname=\"a&lt;b &amp; &quot;c&quot;\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("name=\"?[31m\xEF\xBF\xBD&#10;\""), std::string::npos) << xml;
+}
+
+TEST(JUnit, OfAMatrixIsWhatItAnswers) {
+  using enum CellState;
+  Overview overview;
+  for (const CellState state :
+       {good, bad, modelDifference, borderline, undecided, notMeasured, figure, notApplicable}) {
+    overview.columns.push_back({"question " + std::to_string(overview.columns.size()), "", ""});
+    if (overview.rows.empty()) overview.rows.push_back({"ours", true, {}});
+    overview.rows.front().cells.push_back({state, {}, "", "2 margins", "of pressure", ""});
+  }
+  const auto cases = overviewCases(overview, "compare quick");
+  std::vector<Outcome> outcomes;
+  for (const JUnitCase& one : cases) outcomes.push_back(one.outcome);
+  EXPECT_EQ(outcomes, (std::vector{Outcome::passed, Outcome::failed, Outcome::passed,
+                                   Outcome::skipped, Outcome::skipped, Outcome::skipped}));
+  EXPECT_EQ(cases[1].group, "compare quick");
+  EXPECT_EQ(cases[1].name, "ours: question 1");
+  EXPECT_EQ(cases[1].message, "2 margins, of pressure");
+  EXPECT_EQ(cases[2].message, "model difference, 2 margins, of pressure");
 }
 
 StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,

@@ -78,6 +78,9 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
   for (const char* page : {"one/report.html", "one-2/report.html"}) {
     EXPECT_TRUE(has(index, std::string("href=\"") + page + "\"")) << page;
     EXPECT_TRUE(std::filesystem::exists(site / page)) << page;
+    EXPECT_TRUE(has(readFile(site / "junit.xml").value(),
+                    std::string("classname=\"") +
+                        std::string(page).substr(0, std::string(page).find('/')) + "\""));
   }
   EXPECT_TRUE(has(index, "href=\"one-2/stability.csv\""));
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
