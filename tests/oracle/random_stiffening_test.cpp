@@ -65,7 +65,7 @@ CollisionStart randomStart(Draw& draw, const Case& setup) {
 TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {
   Draw draw(11);
   double gain[2] = {-1.0, -1.0};
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < 300; ++k) {
     const Case setup = randomStiffeningCase(draw);
     const CollidingPair pair = collidingPair(setup);
     const CollisionStart start = randomStart(draw, setup);
@@ -89,7 +89,7 @@ TEST(RandomStiffening, OfTheOracleCloseTheAccountAndAreOdd) {
 /// The engine's outcome is the oracle's, and better the shorter the step, for every law drawn.
 TEST(RandomStiffening, OfTheEngineMeetTheOracle) {
   Draw draw(12);
-  for (int k = 0; k < 150; ++k) {
+  for (int k = 0; k < 50; ++k) {
     Case setup = randomStiffeningCase(draw);
     const CollisionStart start = randomStart(draw, setup);
     const CollidingPair pair = collidingPair(setup);

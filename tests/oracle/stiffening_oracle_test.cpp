@@ -128,7 +128,7 @@ TEST_P(HertzEnergy, AccountCloses) {
   law.gn = damper == Damper::critical ? 0.1 : 1e-8;
   law.gt = damper == Damper::critical ? 0.05 : 1e-8;
   for (const CollidingPair& pair : {glass.withItsLike(), glass.onWall()})
-    for (const double psi : {0.0, 0.3, 0.8, 1.5, 4.0}) {
+    for (const double psi : {0.0, 0.8, 4.0}) {
       const CollisionEnd end = oracleOutcome(law, pair, {psi, 5.0, approach});
       ASSERT_TRUE(end.lost);
       const EnergySplit& lost = *end.lost;
