@@ -36,8 +36,8 @@ class Siconos:
             "tangential_restitution": False,
             "settings": [
                 setting("dt", 5e-4, "s", "time step; 0: the case's"),
-                setting("tolerance", 1e-8, "-", "of the friction-contact problem's residual"),
-                setting("iterations", 1000.0, "-", "most of its solver, in a step"),
+                setting("tolerance", 1e-6, "-", "of the friction-contact problem's residual"),
+                setting("iterations", 200.0, "-", "most of its solver, in a step"),
             ],
         }
 
@@ -117,9 +117,17 @@ class Siconos:
             if law.friction > 0:
                 note = "contacts that stick give back nothing of the tangential speed"
                 found.append({"name": "e_t0", "value": 0.0, "unit": "-", "note": note})
-        note = "velocities alone are constrained: what overlaps at the start goes on overlapping"
-        found.append({"name": "overlaps", "value": 0.0, "unit": "-", "note": note})
+        note = "velocities alone are constrained: what overlaps at the start goes on overlapping, here by up to this"
+        found.append({"name": "overlaps", "value": self.deepest(), "unit": "m", "note": note})
         return found
+
+    def deepest(self):
+        """Overlap [m]."""
+        place, walls = self.world.states()[0], self.wall_places()
+        between = [
+            self.geometry(i, j, place[i], walls if j >= self.disks else place) for i, j in self.world.links
+        ]
+        return max((0.0, *(float(overlap) for _, overlap in between)))
 
     def no_sums(self):
         return {

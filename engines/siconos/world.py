@@ -25,6 +25,8 @@ class World:
     def __init__(self, disks, bodies, gravity, dt, restitution, friction, tolerance, iterations):
         self.bodies, self.restitution, self.friction, self.dt = bodies, restitution, friction, dt
         self.count, self.steps, self.unsolved, self.tolerance = len(disks["mass"]), 0, 0, tolerance
+        # The solver's residual has impulses beside velocities: with masses in kg it took wrong ones for right.
+        self.unit = float(np.mean(disks["mass"])) if self.count else 1.0
         self.system = sk.NonSmoothDynamicalSystem(0.0, FOR_EVER)
         self.kept = []  # Siconos points into these arrays
         self.laws = {}  # e_n → law
@@ -34,13 +36,15 @@ class World:
         self.reach = 0.2 * min(disks["radius"]) if self.count else 0.0
         self.list_pairs()
         problem = sk.FrictionContact(2, sn.SICONOS_FRICTION_2D_NSGS)
+        problem.setMStorageType(sn.NM_SPARSE_BLOCK)  # dense: 600 contacts take seconds a step
         self.options = problem.numericsSolverOptions()
         self.options.dparam[sn.SICONOS_DPARAM_TOL] = tolerance
         self.options.iparam[sn.SICONOS_IPARAM_MAX_ITER] = iterations
         self.simulation = sk.TimeStepping(
             self.system, sk.TimeDiscretisation(0.0, dt), sk.MoreauJeanOSI(0.5), problem
         )
-        self.simulation.setNewtonMaxIteration(1)
+        self.simulation.setNewtonOptions(sk.SICONOS_TS_LINEAR)  # H of the step's start; else y and its rate are stale
+        self.simulation.setWarnOnNonConvergence(False)  # counted instead
         self.kept += [problem]
 
     def held(self, values):
@@ -48,8 +52,8 @@ class World:
         return self.kept[-1]
 
     def new_disk(self, disks, k, gravity):
-        mass, radius = disks["mass"][k], disks["radius"][k]
-        inertia = BLOCKED * mass * radius**2 if disks["inertia"] is None else disks["inertia"][k]
+        mass, radius = disks["mass"][k] / self.unit, disks["radius"][k]
+        inertia = BLOCKED * mass * radius**2 if disks["inertia"] is None else disks["inertia"][k] / self.unit
         place = self.held([*disks["position"][k], 0.0])
         velocity = self.held([*disks["velocity"][k], disks["spin"][k]])
         body = sk.LagrangianLinearTIDS(place, velocity, self.held(np.diag([mass, mass, inertia])))
@@ -155,7 +159,7 @@ class World:
         for (i, j), link in self.links.items():
             impulse = link.lambda_(1)
             if impulse[0] != 0.0 or impulse[1] != 0.0:
-                found.append((i, j, impulse[0], impulse[1]))
+                found.append((i, j, impulse[0] * self.unit, impulse[1] * self.unit))
         if found and self.options.dparam[sn.SICONOS_DPARAM_RESIDU] > self.tolerance:
             self.unsolved += 1
         self.simulation.nextStep()
