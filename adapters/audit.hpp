@@ -23,7 +23,8 @@ std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
 
 /// No disk is farther off than it could have flown: a hundred times the scene's extent, and ten
 /// times what the fastest thing of the scene and its gravity cover (disks that overlap at the start
-/// drive each other apart; one that slipped out flies on). None crosses the scene in a step. Walls
+/// drive each other apart; one that slipped out flies on). None crosses the scene in a step,
+/// unless the scene itself is as fast. Walls
 /// are where they are prescribed to be, to 10⁻⁶ of the extent.
 std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis);
 

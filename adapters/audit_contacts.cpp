@@ -70,7 +70,7 @@ double deepestOverlap(const Contacts& contacts, const AuditBasis& basis,
   double deepest = 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto j = static_cast<std::size_t>(contacts.j[k]);
-    if (j >= round && !places.planeKnown[j - round]) continue;
+    if (j >= round && !places.planes[j - round].known) continue;
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     deepest = std::max(deepest, pairPlace(places, basis, i, j).overlap);
   }
@@ -84,7 +84,7 @@ std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const auto i = static_cast<std::size_t>(contacts.i[k]);
     const auto j = static_cast<std::size_t>(contacts.j[k]);
-    if (j >= round && !places.planeKnown[j - round]) continue;
+    if (j >= round && !places.planes[j - round].known) continue;
     const PairPlace place = pairPlace(places, basis, i, j);
     if (!(std::abs(contacts.overlap[k] - place.overlap) <= place.uncertain))
       return fmt::format("{}: overlaps by {:.6g} m, from the positions by {:.6g} m",
@@ -121,7 +121,7 @@ std::string whyIncomplete(const Contacts& contacts, const AuditBasis& basis,
     if (why.empty()) require(i, j);
   });
   for (std::size_t p = 0; p < places.planes.size() && why.empty(); ++p)
-    if (places.planeKnown[p])
+    if (places.planes[p].known)
       for (std::size_t i = 0; i < disks && why.empty(); ++i) require(i, round + p);
   return why;
 }

@@ -44,11 +44,10 @@ void placeWalls(const Snapshot& snapshot, const AuditBasis& basis, double lag,
       places.position.push_back(place - moved);
       places.velocity.push_back(velocity);
     }
-    const Motion::Kind kind = body.motion.kind;
-    for (const Plane& plane : body.planes) {
-      places.planes.push_back({plane.point + then.centre - body.centre, plane.normal.normalized()});
-      places.planeKnown.push_back(kind != Motion::Kind::rotating && kind != Motion::Kind::radial);
-    }
+    const bool turns = body.motion.kind == Motion::Kind::rotating;
+    for (const Plane& plane : body.planes)
+      places.planes.push_back({planeAt(then, body.centre, {plane.point, plane.normal.normalized()}),
+                               &body, then, basis.prescribed || !turns});
   }
 }
 
@@ -68,15 +67,32 @@ ContactPlaces contactPlaces(const Snapshot& snapshot, const AuditBasis& basis) {
   return places;
 }
 
+Vec2 footOn(const Plane& plane, const Vec2& point) {
+  return point - (point - plane.point).dot(plane.normal) * plane.normal;
+}
+
+Vec2 velocityOfSecond(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
+                      std::size_t j) {
+  if (j < basis.radius.size()) return places.velocity[j];
+  const PlacedPlane& wall = places.planes[j - basis.radius.size()];
+  BodyState motion = wall.motion;
+  motion.radialVelocity = 0.0;  // planes of radial bodies stay
+  return memberVelocity(motion, footOn(wall.plane, places.position[i]));
+}
+
 PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
                     std::size_t j) {
   PairPlace pair;
   if (j >= basis.radius.size()) {
-    const Plane& plane = places.planes[j - basis.radius.size()];
+    const Plane& plane = places.planes[j - basis.radius.size()].plane;
     pair.distance = (places.position[i] - plane.point).dot(plane.normal);
     pair.normal = plane.normal;
     pair.overlap = basis.radius[i] - pair.distance;
-    pair.uncertain = places.rounding + places.drift * (places.velocity[i].norm() + basis.fastest);
+    pair.uncertain = places.rounding;
+    if (places.drift > 0.0)
+      pair.uncertain +=
+          places.drift * ((places.velocity[i] - velocityOfSecond(places, basis, i, j)).norm() +
+                          (basis.prescribed ? 0.0 : basis.fastest));
     pair.distance = basis.radius[i];
     return pair;
   }

@@ -4,12 +4,19 @@
 
 namespace crossgrain {
 
+/// A plane at that time, and the body that moves it.
+struct PlacedPlane {
+  Plane plane;
+  const WallBody* body;
+  BodyState motion;  ///< of the body
+  bool known;        ///< false: it turned in ways that nobody prescribed
+};
+
 /// Where everything was when a snapshot's contacts were as it shows them, as well as can be told.
 struct ContactPlaces {
   std::vector<Vec2> position;  ///< disks, then wall disks [m]
   std::vector<Vec2> velocity;  ///< likewise, as shown [m/s]
-  std::vector<Plane> planes;
-  std::vector<bool> planeKnown;  ///< false: it turns or widens with its body, which is not followed
+  std::vector<PlacedPlane> planes;
   /// What of two bodies' relative motion their places are uncertain by [s].
   double drift = 0.0;
   double rounding = 0.0;  ///< [m]
@@ -24,6 +31,14 @@ struct PairPlace {
   double uncertain;  ///< [m]
   double distance;   ///< between centres; to a plane from the disk's centre [m]
 };
+
+/// The point of the plane that is nearest.
+Vec2 footOn(const Plane& plane, const Vec2& point);
+
+/// Of the second of a pair: of a disk's centre; of a plane where the first's centre has its foot
+/// [m/s].
+Vec2 velocityOfSecond(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,
+                      std::size_t j);
 
 /// @pre ids are in range; the plane is known
 PairPlace pairPlace(const ContactPlaces& places, const AuditBasis& basis, std::size_t i,

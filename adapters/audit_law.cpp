@@ -43,6 +43,17 @@ double damping(Damper damper, double constant, double stiffness, double reducedM
   return constant * std::sqrt(reducedMass * stiffness);
 }
 
+/// At most, of a body's point that far from its centre [m/s²].
+double acceleration(const Motion& motion, double arm) {
+  if (motion.kind == Motion::Kind::rotating)
+    return motion.angularVelocity * motion.angularVelocity * arm;
+  if (motion.kind == Motion::Kind::oscillating)
+    return motion.frequency * motion.frequency * motion.amplitude.norm();
+  return 0.0;
+}
+
+constexpr double stepsOfDoubt = 1.5;
+
 /// How far the velocities of the law may be from those shown, by body [m/s]: of its centre, and of
 /// its rim by its spin. Schemes show velocities of up to a step and a half from those that dashpots
 /// see; forces change them by the sum on a disk meanwhile, and hardly change in a step themselves:
@@ -52,7 +63,7 @@ struct VelocityDoubt {
 
   VelocityDoubt(const Snapshot& snapshot, const AuditBasis& basis)
       : centre(basis.radius.size() + basis.scene->planeCount()), rim(centre.size()) {
-    constexpr double steps = 1.5, change = 0.1;
+    constexpr double change = 0.1;
     const Scene& scene = *basis.scene;
     const Contacts& contacts = *snapshot.contacts;
     std::vector<Vec2> sum(centre.size(), Vec2::Zero());
@@ -69,7 +80,7 @@ struct VelocityDoubt {
     const double plate = scene.bottom ? scene.bottom->mu * scene.bottom->gravity : 0.0;
     for (std::size_t i = 0; i < scene.disks.size(); ++i) {
       const double radius = scene.disks.radius[i], mass = scene.disks.mass[i];
-      const double lapse = steps * basis.dt;
+      const double lapse = stepsOfDoubt * basis.dt;
       centre[i] =
           lapse * ((sum[i].norm() + change * sizes[i]) / mass + scene.gravity.norm() + plate);
       rim[i] = lapse * sizes[i] * radius * radius / scene.disks.inertia[i];
@@ -100,17 +111,19 @@ Touch touchOf(const Snapshot& snapshot, const AuditBasis& basis, const ContactPl
   touch.radius = j < round ? own * basis.radius[j] / (own + basis.radius[j]) : own;
   const double mass = scene.disks.mass[i];
   touch.mass = j < disks ? mass * scene.disks.mass[j] / (mass + scene.disks.mass[j]) : mass;
-  Vec2 relative = places.velocity[i];
-  if (j < round) relative -= places.velocity[j];
+  const Vec2 relative = places.velocity[i] - velocityOfSecond(places, basis, i, j);
   touch.approach = relative.dot(contacts.normal[k]);
   const auto rimSpeed = [&](std::size_t id) {
     return snapshot.spin && id < disks ? std::abs((*snapshot.spin)[id]) * basis.radius[id] : 0.0;
   };
   touch.slip = relative.norm() + rimSpeed(i) + rimSpeed(j) + doubts.rim[i] + doubts.rim[j];
-  if (j >= disks) touch.slip += basis.fastest;
+  if (j >= disks && j < round) touch.slip += basis.fastest;  // rims of wall disks
   touch.doubt = doubts.centre[i] + doubts.centre[j];
-  // A plane's own velocity is not shown point by point.
-  if (j >= round) touch.doubt += basis.fastest;
+  if (j >= round) {
+    const PlacedPlane& wall = places.planes[j - round];
+    const Vec2 arm = footOn(wall.plane, places.position[i]) - wall.motion.centre;
+    touch.doubt += stepsOfDoubt * basis.dt * acceleration(wall.body->motion, arm.norm());
+  }
   return touch;
 }
 
@@ -156,7 +169,7 @@ std::string whyNotOfLaw(const Snapshot& snapshot, const AuditBasis& basis, const
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const double fn = contacts.normalForce[k], ft = contacts.tangentialForce[k];
     const auto j = static_cast<std::size_t>(contacts.j[k]);
-    if (j >= basis.radius.size() && !places.planeKnown[j - basis.radius.size()]) continue;
+    if (j >= basis.radius.size() && !places.planes[j - basis.radius.size()].known) continue;
     std::string why;
     if (!law.soft()) {
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);

@@ -80,8 +80,8 @@ std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
 std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis) {
   const Scene& scene = *basis.scene;
   const double t = snapshot.positionTime;
-  const double reach =
-      100.0 * basis.extent + 10.0 * basis.fastest * t + 5.0 * scene.gravity.norm() * t * t;
+  const double fastest = 10.0 * basis.fastest;
+  const double reach = 100.0 * basis.extent + fastest * t + 5.0 * scene.gravity.norm() * t * t;
   for (std::size_t i = 0; i < snapshot.position.size(); ++i) {
     const Vec2& place = snapshot.position[i];
     if (!within((place - basis.middle).norm(), reach))
@@ -90,7 +90,7 @@ std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis) {
           "from ({:.3g}, {:.3g}) m",
           i, place.x(), place.y(), reach, basis.middle.x(), basis.middle.y());
     const double speed = snapshot.velocity[i].norm();
-    if (basis.dt > 0.0 && !within(speed * basis.dt, basis.extent))
+    if (basis.dt > 0.0 && !within(speed * basis.dt, fastest * basis.dt + basis.extent))
       return fmt::format(
           "disk {} moves at {:.3g} m/s, through the whole scene of {:.3g} m in a "
           "step",

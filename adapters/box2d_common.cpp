@@ -47,6 +47,14 @@ std::string box2dVersion() {
   return says == installed ? installed : fmt::format("{}, b2_version {}", installed, says);
 }
 
+SceneLimits box2dLimits() {
+  using enum Motion::Kind;
+  const std::vector<Motion::Kind> rigid = {fixed, rotating, translating, oscillating};
+  SceneLimits limits;
+  limits.wallMotions = limits.planeMotions = rigid;
+  return limits;
+}
+
 SettingSpec lengthUnitSetting() {
   return {"length_unit",
           0.0,

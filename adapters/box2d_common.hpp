@@ -15,6 +15,10 @@ namespace crossgrain {
 /// is another one: 2.4.1 was released with a b2_version of 2.4.0.
 std::string box2dVersion();
 
+/// What both can hold: walls that are rigid. Any moment of inertia, planes in any direction, and a
+/// restitution for each pair, set when a contact begins.
+SceneLimits box2dLimits();
+
 /// Both engines' setting for Box2D's unit of length.
 SettingSpec lengthUnitSetting();
 

@@ -108,6 +108,7 @@ Capabilities Box2dImpulse::capabilities() const {
        {}},
       {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}},
       {"position_iterations", 3.0, "-", "of Box2D's position solver", {}}};
+  can.limits = box2dLimits();
   return can;
 }
 

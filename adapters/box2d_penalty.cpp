@@ -30,6 +30,7 @@ Capabilities Box2dPenalty::capabilities() const {
   can.precisions = {Precision::float64};
   can.slidingFlags = true;
   can.settings = {{"dt", 0.0, "s", "time step; 0: the case's", {}}, lengthUnitSetting()};
+  can.limits = box2dLimits();
   return can;
 }
 

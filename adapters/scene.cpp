@@ -2,10 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace crossgrain {
 
 std::string toString(Precision precision) {
   return std::string(precisionNames[static_cast<std::size_t>(precision)]);
+}
+
+Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference) {
+  now.radialShift = 0.0;
+  const double c = std::cos(now.angle), s = std::sin(now.angle);
+  const Vec2& n = reference.normal;
+  return {memberPosition(now, referenceCentre, reference.point),
+          {c * n.x() - s * n.y(), s * n.x() + c * n.y()}};
 }
 
 std::size_t Scene::wallDiskCount() const {

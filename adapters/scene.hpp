@@ -30,6 +30,10 @@ struct Plane {
   Vec2 normal = Vec2::UnitY();
 };
 
+/// Where a plane given at t = 0 is by now: it shifts and turns with its body, about the body's
+/// centre at t = 0. Those of radial bodies stay.
+Plane planeAt(BodyState now, const Vec2& referenceCentre, const Plane& reference);
+
 /// A rigid body of wall disks and plane walls that moves as prescribed, whatever pushes on it.
 struct WallBody {
   std::string name;                ///< "wheel", "ring", …

@@ -32,6 +32,26 @@ std::optional<double> otherInertia(const std::vector<double>& allowed, const Dis
   return std::nullopt;
 }
 
+/// The first that is beyond, of a body's planes; empty: nothing.
+std::string beyondOfPlanes(const SceneLimits& limits, const WallBody& body) {
+  if (body.planes.empty()) return {};
+  const Motion::Kind kind = body.motion.kind;
+  if (limits.planeMotions && limits.planeMotions->empty())
+    return fmt::format("has no planes, as {} has", body.name);
+  if (limits.planeMotions && !has(*limits.planeMotions, kind))
+    return fmt::format("has planes that are {}, not {} as those of {} are",
+                       inWords(*limits.planeMotions), toString(kind), body.name);
+  if (!limits.planesAlongAxes) return {};
+  for (const Plane& plane : body.planes)
+    if (plane.normal.x() != 0.0 && plane.normal.y() != 0.0)
+      return fmt::format(
+          "has planes along an axis only, not with the normal ({:.6g}, {:.6g}) of {}",
+          plane.normal.x(), plane.normal.y(), body.name);
+  if (kind == Motion::Kind::rotating)
+    return fmt::format("has planes along an axis only, and those of {} turn", body.name);
+  return {};
+}
+
 /// Whether contacts of this scene have several reduced masses.
 bool pairsDiffer(const Scene& scene) {
   const auto [least, most] = std::ranges::minmax(scene.disks.mass);
@@ -53,12 +73,8 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& sc
         !has(*limits.wallMotions, body.motion.kind))
       reasons.push_back(fmt::format("has walls that are {}, not {} as {} is",
                                     inWords(*limits.wallMotions), kind, body.name));
-    if (!limits.planeMotions || body.planes.empty()) continue;
-    if (limits.planeMotions->empty())
-      reasons.push_back(fmt::format("has no planes, as {} has", body.name));
-    else if (!has(*limits.planeMotions, body.motion.kind))
-      reasons.push_back(fmt::format("has planes that are {}, not {} as those of {} are",
-                                    inWords(*limits.planeMotions), kind, body.name));
+    if (std::string why = beyondOfPlanes(limits, body); !why.empty())
+      reasons.push_back(std::move(why));
   }
   if (limits.restitutionPerBody && softLawStoodFor && scene.law.gn > 0.0 &&
       !scene.disks.mass.empty() && pairsDiffer(scene))

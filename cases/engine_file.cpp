@@ -36,6 +36,15 @@ fs::path inFolder(const std::string& word, const fs::path& folder) {
   return folder.empty() ? fs::path(word) : folder / word;
 }
 
+/// A program that was built and installed with this one lies beside it, in PATH or not.
+std::string besideThisProgram(const std::string& program) {
+  if (program.find('/') != std::string::npos) return program;
+  std::error_code none;
+  const fs::path own = fs::read_symlink("/proc/self/exe", none);
+  const fs::path beside = own.parent_path() / program;
+  return program.starts_with("crossgrain-") && isProgram(beside) ? beside.string() : program;
+}
+
 /// Of a program that is changed while its version stays: the command, and the files that it names.
 std::string stampOf(const ProgramCall& call, const std::string& file,
                     const std::vector<fs::path>& needs = {}) {
@@ -141,6 +150,7 @@ EngineEntry loadEngineFile(const fs::path& file) {
   if (const std::string why = whyNoName(name); !why.empty()) in.fail("name", why);
   if (call.argv.empty() || call.argv.front().empty())
     in.fail("command", "must be a program and its arguments, as [\"python3\", \"engine.py\"]");
+  call.argv.front() = besideThisProgram(call.argv.front());
   call.memory = static_cast<std::uint64_t>(memory);
   call.folder = fs::absolute(file).parent_path() / folder;
   if (!fs::is_directory(call.folder)) in.fail("folder", "is no folder");

@@ -57,7 +57,8 @@ int listEngines(const CommandLine& line) {
     for (const auto& [option, values] : can.lawOptions)
       fmt::print("  {:<22} {}\n", option, fmt::join(values, " | "));
     // As the protocol names them.
-    for (const char* limit : {"inertia", "wall_motions", "plane_motions", "restitution"})
+    for (const char* limit :
+         {"inertia", "wall_motions", "plane_motions", "plane_normals", "restitution"})
       if (row["capabilities"].contains(limit))
         fmt::print("  {:<22} {}\n", limit, row["capabilities"][limit].dump());
     for (const SettingSpec& setting : can.settings)

@@ -19,10 +19,12 @@ install(CODE [[
 ]])
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
-install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/node engines/rapier engines/box2d-v3
+install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/siconos engines/node engines/rapier engines/box2d-v3
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines
         FILES_MATCHING PATTERN "*.py" PATTERN "*.hpp" PATTERN "*.mjs" PATTERN "*.json" PATTERN "*.toml"
         PATTERN node_modules EXCLUDE)
+install(FILES engines/chipmunk/chipmunk.toml
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
 install(FILES README.md LICENSE CHANGELOG.md docs/your-engine.md adapters/worker/protocol.schema.json

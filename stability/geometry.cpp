@@ -14,11 +14,7 @@ std::vector<Plane> planesAt(const Scene& scene, double t) {
   std::vector<Plane> planes;
   for (const WallBody& body : scene.bodies) {
     const BodyState now = stateAt(body.motion, body.centre, t);
-    const double c = std::cos(now.angle), s = std::sin(now.angle);
-    for (const Plane& plane : body.planes)
-      planes.push_back({memberPosition(now, body.centre, plane.point),
-                        {c * plane.normal.x() - s * plane.normal.y(),
-                         s * plane.normal.x() + c * plane.normal.y()}});
+    for (const Plane& plane : body.planes) planes.push_back(planeAt(now, body.centre, plane));
   }
   return planes;
 }

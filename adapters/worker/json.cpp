@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 3> supportNames = {"optional", "always", "never"};
+constexpr std::array<std::string_view, 2> planeNormalNames = {"any", "axis"};
 constexpr std::array<std::string_view, 2> restitutionNames = {"pair", "body"};
 constexpr std::array<std::string_view, 3> reportNames = {"none", "instant", "accumulated"};
 
@@ -81,6 +82,7 @@ void addLimits(json& out, const SceneLimits& limits) {
   if (limits.inertia) out["inertia"] = *limits.inertia;
   if (limits.wallMotions) out["wall_motions"] = motionsJson(*limits.wallMotions);
   if (limits.planeMotions) out["plane_motions"] = motionsJson(*limits.planeMotions);
+  if (limits.planesAlongAxes) out["plane_normals"] = std::string(planeNormalNames[1]);
   if (limits.restitutionPerBody) out["restitution"] = std::string(restitutionNames[1]);
 }
 
@@ -93,6 +95,10 @@ SceneLimits limitsFrom(const json& in) {
   }
   limits.wallMotions = motionsFrom(in, "wall_motions");
   limits.planeMotions = motionsFrom(in, "plane_motions");
+  enum class PlaneNormals { any, axis };
+  if (in.contains("plane_normals"))
+    limits.planesAlongAxes =
+        valueOf<PlaneNormals>(in.at("plane_normals"), planeNormalNames) == PlaneNormals::axis;
   enum class Restitution { pair, body };
   if (in.contains("restitution"))
     limits.restitutionPerBody =

@@ -31,6 +31,7 @@ class Engine:
         "inertia": [0.5, 0.4],
         "wall_motions": ["fixed", "rotating", "translating", "oscillating"],
         "plane_motions": ["fixed"],
+        "plane_normals": "axis",
     }
 
     def __init__(self, lammps=None):

@@ -63,6 +63,7 @@ class Yade:
                 "integrator": ["position_verlet"],
             },
             "plane_motions": ["fixed", "translating", "oscillating"],
+            "plane_normals": "axis",
             "precisions": ["double"],
             "instant_contacts": True,
             "accumulated_contacts": False,

@@ -19,7 +19,7 @@ bool CollisionCase::wants(const EngineEntry& entry, const std::vector<std::strin
 void EngineSweeps::start(double timeout) {
   throwIfInterrupted();
   try {
-    worker_ = startEngine(entry_, store_.scratch(entry_.name), timeout);
+    worker_ = startAudited(entry_, store_.scratch(entry_.name), timeout);
     version_ = worker_->capabilities().version;
   } catch (const EngineFailure&) {
     worker_.reset();
@@ -65,7 +65,7 @@ std::vector<CollisionCurve> EngineSweeps::run(const CollisionCase& each,
     throwIfInterrupted();
     try {
       if (!worker_)
-        worker_ = startEngine(entry_, store_.scratch(entry_.name), each.setup->run.timeout);
+        worker_ = startAudited(entry_, store_.scratch(entry_.name), each.setup->run.timeout);
       const bool largest = dt == std::ranges::max(each.steps);
       CollisionCurve curve =
           runSweep(*worker_, entry_, *each.setup, dt, each.starts, each.oracle, largest, &declared);

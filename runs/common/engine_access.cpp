@@ -11,6 +11,7 @@
 #include "adapters/suitability.hpp"
 #include "adapters/worker/worker_engine.hpp"
 #include "cases/stable_step.hpp"
+#include "runs/common/audited_engine.hpp"
 #include "runs/common/engine_step.hpp"
 #include "runs/common/mirror_scene.hpp"
 #include "support/bad_input.hpp"
@@ -109,6 +110,11 @@ std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesys
                                ? entry.command()
                                : std::vector<std::string>{ownProgram(), "__serve", entry.name};
   return std::make_unique<WorkerEngine>(entry.name, call, scratch, timeout, std::move(listener));
+}
+
+std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                     double timeout) {
+  return std::make_unique<AuditedEngine>(entry.name, startEngine(entry, scratch, timeout));
 }
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {

@@ -41,6 +41,10 @@ std::string ownProgram();
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout, ExchangeListener listener = {});
 
+/// The same, every snapshot of it audited (audited_engine.hpp).
+std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                     double timeout);
+
 /// The settings of one engine in a case, its time step by the rule of engine_step.hpp. @throws
 /// BadInput for one that the engine does not have, or of another type or choice, naming the nearest
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can);

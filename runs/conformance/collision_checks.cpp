@@ -107,6 +107,20 @@ void planeDoesNotYield(Exam& it) {
             "the velocity after it [m/s]");
 }
 
+void slantingPlaneDoesNotYield(Exam& it) {
+  const Vec2 normal(0.6, 0.8);
+  Scene scene = emptyScene(it.law(), fine);
+  scene.bodies = {planeWall({0.3, -0.4}, normal)};  // 0.14 m below the origin
+  const Vec2 foot = Vec2(0.3, -0.4) + 0.2 * Vec2(-0.8, 0.6);
+  addDisk(scene, smallRadius, smallMass, foot + (smallRadius + Encounter::gap) * normal,
+          -Encounter::speed * normal);
+  it.loadWithinLimits(scene);
+  const Snapshot after = it.at(Encounter::end);
+  it.expect(close(after.velocity[0],
+                  restitutionOf(scene.law, smallMass) * Encounter::speed * normal, restitution),
+            "the velocity after it [m/s]");
+}
+
 void energyIsNotGained(Exam& it) {
   for (const double obliqueness : {-1.2, -0.6, 0.6, 1.2})
     for (const double spin : {-40.0, 0.0, 40.0}) {
@@ -275,6 +289,7 @@ std::span<const Check> checks() {
       Check{"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
       Check{"WallDiskDoesNotYield", "a wall disk does not yield", wallDiskDoesNotYield},
       Check{"PlaneDoesNotYield", "a plane does not yield", planeDoesNotYield},
+      Check{"SlantingPlaneDoesNotYield", "nor does one along no axis", slantingPlaneDoesNotYield},
       Check{"EnergyIsNotGained", "no collision gains energy", energyIsNotGained},
       Check{"FrictionFollowsTheOracle", "friction follows the theory of two disks",
             frictionFollowsTheOracle},

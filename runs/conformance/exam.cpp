@@ -94,6 +94,15 @@ void Exam::load(const Scene& wanted, const Settings& settings) {
   if (auto why = refused(wanted, settings)) skip(std::move(*why));
 }
 
+void Exam::loadWithinLimits(const Scene& wanted) {
+  const auto why = refused(wanted);
+  if (!why) return;
+  const bool declared =
+      !mismatches(can, wanted).empty() || !beyondLimits(can.limits, wanted, false).empty();
+  require(declared, said("refuses what none of its capabilities excludes: ", *why));
+  skip(*why);
+}
+
 Snapshot Exam::at(double t) {
   engine_.advance(t);
   return engine_.snapshot(contactReport());

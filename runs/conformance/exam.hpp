@@ -64,6 +64,9 @@ class Exam {
                                                    const Settings& settings = {});
   /// The same; a refusal is a skip. @throws Skipped
   void load(const Scene& scene, const Settings& settings = {});
+  /// The same for what limits can declare (adapters/scene_limits.hpp): an engine that refuses the
+  /// scene all by itself is at fault. @throws Skipped, GivenUp
+  void loadWithinLimits(const Scene& scene);
   Snapshot at(double t);  ///< advances to t and looks, contacts included
   /// Looks after every step from 0 to t; the first snapshot is the start.
   std::vector<Snapshot> watch(double t);

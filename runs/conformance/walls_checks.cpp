@@ -56,7 +56,10 @@ void expectPush(Exam& it, const Scene& scene, const Tolerance& prescribed) {
     now = it.engine().snapshot(ContactReport::none);
     expectPrescribed(it, scene, now, prescribed);
   }
-  const Vec2 towards = (scene.disks.position[0] - scene.bodies[0].diskPosition[0]).normalized();
+  const WallBody& body = scene.bodies[0];
+  const Vec2 towards = body.planes.empty()
+                           ? (scene.disks.position[0] - body.diskPosition[0]).normalized()
+                           : body.planes[0].normal;
   const double expected = (1.0 + restitutionOf(scene.law, smallMass)) * push;
   const Tolerance scheme = {0.0, 0.02, "a first-order scheme, and a wall that hardly turns"};
   it.expect(close(now.velocity[0].dot(towards), expected, scheme),
@@ -102,6 +105,16 @@ void wheelKeepsItsAngle(Exam& it) {
   it.load(scene);
   for (const double t : {0.03, 0.1})
     expectPrescribed(it, it.scene, it.at(t), it.byPrecision(1e-12, 1e-5, closedForm));
+}
+
+/// The same arm and speed as of the wall disks: the plane's point under the disk pushes it.
+void turningPlanePushes(Exam& it) {
+  Scene scene = emptyScene(it.law(), 200.0);
+  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
+  scene.bodies[0].motion = motionOf(Motion::Kind::rotating);
+  addDisk(scene, smallRadius, smallMass, {arm, smallRadius + Encounter::gap}, Vec2::Zero());
+  it.loadWithinLimits(scene);
+  expectPush(it, scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
 /// A disk that falls straight onto a turning wheel is taken along and turned the other way.
@@ -151,6 +164,8 @@ std::span<const Check> checks() {
             shrinkingWallPushes},
       Check{"ShrinkingWallStops", "a shrinking wall stops when it is to", shrinkingWallStops},
       Check{"WheelKeepsItsAngle", "a wheel's angle counts whole turns", wheelKeepsItsAngle},
+      Check{"TurningPlanePushes", "a turning plane moves as prescribed and pushes",
+            turningPlanePushes},
       Check{"TurningWheelDragsADisk", "a turning wheel drags a disk along", turningWheelDragsADisk},
       Check{"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},
   };

@@ -47,7 +47,7 @@ KeptTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
     row.engine = entry.name;
     try {
       const auto worker =
-          startEngine(entry, store.scratch("lockstep-" + entry.name), setup.run.timeout);
+          startAudited(entry, store.scratch("lockstep-" + entry.name), setup.run.timeout);
       row.reason = whyNoMirror(entry, worker->capabilities(), setup);
       if (row.reason.empty()) row = holdAgainstMirror(*worker, entry, setup, states, dt, progress);
     } catch (const UnsupportedScene& refusal) {

@@ -136,11 +136,11 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   advanceInPieces(engine, realised, middle, hard.duration);
   const Snapshot whole = engine.snapshot(ContactReport::none);
 
-  const LoadedEngine second =
-      loadEngine(task.entry, *task.setup, hard.scene, task.scratch / "second");
-  second.engine->restore(file);
-  advanceInPieces(*second.engine, second.realised, middle, hard.duration);
-  const Snapshot resumed = second.engine->snapshot(ContactReport::none);
+  const auto second = startAudited(task.entry, task.scratch / "second", task.setup->run.timeout);
+  const Realised again = loadScene(*second, task.entry, *task.setup, hard.scene);
+  second->restore(file);
+  advanceInPieces(*second, again, middle, hard.duration);
+  const Snapshot resumed = second->snapshot(ContactReport::none);
   judgeNumber(row, *task.setup->stability, largestDistance(hard.scene, whole, resumed));
 }
 
@@ -194,7 +194,7 @@ void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
 StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress) {
   StabilityRun row = rowOf(task);
   try {
-    const auto engine = startEngine(task.entry, task.scratch, task.setup->run.timeout);
+    const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
     judge(row, task, *engine, progress);
   } catch (const Interrupted&) {
     throw;

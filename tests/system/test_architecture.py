@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 ORDER = [
     "support",
     "continuum",
-    "engines/cpp", "engines/grain", "engines/box2d",
+    "engines/cpp", "engines/chipmunk", "engines/grain", "engines/box2d",
     "adapters", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
     "reports/common", "reports/lockstep", "reports/couette", "reports/diff", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/stability", "reports/thesis", "reports/site",

@@ -7,7 +7,7 @@ import shutil
 import unittest
 import xml.etree.ElementTree
 
-from harness import BAD_INPUT, COUETTE, ENGINE_FAILED, FELL_SHORT, HELD, SystemTest
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, ENGINE_FAILED, FELL_SHORT, HELD, SystemTest
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 CPP = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "examples/cpp/engine.toml"
@@ -78,6 +78,22 @@ class Conformance(SystemTest):
             {"grain": "finished", "numpy": "failed"},
             {run["engine"]: run["status"] for run in results["runs"]},
         )
+
+    def test_no_command_takes_a_snapshot_that_cannot_be(self):
+        engine = self.changed(*LEFT_OUT)
+        for command, status in (
+            (("lockstep", COUETTE, "--quick", "--starts=1"), ENGINE_FAILED),
+            (("collide", COLLISION, "-k", "*spring*"), ENGINE_FAILED),
+            (("stability", CASES / "hard", "-k", "billiard-break*"), FELL_SHORT),
+        ):
+            with self.subTest(command=command[0]):
+                out = self.folder / command[0]
+                done = self.run_program(*command, "--engines", engine, "--out", out, "--quiet")
+                self.assert_status(done, status)
+                results = (out / "results.json").read_text(encoding="utf-8")
+                self.assertRegex(
+                    results, r"numpy, [^\"]+ at t = \S+ s: its snapshot cannot be: no contact of disk \d+ with"
+                )
 
     def test_a_wrong_constant_is_named(self):
         engine = self.changed('law["kn"] * overlap', '1.02 * law["kn"] * overlap')

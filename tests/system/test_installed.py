@@ -97,6 +97,22 @@ class WithoutTheSources(InstalledTest):
         self.assertNotIn("failed", done.stderr)
         self.assertTrue((self.folder / "out/report.html").exists())
 
+    def test_copies_of_the_examples(self):
+        """As docs/your-engine.md has it: both are copied, the one in C++ is built against the installed headers."""
+        share = self.prefix / "share/crossgrain"
+        for name in ("python", "cpp"):
+            shutil.copytree(share / "examples" / name, self.folder / name)
+        done = self.held(
+            "lockstep", "cases/couette/quick.toml", "--engines", "python/engine.toml", "--quick", "--starts=1",
+            "--out", "out", "--quiet",
+        )  # fmt: skip
+        self.assertIn("numpy: same to rounding", done)
+        done = self.run_hidden(
+            "sh", "-c", f"cd cpp && g++ -std=c++17 -I{share}/engines/cpp engine.cpp -o engine"
+        )
+        self.assert_status(done, HELD)
+        self.assertIn("passed", self.held("conformance", "cpp/engine.toml", "-k", "HeadOn", "--quiet"))
+
     def test_stability(self):
         self.held("stability", "-k", "billiard*", "--engines", "grain", "--out", "out", "--quiet")
 

@@ -166,13 +166,13 @@ class Stranger(SystemTest):
         mine = self.own('name = "mine"\ncommand = ["python3", "engine.py"]\n')
         program = mine.parent / "engine.py"
         text = program.read_text(encoding="utf-8")
-        text = text.replace('"settings": [],', '"settings": [], "plane_motions": ["fixed"],')
+        text = text.replace('"settings": [],', '"settings": [], "plane_normals": "axis",')
         text = text.replace("def load(self, scene, arrays, settings):\n", "def load(self, *_):\n        os.abort()\n")
         program.write_text(text, encoding="utf-8")
         case = self.write("turning.toml", TURNING)
         done = self.run_program("record", case, "--engines", mine, "--out", self.folder / "none.rec")
         self.assert_status(done, BAD_INPUT)
-        self.assertIn("has planes that are fixed, not rotating", done.error_lines()[0])
+        self.assertIn("has planes along an axis only, and those of", done.error_lines()[0])
 
     def test_a_program_that_speaks_no_protocol_fails(self):
         mine = self.own('name = "mine"\ncommand = ["true"]\n')

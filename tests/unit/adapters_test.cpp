@@ -123,6 +123,15 @@ TEST(Suitability, ASceneBeyondTheLimitsIsRefusedWhateverMayDiffer) {
   EXPECT_EQ(refusal(only(planes, std::vector{fixed, translating})),
             "has planes that are fixed | translating, not rotating as those of floor are");
   EXPECT_EQ(refusal(only(planes, std::vector<Motion::Kind>{})), "has no planes, as floor has");
+  const SceneLimits alongAxes = only(&SceneLimits::planesAlongAxes, true);
+  EXPECT_EQ(refusal(alongAxes), "has planes along an axis only, and those of floor turn");
+  scene.bodies[1].motion.kind = fixed;
+  EXPECT_EQ(refusal(alongAxes), "");
+  scene.bodies[1].planes.push_back({{0, 0}, {0.6, -0.8}});
+  EXPECT_EQ(refusal(alongAxes),
+            "has planes along an axis only, not with the normal (0.6, -0.8) of floor");
+  scene.bodies[1].planes.pop_back();
+  scene.bodies[1].motion.kind = rotating;
   EXPECT_EQ(refusal(perBody), "");  // the law is its own
   can.lawOptions["normal"] = {"rigid"};
   scene.law.gn = 0.1;

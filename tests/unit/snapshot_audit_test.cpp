@@ -105,7 +105,9 @@ TEST_F(Audit, Places) {
   shown_.position[2] = {0.05, 0.05};
   shown_.velocity[2] = {0.0, 1e9};
   expectSays(why(), "disk 2 moves at 1e+09 m/s");
-  shown_.velocity[2] = {0.1, 0.0};
+  scene_.disks.velocity[2] = {0.0, 1e9};
+  EXPECT_EQ(why(), "") << "a scene that starts so, with a step as long as an engine's own";
+  scene_.disks.velocity[2] = shown_.velocity[2] = {0.1, 0.0};
   shown_.wallPosition[0].y() = 1e-4;
   expectSays(why(), "wall disk 0 is at");
   shown_.wallPosition[0].y() = 0.0;
@@ -208,6 +210,46 @@ TEST_F(Audit, Planes) {
   shown_.contacts->j[1] = 3;
   shown_.contacts->i[1] = 1;
   EXPECT_NE(why(), "");
+}
+
+/// A plane that has turned by 0.3 rad about a point 2 cm along it, half way into a step.
+TEST_F(Audit, TurningPlanes) {
+  const double angle = 0.3, omega = 3.0, t = 1e4 * dt;
+  WallBody wall = test::planeWall({0.0, 0.0}, {0.0, 1.0});
+  wall.centre = {-0.02, 0.0};
+  wall.motion = test::rotating(omega);
+  scene_.bodies = {wall};
+  const Vec2 along(std::cos(angle), std::sin(angle)), normal(-std::sin(angle), std::cos(angle));
+  const double arm = 0.04;  // of the foot
+  shown_.positionTime = shown_.velocityTime = shown_.contactTime = t;
+  shown_.position[0] = wall.centre + arm * along + (smallRadius - depth) * normal;
+  shown_.position[1] = shown_.position[0] + 3.0 * smallRadius * normal;
+  shown_.velocity[0] = omega * arm * normal;  // with the plane
+  shown_.wallPosition.clear();
+  shown_.bodies = {{wall.centre, omega * t, Vec2::Zero(), omega, {}, {}}};
+  Contacts& contacts = shown_.contacts.emplace();
+  contacts.i = {0};
+  contacts.j = {3};
+  contacts.normal = {normal};
+  contacts.overlap = {depth};
+  contacts.normalForce = {scene_.law.kn * depth};
+  contacts.tangentialForce = {0.0};
+  const auto why = [&] { return whyUnsound(shown_, basis(), t); };
+  EXPECT_EQ(why(), "");
+  EXPECT_EQ(whyOfLaw(), "");
+  shown_.velocity[0] *= 2.0;  // leaves it at Ω·arm
+  expectSays(whyOfLaw(), "contact 0 (disk 0 with plane 0): f_n is");
+  contacts.normalForce[0] -= scene_.law.gn * omega * arm;
+  EXPECT_EQ(whyOfLaw(), "");
+  contacts.normal = {Vec2(0.0, 1.0)};
+  expectSays(why(),
+             "(disk 0 with plane 0): its normal is (0.0000, 1.0000), from the positions "
+             "(-0.2955, 0.9553)");
+  contacts = {};
+  expectSays(why(), "no contact of disk 0 with plane 0, which overlap by 1e-05 m");
+  scene_.bodies[0].motion.angularVelocity = -omega;
+  shown_.bodies[0].angle = -omega * t;
+  EXPECT_EQ(why(), "") << "the disk is not on the plane that turned the other way";
 }
 
 /// Contacts a step older than positions are looked for where disks were then.

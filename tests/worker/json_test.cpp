@@ -129,6 +129,7 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   EXPECT_EQ(back.limits.inertia, can.limits.inertia);
   EXPECT_EQ(back.limits.wallMotions, can.limits.wallMotions);
   EXPECT_EQ(back.limits.planeMotions, can.limits.planeMotions);
+  EXPECT_EQ(back.limits.planesAlongAxes, can.limits.planesAlongAxes);
   EXPECT_EQ(back.limits.restitutionPerBody, can.limits.restitutionPerBody);
   EXPECT_EQ(back.slidingFlags, true);
   EXPECT_EQ(back.warmHandover, false);
