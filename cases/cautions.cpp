@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "cases/cell_estimates.hpp"
+#include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 
@@ -58,13 +59,13 @@ void cautionsOfFilling(const Case& setup, double volumeFraction, Lines& lines) {
 
 void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   constexpr int fewest = 4;
-  const int packings = setup.particles.file ? 1 : setup.preparation.packings;
+  const int packings = flowPackings(setup);
   if (setup.averaging.endpoints.empty())
     lines.emplace_back("no [averaging.endpoints]: compare will judge nothing");
   if (packings < fewest)
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",
-                                setup.particles.file ? " (a file is one)" : "", fewest));
+                                packingsAreFiles(setup) ? " (a file is one)" : "", fewest));
 }
 
 /// Impulses need no resolved contact, but disks must not jump.

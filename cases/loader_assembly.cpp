@@ -80,6 +80,16 @@ void readPlaces(Reader& in, std::vector<Vec2>& places) {
     const auto [count, spacing] = readLine(in.section("chain"), "count");
     places = gridPlaces(count, 1, {spacing, spacing}, false);
   }
+  if (choose("line")) {
+    Reader line = in.section("line");
+    int count = 1;
+    Vec2 step = Vec2::UnitX();
+    line.require("count", count, between(1, mostDisks));
+    requireVector(line, "step", step, "diameters");
+    line.finish();
+    places.clear();
+    for (int k = 0; k < count; ++k) places.emplace_back(k * step);
+  }
   if (choose("heap")) {
     const auto [base, spacing] = readLine(in.section("heap"), "base");
     places = heapPlaces(base, spacing);
@@ -214,12 +224,18 @@ void readAssembly(Reader& in, Assembly& assembly) {
   readVector(in, "boost", assembly.placement.boost, "m/s");
   readDuration(in, assembly);
   in.finish();
-  if (assembly.disks.empty()) in.failMissing("disks", "an assembly has [[assembly.disks]]");
   const bool moved = std::ranges::any_of(assembly.walls, [](const WallGroup& wall) {
     return wall.motion.kind != Motion::Kind::fixed && wall.motion.kind != Motion::Kind::translating;
   });
   if (moved && !assembly.placement.boost.isZero(0.0))
     in.fail("boost", "not where a wall rotates or oscillates");
+}
+
+void readPackings(Reader& in, Case& c) {
+  in.read("packings", c.preparation.packings, between(1, 10'000));
+  in.read("seed", c.assembly.seed, between(0, mostSeed));
+  in.finish();
+  c.preparation.seed = c.assembly.seed;
 }
 
 void readStability(Reader& in, Stability& stability) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "cases/endpoints.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
@@ -54,8 +53,8 @@ Json answerCell(const EndpointRow* row) {
 }
 
 std::string endpointLabel(const std::string& name) {
-  const EndpointSpec& endpoint = endpointSpec(name);
-  return mathHtml(fmt::format("{} {}", endpoint.words, endpoint.symbol));
+  const std::string words = endpointWords(name), symbol = endpointSymbol(name);
+  return mathHtml(words == symbol ? words : words + " " + symbol);
 }
 
 std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
@@ -153,7 +152,7 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   view["hasAgreement"] = !endpoints.empty();
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
-    view["endpointColumns"].push_back(mathHtml(endpointSpec(name).symbol));
+    view["endpointColumns"].push_back(mathHtml(endpointSymbol(name)));
   view["pairwise"] = pairRows(endpoints, true);
   view["hasPairwise"] = view["pairwise"].size() > peers.size();
   view["mirrors"] = pairRows(endpoints, false);

@@ -19,7 +19,7 @@ Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
   Curve curve{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
   const double sign = row.b == engine.name ? 1.0 : -1.0;
   for (const AgreementRing& ring : row.rings) {
-    const auto x = at(frame.rings.rTilde, ring.ring), difference = finite(ring.difference),
+    const auto x = at(binPlaces(frame), ring.ring), difference = finite(ring.difference),
                margin = finite(ring.margin);
     if (!x || !difference || !margin || *margin <= 0.0) continue;
     Point point{*x, sign * *difference / *margin, {}};
@@ -58,7 +58,7 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
           if (Curve curve = differenceCurve(results, row, engine); !curve.points.empty())
             panel.curves.push_back(std::move(curve));
     if (panel.curves.empty()) continue;
-    panel.xLabel = "(r − R_{i}) / d";
+    panel.xLabel = binAxis(results);
     panel.yLabel = fmt::format("difference of {} [margins]", fieldWords(field));
     panel.xRange = rTildeRange(results);
     panel.yRange = marginRange(panel);
