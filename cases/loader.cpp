@@ -24,7 +24,7 @@ const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
 const std::vector<std::vector<std::string>> sectionsOfKinds = {
     {"bottom", "cell", "particles", "preparation", "averaging", "looks", "cost"},
     {"collision"},
-    {"bottom", "assembly", "particles", "preparation", "average", "endpoints", "looks"}};
+    {"bottom", "assembly", "preparation", "average", "endpoints", "looks"}};
 
 void readHeader(Reader& in, Case& c) {
   std::string kind;
@@ -153,17 +153,11 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader assembly = root.section("assembly");
-  Reader particles = root.section("particles");
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
   readPlate(root, c);
   readAssembly(assembly, c.assembly);
-  readStarts(particles, c.assembly);
-  if (c.assembly.disks.empty() && c.assembly.starts.files.empty())
-    assembly.failMissing("disks", "an assembly has [[assembly.disks]], or [particles] file");
-  if (!c.assembly.disks.empty() && !c.assembly.starts.files.empty())
-    particles.fail("file", "and [[assembly.disks]]: the disks come from one of the two");
   readPackings(preparation, c);
   readLooks(looks, c.looks);
   if (root.has("average"))
@@ -200,13 +194,15 @@ void makeAbsolute(toml::table& root, const Case& c) {
   const auto absolute = [](const std::filesystem::path& file) {
     return std::filesystem::absolute(file).string();
   };
-  toml::node* const node = root.at_path("particles.file").node();
-  if (!node) return;
+  if (c.particles.file)
+    *root.at_path("particles.file").node()->as_string() = absolute(*c.particles.file);
   const auto& files = c.assembly.starts.files;
+  if (files.empty()) return;
+  toml::node* const node = root.at_path("assembly.start.file").node();
   if (toml::array* const list = node->as_array())
     for (std::size_t k = 0; k < list->size(); ++k) *list->get(k)->as_string() = absolute(files[k]);
   else
-    *node->as_string() = absolute(c.particles.file ? *c.particles.file : files.front());
+    *node->as_string() = absolute(files.front());
 }
 
 Case readCase(const std::filesystem::path& file, CaseDocument& document) {

@@ -213,6 +213,8 @@ void readAssembly(Reader& in, Assembly& assembly) {
   }
   readVector(in, "gravity", assembly.gravity, "m/s^2");
   in.read("inertia_factor", assembly.inertiaFactor, aboveZeroTo(1.0));
+  Reader start = in.section("start");
+  readStart(start, assembly);
   in.read("rotation", assembly.rotation);
   in.read("max_overlap", assembly.maxOverlap, between(0.0, 2.0));
   in.read("seed", assembly.seed, between(0, mostSeed));
@@ -224,6 +226,10 @@ void readAssembly(Reader& in, Assembly& assembly) {
   readVector(in, "boost", assembly.placement.boost, "m/s");
   readDuration(in, assembly);
   in.finish();
+  if (assembly.disks.empty() && !in.has("start"))
+    in.failMissing("disks", "an assembly has [[assembly.disks]], or [assembly.start] with a file");
+  if (!assembly.disks.empty() && in.has("start"))
+    in.fail("start", "and [[assembly.disks]]: the disks come from one of the two");
   const bool moved = std::ranges::any_of(assembly.walls, [](const WallGroup& wall) {
     return wall.motion.kind != Motion::Kind::fixed && wall.motion.kind != Motion::Kind::translating;
   });

@@ -245,13 +245,11 @@ std::optional<std::filesystem::path> Reader::readFile(std::string_view key,
   return fileNamed(key, name, extension);
 }
 
-std::vector<std::filesystem::path> Reader::readFiles(std::string_view key,
-                                                     const std::string& extension) {
+void Reader::read(std::string_view key, std::vector<std::filesystem::path>& target,
+                  const std::string& extension) {
   std::vector<std::string> names;
   read(key, names);
-  std::vector<std::filesystem::path> files;
-  for (const std::string& name : names) files.push_back(fileNamed(key, name, extension));
-  return files;
+  for (const std::string& name : names) target.push_back(fileNamed(key, name, extension));
 }
 
 std::filesystem::path Reader::fileNamed(std::string_view key, const std::string& name,

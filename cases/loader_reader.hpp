@@ -80,8 +80,9 @@ class Reader {
   /// The path of a file that exists; relative to the file that says it, or the working directory
   /// where `--set` does. @param extension  of files to suggest in place of one that does not
   std::optional<std::filesystem::path> readFile(std::string_view key, const std::string& extension);
-  /// A list of them, or one; none where the key is absent.
-  std::vector<std::filesystem::path> readFiles(std::string_view key, const std::string& extension);
+  /// A list of them, or one.
+  void read(std::string_view key, std::vector<std::filesystem::path>& target,
+            const std::string& extension);
   bool isTable(std::string_view key) const;
   bool isNumber(std::string_view key) const;
   /// The table under a key; an empty reader where it is absent.

@@ -38,8 +38,8 @@ Margin readOwnMargin(Reader& in, const std::string& endpoint);
 void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
-/// [particles] of an assembly: starts from files. @param assembly  whose other keys have been read
-void readStarts(Reader& in, Assembly& assembly);
+/// [assembly.start]: starts from files. @param assembly  whose inertia factor has been read
+void readStart(Reader& in, Assembly& assembly);
 /// [preparation] of an assembly: how many packings, and their seed.
 void readPackings(Reader& in, Case& c);
 /// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read

@@ -23,24 +23,21 @@ bool sameWall(const Start& a, const Start& b) {
 
 }  // namespace
 
-void readStarts(Reader& in, Assembly& assembly) {
+void readStart(Reader& in, Assembly& assembly) {
   StartFiles& starts = assembly.starts;
-  starts.files = in.readFiles("file", ".csv");
+  const bool there = !in.keys().empty();
+  if (there) in.require("file", starts.files, ".csv");
   double density = 0.0;
   in.read("density", density, positive("kg/m^2"));
   in.read("velocity_rms", starts.velocityRms, atLeast(0.0, "m/s"));
   in.finish();
-  if (starts.files.empty()) {
-    for (const char* const key : {"density", "velocity_rms"})
-      if (in.has(key)) in.fail(key, "is of no use without a file");
-    return;
-  }
+  if (!there) return;
   std::vector<Start> read;
   for (const auto& file : starts.files) {
     const auto mass = [&](double radius) {
       if (density == 0.0)
         throw BadInput(
-            fmt::format("{}: has no column mass, and [particles] no density", file.string()));
+            fmt::format("{}: tells no masses, and [assembly.start] no density", file.string()));
       return density * std::numbers::pi * radius * radius;
     };
     read.push_back(readStart(file, {mass, assembly.inertiaFactor}));
