@@ -85,8 +85,9 @@ void readPlaces(Reader& in, std::vector<Vec2>& places) {
     int count = 1;
     Vec2 step = Vec2::UnitX();
     line.require("count", count, between(1, mostDisks));
-    requireVector(line, "step", step, "diameters");
+    readVector(line, "step", step, "diameters");
     line.finish();
+    if (!line.has("step")) line.failMissing("step", "[x, y] in diameters");
     places.clear();
     for (int k = 0; k < count; ++k) places.emplace_back(k * step);
   }
