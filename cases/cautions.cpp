@@ -61,7 +61,8 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   constexpr int fewest = 4;
   const int packings = flowPackings(setup);
   if (setup.averaging.endpoints.empty())
-    lines.emplace_back("no [averaging.endpoints]: compare will judge nothing");
+    lines.push_back(fmt::format("no {}: compare will judge nothing",
+                                setup.average ? "[[endpoints]]" : "[averaging.endpoints]"));
   if (packings < fewest)
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",
@@ -94,6 +95,7 @@ Lines cautions(const Case& setup, double volumeFraction) {
     return lines;
   }
   cautionsOfStep(setup, lines);
+  if (setup.average) cautionsOfVerdicts(setup, lines);
   if (setup.kind == CaseKind::assembly) return lines;
   cautionsOfFilling(setup, volumeFraction, lines);
   cautionsOfVerdicts(setup, lines);

@@ -25,7 +25,7 @@ Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
     Point point{*x, sign * *difference / *margin, {}};
     if (const auto low = finite(ring.low), high = finite(ring.high); low && high)
       point.error = 0.5 * (*high - *low) / *margin;
-    point.place = fmt::format("ring {}", ring.ring + 1);
+    point.place = fmt::format("{} {}", binWord(frame), ring.ring + 1);
     curve.points.push_back(std::move(point));
   }
   return curve;
@@ -69,9 +69,9 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     figure.title = fmt::format("Difference of the {} from that of {}, in margins",
                                fieldWords(field), reference);
     figure.caption = fmt::format(
-        "{} minus that of {}, in the ring's margin; blue: within it. Bars: ± half the interval "
-        "that the ring's colour rests on{}.",
-        fieldWords(field), reference,
+        "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
+        "that the {}'s colour rests on{}.",
+        fieldWords(field), reference, binWord(results), binWord(results),
         panel.yRange->high == mostMargins
             ? fmt::format("; what lies beyond {:g} margins is off the axis", mostMargins)
             : "");

@@ -34,6 +34,8 @@ std::string barsInWords(const std::vector<EngineRuns>& engines);
 /// Those of a grid are nowhere (NaN).
 const std::vector<double>& binPlaces(const CouetteFrame& frame);
 std::string binAxis(const CouetteFrame& frame);
+/// "ring", or "bin" of an assembly.
+const char* binWord(const CouetteFrame& frame);
 
 /// The radial axis of a cell, from the wheel to the ring; absent without a cell.
 std::optional<Range> rTildeRange(const CouetteFrame& frame);

@@ -85,7 +85,7 @@ std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& en
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
     if (error) point.error = *error * std::abs(factor);
-    point.place = fmt::format("{} {}", frame.region ? "bin" : "ring", ring + 1);
+    point.place = fmt::format("{} {}", binWord(frame), ring + 1);
     points.push_back(point);
   }
   return points;
@@ -171,7 +171,7 @@ Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engine
     const auto plot = std::ranges::find(plots, name, &ProfilePlot::name);
     Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
-    panel.key = figure.panels.empty() ? Key::topRight : Key::none;
+    panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
     figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -200,6 +200,10 @@ std::string captionOf(const CouetteFrame& frame, const ProfilePlot& plot, const 
 
 const std::vector<double>& binPlaces(const CouetteFrame& frame) {
   return frame.region ? frame.rings.r : frame.rings.rTilde;
+}
+
+const char* binWord(const CouetteFrame& frame) {
+  return frame.region ? "bin" : "ring";
 }
 
 std::string binAxis(const CouetteFrame& frame) {
