@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averaging/global.hpp"
 #include "averaging/grid.hpp"
 #include "averaging/rings.hpp"
 #include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
 #include "runs/couette/averages.hpp"
 #include "runs/couette/run.hpp"
+#include "runs/couette/series.hpp"
 #include "runs/couette/summary.hpp"
 
 namespace crossgrain::inline runs {
@@ -33,13 +33,7 @@ RegionSeries::RegionSeries(const Case& setup, const Scene& scene)
     : region_(setup.average->region), scene_(scene), bins_(binsOf(setup)) {}
 
 void RegionSeries::add(const Snapshot& now) {
-  const GlobalNumbers numbers = globalNumbers(scene_, now);
-  rows_["t_s"].push_back(now.positionTime);
-  rows_["kinetic_energy"].push_back(numbers.kineticEnergy);
-  rows_["coordination"].push_back(numbers.coordination);
-  rows_["max_overlap"].push_back(numbers.maxOverlap);
-  rows_["mean_overlap"].push_back(numbers.meanOverlap);
-  rows_["sliding_fraction"].push_back(numbers.slidingFraction);
+  addGlobalNumbers(rows_, scene_, now);
   addMoments(now);
 }
 

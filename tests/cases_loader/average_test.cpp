@@ -6,20 +6,8 @@ namespace {
 
 using Average = InFolder;
 
-const std::string scene = R"([case]
-kind = "assembly"
-[law]
-kn = 100.0
-gn = 0.0
-tangential = "none"
-[assembly]
-duration = 3
-[[assembly.disks]]
-position = [0.0, 1.0]
-radius = 0.5
-density = 2.0
-jitter = 0.1
-)";
+const std::string scene =
+    withLine(withLine(soundAssembly, 8, "duration = 3"), 12, "density = 2.0\njitter = 0.1");
 
 const std::string slabs = R"([average]
 bins = "slabs"
