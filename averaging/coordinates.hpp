@@ -36,6 +36,9 @@ class Coordinates {
   virtual std::size_t slots() const = 0;
   virtual bool isOverflow(std::size_t slot) const = 0;
 
+  /// Whether the directions are x and y everywhere.
+  virtual bool isCartesian() const { return false; }
+
   /// h of the disks, normal to the plane [m]
   virtual double height() const = 0;
   /// Of a bin that is no overflow [m³]

@@ -147,10 +147,10 @@ std::span<const FieldSpec> fieldTable() {
 }
 
 const FieldSpec& fieldSpec(std::string_view name) {
-  const auto found = std::ranges::find(fieldTable(), name, &FieldSpec::name);
-  if (found == fieldTable().end())
-    throw std::invalid_argument(fmt::format("averaging: there is no field \"{}\"", name));
-  return *found;
+  for (const auto& table : {fieldTable(), cartesianFieldTable()})
+    if (const auto found = std::ranges::find(table, name, &FieldSpec::name); found != table.end())
+      return *found;
+  throw std::invalid_argument(fmt::format("averaging: there is no field \"{}\"", name));
 }
 
 std::optional<Linear> evaluate(const FieldSpec& field, const BinView& bin) {

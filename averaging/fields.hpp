@@ -74,10 +74,17 @@ struct FieldSpec {
   Linear (*formula)(const BinView&);
 };
 
-/// All fields in the order of profiles.csv.
+/// All fields of rings, in the order of profiles.csv.
 std::span<const FieldSpec> fieldTable();
 
-/// @throws std::invalid_argument if there is no field of that name
+/// The same where the directions are x and y, by their names there ("stress_xy", "velocity_x"),
+/// without those that only rings have.
+std::span<const FieldSpec> cartesianFieldTable();
+
+/// Whichever of them is the coordinate's.
+std::span<const FieldSpec> fieldsOf(const Coordinates& coordinates);
+
+/// Of either table. @throws std::invalid_argument if there is no field of that name
 const FieldSpec& fieldSpec(std::string_view name);
 
 /// The field in a bin. Absent where there is nothing to measure: in a bin without disks everything

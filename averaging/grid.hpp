@@ -14,8 +14,13 @@ class Grid : public Coordinates {
 
   std::size_t slot(int i, int j) const { return static_cast<std::size_t>(1 + i + nx_ * j); }
 
+  /// Of cell number k = i + nx j [m]
+  Vec2 centre(int k) const { return low_ + cell_.cwiseProduct(Vec2(k % nx_ + 0.5, k / nx_ + 0.5)); }
+  int cells() const { return nx_ * ny_; }
+
   std::size_t slots() const override { return static_cast<std::size_t>(nx_ * ny_) + 1; }
   bool isOverflow(std::size_t slot) const override { return slot == 0; }
+  bool isCartesian() const override { return true; }
   double height() const override { return height_; }
   double volume(std::size_t) const override { return cell_.prod() * height_; }
   std::size_t slotAt(const Vec2& x) const override;

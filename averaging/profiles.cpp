@@ -44,7 +44,7 @@ ProfileAccumulator::ProfileAccumulator(std::shared_ptr<const Coordinates> coordi
 
 void ProfileAccumulator::add(const Snapshot& snapshot) {
   std::vector<const FieldSpec*> fields;
-  for (const FieldSpec& field : fieldTable())
+  for (const FieldSpec& field : averaging::fieldsOf(*coordinates_))
     if (available(field, snapshot, springs_)) fields.push_back(&field);
   if (snapshots_ > 0 && fields != fields_)
     throw std::invalid_argument(fmt::format(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -29,13 +30,24 @@ struct WallGroup {
   std::vector<Plane> planes;
   std::vector<Vec2> position;  ///< of wall disks [m]
   double radius = 0.0;         ///< of wall disks [m]
+  std::vector<double> radii;   ///< of each, where they are not all alike [m]
   Motion motion;
+};
+
+/// Starts of the user's own, in place of groups: each is a packing.
+struct StartFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<Disks> disks;  ///< of each
+  /// Of each component, added to all velocities, other ones in each packing: so one file makes
+  /// several packings [m/s].
+  double velocityRms = 0.0;
 };
 
 /// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls
 /// go along.
 struct Assembly {
   std::vector<DiskGroup> disks;
+  StartFiles starts;  ///< either these or `disks`
   std::vector<WallGroup> walls;
   Vec2 gravity = Vec2::Zero();  ///< [m/s²]
   double inertiaFactor = 0.5;   ///< q in J = q m a²

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
@@ -65,14 +67,55 @@ WallBody bodyOf(const WallGroup& group, const Assembly& assembly, std::size_t in
   for (const Plane& plane : group.planes)
     body.planes.push_back({place(plane.point), assembly.placement.turned(plane.normal)});
   for (const Vec2& position : group.position) body.diskPosition.push_back(place(position));
-  body.diskRadius.assign(group.position.size(), group.radius);
+  body.diskRadius = group.radii;
+  if (group.radii.empty()) body.diskRadius.assign(group.position.size(), group.radius);
   body.motion = movedAlong(group.motion, assembly);
   return body;
 }
 
+/// The body as a start that is so far along [s].
+void moveOn(WallBody& body, double time) {
+  if (time == 0.0) return;
+  const BodyState now = stateAt(body.motion, body.centre, time);
+  const auto place = [&](const Vec2& point) { return memberPosition(now, body.centre, point); };
+  const Eigen::Rotation2Dd turn(now.angle);
+  for (Vec2& position : body.diskPosition) position = place(position);
+  for (Plane& plane : body.planes) plane = {place(plane.point), turn * plane.normal};
+  body.centre = now.centre;
+}
+
+/// A file's disks, placed as the assembly is, with this packing's velocities.
+Disks placed(Disks disks, const Assembly& assembly, gsl_rng* random) {
+  const Placement& placement = assembly.placement;
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const double extraX = normal(random, assembly.starts.velocityRms);
+    const double extraY = normal(random, assembly.starts.velocityRms);
+    disks.position[i] = placement.offset + placement.turned(disks.position[i]);
+    disks.velocity[i] =
+        placement.boost + placement.turned(disks.velocity[i] + Vec2(extraX, extraY));
+    if (!assembly.rotation)
+      disks.spin[i] = 0.0;
+    else if (placement.mirror)
+      disks.spin[i] = -disks.spin[i];
+  }
+  return disks;
+}
+
 }  // namespace
 
-Scene assemblyScene(const Case& setup) {
+Disks assemblyDisks(const Case& setup, int packing) {
+  const Assembly& assembly = setup.assembly;
+  const Random random = randomStream(assembly.seed, static_cast<std::uint64_t>(packing));
+  const auto& starts = assembly.starts.disks;
+  if (!starts.empty())
+    return placed(starts[static_cast<std::size_t>(packing) % starts.size()], assembly,
+                  random.get());
+  Disks disks;
+  for (const DiskGroup& group : assembly.disks) addDisks(disks, group, assembly, random.get());
+  return disks;
+}
+
+Scene assemblyScene(const Case& setup, Disks disks, double wallTime, double dt) {
   const Assembly& assembly = setup.assembly;
   Scene scene;
   scene.name = setup.variant.empty() ? setup.name : setup.name + " " + setup.variant;
@@ -81,19 +124,27 @@ Scene assemblyScene(const Case& setup) {
   scene.gravity = assembly.placement.turned(assembly.gravity);
   scene.rotation = assembly.rotation;
   scene.precision = setup.run.precision;
-  scene.dt = timeStep(setup);
+  scene.dt = dt;
   scene.energyLedger = setup.run.energyLedger;
-  const Random random = seededRandom(assembly.seed);
-  for (const DiskGroup& group : assembly.disks)
-    addDisks(scene.disks, group, assembly, random.get());
-  for (const WallGroup& group : assembly.walls)
+  scene.disks = std::move(disks);
+  for (const WallGroup& group : assembly.walls) {
     scene.bodies.push_back(bodyOf(group, assembly, scene.bodies.size()));
+    moveOn(scene.bodies.back(), wallTime);
+  }
+  return scene;
+}
 
+void checkAssemblyStart(const Case& setup, const Scene& scene) {
   Particles limits;
   limits.smallRadius = std::ranges::min(scene.disks.radius);
-  limits.maxOverlap = assembly.maxOverlap;
+  limits.maxOverlap = setup.assembly.maxOverlap;
   limits.maxOverlapKey = "assembly.max_overlap";
   checkStart(scene, limits, setup.file.string());
+}
+
+Scene assemblyScene(const Case& setup) {
+  Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, timeStep(setup));
+  checkAssemblyStart(setup, scene);
   return scene;
 }
 

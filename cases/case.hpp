@@ -11,6 +11,7 @@
 #include "adapters/engine.hpp"
 #include "adapters/vec2.hpp"
 #include "cases/assembly.hpp"
+#include "cases/average.hpp"
 #include "cases/cost.hpp"
 #include "oracle/collision_end.hpp"
 #include "stability/limits.hpp"
@@ -127,6 +128,7 @@ struct Case {
   RunOptions run;
   Collision collision;
   Assembly assembly;
+  std::optional<Average> average;      ///< of an assembly that engines are compared on
   std::optional<Stability> stability;  ///< of a hard case
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "cases/cell_estimates.hpp"
+#include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 
@@ -58,13 +59,14 @@ void cautionsOfFilling(const Case& setup, double volumeFraction, Lines& lines) {
 
 void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   constexpr int fewest = 4;
-  const int packings = setup.particles.file ? 1 : setup.preparation.packings;
+  const int packings = flowPackings(setup);
   if (setup.averaging.endpoints.empty())
-    lines.emplace_back("no [averaging.endpoints]: compare will judge nothing");
+    lines.push_back(fmt::format("no {}: compare will judge nothing",
+                                setup.average ? "[[endpoints]]" : "[averaging.endpoints]"));
   if (packings < fewest)
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",
-                                setup.particles.file ? " (a file is one)" : "", fewest));
+                                packingsAreFiles(setup) ? " (a file is one)" : "", fewest));
 }
 
 /// Impulses need no resolved contact, but disks must not jump.
@@ -93,6 +95,7 @@ Lines cautions(const Case& setup, double volumeFraction) {
     return lines;
   }
   cautionsOfStep(setup, lines);
+  if (setup.average) cautionsOfVerdicts(setup, lines);
   if (setup.kind == CaseKind::assembly) return lines;
   cautionsOfFilling(setup, volumeFraction, lines);
   cautionsOfVerdicts(setup, lines);

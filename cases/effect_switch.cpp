@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 
 namespace crossgrain::inline cases {
@@ -92,7 +92,7 @@ const std::array switchables = {
 }  // namespace
 
 Effects effectsOf(const Case& setup) {
-  return effectsOf(couetteScene(setup, {}, 0.0));
+  return effectsOf(unplacedScene(setup, 0.0));
 }
 
 std::vector<EffectSwitch> effectSwitches(const Case& setup) {

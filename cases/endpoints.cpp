@@ -36,4 +36,23 @@ const EndpointSpec& endpointSpec(std::string_view name) {
   return *found;
 }
 
+std::vector<EndpointSpec> endpointsOf(const Case& setup) {
+  std::vector<EndpointSpec> endpoints;
+  if (setup.average) {
+    for (const OwnEndpoint& own : setup.average->endpoints)
+      endpoints.push_back({own.name, own.words, own.words, own.unit, own.definition, own.byRatio});
+    return endpoints;
+  }
+  for (const EndpointSpec& endpoint : endpointTable())
+    if (setup.averaging.endpoints.contains(std::string(endpoint.name)))
+      endpoints.push_back(endpoint);
+  return endpoints;
+}
+
+EndpointSpec endpointSpec(const Case& setup, std::string_view name) {
+  for (const EndpointSpec& endpoint : endpointsOf(setup))
+    if (endpoint.name == name) return endpoint;
+  return endpointSpec(name);
+}
+
 }  // namespace crossgrain::inline cases

@@ -2,6 +2,9 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
+
+#include "cases/case.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -18,10 +21,18 @@ struct EndpointSpec {
   bool byRatio;
 };
 
-/// In the order of reports. Means over the cell are weighted with the rings' areas.
+/// Of a Couette cell, in the order of reports. Means over the cell are weighted with the rings'
+/// areas.
 std::span<const EndpointSpec> endpointTable();
 
 /// @throws std::invalid_argument if there is no endpoint of that name
 const EndpointSpec& endpointSpec(std::string_view name);
+
+/// Those that the case has margins for, in the order of reports. What an assembly makes up itself
+/// are views of the case, which must outlive them.
+std::vector<EndpointSpec> endpointsOf(const Case& setup);
+
+/// One of them, with or without a margin. @throws as above
+EndpointSpec endpointSpec(const Case& setup, std::string_view name);
 
 }  // namespace crossgrain::inline cases

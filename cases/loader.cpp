@@ -24,7 +24,7 @@ const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
 const std::vector<std::vector<std::string>> sectionsOfKinds = {
     {"bottom", "cell", "particles", "preparation", "averaging", "looks", "cost"},
     {"collision"},
-    {"bottom", "assembly"}};
+    {"bottom", "assembly", "preparation", "average", "endpoints", "looks"}};
 
 void readHeader(Reader& in, Case& c) {
   std::string kind;
@@ -153,14 +153,25 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
 
 void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader assembly = root.section("assembly");
+  Reader preparation = root.section("preparation");
+  Reader average = root.section("average");
+  Reader looks = root.section("looks");
   readPlate(root, c);
   readAssembly(assembly, c.assembly);
+  readPackings(preparation, c);
+  readLooks(looks, c.looks);
+  if (root.has("average"))
+    readAverage(average, root.sections("endpoints"), c);
+  else
+    for (const char* const section : {"endpoints", "preparation", "looks"})
+      if (root.has(section)) root.fail(section, "is of no use without [average]");
   requireStep(run, c);
   const bool told = c.law.normal == NormalLaw::linear;
   if (c.assembly.contactTimes && !told)
     assembly.fail("contact_times", "this law has no contact time: give duration or steps");
   // An overdamped contact has no t_c, but it is a scene.
   if (!c.run.dt || c.assembly.contactTimes) checkDamping(law, c);
+  if (c.average) checkAveragedTime(average, c);
 }
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
@@ -180,9 +191,18 @@ void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
 
 /// Paths in a document that is kept or printed must not hang on where it came from.
 void makeAbsolute(toml::table& root, const Case& c) {
-  if (!c.particles.file) return;
-  toml::node* const node = root.at_path("particles.file").node();
-  *node->as_string() = std::filesystem::absolute(*c.particles.file).string();
+  const auto absolute = [](const std::filesystem::path& file) {
+    return std::filesystem::absolute(file).string();
+  };
+  if (c.particles.file)
+    *root.at_path("particles.file").node()->as_string() = absolute(*c.particles.file);
+  const auto& files = c.assembly.starts.files;
+  if (files.empty()) return;
+  toml::node* const node = root.at_path("assembly.start.file").node();
+  if (toml::array* const list = node->as_array())
+    for (std::size_t k = 0; k < list->size(); ++k) *list->get(k)->as_string() = absolute(files[k]);
+  else
+    *node->as_string() = absolute(files.front());
 }
 
 Case readCase(const std::filesystem::path& file, CaseDocument& document) {

@@ -80,6 +80,17 @@ void readPlaces(Reader& in, std::vector<Vec2>& places) {
     const auto [count, spacing] = readLine(in.section("chain"), "count");
     places = gridPlaces(count, 1, {spacing, spacing}, false);
   }
+  if (choose("line")) {
+    Reader line = in.section("line");
+    int count = 1;
+    Vec2 step = Vec2::UnitX();
+    line.require("count", count, between(1, mostDisks));
+    readVector(line, "step", step, "diameters");
+    line.finish();
+    if (!line.has("step")) line.failMissing("step", "[x, y] in diameters");
+    places.clear();
+    for (int k = 0; k < count; ++k) places.emplace_back(k * step);
+  }
   if (choose("heap")) {
     const auto [base, spacing] = readLine(in.section("heap"), "base");
     places = heapPlaces(base, spacing);
@@ -203,6 +214,8 @@ void readAssembly(Reader& in, Assembly& assembly) {
   }
   readVector(in, "gravity", assembly.gravity, "m/s^2");
   in.read("inertia_factor", assembly.inertiaFactor, aboveZeroTo(1.0));
+  Reader start = in.section("start");
+  readStart(start, assembly);
   in.read("rotation", assembly.rotation);
   in.read("max_overlap", assembly.maxOverlap, between(0.0, 2.0));
   in.read("seed", assembly.seed, between(0, mostSeed));
@@ -214,12 +227,22 @@ void readAssembly(Reader& in, Assembly& assembly) {
   readVector(in, "boost", assembly.placement.boost, "m/s");
   readDuration(in, assembly);
   in.finish();
-  if (assembly.disks.empty()) in.failMissing("disks", "an assembly has [[assembly.disks]]");
+  if (assembly.disks.empty() && !in.has("start"))
+    in.failMissing("disks", "an assembly has [[assembly.disks]], or [assembly.start] with a file");
+  if (!assembly.disks.empty() && in.has("start"))
+    in.fail("start", "and [[assembly.disks]]: the disks come from one of the two");
   const bool moved = std::ranges::any_of(assembly.walls, [](const WallGroup& wall) {
     return wall.motion.kind != Motion::Kind::fixed && wall.motion.kind != Motion::Kind::translating;
   });
   if (moved && !assembly.placement.boost.isZero(0.0))
     in.fail("boost", "not where a wall rotates or oscillates");
+}
+
+void readPackings(Reader& in, Case& c) {
+  in.read("packings", c.preparation.packings, between(1, 10'000));
+  in.read("seed", c.assembly.seed, between(0, mostSeed));
+  in.finish();
+  c.preparation.seed = c.assembly.seed;
 }
 
 void readStability(Reader& in, Stability& stability) {

@@ -38,7 +38,7 @@ void readFraction(Reader& in, const Judged& field, const Case& setup, Margin& ma
                            scale.unit);
 }
 
-Margin readMargin(Reader in, const Judged& field, const Case* setup) {
+Margin readMargin(Reader& in, const Judged& field, const Case* setup) {
   Margin margin;
   margin.relative = in.has("relative");
   in.read("relative", margin.value, positive());
@@ -70,7 +70,7 @@ std::map<std::string, Margin> readAll(Reader in, const std::vector<Judged>& list
   std::map<std::string, Margin> margins;
   for (const Judged& field : list) {
     Reader margin = in.section(field.name);
-    if (in.has(field.name)) margins[field.name] = readMargin(std::move(margin), field, setup);
+    if (in.has(field.name)) margins[field.name] = readMargin(margin, field, setup);
   }
   in.finish();
   return margins;
@@ -83,6 +83,16 @@ std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup) {
   for (const FieldSpec& field : fieldTable())
     fields.push_back({std::string(field.name), field.unit});
   return readAll(std::move(in), fields, &setup);
+}
+
+std::map<std::string, Margin> readBinMargins(Reader in, std::span<const FieldSpec> fields) {
+  std::vector<Judged> judged;
+  for (const FieldSpec& field : fields) judged.push_back({std::string(field.name), field.unit});
+  return readAll(std::move(in), judged, nullptr);
+}
+
+Margin readOwnMargin(Reader& in, const std::string& endpoint) {
+  return readMargin(in, {endpoint, ""}, nullptr);
 }
 
 std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup) {

@@ -236,11 +236,26 @@ void Reader::requireText(std::string_view key, std::string& target, std::string_
 
 std::optional<std::filesystem::path> Reader::readFile(std::string_view key,
                                                       const std::string& extension) {
-  const toml::node* const node = take(key);
-  if (!node) return std::nullopt;
+  if (!has(key)) {
+    take(key);
+    return std::nullopt;
+  }
   std::string name;
   read(key, name);
-  const std::filesystem::path file = (folderOf(node->source()) / name).lexically_normal();
+  return fileNamed(key, name, extension);
+}
+
+void Reader::read(std::string_view key, std::vector<std::filesystem::path>& target,
+                  const std::string& extension) {
+  std::vector<std::string> names;
+  read(key, names);
+  for (const std::string& name : names) target.push_back(fileNamed(key, name, extension));
+}
+
+std::filesystem::path Reader::fileNamed(std::string_view key, const std::string& name,
+                                        const std::string& extension) const {
+  const toml::node& node = *table_->get(key);
+  const std::filesystem::path file = (folderOf(node.source()) / name).lexically_normal();
   if (const std::string why = whyNoFile(file); !why.empty())
     fail(key,
          fmt::format("{} (looked for {}){}", why, file.string(), nearestFile(file, extension)));
@@ -249,6 +264,10 @@ std::optional<std::filesystem::path> Reader::readFile(std::string_view key,
 
 bool Reader::isTable(std::string_view key) const {
   return has(key) && table_->get(key)->is_table();
+}
+
+bool Reader::isNumber(std::string_view key) const {
+  return has(key) && table_->get(key)->is_number();
 }
 
 Reader Reader::section(std::string_view key) {

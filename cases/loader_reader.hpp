@@ -80,7 +80,11 @@ class Reader {
   /// The path of a file that exists; relative to the file that says it, or the working directory
   /// where `--set` does. @param extension  of files to suggest in place of one that does not
   std::optional<std::filesystem::path> readFile(std::string_view key, const std::string& extension);
+  /// A list of them, or one.
+  void read(std::string_view key, std::vector<std::filesystem::path>& target,
+            const std::string& extension);
   bool isTable(std::string_view key) const;
+  bool isNumber(std::string_view key) const;
   /// The table under a key; an empty reader where it is absent.
   Reader section(std::string_view key);
   /// A list of tables, [[path.key]]; none where it is absent.
@@ -96,6 +100,8 @@ class Reader {
 
  private:
   std::string pathOf(std::string_view key) const;
+  std::filesystem::path fileNamed(std::string_view key, const std::string& name,
+                                  const std::string& extension) const;
 
   const toml::table* table_;
   std::string path_, file_;

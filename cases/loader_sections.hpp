@@ -1,9 +1,12 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "averaging/fields.hpp"
 #include "cases/case.hpp"
 #include "cases/loader_reader.hpp"
 
@@ -28,9 +31,21 @@ void readLooks(Reader& in, Looks& looks);
 std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup);
 std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup);
 std::map<std::string, Margin> readCollisionMargins(Reader in);
+/// [average.margins]. @param fields  of its bins
+std::map<std::string, Margin> readBinMargins(Reader in, std::span<const FieldSpec> fields);
+/// Of one of [[endpoints]], whose other keys have been read.
+Margin readOwnMargin(Reader& in, const std::string& endpoint);
 void readRun(Reader& in, RunOptions& run);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
+/// [assembly.start]: starts from files. @param assembly  whose inertia factor has been read
+void readStart(Reader& in, Assembly& assembly);
+/// [preparation] of an assembly: how many packings, and their seed.
+void readPackings(Reader& in, Case& c);
+/// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
+void readAverage(Reader& in, std::vector<Reader> endpoints, Case& c);
+/// @param c  whose step is known
+void checkAveragedTime(const Reader& in, const Case& c);
 void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 /// Settings of one engine: booleans, numbers, texts.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "adapters/law_options.hpp"
@@ -35,7 +37,9 @@ std::string contentHash(const Packing& packing) {
   for (const auto* values : {&disks.radius, &disks.mass, &disks.inertia, &disks.spin}) add(*values);
   add(disks.position);
   add(disks.velocity);
-  return fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
+  std::string hash = fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
+  if (packing.wallTime != 0.0) hash += fmt::format(" {}", packing.wallTime);
+  return hash;
 }
 
 std::string packingHash(const Case& setup, int index, double dt) {
@@ -85,7 +89,7 @@ void writePacking(const Packing& packing, const std::filesystem::path& file) {
 
 namespace {
 
-Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
+Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& defaults) {
   const auto bad = [&](const std::string& what) {
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
@@ -124,20 +128,18 @@ Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
   const auto velocity = sized("velocity", 2);
   disks.velocity = velocity ? asVectors(*velocity) : std::vector<Vec2>(count, Vec2::Zero());
   disks.spin = sized("spin", 1).value_or(std::vector<double>(count, 0.0));
-  const Particles& kinds = setup.particles;
-  const double border = 0.5 * (kinds.smallRadius + kinds.largeRadius);
-  std::vector<double> mass(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     if (!(disks.radius[i] > 0.0))
       throw bad(fmt::format("the radius of disk {} is {} m; it must be > 0", i, disks.radius[i]));
-    mass[i] = disks.radius[i] < border ? kinds.smallMass : kinds.largeMass;
-  }
-  disks.mass = sized("mass", 1).value_or(mass);
+  if (auto mass = sized("mass", 1))
+    disks.mass = std::move(*mass);
+  else
+    std::ranges::transform(disks.radius, std::back_inserter(disks.mass), defaults.mass);
   std::vector<double> inertia(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (!(disks.mass[i] > 0.0))
       throw bad(fmt::format("the mass of disk {} is {} kg; it must be > 0", i, disks.mass[i]));
-    inertia[i] = kinds.inertiaFactor * disks.mass[i] * disks.radius[i] * disks.radius[i];
+    inertia[i] = defaults.inertiaFactor * disks.mass[i] * disks.radius[i] * disks.radius[i];
   }
   disks.inertia = sized("inertia", 1).value_or(inertia);
   packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
@@ -148,8 +150,16 @@ Packing readPackingFile(const std::filesystem::path& file, const Case& setup) {
 }  // namespace
 
 Packing readPacking(const std::filesystem::path& file, const Case& setup) {
+  const Particles& kinds = setup.particles;
+  const double border = 0.5 * (kinds.smallRadius + kinds.largeRadius);
+  return readPacking(
+      file, {[&](double radius) { return radius < border ? kinds.smallMass : kinds.largeMass; },
+             kinds.inertiaFactor});
+}
+
+Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {
   try {
-    return readPackingFile(file, setup);
+    return readPackingFile(file, defaults);
   } catch (const BadInput&) {
     throw;
   } catch (const std::exception& error) {  // what HDF5 makes of a damaged file

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "adapters/scene.hpp"
@@ -13,6 +14,7 @@ namespace crossgrain::inline cases {
 struct Packing {
   Disks disks;
   double wheelAngle = 0.0;  ///< by which the wheel's disks have turned since it was built [rad]
+  double wallTime = 0.0;    ///< for which the walls of an assembly have moved [s]
   std::string hash;         ///< of all that it was made from
   bool fromCache = false;
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
@@ -32,5 +34,13 @@ void writePacking(const Packing& packing, const std::filesystem::path& file);
 
 /// @throws BadInput naming the file and what it lacks
 Packing readPacking(const std::filesystem::path& file, const Case& setup);
+
+/// What a file of disks may leave out.
+struct DiskDefaults {
+  std::function<double(double radius)> mass;  ///< [kg]
+  double inertiaFactor = 0.5;                 ///< q in J = q m a²
+};
+/// @throws likewise
+Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults);
 
 }  // namespace crossgrain::inline cases

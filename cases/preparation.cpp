@@ -67,7 +67,9 @@ void placeAtRandom(Disks& disks, const Case& setup, gsl_rng* random) {
 
 /// The cell with its ring at R_prepare, about to shrink.
 Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
-  Scene scene = couetteScene(setup, {disks, 0.0, {}, false, {}}, dt);
+  Packing packing;
+  packing.disks = disks;
+  Scene scene = couetteScene(setup, packing, dt);
   scene.precision = Precision::float64;  // a packing is the same for all that run it
   scene.energyLedger = false;
   const double start = setup.preparation.dilation * setup.cell.outerRadius;

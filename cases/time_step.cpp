@@ -20,6 +20,11 @@ double lightestReducedMass(const Assembly& assembly) {
       lightest = std::min(lightest, smallest);
     }
   }
+  for (const Disks& disks : assembly.starts.disks)
+    for (const double mass : disks.mass) {
+      second = std::min(second, std::max(lightest, mass));
+      lightest = std::min(lightest, mass);
+    }
   return 1.0 / (1.0 / lightest + 1.0 / second);
 }
 

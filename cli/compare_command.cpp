@@ -55,7 +55,7 @@ void tell(const CompareResults& results, const std::vector<EndpointRow>& rows,
 }
 
 int compare(const CommandLine& line, bool strict, const std::optional<std::string>& budget) {
-  const Case setup = onlyCase(line, "compare");
+  const Case setup = onlyFlow(line, "compare");
   printWarnings(setup);
   const double seconds = budget ? secondsOf(*budget) : setup.looks.budget;
   RunStore store(line.run, "compare", soleCase(setup));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "averaging/fields.hpp"
 #include "cases/case_files.hpp"
@@ -33,8 +34,11 @@ json listCases(const fs::path& folder) {
 
 json listFields(const fs::path&) {
   json rows = json::array();
-  for (const FieldSpec& field : fieldTable())
-    rows.push_back({{"name", field.name}, {"unit", field.unit}, {"what", field.definition}});
+  std::set<std::string_view> listed;
+  for (const auto& table : {fieldTable(), cartesianFieldTable()})
+    for (const FieldSpec& field : table)
+      if (listed.insert(field.name).second)
+        rows.push_back({{"name", field.name}, {"unit", field.unit}, {"what", field.definition}});
   return rows;
 }
 
@@ -43,6 +47,10 @@ json listEndpoints(const fs::path&) {
   for (const EndpointSpec& endpoint : endpointTable())
     rows.push_back(
         {{"name", endpoint.name}, {"unit", endpoint.unit}, {"what", endpoint.definition}});
+  for (const RegionNumber& number : regionNumbers())
+    rows.push_back({{"name", number.name},
+                    {"unit", number.unit},
+                    {"what", std::string(number.definition) + "; a quantity for [[endpoints]]"}});
   return rows;
 }
 

@@ -43,7 +43,7 @@ int statusOf(const CommandLine& line, const LockstepResults& results) {
 
 int lockstep(const CommandLine& line, const std::optional<double>& given) {
   const std::size_t starts = startsOf(given, line.quick);
-  const Case setup = onlyCase(line, "lockstep");
+  const Case setup = onlyFlow(line, "lockstep");
   RunStore store(line.run, "lockstep", soleCase(setup));
   if (line.run.dryRun) return told(lockstepPlan(setup, line.run, store, starts));
   const LockstepResults results = runLockstep(setup, line.run, store, starts);

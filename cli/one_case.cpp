@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "support/bad_input.hpp"
 
@@ -10,17 +11,37 @@ namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// What --quick changes.
+std::vector<std::string> hurried(const Case& setup) {
+  if (setup.average) return {"preparation.packings=2", "average.snapshots=20"};
+  return {"preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
+          "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
+}
+
+}  // namespace
+
 Case onlyCase(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
-  const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (cases.front().kind != CaseKind::couette)
+  if (loadCase(file, line.overrides).front().kind != CaseKind::couette)
     throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
+  return onlyFlow(line, command);
+}
+
+Case onlyFlow(const CommandLine& line, const char* command) {
+  const fs::path& file = line.inputs.front();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
+  if (!hasFlow(cases.front()))
+    throw BadInput(fmt::format(
+        "{}: {} cannot run {}", file.string(), command,
+        cases.front().kind == CaseKind::assembly
+            ? "an assembly that does not say what is averaged: give it [average] and [[endpoints]]"
+            : "a case of this kind"));
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
   if (!line.quick) return cases.front();
-  std::vector<std::string> overrides = {
-      "preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
-      "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
+  std::vector<std::string> overrides = hurried(cases.front());
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(file, overrides).front();
 }

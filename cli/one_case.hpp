@@ -12,6 +12,9 @@ namespace crossgrain::inline cli {
 /// @throws BadInput
 Case onlyCase(const CommandLine& line, const char* command);
 
+/// The same, or an assembly that says what is averaged.
+Case onlyFlow(const CommandLine& line, const char* command);
+
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);
 

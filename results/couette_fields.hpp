@@ -36,6 +36,18 @@ void fields(auto& io, CouetteAveraging& averaging) {
   io.present("line_width", averaging.lineWidth);
 }
 
+void fields(auto& io, RegionRow& region) {
+  io("bins", region.bins);
+  io.when(!region.along.empty(), "along", region.along);
+  io("height", region.height);
+  io("diameter", region.diameter);
+  io("disks", region.disks);
+  io("x", region.x);
+  io("y", region.y);
+  io("from_s", region.from);
+  io("to_s", region.to);
+}
+
 void fields(auto& io, RingPlaces& rings) {
   io("r", rings.r);
   io("r_tilde", rings.rTilde);
@@ -44,7 +56,8 @@ void fields(auto& io, RingPlaces& rings) {
 
 void fields(auto& io, CouetteFrame& frame) {
   fields(io, frame.head);
-  io("cell", frame.cell);
+  io.when(!frame.region, "cell", frame.cell);
+  io.present("region", frame.region);
   io("averaging", frame.averaging);
   io("effects", frame.effects);
   io("rings", frame.rings);

@@ -33,6 +33,17 @@ struct CouetteAveraging {
   std::optional<double> lineWidth;  ///< of a study of ring widths: the kernels' [d]
 };
 
+/// The averaged part of a case that is no Couette cell (cases/average.hpp).
+struct RegionRow {
+  std::string bins;             ///< "rings", "slabs", "grid" or "whole"
+  std::string along;            ///< of slabs: "x" or "y"
+  double height = 1.0;          ///< of the disks [m]
+  double diameter = 0.0;        ///< d, of the smallest disks [m]
+  std::size_t disks = 0;        ///< in the scene
+  std::vector<double> x, y;     ///< of the bins' centres; empty for rings [m]
+  double from = 0.0, to = 0.0;  ///< averaged [s]
+};
+
 struct RingPlaces {
   std::vector<double> r;        ///< of the rings' centres [m]
   std::vector<double> rTilde;   ///< (r − R_i)/d
@@ -49,6 +60,7 @@ struct PackingRow {
 struct CouetteFrame {
   ResultsHead head;
   CouetteCell cell;
+  std::optional<RegionRow> region;  ///< then there is no cell
   CouetteAveraging averaging;
   std::vector<std::string> effects;  ///< that the case calls for
   RingPlaces rings;

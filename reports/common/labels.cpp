@@ -38,8 +38,10 @@ std::string escaped(std::string_view name) {
 
 /// null where there is no such field, or none that people write in another way
 const FieldSpec* labelledField(std::string_view name) {
-  const auto found = std::ranges::find(fieldTable(), name, &FieldSpec::name);
-  return found == fieldTable().end() || found->words.empty() ? nullptr : &*found;
+  for (const auto& table : {fieldTable(), cartesianFieldTable()})
+    if (const auto found = std::ranges::find(table, name, &FieldSpec::name); found != table.end())
+      return found->words.empty() ? nullptr : &*found;
+  return nullptr;
 }
 
 /// How many bytes from there on belong to an index: of ASCII letters, digits, − and Greek letters.

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "cases/endpoints.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/agreement_entries.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/endpoint_words.hpp"
+#include "reports/couette/figures.hpp"
 
 namespace crossgrain::reports {
 
@@ -54,8 +54,8 @@ Json answerCell(const EndpointRow* row) {
 }
 
 std::string endpointLabel(const std::string& name) {
-  const EndpointSpec& endpoint = endpointSpec(name);
-  return mathHtml(fmt::format("{} {}", endpoint.words, endpoint.symbol));
+  const std::string words = endpointWords(name), symbol = endpointSymbol(name);
+  return mathHtml(words == symbol ? words : words + " " + symbol);
 }
 
 std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
@@ -104,32 +104,32 @@ Json pairRows(const Endpoints& endpoints, bool peers) {
   return rows;
 }
 
-std::string ringInWords(const AgreementRing& ring) {
-  const std::string name = fmt::format("ring {}", ring.ring + 1);
+std::string ringInWords(const AgreementRing& ring, const char* bin) {
+  const std::string name = fmt::format("{} {}", bin, ring.ring + 1);
   if (!finite(ring.difference)) return name + ": nothing to compare";
   return fmt::format("{}: {}, margin {}", name,
                      readableDifference(ring.difference, ring.standardError),
                      readable(ring.margin));
 }
 
-Json strip(const AgreementRow* row) {
+Json strip(const AgreementRow* row, const char* bin) {
   Json rings = Json::array();
   if (row)
     for (const AgreementRing& ring : row->rings) {
       const Mark mark = markOf(ring.verdict);
       rings.push_back(
-          {{"verdict", mark.style}, {"symbol", mark.symbol}, {"title", ringInWords(ring)}});
+          {{"verdict", mark.style}, {"symbol", mark.symbol}, {"title", ringInWords(ring, bin)}});
     }
   return rings;
 }
 
 Json ringRows(const Agreement& agreement, const std::string& reference,
-              const std::vector<std::string>& peers) {
+              const std::vector<std::string>& peers, const char* bin) {
   Json rows = Json::array();
   for (const std::string& field : fieldsOf(agreement)) {
     Json cells = Json::array();
     for (const std::string& peer : peers)
-      cells.push_back({{"strip", strip(rowOf(agreement, reference, peer, field))}});
+      cells.push_back({{"strip", strip(rowOf(agreement, reference, peer, field), bin)}});
     rows.push_back({{"label", fieldLabel(field)}, {"cells", std::move(cells)}});
   }
   return rows;
@@ -153,7 +153,7 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   view["hasAgreement"] = !endpoints.empty();
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
-    view["endpointColumns"].push_back(mathHtml(endpointSpec(name).symbol));
+    view["endpointColumns"].push_back(mathHtml(endpointSymbol(name)));
   view["pairwise"] = pairRows(endpoints, true);
   view["hasPairwise"] = view["pairwise"].size() > peers.size();
   view["mirrors"] = pairRows(endpoints, false);
@@ -161,8 +161,11 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   view["carried"] = sentencesOf(results.endpoints.carried);
   view["hasCarried"] = !results.endpoints.carried.empty();
   view["looks"] = results.endpoints.looks.taken > 0 ? sentenceOf(results.endpoints.looks) : "";
-  view["rings"] = ringRows(results.agreement, reference, peers);
+  view["rings"] = ringRows(results.agreement, reference, peers, binWord(results));
   view["hasRings"] = !view["rings"].empty();
+  view["bin"] = binWord(results);
+  view["bins"] = results.region ? "Bins" : "Rings";
+  view["binOrder"] = results.region ? "in the order of their numbers" : "from the wheel outwards";
   const double confidence = results.averaging.confidence;
   view["confidence"] = fmt::format("{:.3g} %", confidence * 100.0);
   view["falseAlarm"] = fmt::format("{:.3g} %", (1.0 - confidence) * 100.0);

@@ -80,22 +80,25 @@ Json numberCheckRows(const Engines& engines) {
   return rows;
 }
 
-std::string instantOf(const Engines& engines) {
+std::string instantOf(const CompareResults& results, const Engines& engines) {
   for (const EngineRuns& engine : engines)
     for (const CouetteRun* run : engine.runs)
-      if (run->picture && std::isfinite(run->picture->rotation))
+      if (run->picture && results.region)
+        return fmt::format("after {:.3g} s", run->picture->time);
+      else if (run->picture && std::isfinite(run->picture->rotation))
         return fmt::format("after {:.3g} rotations of the wheel", run->picture->rotation);
   return "at one instant";
 }
 
-void addPictures(Json& view, const Engines& engines, const Illustrations& shown) {
+void addPictures(Json& view, const CompareResults& results, const Engines& engines,
+                 const Illustrations& shown) {
   view["origins"] = pictureViews(shown, Picture::Shows::origins);
   view["hasPictures"] = !view["origins"].empty();
   view["originsNote"] = fmt::format(
       "Where the disks of the same packing are {}, coloured by where they started: twelve sectors "
-      "of angle, paler in every other band of two diameters. What was a straight sector bends "
-      "where the cell shears.",
-      instantOf(engines));
+      "of angle{}, paler in every other band of two diameters.{}",
+      instantOf(results, engines), results.region ? " about the origin" : "",
+      results.region ? "" : " What was a straight sector bends where the cell shears.");
   view["forces"] = pictureViews(shown, Picture::Shows::forces);
   view["hasForces"] = !view["forces"].empty();
   view["forcesNote"] =
@@ -146,7 +149,7 @@ std::string comparePage(const CompareResults& results, const Illustrations& show
   view["averages"] = averagesInWords(results);
   addFitsAndNumberChecks(view, engines);
   addFigures(view, engines, shown);
-  addPictures(view, engines, shown);
+  addPictures(view, results, engines, shown);
   addDetails(view, realisedOf(results, engines));
   view["packings"] = packingRows(results.packings);
   view["files"] =

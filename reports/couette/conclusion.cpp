@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <set>
 
-#include "cases/endpoints.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/couette/agreement_entries.hpp"
+#include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/engine_runs.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/lockstep/words.hpp"
@@ -25,7 +25,7 @@ constexpr std::size_t mostNames = 3;
 Names endpointsWith(const std::vector<const EndpointRow*>& rows, Answer answer) {
   Names names;
   for (const EndpointRow* row : rows)
-    if (row->answer == answer) names.emplace_back(endpointSpec(row->endpoint).words);
+    if (row->answer == answer) names.push_back(endpointWords(row->endpoint));
   return names;
 }
 

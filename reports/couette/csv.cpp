@@ -22,12 +22,18 @@ std::string profileRows(const CouetteFrame& frame, const std::string& engine,
   const CouetteAveraging& when = frame.averaging;
   std::string rows;
   for (const Profile& profile : profiles)
-    for (std::size_t ring = 0; ring < frame.rings.r.size(); ++ring)
+    for (std::size_t ring = 0; ring < frame.rings.r.size(); ++ring) {
       rows +=
           row(engine, packing, profile.method, profile.field, ring + 1, at(frame.rings.r, ring),
               at(frame.rings.rTilde, ring), at(profile.mean, ring), at(profile.standardError, ring),
               at(profile.nEff, ring), profile.unit, bars, at(profile.dof, ring), when.fromRotation,
               when.toRotation, when.preparedRotations);
+      if (!frame.region) continue;
+      const RegionRow& region = *frame.region;
+      rows.back() = ',';
+      rows += row(at(region.x, ring), at(region.y, ring), std::optional(region.from),
+                  std::optional(region.to));
+    }
   return rows;
 }
 
@@ -92,7 +98,8 @@ std::string placeOf(Verdict ring) {
 std::string profilesCsv(const CompareResults& results) {
   std::string table =
       "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
-      "from_rotation,to_rotation,prepared_rotations\n";
+      "from_rotation,to_rotation,prepared_rotations";
+  table += results.region ? ",x_m,y_m,from_s,to_s\n" : "\n";
   for (const CouetteRun& run : results.runs)
     table += profileRows(results, run.engine, indexOf(run), "within_run", run.profiles);
   for (const CouetteEnsemble& ensemble : results.ensemble)

@@ -19,13 +19,13 @@ Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
   Curve curve{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
   const double sign = row.b == engine.name ? 1.0 : -1.0;
   for (const AgreementRing& ring : row.rings) {
-    const auto x = at(frame.rings.rTilde, ring.ring), difference = finite(ring.difference),
+    const auto x = at(binPlaces(frame), ring.ring), difference = finite(ring.difference),
                margin = finite(ring.margin);
     if (!x || !difference || !margin || *margin <= 0.0) continue;
     Point point{*x, sign * *difference / *margin, {}};
     if (const auto low = finite(ring.low), high = finite(ring.high); low && high)
       point.error = 0.5 * (*high - *low) / *margin;
-    point.place = fmt::format("ring {}", ring.ring + 1);
+    point.place = fmt::format("{} {}", binWord(frame), ring.ring + 1);
     curve.points.push_back(std::move(point));
   }
   return curve;
@@ -58,7 +58,7 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
           if (Curve curve = differenceCurve(results, row, engine); !curve.points.empty())
             panel.curves.push_back(std::move(curve));
     if (panel.curves.empty()) continue;
-    panel.xLabel = "(r − R_{i}) / d";
+    panel.xLabel = binAxis(results);
     panel.yLabel = fmt::format("difference of {} [margins]", fieldWords(field));
     panel.xRange = rTildeRange(results);
     panel.yRange = marginRange(panel);
@@ -69,9 +69,9 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     figure.title = fmt::format("Difference of the {} from that of {}, in margins",
                                fieldWords(field), reference);
     figure.caption = fmt::format(
-        "{} minus that of {}, in the ring's margin; blue: within it. Bars: ± half the interval "
-        "that the ring's colour rests on{}.",
-        fieldWords(field), reference,
+        "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
+        "that the {}'s colour rests on{}.",
+        fieldWords(field), reference, binWord(results), binWord(results),
         panel.yRange->high == mostMargins
             ? fmt::format("; what lies beyond {:g} margins is off the axis", mostMargins)
             : "");

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "cases/endpoints.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
@@ -14,6 +15,11 @@
 namespace crossgrain::reports {
 
 namespace {
+
+const EndpointSpec* shippedEndpoint(const std::string& name) {
+  const auto found = std::ranges::find(endpointTable(), name, &EndpointSpec::name);
+  return found == endpointTable().end() ? nullptr : &*found;
+}
 
 std::string signedNumber(double value) {
   return fmt::format("{}{}", value < 0.0 ? "−" : "", readable(std::abs(value)));
@@ -28,6 +34,16 @@ const CanaryNumber* farthest(const std::vector<CanaryNumber>& canary) {
 }
 
 }  // namespace
+
+std::string endpointWords(const std::string& name) {
+  const EndpointSpec* const endpoint = shippedEndpoint(name);
+  return endpoint ? std::string(endpoint->words) : spaced(name);
+}
+
+std::string endpointSymbol(const std::string& name) {
+  const EndpointSpec* const endpoint = shippedEndpoint(name);
+  return endpoint ? std::string(endpoint->symbol) : spaced(name);
+}
 
 std::string wordOf(Answer answer) {
   static constexpr std::array<const char*, 5> words = {"agree, no difference seen",

@@ -8,6 +8,11 @@
 /// Verdicts on endpoints, in words; for the page and the command line alike.
 namespace crossgrain::reports {
 
+/// How people call and write an endpoint (cases/endpoints.hpp); of one that a case made up, its
+/// name with blanks.
+std::string endpointWords(const std::string& name);
+std::string endpointSymbol(const std::string& name);
+
 /// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided".
 std::string wordOf(Answer answer);
 

@@ -30,6 +30,13 @@ std::vector<Figure> distributionFigures(const CouetteFrame& frame,
 /// What the bars of the profiles are, in words: over packings, or within one run.
 std::string barsInWords(const std::vector<EngineRuns>& engines);
 
+/// Where the bins of profiles are, on the axis of that name: (r − R_i)/d, or a coordinate in m.
+/// Those of a grid are nowhere (NaN).
+const std::vector<double>& binPlaces(const CouetteFrame& frame);
+std::string binAxis(const CouetteFrame& frame);
+/// "ring", or "bin" of an assembly.
+const char* binWord(const CouetteFrame& frame);
+
 /// The radial axis of a cell, from the wheel to the ring; absent without a cell.
 std::optional<Range> rTildeRange(const CouetteFrame& frame);
 

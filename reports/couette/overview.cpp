@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/endpoints.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/agreement_entries.hpp"
@@ -152,12 +151,8 @@ const EndpointRow* gravestOf(const std::vector<const EndpointRow*>& rows) {
 }
 
 OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
-  OverviewCell cell{stateOf(row.answer, isModel),
-                    finite(row.distance),
-                    "margins",
-                    {},
-                    std::string(endpointSpec(row.endpoint).words),
-                    "agreement"};
+  OverviewCell cell{stateOf(row.answer, isModel), finite(row.distance), "margins", {},
+                    endpointWords(row.endpoint),  "agreement"};
   if (cell.value)
     cell.shown =
         fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));

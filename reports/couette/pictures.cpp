@@ -33,10 +33,11 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     const ScenePicture* picture = firstPicture(engine);
     if (!picture || picture->x.empty()) continue;
     const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
-    origins.push_back({"origins_" + word, engine.name,
-                       engine.name + ": disks coloured by where they started", "",
-                       Picture::Shows::origins,
-                       originsDrawing(*picture, results.cell.innerRadius, results.cell.diameter)});
+    origins.push_back(
+        {"origins_" + word, engine.name, engine.name + ": disks coloured by where they started", "",
+         Picture::Shows::origins,
+         originsDrawing(*picture, results.cell.innerRadius,
+                        results.region ? results.region->diameter : results.cell.diameter)});
     if (const auto widest = widestForce(*picture))
       forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between disks",
                         fmt::format("Widest line: {} N and more.", readable(widest)),

@@ -28,6 +28,21 @@ struct ProfilePlot {
   std::string title() const { return fieldWords(field) + scales; }
 };
 
+/// Of bins along x or y.
+const std::vector<ProfilePlot>& regionPlots() {
+  static const std::vector<ProfilePlot> plots = {
+      {"volume_fraction", "volume_fraction", "", false, false, {}},
+      {"velocity_x", "velocity_x", "", false, false, {}},
+      {"velocity_y", "velocity_y", "", false, false, {}},
+      {"spin", "spin", "", false, false, {}},
+      {"stress_xx", "stress_xx", "", false, false, {}},
+      {"stress_yy", "stress_yy", "", false, false, {}},
+      {"stress_xy", "stress_xy", "", false, false, {}},
+      {"coordination", "coordination", "", false, false, {}},
+  };
+  return plots;
+}
+
 const std::vector<ProfilePlot>& profilePlots() {
   static const std::vector<ProfilePlot> plots = {
       {"volume_fraction", "volume_fraction", "", false, false, {}},
@@ -65,12 +80,12 @@ std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& en
   const double inner = frame.cell.innerRadius;
   for (std::size_t ring = 0; ring < profile->mean.size(); ++ring) {
     const auto mean = at(profile->mean, ring), error = at(profile->standardError, ring);
-    auto x = at(plot.logX ? frame.rings.r : frame.rings.rTilde, ring);
+    auto x = at(plot.logX ? frame.rings.r : binPlaces(frame), ring);
     if (x && plot.logX && inner > 0.0) *x /= inner;
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
     if (error) point.error = *error * std::abs(factor);
-    point.place = fmt::format("ring {}", ring + 1);
+    point.place = fmt::format("{} {}", binWord(frame), ring + 1);
     points.push_back(point);
   }
   return points;
@@ -104,7 +119,7 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
                    const ProfilePlot& plot, const IsFaint& faint) {
   const Scaled scale = scaled(plot, frame.cell);
   Panel panel;
-  panel.xLabel = plot.logX ? "r / R_{i}" : "(r − R_{i}) / d";
+  panel.xLabel = plot.logX ? "r / R_{i}" : binAxis(frame);
   panel.yLabel = scale.label;
   panel.logX = plot.logX;
   panel.logY = plot.logY;
@@ -129,24 +144,34 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
   return panel;
 }
 
+const std::vector<ProfilePlot>& plotsOf(const CouetteFrame& frame) {
+  return frame.region && frame.region->bins != "rings" ? regionPlots() : profilePlots();
+}
+
 /// Velocity twice, shear stress and volume fraction: a comparison at one glance.
 Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engines,
                 const IsFaint& faint) {
   Figure figure;
   figure.name = "overview";
-  figure.title = "Azimuthal velocity, shear stress and volume fraction of all engines";
+  const auto& plots = plotsOf(frame);
+  const bool rings = &plots == &profilePlots();
+  figure.title = rings ? "Azimuthal velocity, shear stress and volume fraction of all engines"
+                       : "Velocity, stresses and volume fraction of all engines";
   const std::string when = averagedRotations(frame.averaging);
   figure.caption = barsInWords(engines) + (when.empty() ? "" : " Averaged: " + when + ".");
   figure.columns = 2;
   figure.panelWidth = 480;
   figure.panelHeight = 330;
   figure.png = true;
-  for (const char* name :
-       {"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}) {
-    const auto plot = std::ranges::find(profilePlots(), name, &ProfilePlot::name);
+  const std::vector<std::string> shown =
+      rings ? std::vector<std::string>{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp",
+                                       "volume_fraction"}
+            : std::vector<std::string>{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
+  for (const std::string& name : shown) {
+    const auto plot = std::ranges::find(plots, name, &ProfilePlot::name);
     Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
-    panel.key = figure.panels.empty() ? Key::topRight : Key::none;
+    panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
     figure.panels.push_back(std::move(panel));
   }
   return figure;
@@ -172,6 +197,19 @@ std::string captionOf(const CouetteFrame& frame, const ProfilePlot& plot, const 
 }
 
 }  // namespace
+
+const std::vector<double>& binPlaces(const CouetteFrame& frame) {
+  return frame.region ? frame.rings.r : frame.rings.rTilde;
+}
+
+const char* binWord(const CouetteFrame& frame) {
+  return frame.region ? "bin" : "ring";
+}
+
+std::string binAxis(const CouetteFrame& frame) {
+  if (!frame.region) return "(r − R_{i}) / d";
+  return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
+}
 
 std::optional<Range> rTildeRange(const CouetteFrame& frame) {
   const CouetteCell& cell = frame.cell;
@@ -202,7 +240,7 @@ std::vector<Figure> profileFigures(const CouetteFrame& frame,
   std::vector<Figure> figures;
   if (Figure all = overview(frame, engines, faint); !all.panels.empty())
     figures.push_back(std::move(all));
-  for (const ProfilePlot& plot : profilePlots()) {
+  for (const ProfilePlot& plot : plotsOf(frame)) {
     Panel panel = profilePanel(frame, engines, plot, faint);
     if (!hasPoints(panel)) continue;
     Figure figure;

@@ -31,7 +31,8 @@ std::vector<Figure> revFigures(const RevResults& results);
 std::vector<Picture> comparePictures(const CompareResults& results);
 
 /// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,
-/// from_rotation,to_rotation,prepared_rotations
+/// from_rotation,to_rotation,prepared_rotations; of an assembly also x_m,y_m,from_s,to_s: the bin's
+/// centre and the averaged time
 /// packing is an index, its stderr_kind "within_run", or "all", the mean over packings, "packings".
 std::string profilesCsv(const CompareResults& results);
 

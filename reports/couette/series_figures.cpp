@@ -24,6 +24,9 @@ const std::vector<SeriesPlot>& seriesPlots() {
        "shear among the disks / Ω"},
       {"coordination", "Contacts per disk", "contacts per disk"},
       {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
+      {"disks", "Disks in the averaged part", "disks"},
+      {"top", "Highest point of the disks", "height [m]"},
+      {"heap_slope", "Slope of the triangle with the disks' moments", "slope"},
   };
   return plots;
 }

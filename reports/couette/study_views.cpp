@@ -7,7 +7,26 @@
 
 namespace crossgrain::reports {
 
+namespace {
+
+/// "10 slabs of width 0.01 m along y", "1 bin"
+std::string binsInWords(const CouetteFrame& frame) {
+  const RegionRow& region = *frame.region;
+  const std::size_t bins = frame.rings.r.size();
+  if (region.bins == "whole") return "The whole box as one bin";
+  if (region.bins == "grid") return fmt::format("A grid of {} bins", bins);
+  return fmt::format("{} {} of width {} m{}", bins, region.bins, readable(frame.rings.width),
+                     region.along.empty() ? "" : " along " + region.along);
+}
+
+}  // namespace
+
 std::string averagesInWords(const CouetteFrame& frame) {
+  if (frame.region)
+    return fmt::format("{}, weights by {}, {} snapshots a run, {} to {} s after the start.",
+                       binsInWords(frame), frame.averaging.method,
+                       readableCount(static_cast<double>(frame.averaging.snapshots)),
+                       readableSetting(frame.region->from), readableSetting(frame.region->to));
   const std::string when = averagedRotations(frame.averaging);
   return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run{}.",
                      frame.rings.r.size(), readable(frame.rings.width), frame.averaging.method,

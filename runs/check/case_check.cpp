@@ -21,6 +21,7 @@
 #include "runs/common/case_suitability.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/couette/flow_averages.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -219,6 +220,10 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   for (const EngineEntry& entry : couette ? enginesFor(setup, names) : selectEngines(names)) {
     throwIfInterrupted();
     result["engines"].push_back(suitability(entry, setup, scene, timed && couette, scratch));
+  }
+  if (setup.average) {
+    result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");
+    result["margins"] = marginsOf(fieldsOf(*binsOf(setup)), setup.averaging.margins, "field");
   }
   if (!couette) return result;
   result["cell"] = cellFigures(setup, scene, fraction);

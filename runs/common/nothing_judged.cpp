@@ -10,7 +10,8 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
                                            std::size_t named) {
   if (named < 2) return NothingJudged{"one engine has nothing to be held against", true};
   if (setup.averaging.endpoints.empty())
-    return NothingJudged{"the case has no [averaging.endpoints]"};
+    return NothingJudged{setup.average ? "the case has no [[endpoints]]"
+                                       : "the case has no [averaging.endpoints]"};
   constexpr int fewest = 4;  // of packings, for any test
   int endpoints = 0, most = 0;
   for (const EndpointRow& row : rows) {

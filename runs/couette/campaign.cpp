@@ -9,8 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "cases/couette.hpp"
-#include "cases/preparation.hpp"
+#include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "results/couette_fields.hpp"
@@ -31,7 +30,7 @@ void requireStable(const Case& setup, double dt, std::optional<double> lightest 
 }
 
 double stepOf(const Case& setup) {
-  if (!setup.run.dt && setup.particles.file)
+  if (!setup.run.dt && packingsAreFiles(setup))
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   const double dt = timeStep(setup);
   requireStable(setup, dt);
@@ -82,9 +81,7 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
 }
 
 void Campaign::askEngines() {
-  Packing unplaced;
-  unplaced.disks = diskKinds(setup_.particles);
-  const Scene scene = couetteScene(setup_, unplaced, dt_);
+  const Scene scene = unplacedScene(setup_, dt_);
   forEachEngine([&](CampaignEngine& own) {
     const auto engine =
         startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
@@ -113,7 +110,7 @@ void Campaign::preparePackings(int count) {
            const std::string label = fmt::format("packing {}", k);
            try {
              const auto engine = engineRegistry().front().make();
-             packings_[at] = packingOf(setup_, k, dt_, *engine, [&](double fraction) {
+             packings_[at] = flowPacking(setup_, k, dt_, *engine, [&](double fraction) {
                throwIfInterrupted();
                progress_.update(place, label, fraction);
              });
@@ -136,16 +133,15 @@ void Campaign::preparePackings(int count) {
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
   std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
-  if (setup_.particles.file)  // whose disks may be lighter than the case says
+  if (packingsAreFiles(setup_))  // whose disks may be lighter than the case says
     requireStable(setup_, dt_, std::ranges::min(packings_.front().disks.mass) / 2.0);
   if (there == 0) store_.begin();
 }
 
 void Campaign::timeEngines() {
   constexpr int steps = 40;
-  const double end =
-      (setup_.averaging.settleRotations + setup_.averaging.rotations) * rotationTime(setup_);
-  const Scene scene = couetteScene(setup_, packings_.front(), dt_);
+  const double end = flowDuration(setup_);
+  const Scene scene = flowScene(setup_, packings_.front(), dt_);
   forEachEngine([&](CampaignEngine& own) {
     const LoadedEngine loaded =
         loadEngine(own.entry, setup_, scene, store_.scratch("time-" + own.entry.name));
@@ -244,7 +240,7 @@ double Campaign::secondsOfPreparing(int count) const {
   if (preparedIn_.empty()) return 0.0;
   int missing = 0;
   for (int k = static_cast<int>(packings_.size()); k < count; ++k)
-    missing += !std::filesystem::exists(packingCacheFile(packingHash(setup_, k, dt_)));
+    missing += !expectedPacking(setup_, k, dt_).there;
   return missing * std::accumulate(preparedIn_.begin(), preparedIn_.end(), 0.0) /
          static_cast<double>(preparedIn_.size());
 }
@@ -276,14 +272,9 @@ std::vector<KeptTask<CouetteRun>> Campaign::tasksOf(const PlannedRuns& list) con
 void Campaign::lookForPackings() {
   packings_.resize(static_cast<std::size_t>(packingCount()));
   for (std::size_t k = 0; k < packings_.size(); ++k) {
-    Packing& packing = packings_[k];
-    if (setup_.particles.file) {
-      packing.hash = contentHash(readPacking(*setup_.particles.file, setup_));
-      packing.fromCache = true;
-    } else {
-      packing.hash = packingHash(setup_, static_cast<int>(k), dt_);
-      packing.fromCache = std::filesystem::exists(packingCacheFile(packing.hash));
-    }
+    const ExpectedPacking expected = expectedPacking(setup_, static_cast<int>(k), dt_);
+    packings_[k].hash = expected.hash;
+    packings_[k].fromCache = expected.there;
   }
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "cases/packing.hpp"
+#include "cases/flow.hpp"
 #include "results/compare.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
@@ -68,8 +68,7 @@ class Campaign {
   void preparePackings() { preparePackings(packingCount()); }
   /// As many as are missing to that number of them.
   void preparePackings(int count);
-  /// Of the case; a file is one packing, however many a case would prepare.
-  int packingCount() const { return setup_.particles.file ? 1 : setup_.preparation.packings; }
+  int packingCount() const { return flowPackings(setup_); }
   /// Times some steps of every engine on the first packing, so that the longest runs start first.
   void timeEngines();
   /// Every engine with the case as it is.

@@ -23,11 +23,11 @@ const CouetteRun* finishedRun(const Campaign& campaign, const std::string& engin
 }
 
 /// Why a mirror cannot stand for its engine; empty: it can.
-std::string alarmOf(const std::vector<CanaryNumber>& canary, double alpha) {
+std::string alarmOf(const Case& setup, const std::vector<CanaryNumber>& canary, double alpha) {
   std::string least;
   double chance = alpha;
   for (const CanaryNumber& number : canary) {
-    const std::string words(endpointSpec(number.endpoint).words);
+    const std::string words(endpointSpec(setup, number.endpoint).words);
     if (!number.difference) return fmt::format("one of both has no {}", words);
     if (!number.chance) return fmt::format("chaos of {} is not known: too few packings", words);
     if (*number.chance >= chance) continue;
@@ -75,7 +75,7 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
       continue;
     }
     own.canary = canaryOf(setup, *run, *mirror, responses);
-    own.alarm = alarmOf(own.canary, 1.0 - setup.averaging.confidence);
+    own.alarm = alarmOf(setup, own.canary, 1.0 - setup.averaging.confidence);
     own.carried = own.alarm.empty() && !own.canary.empty();
   }
 }

@@ -6,6 +6,7 @@
 
 #include "averaging/agreement.hpp"
 #include "cases/endpoints.hpp"
+#include "cases/flow.hpp"
 #include "runs/couette/endpoint_values.hpp"
 #include "runs/couette/paired_rings.hpp"
 
@@ -17,7 +18,7 @@ constexpr int fewestPackings = 4;  // of any verdict
 
 /// One endpoint as it is put to the test: by difference, or by the logarithm of the ratio.
 struct TestedEndpoint {
-  const EndpointSpec* endpoint;
+  EndpointSpec endpoint;
   const Margin* margin;
   PairedSample sample;
   double reference = 0.0;  ///< mean over packings of a [unit]
@@ -38,7 +39,7 @@ Numbers onScale(const EndpointSpec& endpoint, Numbers values) {
 
 /// A difference on the scale of the test as the one that it makes in the endpoint's unit.
 double inUnit(const TestedEndpoint& tested, double value) {
-  return tested.endpoint->byRatio ? tested.reference * std::expm1(value) : value;
+  return tested.endpoint.byRatio ? tested.reference * std::expm1(value) : value;
 }
 
 /// B in margins: the largest over the constants tried. Absent without a response.
@@ -59,7 +60,7 @@ TestedEndpoint tested(const Case& setup, const EndpointSpec& endpoint, const Num
                       const Numbers& other) {
   const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
   TestedEndpoint own{
-      &endpoint, &margin, endpointSample(endpoint, margin, reference, other), 0.0, {}};
+      endpoint, &margin, endpointSample(endpoint, margin, reference, other), 0.0, {}};
   if (const auto mean = ensembleMean(reference)) own.reference = mean->mean;
   return own;
 }
@@ -70,8 +71,7 @@ std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const CouetteR
   const std::size_t packings = packingsOf(runs);
   const Runs ours = finishedRuns(runs, pair.runsOfA), theirs = finishedRuns(runs, pair.runsOfB);
   std::vector<TestedEndpoint> family;
-  for (const EndpointSpec& endpoint : endpointTable()) {
-    if (!setup.averaging.endpoints.contains(std::string(endpoint.name))) continue;
+  for (const EndpointSpec& endpoint : endpointsOf(setup)) {
     TestedEndpoint tested =
         runs::tested(setup, endpoint, endpointByPacking(endpoint, setup, ours, packings),
                      endpointByPacking(endpoint, setup, theirs, packings));
@@ -92,10 +92,10 @@ EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
   row.a = pair.a;
   row.b = pair.b;
   row.kind = pair.kind;
-  row.endpoint = tested.endpoint->name;
-  row.unit = tested.endpoint->unit;
+  row.endpoint = tested.endpoint.name;
+  row.unit = tested.endpoint.unit;
   row.margin = tested.margin->value;
-  row.marginRelative = tested.endpoint->byRatio;
+  row.marginRelative = tested.endpoint.byRatio;
   row.marginWhy = tested.margin->why;
   if (pair.runsOfA != pair.a) row.carrierA = pair.runsOfA;
   if (pair.runsOfB != pair.b) row.carrierB = pair.runsOfB;
@@ -150,14 +150,14 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, const LookPlan& plan) {
   std::map<std::string_view, Pooled> scatter;
   for (const JudgedEndpoint& one : judged)
     if (one.found && one.found->standardError) {
-      Pooled& pooled = scatter[one.tested.endpoint->name];
+      Pooled& pooled = scatter[one.tested.endpoint.name];
       const int dof = one.found->packings - 1;
       pooled.squares +=
           dof * *one.found->standardError * *one.found->standardError * one.found->packings;
       pooled.dof += dof;
     }
   for (JudgedEndpoint& one : judged) {
-    const Pooled& pooled = scatter[one.tested.endpoint->name];
+    const Pooled& pooled = scatter[one.tested.endpoint.name];
     if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
     const double margin = one.tested.sample.margin - one.tested.sample.bias;
     const bool toAgree = std::abs(one.found->difference) < margin;
@@ -191,7 +191,7 @@ std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPl
 }  // namespace
 
 LookPlan looksOf(const Case& setup) {
-  const int first = setup.particles.file ? 1 : setup.preparation.packings;
+  const int first = flowPackings(setup);
   return looksAt(first, first < fewestPackings ? 1 : setup.looks.count,
                  1.0 - setup.averaging.confidence);
 }
@@ -213,7 +213,7 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
   std::vector<TestedEndpoint> endpoints;
   for (const EndpointValues& values : family)
     endpoints.push_back(
-        tested(setup, endpointSpec(values.endpoint), values.reference, values.other));
+        tested(setup, endpointSpec(setup, values.endpoint), values.reference, values.other));
   std::vector<JudgedEndpoint> judged;
   judge(pair, endpoints, plan, plan.packings.back(), judged);
   return rowsOf(std::move(judged), plan);
@@ -235,7 +235,7 @@ std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const Couette
 EndpointResponse responseTo(const Case& setup, std::span<const CouetteRun> runs,
                             std::span<const CouetteRun> changed, const std::string& name,
                             const std::string& constant, double change, std::size_t packings) {
-  const EndpointSpec& endpoint = endpointSpec(name);
+  const EndpointSpec endpoint = endpointSpec(setup, name);
   const auto valuesOf = [&](std::span<const CouetteRun> all) {
     Runs finished;
     for (const CouetteRun& run : all)
@@ -262,7 +262,7 @@ std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
                                    const std::vector<EndpointResponse>& responses) {
   std::vector<CanaryNumber> numbers;
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
-    const EndpointSpec& endpoint = endpointSpec(name);
+    const EndpointSpec endpoint = endpointSpec(setup, name);
     CanaryNumber number{name, {}, {}, {}};
     const Numbers pair = onScale(
         endpoint, {endpointOf(endpoint, setup, mirror), endpointOf(endpoint, setup, engine)});

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "runs/couette/run.hpp"
+#include "runs/couette/flow_averages.hpp"
+#include "runs/couette/own_endpoints.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -82,19 +83,28 @@ constexpr std::array<Formula, 9> formulas = {{{"pressure", pressure},
 std::optional<double> cellMean(const Case& setup, const CouetteRun& run, std::string_view field) {
   const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
   if (!profile) return {};
-  const Rings rings = ringsOf(setup);
+  const auto bins = binsOf(setup);
   double sum = 0.0, area = 0.0;
-  for (std::size_t k = 0; k < profile->mean.size(); ++k)
-    if (const auto& mean = profile->mean[k]) {
-      const double own = rings.ringVolume(static_cast<int>(k));
-      sum += own * *mean;
-      area += own;
-    }
+  std::size_t k = 0;  // profiles leave the overflow out
+  for (std::size_t slot = 0; slot < bins->slots() && k < profile->mean.size(); ++slot) {
+    if (bins->isOverflow(slot)) continue;
+    const auto& mean = profile->mean[k++];
+    if (!mean) continue;
+    const double own = bins->volume(slot);
+    sum += own * *mean;
+    area += own;
+  }
   return area > 0.0 ? Value(sum / area) : Value{};
 }
 
 std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
                                  const CouetteRun& run) {
+  if (setup.average)
+    for (const OwnEndpoint& own : setup.average->endpoints)
+      if (own.name == endpoint.name) {
+        const Value value = ownEndpointOf(own, setup, run);
+        return value && std::isfinite(*value) ? value : Value{};
+      }
   for (const Formula& formula : formulas)
     if (formula.endpoint == endpoint.name) {
       const Value value = formula.of(setup, run);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/grid.hpp"
 #include "cases/effect_switch.hpp"
+#include "cases/flow.hpp"
 #include "runs/common/head.hpp"
+#include "runs/couette/flow_averages.hpp"
 #include "runs/couette/run.hpp"
 
 namespace crossgrain::inline runs {
@@ -32,17 +35,40 @@ CouetteCell cellOf(const Case& setup, const Disks& disks) {
           2.0 * setup.particles.smallRadius};
 }
 
+RegionRow regionOf(const Case& setup, const Disks& disks) {
+  const Region& region = setup.average->region;
+  RegionRow row;
+  row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
+  if (region.bins == BinKind::slabs) row.along = region.axis == 0 ? "x" : "y";
+  row.height = region.height;
+  row.diameter = flowDiameter(setup);
+  row.disks = disks.size();
+  if (const auto* grid = dynamic_cast<const Grid*>(binsOf(setup).get()))
+    for (int cell = 0; cell < grid->cells(); ++cell) {
+      row.x.push_back(grid->centre(cell).x());
+      row.y.push_back(grid->centre(cell).y());
+    }
+  const FlowTimes times = flowTimes(setup);
+  row.from = times.settled;
+  row.to = times.end();
+  return row;
+}
+
 CouetteAveraging averagingOf(const Case& setup) {
   const Averaging& averaging = setup.averaging;
   CouetteAveraging result;
   result.method = averaging.methods.front();
+  result.confidence = averaging.confidence;
+  if (setup.average) {  // timed in seconds: see RegionRow
+    result.snapshots = setup.average->region.snapshots;
+    return result;
+  }
   result.settleRotations = result.fromRotation = averaging.settleRotations;
   result.rotations = averaging.rotations;
   result.toRotation = averaging.settleRotations + averaging.rotations;
   // Nobody knows how long a packing of the user's own has been sheared.
   if (!setup.particles.file) result.preparedRotations = setup.preparation.rotations;
   result.snapshots = std::lround(averaging.snapshotsPerRotation * averaging.rotations);
-  result.confidence = averaging.confidence;
   return result;
 }
 
@@ -58,14 +84,33 @@ RingPlaces placesOf(const Rings& rings) {
   return places;
 }
 
+RingPlaces placesOf(const Case& setup) {
+  if (!setup.average) return placesOf(ringsOf(setup));
+  const Region& region = setup.average->region;
+  if (region.hasRings()) return placesOf(dynamic_cast<const Rings&>(*binsOf(setup)));
+  const Grid& grid = dynamic_cast<const Grid&>(*binsOf(setup));
+  const bool inLine = region.bins == BinKind::slabs;
+  RingPlaces places;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    const double along = inLine ? grid.centre(cell)[region.axis] : NAN;
+    places.r.push_back(along);
+    places.rTilde.push_back((along - region.low[region.axis]) / flowDiameter(setup));
+  }
+  if (inLine) places.width = (region.high - region.low)[region.axis] / region.count;
+  return places;
+}
+
 CouetteFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
                           const Disks& disks) {
   CouetteFrame frame;
   frame.head = headOf(kind, setup, command);
-  frame.cell = cellOf(setup, disks);
+  if (setup.average)
+    frame.region = regionOf(setup, disks);
+  else
+    frame.cell = cellOf(setup, disks);
   frame.averaging = averagingOf(setup);
   for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
-  frame.rings = placesOf(ringsOf(setup));
+  frame.rings = placesOf(setup);
   return frame;
 }
 

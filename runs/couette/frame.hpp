@@ -12,6 +12,9 @@ namespace crossgrain::inline runs {
 
 RingPlaces placesOf(const Rings& rings);
 
+/// Of the case's bins: of slabs the coordinate along which they lie, and of a grid none.
+RingPlaces placesOf(const Case& setup);
+
 /// What results say of a Couette case whatever is done with it.
 /// @param disks  of one packing
 CouetteFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "adapters/suitability.hpp"
-#include "cases/preparation.hpp"
+#include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "results/schema.hpp"
 #include "runs/lockstep/lockstep.hpp"
@@ -57,7 +57,7 @@ Identification runIdentify(const Case& setup, const RunCommand& command) {
   Progress progress(command.quiet);
   progress.begin("identifying " + entry.name, {1.0});
   const auto inHouse = engineRegistry().front().make();
-  const auto packing = packingOf(setup, 0, dt, *inHouse, [&](double fraction) {
+  const auto packing = flowPacking(setup, 0, dt, *inHouse, [&](double fraction) {
     throwIfInterrupted();
     progress.update(0, "preparing a packing", fraction);
   });

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "runs/common/audited_looks.hpp"
 #include "runs/common/picture.hpp"
-#include "runs/couette/averages.hpp"
+#include "runs/couette/flow_averages.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "runs/couette/unfinished_run.hpp"
 #include "support/interrupt.hpp"
@@ -26,7 +26,7 @@ Rings ringsOf(const Case& setup, int count) {
 }
 
 std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
-  const double width = 2.0 * setup.particles.smallRadius * setup.averaging.lineWidth;
+  const double width = flowDiameter(setup) * setup.averaging.lineWidth;
   std::vector<Weight> weights;
   for (const std::string& name : names) weights.emplace_back(weightMethod(name), width);
   return weights;
@@ -35,7 +35,7 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
 CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
                       const CouetteWatch& watch) {
   const Case& setup = *task.setup;
-  const Scene scene = couetteScene(setup, *task.packing, task.dt);
+  const Scene scene = flowScene(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
   Engine& engine = *loaded.engine;
   const AuditedLooks audited(engine, task.entry, setup, scene, loaded.realised);
@@ -44,13 +44,9 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   const ContactReport report =
       loaded.can.instantContacts ? ContactReport::instant : ContactReport::accumulated;
 
-  const double rotation = rotationTime(setup);
-  const double settled = setup.averaging.settleRotations * rotation;
-  const int samples =
-      std::max(1, static_cast<int>(std::lround(setup.averaging.snapshotsPerRotation *
-                                               setup.averaging.rotations)));
-  const double interval = setup.averaging.rotations * rotation / samples;
-  const double end = settled + samples * interval;
+  const FlowTimes times = flowTimes(setup);
+  const auto [settled, interval, samples] = times;
+  const double end = times.end();
   // In pieces: an engine answers within its time-out however far apart snapshots are.
   const double piece = 2000.0 * loaded.realised.dt;
   UnfinishedRun unfinished(task.unfinished, task.key, scene,
@@ -99,17 +95,17 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   if (report == ContactReport::accumulated)
     audited.look(report, reached);  // starts the first interval
 
-  CouetteAverages averages(setup, scene);
+  const auto averages = flowAverages(setup, scene);
   SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
   CouetteRun run;
-  const double pictureTime = std::min(0.5 * rotation, end);
+  const double pictureTime = std::min(0.5 * flowUnit(setup), end);
   int taken = 0;
   const auto take = [&](const Snapshot& snapshot) {
-    averages.add(snapshot);
+    averages->add(snapshot);
     if (watch.averaged) watch.averaged(snapshot);
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
-      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / rotation);
+      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
@@ -129,7 +125,7 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   run.packing = task.packingIndex;
   run.realised = loaded.realised;
   run.stats = stats;
-  averages.describe(loaded.realised, run);
+  averages->describe(loaded.realised, run);
   return run;
 }
 

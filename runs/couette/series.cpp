@@ -7,9 +7,19 @@
 
 namespace crossgrain::inline runs {
 
+void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) {
+  const GlobalNumbers numbers = globalNumbers(scene, now);
+  rows["t_s"].push_back(now.positionTime);
+  rows["kinetic_energy"].push_back(numbers.kineticEnergy);
+  rows["coordination"].push_back(numbers.coordination);
+  rows["max_overlap"].push_back(numbers.maxOverlap);
+  rows["mean_overlap"].push_back(numbers.meanOverlap);
+  rows["sliding_fraction"].push_back(numbers.slidingFraction);
+  rows["pairs_listed"].push_back(numbers.listedPairs);
+}
+
 void CouetteSeries::add(const Snapshot& now) {
-  const GlobalNumbers numbers = globalNumbers(scene_, now);
-  rows_["t_s"].push_back(now.positionTime);
+  addGlobalNumbers(rows_, scene_, now);
   rows_["wheel_torque"].push_back(drivingTorque(scene_, now, wheelName));
   // Snapshots of another source may lack the walls: no disks of a ring, no pressure on it.
   const auto pressure =
@@ -17,12 +27,6 @@ void CouetteSeries::add(const Snapshot& now) {
           ? std::nullopt
           : radialPressure(scene_, now, ringName, setup_.cell.outerRadius, setup_.cell.height);
   rows_["outer_pressure"].push_back(pressure);
-  rows_["kinetic_energy"].push_back(numbers.kineticEnergy);
-  rows_["coordination"].push_back(numbers.coordination);
-  rows_["max_overlap"].push_back(numbers.maxOverlap);
-  rows_["mean_overlap"].push_back(numbers.meanOverlap);
-  rows_["sliding_fraction"].push_back(numbers.slidingFraction);
-  rows_["pairs_listed"].push_back(numbers.listedPairs);
   rows_["wheel_contacts"].push_back(contactsOf(scene_, now, wheelName));
   const auto motion = wheelMotion(scene_, now, ringsOf(setup_), setup_.cell.omega);
   rows_["wheel_slip"].push_back(motion ? std::optional(motion->slip) : std::nullopt);

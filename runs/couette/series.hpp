@@ -7,6 +7,9 @@
 
 namespace crossgrain::inline runs {
 
+/// Adds the numbers that any scene has: the snapshot's time, kinetic energy and what contacts show.
+void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now);
+
 /// Collects numbers of the whole cell over time.
 class CouetteSeries {
  public:

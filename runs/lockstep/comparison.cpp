@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "adapters/registry.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/lockstep/account.hpp"
 #include "runs/lockstep/closest_term.hpp"
@@ -18,10 +18,6 @@
 
 namespace crossgrain::inline runs {
 namespace {
-
-double diameterOf(const Case& setup) {
-  return 2.0 * setup.particles.smallRadius;
-}
 
 /// One engine against its mirror from one state after the other.
 class Comparison {
@@ -36,7 +32,7 @@ class Comparison {
 
   /// @throws EngineFailure, UnsupportedScene
   void follow(std::size_t start, const FlowState& state) {
-    const Scene scene = couetteScene(setup_, state.packing, dt_);
+    const Scene scene = flowScene(setup_, state.packing, dt_);
     Realised realised = loadScene(engine_, entry_, setup_, scene);
     step_ = realised.dt;
     steps_ = lockstepSteps(step_);
@@ -44,10 +40,10 @@ class Comparison {
     mirror_->load(mirrored, {});
     const LockstepWindow window =
         followBoth(engine_, *mirror_, step_, steps_, can_.instantContacts);
-    if (!account_) account_.emplace(diameterOf(setup_), timesOf(steps_, step_), told());
+    if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), told());
     account_->add(start, window, responses(mirrored, window), mirrored.disks.size(),
                   precisionLimits(realised.precision, *mirror_, mirrored, window.mirror, steps_,
-                                  diameterOf(setup_)));
+                                  flowDiameter(setup_)));
     engineFrames_.push_back(chosen(window.engine, framesForTerms(told())));
     mirrorFrames_.push_back(chosen(window.mirror, framesForTerms(told())));
     scenes_.push_back(mirrored);
@@ -79,7 +75,7 @@ class Comparison {
 
   /// What changes of the yardstick do to the mirror from here.
   Responses responses(const Scene& mirrored, const LockstepWindow& window) {
-    return yardstickResponses(*mirror_, chosen(window.mirror, told()), diameterOf(setup_),
+    return yardstickResponses(*mirror_, chosen(window.mirror, told()), flowDiameter(setup_),
                               [&](double change) {
                                 Scene changed = mirrored;
                                 changeYardstick(changed.law, change);
@@ -92,7 +88,7 @@ class Comparison {
     const std::vector<std::size_t> frames = framesForTerms(told());
     TermSearch search;
     search.scenes = scenes_;
-    search.diameter = diameterOf(setup_);
+    search.diameter = flowDiameter(setup_);
     for (const std::size_t when : looksForTerms(told(), row.trackTime, row.first)) {
       TermLook& look = search.looks.emplace_back();
       look.time = row.trackTime[frames[when]];

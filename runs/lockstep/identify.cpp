@@ -12,7 +12,7 @@
 #include "adapters/law_options.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/lockstep/separation.hpp"
@@ -67,10 +67,10 @@ class Search {
  public:
   Search(Engine& engine, const EngineEntry& entry, const Case& setup,
          const std::vector<FlowState>& states, double dt)
-      : diameter_(2.0 * setup.particles.smallRadius), mirror_(engineRegistry().front().make()) {
+      : diameter_(flowDiameter(setup)), mirror_(engineRegistry().front().make()) {
     for (const FlowState& state : states) {
       throwIfInterrupted();
-      Scene scene = couetteScene(setup, state.packing, dt);
+      Scene scene = flowScene(setup, state.packing, dt);
       realised_ = loadScene(engine, entry, setup, scene);
       step_ = realised_.dt;
       until_.clear();
@@ -269,7 +269,7 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
   Search search(engine, entry, setup, states, dt);
   Identification found;
   found.starts = states.size();
-  const Scene whole = couetteScene(setup, states.front().packing, dt);
+  const Scene whole = flowScene(setup, states.front().packing, dt);
   search.lookAt(identifyTimes.size() - 1);
   found.time = search.time();
   found.before = search.largest();

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "adapters/registry.hpp"
-#include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "support/interrupt.hpp"
 #include "support/random.hpp"
@@ -16,17 +16,6 @@ namespace {
 
 /// Streams of the case's seed from here on are lockstep's; packings have the first ones.
 constexpr std::uint64_t streamOfStarts = 1ull << 40;
-
-Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now) {
-  Packing there = from;
-  there.disks.position = now.position;
-  there.disks.velocity = now.velocity;
-  if (now.spin) there.disks.spin = *now.spin;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].name == wheelName) there.wheelAngle += now.bodies[b].angle;
-  there.hash = contentHash(there);
-  return there;
-}
 
 /// In each of `count` equal parts of the span, at random. [s]
 std::vector<double> timesOf(const Case& setup, std::size_t packing, std::size_t count,
@@ -45,19 +34,17 @@ std::vector<double> timesOf(const Case& setup, std::size_t packing, std::size_t 
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
                                           double dt, std::size_t count,
                                           const std::function<void(double)>& progress) {
-  const double duration =
-      (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
-  const double span = std::min(duration, startSteps * dt);
+  const double span = std::min(flowDuration(setup), startSteps * dt);
   std::vector<FlowState> states;
   for (std::size_t p = 0; p < packings.size(); ++p) {
     const std::size_t share = count / packings.size() + (p < count % packings.size() ? 1 : 0);
     if (share == 0) continue;
     const auto engine = engineRegistry().front().make();
-    const Scene scene = couetteScene(setup, packings[p], dt);
+    const Scene scene = flowScene(setup, packings[p], dt);
     engine->load(scene, {});
     for (const double time : timesOf(setup, p, share, span)) {
       throwIfInterrupted();
-      engine->advance(time);
+      engine->advance(flowRestart(setup, time));
       const Snapshot now = engine->snapshot(ContactReport::none);
       FlowState& state = states.emplace_back();
       state.packing = packingAt(packings[p], scene, now);

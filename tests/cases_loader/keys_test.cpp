@@ -109,6 +109,8 @@ TEST_F(Keys, OfAssemblies) {
             documented("assembly"));
   EXPECT_EQ(askedAtEnd(soundAssembly), documented("assembly.disks"));
   EXPECT_EQ(askedIn(soundAssembly, "[assembly.walls]"), documented("assembly.walls"));
+  EXPECT_EQ(asked("", withLine(soundAssembly, 7, "[assembly.start]\n" + noKey + " = 1")),
+            documented("assembly.start"));
 }
 
 TEST_F(Keys, OfMargins) {
@@ -132,7 +134,7 @@ TEST_F(Keys, OfInlineTablesStandInTheirMeaning) {
   const std::string psi = withLine(soundCollision, 9, "psi = { " + noKey + " = 1 }");
   for (const std::string& name : asked(psi, ""))
     EXPECT_NE(meaning("collision", "psi").find(name), std::string::npos) << name;
-  for (const char* places : {"grid", "stack", "chain", "heap"})
+  for (const char* places : {"grid", "stack", "chain", "heap", "line"})
     for (const std::string& name :
          asked(soundAssembly, fmt::format("{} = {{ {} = 1 }}", places, noKey)))
       EXPECT_NE(meaning("assembly.disks", places).find(name), std::string::npos)

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+#include "cases/packing.hpp"
+
+/// What a case says to be run and averaged, whatever its kind: all that `compare` and lockstep need
+/// of it.
+namespace crossgrain::inline cases {
+
+/// Whether there is anything to be averaged: a Couette cell, or an assembly with [average].
+bool hasFlow(const Case& setup);
+
+/// When a run is averaged; times are since the hand-over.
+struct FlowTimes {
+  double settled = 0.0;   ///< what comes before is not averaged [s]
+  double interval = 0.0;  ///< between snapshots; the first is one interval after `settled` [s]
+  int samples = 1;        ///< snapshots
+
+  double end() const { return settled + samples * interval; }  ///< [s]
+};
+FlowTimes flowTimes(const Case& setup);
+
+/// How long a run takes [s]. That of flowTimes() but for rounding.
+double flowDuration(const Case& setup);
+
+/// The time that pictures count by: one rotation of the wheel, or a second [s].
+double flowUnit(const Case& setup);
+
+/// d: the diameter of the smallest disks [m].
+double flowDiameter(const Case& setup);
+
+/// Whether packings are files of the user's own, of which nothing is prepared.
+bool packingsAreFiles(const Case& setup);
+
+/// As many as a campaign begins with; a file is one, however many a case would prepare or make.
+int flowPackings(const Case& setup);
+
+/// The scene with that packing at t = 0.
+Scene flowScene(const Case& setup, const Packing& packing, double dt);
+
+/// Its disks wherever they are: a scene for engines to be asked about, not to be run.
+Scene unplacedScene(const Case& setup, double dt);
+
+/// A packing from the user's file, from what is kept of earlier times, or made anew.
+/// @param engine  the in-house one  @param progress  told the fraction done, 0 … 1
+/// @throws UnsupportedScene, EngineFailure, BadInput
+Packing flowPacking(const Case& setup, int index, double dt, Engine& engine,
+                    const std::function<void(double)>& progress);
+
+/// Its fingerprint before anybody makes it, and whether that would take no time.
+struct ExpectedPacking {
+  std::string hash;
+  bool there = false;
+};
+ExpectedPacking expectedPacking(const Case& setup, int index, double dt);
+
+/// The last time up to t at which a scene can begin anew [s]: swinging walls begin in the middle,
+/// so that only whole periods will do.
+double flowRestart(const Case& setup, double t);
+
+/// A run's state as a packing to start from, all springs relaxed.
+/// @param from  the packing that the run began with
+Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now);
+
+}  // namespace crossgrain::inline cases

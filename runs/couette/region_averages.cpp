@@ -1,0 +1,100 @@
+#include "runs/couette/region_averages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "averaging/grid.hpp"
+#include "averaging/rings.hpp"
+#include "cases/flow.hpp"
+#include "cases/stable_step.hpp"
+#include "runs/couette/averages.hpp"
+#include "runs/couette/run.hpp"
+#include "runs/couette/series.hpp"
+#include "runs/couette/summary.hpp"
+
+namespace crossgrain::inline runs {
+
+std::shared_ptr<const Coordinates> binsOf(const Case& setup) {
+  if (!setup.average) return std::make_shared<Rings>(ringsOf(setup));
+  const Region& region = setup.average->region;
+  if (region.hasRings())
+    return std::make_shared<Rings>(region.innerRadius, region.outerRadius, region.count,
+                                   region.height, flowDiameter(setup));
+  return std::make_shared<Grid>(region.low, region.high, region.columnCount(), region.rowCount(),
+                                region.height);
+}
+
+std::unique_ptr<FlowAverages> flowAverages(const Case& setup, const Scene& scene) {
+  if (setup.average) return std::make_unique<RegionAverages>(setup, scene);
+  return std::make_unique<CouetteAverages>(setup, scene);
+}
+
+RegionSeries::RegionSeries(const Case& setup, const Scene& scene)
+    : region_(setup.average->region), scene_(scene), bins_(binsOf(setup)) {}
+
+void RegionSeries::add(const Snapshot& now) {
+  addGlobalNumbers(rows_, scene_, now);
+  addMoments(now);
+}
+
+void RegionSeries::addMoments(const Snapshot& now) {
+  std::vector<std::size_t> inside;
+  double mass = 0.0, top = -INFINITY;
+  Vec2 first = Vec2::Zero(), second = Vec2::Zero();
+  for (std::size_t i = 0; i < now.position.size(); ++i) {
+    const Vec2& x = now.position[i];
+    if (bins_->isOverflow(bins_->slotAt(x))) continue;
+    inside.push_back(i);
+    mass += scene_.disks.mass[i];
+    first += scene_.disks.mass[i] * x;
+    top = std::max(top, x.y() + scene_.disks.radius[i]);
+  }
+  const bool any = !inside.empty();
+  const Vec2 centre = any ? Vec2(first / mass) : Vec2::Zero();
+  for (const std::size_t i : inside)
+    second += scene_.disks.mass[i] * (now.position[i] - centre).cwiseAbs2();
+  const Vec2 rms = any ? Vec2((second / mass).cwiseSqrt()) : Vec2::Zero();
+  const double height = centre.y() - region_.low.y();
+  const auto number = [&](const char* name, double value) {
+    rows_[name].push_back(any && std::isfinite(value) ? std::optional(value) : std::nullopt);
+  };
+  rows_["disks"].push_back(static_cast<double>(inside.size()));
+  number("top", top - region_.low.y());
+  number("mean_x", centre.x());
+  number("mean_y", height);
+  number("rms_x", rms.x());
+  number("rms_y", rms.y());
+  number("heap_slope", 3.0 * height / (std::sqrt(6.0) * rms.x()));
+}
+
+RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
+    : setup_(setup),
+      profiles_(binsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
+      series_(setup, scene) {}
+
+void RegionAverages::add(const Snapshot& snapshot) {
+  profiles_.add(snapshot);
+  series_.add(snapshot);
+}
+
+void RegionAverages::describe(const Realised& realised, CouetteRun& run) const {
+  run.profiles = profiles_.profiles();
+  run.series = series_.rows();
+  const double diameter = flowDiameter(setup_);
+  const auto mean = [&](const char* name) { return meanOf(valuesOf(*run.series, name)); };
+  const auto add = [&](const char* name, std::optional<double> value, double factor = 1.0) {
+    if (value) *value *= factor;
+    run.head.push_back({name, "-", value, {}, {}});
+  };
+  double deepest = 0.0;
+  for (const double overlap : presentNumbers(valuesOf(*run.series, "max_overlap")))
+    deepest = std::max(deepest, overlap);
+  add("coordination", mean("coordination"));
+  add("mean_overlap_over_d", mean("mean_overlap"), 1.0 / diameter);
+  add("max_overlap_over_d", deepest, 1.0 / diameter);
+  add("sliding_fraction", mean("sliding_fraction"));
+  if (const auto contact = pairContactTime(setup_); contact && realised.dt > 0.0)
+    add("dt_over_tc", realised.dt / *contact);
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,99 @@
+// [average], [[endpoints]] and [assembly.start], and what is wrong with them in one line.
+#include "files.hpp"
+
+namespace crossgrain::test {
+namespace {
+
+using Average = InFolder;
+
+const std::string scene =
+    withLine(withLine(soundAssembly, 8, "duration = 3"), 12, "density = 2.0\njitter = 0.1");
+
+const std::string slabs = R"([average]
+bins = "slabs"
+along = "y"
+low = [0, 0]
+high = [1, 4]
+count = 4
+from = 1
+)";
+
+std::string endpoint(const std::string& keys) {
+  return "[[endpoints]]\nname = \"one\"\n" + keys + "\nwhy = \"a reason\"\n";
+}
+
+std::string messageOfText(const std::string& text) {
+  std::ofstream("case.toml") << text;
+  return messageOf("case.toml");
+}
+
+void expectMessage(const std::string& text, const std::string& part) {
+  const std::string message = messageOfText(text);
+  EXPECT_NE(message.find(part), std::string::npos) << message << "\nis not: " << part;
+}
+
+TEST_F(Average, OfAnAssembly) {
+  std::ofstream("case.toml") << scene + slabs +
+                                    endpoint(
+                                        "quantity = \"velocity_x\"\nat = \"slope\"\nabsolute = 2") +
+                                    "[preparation]\npackings = 5\nseed = 7\n";
+  const Case c = loadCase("case.toml").front();
+  ASSERT_TRUE(c.average);
+  EXPECT_EQ(c.average->region.rowCount(), 4);
+  EXPECT_EQ(c.assembly.seed, 7u);
+  EXPECT_EQ(c.preparation.seed, 7u);
+  const OwnEndpoint& one = c.average->endpoints.front();
+  EXPECT_EQ(one.unit, "1/s");
+  EXPECT_EQ(one.definition, "slope of velocity_x over the bins");
+  EXPECT_FALSE(one.byRatio);
+  EXPECT_EQ(c.averaging.endpoints.at("one").value, 2.0);
+}
+
+TEST_F(Average, SaysWhatIsWrong) {
+  const auto with = [](const std::string& keys) { return scene + slabs + endpoint(keys); };
+  expectMessage(with("quantity = \"stress_rr\"\nabsolute = 1"), "did you mean stress_");
+  expectMessage(with("quantity = \"spin\"\nat = 5\nabsolute = 1"), "endpoints[0].at = 5");
+  expectMessage(with("quantity = \"disks\"\nat = 1\nabsolute = 1"), "only a field has bins");
+  expectMessage(with("quantity = \"disks\"\nper = \"top\"\nabsolute = 1"), "top");
+  expectMessage(with("quantity = \"spin\"\nper = \"disks\"\nabsolute = 1"), "must be a field");
+  expectMessage(with("quantity = \"spin\""), "a margin has one of them");
+  expectMessage(
+      with("quantity = \"spin\"\nabsolute = 1") + endpoint("quantity = \"spin\"\nabsolute = 1"),
+      "two endpoints have this name");
+  expectMessage(scene + "[looks]\ncount = 2\n", "is of no use without [average]");
+  expectMessage(scene + withLine(slabs, 7, "from = 3"), "average.from = 3: must be < 3 s");
+  expectMessage(withLine(scene, 13, "") + slabs, "no packing would differ from another");
+  expectMessage(scene + withLine(slabs, 5, "high = [0, 4]"), "must lie above and to the right");
+}
+
+TEST_F(Average, StartsFromAFile) {
+  write("start.csv", "# made by hand\nx, y,radius,vy,fixed\n0,1,0.5,-2,0\r\n\n3,0,0.25,0,1\n");
+  const std::string start =
+      scene.substr(0, scene.find("[[")) + "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\n";
+  std::ofstream("case.toml") << start;
+  const Case c = loadCase("case.toml").front();
+  const Disks& disks = c.assembly.starts.disks.at(0);
+  ASSERT_EQ(disks.size(), 1u);
+  EXPECT_EQ(disks.velocity[0].y(), -2.0);
+  EXPECT_NEAR(disks.mass[0], 2.0 * 3.14159265358979 * 0.25, 1e-12);
+  EXPECT_EQ(c.assembly.walls.back().radii, std::vector<double>{0.25});
+  EXPECT_NE(c.resolvedToml.find(std::filesystem::absolute("start.csv").string()),
+            std::string::npos);
+  for (const auto& [text, message] :
+       {std::pair{"x,y,radius\n0,1,0.5\n0,1\n", "start.csv:3: has 2 values for 3 columns"},
+        {"x,y,radius\n0,1,-1\n", "start.csv:2: radius = -1: must be > 0"},
+        {"x,y,radius\n0,one,1\n", "start.csv:2: y = one: must be a number"},
+        {"x,y,radus\n0,1,1\n", "start.csv:1: \"radus\" is no column (did you mean radius?)"},
+        {"x,y\n0,1\n", "start.csv:1: there is no column radius"},
+        {"", "start.csv: has no line of column names"},
+        {"x,y,radius,fixed\n0,1,1,2\n", "start.csv:2: fixed = 2: must be 0 or 1"}}) {
+    write("start.csv", text);
+    expectMessage(start, message);
+  }
+  write("start.csv", "x,y,radius\n0,1,1\n");
+  expectMessage(start.substr(0, start.find("density")), "tells no masses");
+  expectMessage(start + scene.substr(scene.find("[[")), "come from one of the two");
+}
+
+}  // namespace
+}  // namespace crossgrain::test
