@@ -150,7 +150,7 @@ TEST(CompareResults, RoundTrip) {
   endpoint.distance = -0.99;
   endpoint.carrierB = "mirror";
   endpoint.bound = 1e-3;
-  results.endpoints = {{{{8, 0.0125}}, 1, 120.0, "all is decided"},
+  results.endpoints = {{{{8, 0.0125}}, 0.0193, 1, 120.0, "all is decided"},
                        {endpoint},
                        {{"one", "two", PairKind::peer, "far off"}},
                        {{"two", "mirror", 1e-5, 16, 0, {{"pressure", 0.5, 1.0, {}}}, "", true}},
