@@ -124,9 +124,11 @@ Packing packingAt(const Packing& from, const Scene& scene, const Snapshot& now) 
   there.disks.position = now.position;
   there.disks.velocity = now.velocity;
   if (now.spin) there.disks.spin = *now.spin;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (scene.bodies[b].name == wheelName) there.wheelAngle += now.bodies[b].angle;
-  there.wallTime += now.positionTime;
+  const auto wheel = std::ranges::find(scene.bodies, wheelName, &WallBody::name);
+  if (wheel != scene.bodies.end())  // a cell's, whose other walls stand still
+    there.wheelAngle += now.bodies[static_cast<std::size_t>(wheel - scene.bodies.begin())].angle;
+  else
+    there.wallTime += now.positionTime;
   there.hash = contentHash(there);
   return there;
 }

@@ -57,7 +57,7 @@ class PackingFiles(SystemTest):
 
     def test_an_engine_that_cannot_prepare_packings(self):
         done = self.compare("--quiet", "--set=preparation.engine=box2d-penalty")
-        self.assert_one_line(done, BAD_INPUT, "box2d-penalty cannot prepare packings of", "moves radially")
+        self.assert_one_line(done, BAD_INPUT, "box2d-penalty cannot prepare packings of", "not radial as ring is")
 
     def test_more_overlap_can_be_allowed(self):
         position = ring_of_disks(12)
