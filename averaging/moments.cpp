@@ -91,6 +91,8 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   }
   for (std::size_t k = 0; k < sharings_.size(); ++k) {
     addWalls(snapshot, sharings_[k], sums[k]);
+    if (snapshot.contacts && coordinates_->isCartesian())
+      addCutWalls(snapshot, sharings_[k], sums[k]);
     if (snapshot.contacts && sharings_[k].weight().alongBranch())
       addBranches(snapshot, sharings_[k], sums[k]);
   }
@@ -106,6 +108,7 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
       for (const auto& [slot, fraction] : partition.ofDisk(x, a))
         at(sums[slot], Moment::wallVolume) +=
             fraction * std::numbers::pi * a * a * coordinates_->height();
+    if (coordinates_->isCartesian()) continue;  // contact by contact
     const ContactSums& contacts = contactSums_[mass_.size() + w];
     if (contacts.count == 0.0) continue;
     const Vec2 er = coordinates_->firstDirection(x);
@@ -114,6 +117,26 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
       at(sums[slot], Moment::wallCoupleP) += fraction * contacts.couple.dot(perpendicular(er));
       if (!partition.weight().alongBranch())
         addStress(contacts.stress, er, fraction, ofWalls, sums[slot]);
+    }
+  }
+}
+
+void MomentSums::addCutWalls(const Snapshot& snapshot, Partition& partition,
+                             std::vector<Moments>& sums) const {
+  const Contacts& contacts = *snapshot.contacts;
+  const Vec2 ex = coordinates_->firstDirection(Vec2::Zero());
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    const auto j = static_cast<std::size_t>(contacts.j[c]);
+    if (j < mass_.size() || j >= radius_.size() || !transmits(contacts, c)) continue;
+    const Vec2& n = contacts.normal[c];
+    const double a = radius_[j];
+    const Eigen::Matrix2d stress = a * forceOnFirst(contacts, c) * n.transpose();
+    const Vec2 couple = a * a * contacts.tangentialForce[c] * n;
+    for (const auto& [slot, fraction] : partition.ofDisk(snapshot.position[i], radius_[i])) {
+      at(sums[slot], Moment::wallCoupleR) += fraction * couple.dot(ex);
+      at(sums[slot], Moment::wallCoupleP) += fraction * couple.dot(perpendicular(ex));
+      if (!partition.weight().alongBranch()) addStress(stress, ex, fraction, ofWalls, sums[slot]);
     }
   }
 }
@@ -134,8 +157,9 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
       for (const auto& [place, part] : branchPoints(a, partition.weight().width)) {
         const Vec2 point = x + place * branch;
         const Vec2 er = coordinates_->firstDirection(point);
-        for (const auto& [slot, fraction] :
-             wall ? partition.ofWallPoint(point, x, a) : partition.ofPoint(point))
+        for (const auto& [slot, fraction] : wall && !coordinates_->isCartesian()
+                                                ? partition.ofWallPoint(point, x, a)
+                                                : partition.ofPoint(point))
           addStress(forceNormal, er, a * part * fraction, wall ? ofWalls : ofDisks, sums[slot]);
       }
     }
