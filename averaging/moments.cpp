@@ -91,8 +91,6 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
   }
   for (std::size_t k = 0; k < sharings_.size(); ++k) {
     addWalls(snapshot, sharings_[k], sums[k]);
-    if (snapshot.contacts && coordinates_->isCartesian())
-      addCutWalls(snapshot, sharings_[k], sums[k]);
     if (snapshot.contacts && sharings_[k].weight().alongBranch())
       addBranches(snapshot, sharings_[k], sums[k]);
   }
@@ -101,6 +99,14 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
 void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
                           std::vector<Moments>& sums) const {
   if (!countWallDisks_ && !snapshot.contacts) return;
+  const auto add = [&](const Vec2& couple, const Eigen::Matrix2d& stress, const Vec2& er,
+                       const BinFractions& fractions) {
+    for (const auto& [slot, fraction] : fractions) {
+      at(sums[slot], Moment::wallCoupleR) += fraction * couple.dot(er);
+      at(sums[slot], Moment::wallCoupleP) += fraction * couple.dot(perpendicular(er));
+      if (!partition.weight().alongBranch()) addStress(stress, er, fraction, ofWalls, sums[slot]);
+    }
+  };
   for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
     const Vec2& x = snapshot.wallPosition[w];
     const double a = radius_[mass_.size() + w];
@@ -108,36 +114,21 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
       for (const auto& [slot, fraction] : partition.ofDisk(x, a))
         at(sums[slot], Moment::wallVolume) +=
             fraction * std::numbers::pi * a * a * coordinates_->height();
-    if (coordinates_->isCartesian()) continue;  // contact by contact
     const ContactSums& contacts = contactSums_[mass_.size() + w];
-    if (contacts.count == 0.0) continue;
-    const Vec2 er = coordinates_->firstDirection(x);
-    for (const auto& [slot, fraction] : partition.ofWallDisk(x, a)) {
-      at(sums[slot], Moment::wallCoupleR) += fraction * contacts.couple.dot(er);
-      at(sums[slot], Moment::wallCoupleP) += fraction * contacts.couple.dot(perpendicular(er));
-      if (!partition.weight().alongBranch())
-        addStress(contacts.stress, er, fraction, ofWalls, sums[slot]);
-    }
+    if (contacts.count > 0.0 && !coordinates_->isCartesian())
+      add(contacts.couple, contacts.stress, coordinates_->firstDirection(x),
+          partition.ofWallDisk(x, a));
   }
-}
-
-void MomentSums::addCutWalls(const Snapshot& snapshot, Partition& partition,
-                             std::vector<Moments>& sums) const {
+  if (!snapshot.contacts || !coordinates_->isCartesian()) return;
   const Contacts& contacts = *snapshot.contacts;
-  const Vec2 ex = coordinates_->firstDirection(Vec2::Zero());
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto i = static_cast<std::size_t>(contacts.i[c]);
     const auto j = static_cast<std::size_t>(contacts.j[c]);
     if (j < mass_.size() || j >= radius_.size() || !transmits(contacts, c)) continue;
     const Vec2& n = contacts.normal[c];
     const double a = radius_[j];
-    const Eigen::Matrix2d stress = a * forceOnFirst(contacts, c) * n.transpose();
-    const Vec2 couple = a * a * contacts.tangentialForce[c] * n;
-    for (const auto& [slot, fraction] : partition.ofDisk(snapshot.position[i], radius_[i])) {
-      at(sums[slot], Moment::wallCoupleR) += fraction * couple.dot(ex);
-      at(sums[slot], Moment::wallCoupleP) += fraction * couple.dot(perpendicular(ex));
-      if (!partition.weight().alongBranch()) addStress(stress, ex, fraction, ofWalls, sums[slot]);
-    }
+    add(a * a * contacts.tangentialForce[c] * n, a * forceOnFirst(contacts, c) * n.transpose(),
+        Vec2::UnitX(), partition.ofDisk(snapshot.position[i], radius_[i]));
   }
 }
 

@@ -114,8 +114,6 @@ class MomentSums {
   void sumContacts(const Contacts& contacts);
   Moments momentsOf(const Snapshot& snapshot, std::size_t disk, const Vec2& er) const;
   void addWalls(const Snapshot& snapshot, Partition& partition, std::vector<Moments>& sums) const;
-  void addCutWalls(const Snapshot& snapshot, Partition& partition,
-                   std::vector<Moments>& sums) const;
   void addBranches(const Snapshot& snapshot, Partition& partition,
                    std::vector<Moments>& sums) const;
 
