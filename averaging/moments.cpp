@@ -99,6 +99,14 @@ void MomentSums::compute(const Snapshot& snapshot, std::vector<std::vector<Momen
 void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
                           std::vector<Moments>& sums) const {
   if (!countWallDisks_ && !snapshot.contacts) return;
+  const auto add = [&](const Vec2& couple, const Eigen::Matrix2d& stress, const Vec2& er,
+                       const BinFractions& fractions) {
+    for (const auto& [slot, fraction] : fractions) {
+      at(sums[slot], Moment::wallCoupleR) += fraction * couple.dot(er);
+      at(sums[slot], Moment::wallCoupleP) += fraction * couple.dot(perpendicular(er));
+      if (!partition.weight().alongBranch()) addStress(stress, er, fraction, ofWalls, sums[slot]);
+    }
+  };
   for (std::size_t w = 0; w < snapshot.wallPosition.size(); ++w) {
     const Vec2& x = snapshot.wallPosition[w];
     const double a = radius_[mass_.size() + w];
@@ -107,14 +115,20 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
         at(sums[slot], Moment::wallVolume) +=
             fraction * std::numbers::pi * a * a * coordinates_->height();
     const ContactSums& contacts = contactSums_[mass_.size() + w];
-    if (contacts.count == 0.0) continue;
-    const Vec2 er = coordinates_->firstDirection(x);
-    for (const auto& [slot, fraction] : partition.ofWallDisk(x, a)) {
-      at(sums[slot], Moment::wallCoupleR) += fraction * contacts.couple.dot(er);
-      at(sums[slot], Moment::wallCoupleP) += fraction * contacts.couple.dot(perpendicular(er));
-      if (!partition.weight().alongBranch())
-        addStress(contacts.stress, er, fraction, ofWalls, sums[slot]);
-    }
+    if (contacts.count > 0.0 && !coordinates_->isCartesian())
+      add(contacts.couple, contacts.stress, coordinates_->firstDirection(x),
+          partition.ofWallDisk(x, a));
+  }
+  if (!snapshot.contacts || !coordinates_->isCartesian()) return;
+  const Contacts& contacts = *snapshot.contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto i = static_cast<std::size_t>(contacts.i[c]);
+    const auto j = static_cast<std::size_t>(contacts.j[c]);
+    if (j < mass_.size() || j >= radius_.size() || !transmits(contacts, c)) continue;
+    const Vec2& n = contacts.normal[c];
+    const double a = radius_[j];
+    add(a * a * contacts.tangentialForce[c] * n, a * forceOnFirst(contacts, c) * n.transpose(),
+        Vec2::UnitX(), partition.ofDisk(snapshot.position[i], radius_[i]));
   }
 }
 
@@ -134,8 +148,9 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
       for (const auto& [place, part] : branchPoints(a, partition.weight().width)) {
         const Vec2 point = x + place * branch;
         const Vec2 er = coordinates_->firstDirection(point);
-        for (const auto& [slot, fraction] :
-             wall ? partition.ofWallPoint(point, x, a) : partition.ofPoint(point))
+        for (const auto& [slot, fraction] : wall && !coordinates_->isCartesian()
+                                                ? partition.ofWallPoint(point, x, a)
+                                                : partition.ofPoint(point))
           addStress(forceNormal, er, a * part * fraction, wall ? ofWalls : ofDisks, sums[slot]);
       }
     }

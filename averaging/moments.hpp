@@ -77,6 +77,10 @@ inline double at(const Moments& moments, Moment which) {
 /// sixth of the torque for wall disks of a sixth of the ring's width. All other sums are those of
 /// the moving disks; planes have no part in them.
 ///
+/// Cartesian bins have sides that cut walls, and what lies beyond such a side is another bin's:
+/// there the wall disk's part of a contact goes where the touching disk's goes, overflow included,
+/// and of line methods where the kernel lies. So a box cut in two holds what the whole one holds.
+///
 /// Line methods put all sums where the kernel about the disk's centre lies, but for stress: that
 /// lies along l, turned into the directions of each point of it.
 class MomentSums {

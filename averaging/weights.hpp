@@ -58,7 +58,8 @@ class Partition {
   /// A disk of radius a [m] about x.
   const BinFractions& ofDisk(const Vec2& x, double a);
 
-  /// Of a wall disk: its part in the cell. What reaches into the overflow is given to the bins that
+  /// Of a wall disk at the border of all bins, as the walls of a Couette cell are: its part in the
+  /// cell. What reaches into the overflow is given to the bins that
   /// the disk reaches; a disk that reaches none stays where it is.
   const BinFractions& ofWallDisk(const Vec2& x, double a);
 

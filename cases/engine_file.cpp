@@ -39,8 +39,9 @@ fs::path inFolder(const std::string& word, const fs::path& folder) {
 /// A program that was built and installed with this one lies beside it, in PATH or not.
 std::string besideThisProgram(const std::string& program) {
   if (program.find('/') != std::string::npos) return program;
-  std::error_code none;
-  const fs::path own = fs::read_symlink("/proc/self/exe", none);
+  std::error_code unknown;
+  const fs::path own = fs::read_symlink("/proc/self/exe", unknown);
+  if (unknown) return program;  // beside nothing would be in the working directory
   const fs::path beside = own.parent_path() / program;
   return program.starts_with("crossgrain-") && isProgram(beside) ? beside.string() : program;
 }

@@ -62,22 +62,27 @@ void readReduction(Reader& in, const Region& region, bool isField, OwnEndpoint& 
   if (word == "rate") endpoint.reduction = Reduction::rate;
 }
 
+/// With `per` each of the two is reduced, and then divided: "ratio of the means of a and b over …".
 std::string definitionOf(const OwnEndpoint& endpoint, bool isField) {
-  const std::string what =
-      endpoint.per.empty() ? endpoint.quantity : endpoint.quantity + " / " + endpoint.per;
+  const bool ratio = !endpoint.per.empty();
+  const std::string both = ratio ? endpoint.quantity + " and " + endpoint.per : endpoint.quantity;
+  const auto of = [&](const char* one, const char* several) {
+    return fmt::format("{} of {}", ratio ? fmt::format("ratio of the {}", several) : one, both);
+  };
+  const std::string value = ratio ? "ratio of " + both : both;
   switch (endpoint.reduction) {
     case Reduction::bin:
-      return fmt::format("{} in bin {}", what, endpoint.bin + 1);
+      return fmt::format("{} in bin {}", value, endpoint.bin + 1);
     case Reduction::slope:
-      return fmt::format("slope of {} over the bins", what);
+      return of("slope", "slopes") + " over the bins";
     case Reduction::end:
-      return fmt::format("{} at the end", what);
+      return value + " at the end";
     case Reduction::rate:
-      return fmt::format("rate of change of {} over the averaged time", what);
+      return of("rate of change", "rates of change") + " over the averaged time";
     case Reduction::mean:
       break;
   }
-  return fmt::format("mean of {} over the {}", what, isField ? "averaged part" : "averaged time");
+  return of("mean", "means") + (isField ? " over the averaged part" : " over the averaged time");
 }
 
 std::string unitOf(const OwnEndpoint& endpoint, const Quantity& quantity) {

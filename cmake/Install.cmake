@@ -8,6 +8,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET crossgrain-chipmunk)
+  install(TARGETS crossgrain-chipmunk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 # The program itself writes its manual pages and the completion for bash.
 install(CODE [[
   set(share "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share")

@@ -99,6 +99,7 @@ class Engine {
     const double slop = number("slop") > 0.0 ? number("slop") : 1e-3 * smallest;
     const Vector gravity{scene.at("gravity").at(0), scene.at("gravity").at(1)};
     restitution_.clear();
+    requireRestitution();
     space_.emplace(disksOf(arrays), bodies_,
                    SpaceOptions{dt_, static_cast<int>(number("iterations")), slop, number("bias"),
                                 law_.friction(), gravity, [this](std::int32_t i, std::int32_t j) {
@@ -220,6 +221,18 @@ class Engine {
   }
 
   double inverseMass(std::size_t id) const { return id < disks_ ? 1.0 / mass_[id] : 0.0; }
+
+  /// Whether every pair has a restitution: asked in a step, a refusal would pass through Chipmunk's
+  /// C. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest pair tells for all.
+  /// @throws Unsupported
+  void requireRestitution() const {
+    if (disks_ == 0) return;
+    std::vector<double> lightest(mass_);
+    const auto second = lightest.begin() + std::min<long>(1, static_cast<long>(disks_) - 1);
+    std::nth_element(lightest.begin(), second, lightest.end());
+    const double least = *std::min_element(lightest.begin(), lightest.end());
+    law_.restitution(1.0 / least + (disks_ > 1 ? 1.0 / *second : 0.0));
+  }
 
   double restitution(std::int32_t i, std::int32_t j) {
     const double inverse =

@@ -107,6 +107,11 @@ class World:
         """Centres of disks and wall disks, (n, 2)."""
         return np.array([body.q()[:2] for body in (*self.disks, *self.walls)]).reshape(-1, 2)
 
+    def landmarks(self):
+        """What lists of pairs grow old by: the places, then the centres of the bodies of planes, which turn none of them."""
+        centres = [body.state(self.steps * self.dt)[0] for _, _, _, body in self.planes]
+        return np.concatenate([self.places(), np.reshape(centres, (-1, 2))])
+
     def near(self):
         """Pairs that may touch before anything has moved by half of the reach."""
         place = self.places()
@@ -127,7 +132,7 @@ class World:
             self.system.removeInteraction(self.links.pop(pair))
         for pair in sorted(wanted - self.links.keys()):
             self.links[pair] = self.new_link(*pair)
-        self.listed = self.places()
+        self.listed = self.landmarks()
 
     def law_of(self, i, j):
         en = self.restitution(i, j)
@@ -164,7 +169,7 @@ class World:
             self.unsolved += 1
         self.simulation.nextStep()
         self.steps += 1
-        moved = self.places() - self.listed
+        moved = self.landmarks() - self.listed
         if moved.size and np.max(np.sum(moved**2, axis=1)) > (0.4 * self.reach) ** 2:
             self.list_pairs()
         return sorted(found)

@@ -53,9 +53,9 @@ Json answerCell(const EndpointRow* row) {
           {"more", more}};
 }
 
-std::string endpointLabel(const std::string& name) {
-  const std::string words = endpointWords(name), symbol = endpointSymbol(name);
-  return mathHtml(words == symbol ? words : words + " " + symbol);
+std::string endpointLabel(const std::string& name, bool ofCell) {
+  const std::string symbol = endpointSymbol(name, ofCell);
+  return mathHtml(symbol == spaced(name) ? symbol : endpointWords(name) + " " + symbol);
 }
 
 std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
@@ -68,13 +68,13 @@ std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
 }
 
 Json endpointRows(const Endpoints& endpoints, const std::string& reference,
-                  const std::vector<std::string>& peers) {
+                  const std::vector<std::string>& peers, bool ofCell) {
   Json rows = Json::array();
   for (const std::string& name : endpointsOf(endpoints)) {
     Json cells = Json::array();
     for (const std::string& peer : peers)
       cells.push_back(answerCell(rowOf(endpoints, reference, peer, name)));
-    rows.push_back({{"label", endpointLabel(name)},
+    rows.push_back({{"label", endpointLabel(name, ofCell)},
                     {"margin", marginInWords(endpoints, name)},
                     {"cells", std::move(cells)}});
   }
@@ -149,11 +149,11 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   const auto peers = peersOf(endpoints, engines);
   view["reference"] = reference;
   view["peerColumns"] = peers;
-  view["endpoints"] = endpointRows(endpoints, reference, peers);
+  view["endpoints"] = endpointRows(endpoints, reference, peers, !results.region);
   view["hasAgreement"] = !endpoints.empty();
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
-    view["endpointColumns"].push_back(mathHtml(endpointSymbol(name)));
+    view["endpointColumns"].push_back(mathHtml(endpointSymbol(name, !results.region)));
   view["pairwise"] = pairRows(endpoints, true);
   view["hasPairwise"] = view["pairwise"].size() > peers.size();
   view["mirrors"] = pairRows(endpoints, false);

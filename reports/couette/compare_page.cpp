@@ -152,9 +152,10 @@ std::string comparePage(const CompareResults& results, const Illustrations& show
   addPictures(view, results, engines, shown);
   addDetails(view, realisedOf(results, engines));
   view["packings"] = packingRows(results.packings);
-  view["files"] =
+  view["files"] = fmt::format(
       "Beside this page: results.json (everything), profiles.csv, distributions.csv, series.csv, "
-      "regimes.csv, steadiness.csv, endpoints.csv and agreement.csv (ring by ring).";
+      "regimes.csv, steadiness.csv, endpoints.csv and agreement.csv ({0} by {0}).",
+      binWord(results));
   return render("report_compare.html", view);
 }
 

@@ -40,8 +40,8 @@ std::string endpointWords(const std::string& name) {
   return endpoint ? std::string(endpoint->words) : spaced(name);
 }
 
-std::string endpointSymbol(const std::string& name) {
-  const EndpointSpec* const endpoint = shippedEndpoint(name);
+std::string endpointSymbol(const std::string& name, bool ofCell) {
+  const EndpointSpec* const endpoint = ofCell ? shippedEndpoint(name) : nullptr;
   return endpoint ? std::string(endpoint->symbol) : spaced(name);
 }
 

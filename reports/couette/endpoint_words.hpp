@@ -11,7 +11,9 @@ namespace crossgrain::reports {
 /// How people call and write an endpoint (cases/endpoints.hpp); of one that a case made up, its
 /// name with blanks.
 std::string endpointWords(const std::string& name);
-std::string endpointSymbol(const std::string& name);
+/// @param ofCell  whether a cell was averaged: what an assembly calls "stress_ratio" is no
+/// σ_rφ/σ_rr
+std::string endpointSymbol(const std::string& name, bool ofCell);
 
 /// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided".
 std::string wordOf(Answer answer);

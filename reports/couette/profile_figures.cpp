@@ -18,7 +18,8 @@ struct Scaled {
   std::string label;
 };
 
-/// One plot of one field. Axes: thesis-style r̃, or r/R_i where both axes are logarithmic.
+/// One plot of one field. Axes: thesis-style r̃, or where both are logarithmic r/R_i, and r without
+/// a wheel.
 struct ProfilePlot {
   std::string name, field;
   std::string scales;  ///< of its axes, for the title; empty: linear ones
@@ -119,7 +120,8 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
                    const ProfilePlot& plot, const IsFaint& faint) {
   const Scaled scale = scaled(plot, frame.cell);
   Panel panel;
-  panel.xLabel = plot.logX ? "r / R_{i}" : binAxis(frame);
+  const double inner = frame.cell.innerRadius, outer = frame.cell.outerRadius;
+  panel.xLabel = !plot.logX ? binAxis(frame) : inner > 0.0 ? "r / R_{i}" : "r [m]";
   panel.yLabel = scale.label;
   panel.logX = plot.logX;
   panel.logY = plot.logY;
@@ -133,7 +135,6 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
   if (plot.field.starts_with("stress_") && !plot.logY) chooseLogY(panel);
   if (plot.guide)
     if (auto line = powerLaw(panel, *plot.guide)) panel.curves.push_back(*line);
-  const double inner = frame.cell.innerRadius, outer = frame.cell.outerRadius;
   if (!plot.logX) {
     panel.xRange = rTildeRange(frame);
     if (plot.field == "spin") panel.level = 0.0;

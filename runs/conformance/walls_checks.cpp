@@ -117,6 +117,24 @@ void turningPlanePushes(Exam& it) {
   expectPush(it, scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
+/// A gap wider than a disk, and nothing but the plane moves: who lists pairs that may touch has to
+/// see planes come.
+void planeComesFromAfar(Exam& it) {
+  constexpr double speed = 5.0 * push, gap = 2.5 * smallRadius;
+  Scene scene = emptyScene(it.law(), 200.0);
+  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
+  scene.bodies[0].motion = motionOf(Motion::Kind::translating);
+  scene.bodies[0].motion.velocity = {0.0, speed};
+  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius + gap}, Vec2::Zero());
+  it.loadWithinLimits(scene);
+  it.equal(it.at(0.9 * gap / speed).velocity[0].norm(), 0.0, "its speed before the plane is there");
+  const Snapshot after = it.at(gap / speed + end);
+  const double expected = (1.0 + restitutionOf(scene.law, smallMass)) * speed;
+  const Tolerance scheme = {0.0, 0.02, "a first-order scheme"};
+  it.expect(close(after.velocity[0].y(), expected, scheme),
+            "the speed of the disk that was pushed [m/s]");
+}
+
 /// A disk that falls straight onto a turning wheel is taken along and turned the other way.
 void turningWheelDragsADisk(Exam& it) {
   Scene scene = pushingWall(it.law(), Motion::Kind::rotating);
@@ -166,6 +184,8 @@ std::span<const Check> checks() {
       Check{"WheelKeepsItsAngle", "a wheel's angle counts whole turns", wheelKeepsItsAngle},
       Check{"TurningPlanePushes", "a turning plane moves as prescribed and pushes",
             turningPlanePushes},
+      Check{"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
+            planeComesFromAfar},
       Check{"TurningWheelDragsADisk", "a turning wheel drags a disk along", turningWheelDragsADisk},
       Check{"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},
   };

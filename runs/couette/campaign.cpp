@@ -51,7 +51,7 @@ Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<Eng
 
 void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
   struct Ending {
-    std::exception_ptr refused;  ///< named by the user, who is to resolve it
+    std::exception_ptr thrown;  ///< what the user is to resolve
     std::string failure;
   };
   std::vector<Ending> endings(engines_.size());
@@ -66,17 +66,19 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
                        } catch (const UnsupportedScene& refusal) {
                          // "all" means all that can.
                          if (isNamed(command_.engines, own.entry))
-                           endings[e].refused = std::current_exception();
+                           endings[e].thrown = std::current_exception();
                          else
                            own.refusal = refusal.what();
                        } catch (const EngineFailure& failure) {
                          endings[e].failure = failure.what();  // its runs will tell, one by one
+                       } catch (const BadInput&) {
+                         endings[e].thrown = std::current_exception();
                        }
                      }});
   runTasks(tasks, command_.jobs);
   for (const Ending& ending : endings) {
     if (!ending.failure.empty()) progress_.say(ending.failure);
-    if (ending.refused) std::rethrow_exception(ending.refused);
+    if (ending.thrown) std::rethrow_exception(ending.thrown);
   }
 }
 

@@ -117,7 +117,7 @@ class Campaign {
 
  private:
   /// Asks engines that have not refused, side by side, each for itself; failures are told in the
-  /// order of engines. @throws UnsupportedScene of an engine named
+  /// order of engines. @throws UnsupportedScene of an engine named, BadInput; the first engine's
   void forEachEngine(const std::function<void(CampaignEngine&)>& work);
   std::vector<KeptTask<CouetteRun>> tasksOf(const PlannedRuns& list) const;
   KeptTask<CouetteRun>::Outcome runOne(const Variant& variant, int packing,

@@ -86,12 +86,11 @@ void RegionAverages::describe(const Realised& realised, CouetteRun& run) const {
     if (value) *value *= factor;
     run.head.push_back({name, "-", value, {}, {}});
   };
-  double deepest = 0.0;
-  for (const double overlap : presentNumbers(valuesOf(*run.series, "max_overlap")))
-    deepest = std::max(deepest, overlap);
+  const auto overlaps = presentNumbers(valuesOf(*run.series, "max_overlap"));
   add("coordination", mean("coordination"));
   add("mean_overlap_over_d", mean("mean_overlap"), 1.0 / diameter);
-  add("max_overlap_over_d", deepest, 1.0 / diameter);
+  add("max_overlap_over_d",
+      overlaps.empty() ? std::nullopt : std::optional(std::ranges::max(overlaps)), 1.0 / diameter);
   add("sliding_fraction", mean("sliding_fraction"));
   if (const auto contact = pairContactTime(setup_); contact && realised.dt > 0.0)
     add("dt_over_tc", realised.dt / *contact);

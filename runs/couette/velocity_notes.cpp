@@ -65,8 +65,8 @@ std::string percent(const Difference& d) {
 }
 
 std::string mirrorSentence(const CouetteStudy& study, const std::string& peer,
-                           const ByPacking& reference, const ByPacking& measured,
-                           std::size_t ring) {
+                           const ByPacking& reference, const ByPacking& measured, std::size_t ring,
+                           const char* bin) {
   for (const EngineRow& engine : study.engines) {
     if (engine.mirrors != peer) continue;
     const ByPacking mirror = velocitiesOf(study, engine.name);
@@ -77,8 +77,8 @@ std::string mirrorSentence(const CouetteStudy& study, const std::string& peer,
                           : model->holds() && !rest->holds()
                               ? "what it mirrors is not what makes the difference"
                               : "it explains a part, as far as these packings can tell";
-    return fmt::format(" Its mirror {} (same ring) is {} off the reference and {} off it: {}.",
-                       engine.name, percent(*model), percent(*rest), reading);
+    return fmt::format(" Its mirror {} (same {}) is {} off the reference and {} off it: {}.",
+                       engine.name, bin, percent(*model), percent(*rest), reading);
   }
   return " It has no mirror.";
 }
@@ -88,6 +88,7 @@ std::string mirrorSentence(const CouetteStudy& study, const std::string& peer,
 std::vector<std::string> velocityNotes(const CouetteStudy& study) {
   std::vector<std::string> notes;
   const std::string& first = study.engines.front().name;
+  const char* const bin = study.region ? "bin" : "ring";
   const ByPacking reference = velocitiesOf(study, first);
   for (const EngineRow& engine : study.engines) {
     const std::string& name = engine.name;
@@ -100,13 +101,13 @@ std::vector<std::string> velocityNotes(const CouetteStudy& study) {
       if (!found || !std::isfinite(found->halfWidth)) continue;  // one packing has no interval
       differences.push_back(percent(*found));
       if (!found->holds() && beyond.empty())
-        beyond = fmt::format(" Ring {} is beyond both.", ring + 1) +
-                 mirrorSentence(study, name, reference, measured, ring);
+        beyond = fmt::format(" In {} {} it is beyond both.", bin, ring + 1) +
+                 mirrorSentence(study, name, reference, measured, ring, bin);
     }
     if (differences.empty()) continue;
     notes.push_back(
-        fmt::format("v_φ of {} in rings 1 to {} against {} (95 % interval over packings): {}. {}{}",
-                    name, differences.size(), first, fmt::join(differences, ", "),
+        fmt::format("v_φ of {} in {}s 1 to {} against {} (95 % interval over packings): {}. {}{}",
+                    name, bin, differences.size(), first, fmt::join(differences, ", "),
                     beyond.empty() ? "Within 15 % or within the interval in each."
                                    : "Not within 15 % or the "
                                      "interval everywhere.",

@@ -121,6 +121,57 @@ TEST(Grid, OneCellIsTheWholeSceneAndHasProfilesAndBars) {
   EXPECT_EQ(densities, 2);
 }
 
+/// A disk of 1 m on a floor of wall disks whose centres lie on the box's lower side.
+Instant diskOnAFloor() {
+  Instant instant;
+  instant.addDisk({0.3, 1.2}, 1.0);
+  instant.addDisk({-0.4, 3.1}, 1.0);
+  WallBody floor;
+  floor.name = "floor";
+  for (const double x : {-1.0, 0.0, 1.0}) floor.diskPosition.push_back({x, 0.0});
+  floor.diskRadius.assign(3, 0.4);
+  instant.scene.bodies = {floor};
+  instant.snapshot.bodies.emplace_back();
+  instant.snapshot.wallPosition = floor.diskPosition;
+  instant.addContact(0, 1, Vec2(0.7, -1.9).normalized(), 3.0, 0.5);
+  instant.addContact(0, 3, Vec2(0.3, 1.2).normalized(), 4.0, -0.7);
+  instant.addContact(0, 4, Vec2(-0.7, 1.2).normalized(), 2.0, 0.3);
+  return instant;
+}
+
+TEST(Grid, ABoxCutInTwoHoldsTheWholeWithWallsCut) {
+  // Sides at 0 and ±2 cut no disk but those of the middle, x = 0, which cuts wall disks as well.
+  const Instant instant = diskOnAFloor();
+  const Grid whole({-2.0, 0.0}, {2.0, 6.0}, 1, 1, 1.0), left({-2.0, 0.0}, {0.0, 6.0}, 1, 1, 1.0),
+      right({0.0, 0.0}, {2.0, 6.0}, 1, 1, 1.0);
+  for (const Weight weight :
+       {Weight(WeightMethod::slicing), Weight(WeightMethod::centre),
+        Weight(WeightMethod::lineHeaviside, 0.3), Weight(WeightMethod::lineGaussian, 0.3)}) {
+    const auto in = [&](const Grid& grid, Moment which) {
+      return at(test::momentsOf(grid, instant, weight)[grid.slot(0, 0)], which);
+    };
+    for (std::size_t q = 0; q < momentCount; ++q) {
+      const auto which = static_cast<Moment>(q);
+      EXPECT_NEAR(in(left, which) + in(right, which), in(whole, which), 1e-13) << q;
+    }
+  }
+  // −Σ f⊗l over the wall disks by hand, with l = a n towards the disk and −f on the wall disk.
+  Eigen::Matrix2d stress = Eigen::Matrix2d::Zero();
+  const Contacts& contacts = *instant.snapshot.contacts;
+  for (const std::size_t c : {1u, 2u}) {
+    const Vec2 n = contacts.normal[c];
+    const Vec2 onDisk =
+        contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
+    stress += onDisk * (0.4 * n).transpose();
+  }
+  const auto moments = test::momentsOf(whole, instant);
+  const auto& box = moments[whole.slot(0, 0)];
+  EXPECT_NEAR(at(box, Moment::wallStressRR), stress(0, 0), 1e-13);
+  EXPECT_NEAR(at(box, Moment::wallStressRP), stress(0, 1), 1e-13);
+  EXPECT_NEAR(at(box, Moment::wallStressPR), stress(1, 0), 1e-13);
+  EXPECT_NEAR(at(box, Moment::wallStressPP), stress(1, 1), 1e-13);
+}
+
 TEST(LineWeights, AGaussianOnAGridIsAProductOfErrorFunctions) {
   const Grid grid({-1.0, -1.0}, {1.0, 1.0}, 8, 8, 1.0);
   const double w = 0.3;

@@ -49,6 +49,23 @@ TEST_F(Average, OfAnAssembly) {
   EXPECT_EQ(c.averaging.endpoints.at("one").value, 2.0);
 }
 
+TEST_F(Average, SaysThatRatiosAreOfMeans) {
+  const auto definition = [](const std::string& keys) {
+    std::ofstream("case.toml") << scene + slabs + endpoint(keys + "\nabsolute = 2") +
+                                      "[preparation]\npackings = 5\nseed = 7\n";
+    return loadCase("case.toml").front().average->endpoints.front().definition;
+  };
+  const std::string stresses = "quantity = \"stress_xy\"\nper = \"stress_yy\"\n";
+  EXPECT_EQ(definition(stresses),
+            "ratio of the means of stress_xy and stress_yy over the averaged part");
+  EXPECT_EQ(definition(stresses + "at = \"slope\""),
+            "ratio of the slopes of stress_xy and stress_yy over the bins");
+  EXPECT_EQ(definition(stresses + "at = 2"), "ratio of stress_xy and stress_yy in bin 2");
+  EXPECT_EQ(definition("quantity = \"top\"\nper = \"mean_y\"\nat = \"rate\""),
+            "ratio of the rates of change of top and mean_y over the averaged time");
+  EXPECT_EQ(definition("quantity = \"spin\""), "mean of spin over the averaged part");
+}
+
 TEST_F(Average, SaysWhatIsWrong) {
   const auto with = [](const std::string& keys) { return scene + slabs + endpoint(keys); };
   expectMessage(with("quantity = \"stress_rr\"\nabsolute = 1"), "did you mean stress_");

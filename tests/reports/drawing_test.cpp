@@ -34,6 +34,19 @@ TEST(Styles, AnEngineKeepsItsColourAndAMirrorSharesItsPeers) {
   EXPECT_NE(engines[4].style.colour, engines[2].style.colour);
 }
 
+TEST(Profiles, OfRingsWithoutAWheelAreOverTheRadius) {
+  const CompareResults results = compareFromJson(Json::parse(R"({
+    "engines": [{"name": "e", "mirrors": "", "status": "ran"}],
+    "region": {"bins": "rings", "height": 1.0, "diameter": 0.01, "disks": 9, "x": [], "y": [],
+               "from_s": 0, "to_s": 1},
+    "rings": {"r": [0.105, 0.2], "r_tilde": []},
+    "runs": [{"engine": "e", "packing": 0, "status": "finished", "profiles": [
+      {"field": "stress_rp", "mean": [0.05, 0.02], "stderr": [0.001, null]}]}]})"));
+  const Panel panel = figureNamed(compareFigures(results), "profile_stress_rp").panels[0];
+  EXPECT_DOUBLE_EQ(panel.curves[0].points[0].x, 0.105);
+  EXPECT_EQ(panel.xLabel, "r [m]");
+}
+
 /// v_φ/(ΩR_i) and S d/(ΩD), D = 2R_i: Lätzel (2003), chapter 6. With Ω = 1 /s, R_i = 0.1 m,
 /// d = 0.01 m these are 10 v_φ and S/20.
 TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {

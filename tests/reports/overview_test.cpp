@@ -10,6 +10,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/cost/overview.hpp"
+#include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/diff/overview.hpp"
@@ -53,6 +54,11 @@ Overview made(std::size_t rows, std::size_t columns) {
   }
   overview.conclusion = {"One.", "Two."};
   return overview;
+}
+
+TEST(Endpoints, OfAnAssemblyGoByTheirNames) {
+  EXPECT_EQ(endpointSymbol("stress_ratio", true), "σ_rφ/σ_rr");
+  EXPECT_EQ(endpointSymbol("stress_ratio", false), "stress ratio");
 }
 
 TEST(OverviewText, IsAlignedWhateverTheLettersTake) {

@@ -133,6 +133,10 @@ TEST(VelocityNotes, SayWhetherTheMirrorExplainsADifference) {
   auto notes = velocityNotes(results);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("the model makes the difference"), std::string::npos);
+  EXPECT_NE(notes[0].find("in rings 1 to 3"), std::string::npos);
+  results.region.emplace();
+  EXPECT_NE(velocityNotes(results)[0].find("in bins 1 to 3"), std::string::npos);
+  results.region.reset();
 
   for (CouetteRun& run : results.runs)
     if (run.engine == "mirror")

@@ -83,6 +83,22 @@ TEST(Region, HasTheVirialStressOfAWholeBox) {
   EXPECT_TRUE(std::isnan(valueOf(run, "stress_rr")));  // a name of rings
 }
 
+TEST(Region, HasNoLargestOverlapWherePairsShowNone) {
+  Case setup = threeDisks();
+  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
+  const auto largest = [&](const Snapshot& now) {
+    RegionAverages averages(setup, scene);
+    averages.add(now);
+    CouetteRun run;
+    averages.describe(Realised{}, run);
+    return std::ranges::find(run.head, "max_overlap_over_d", &HeadNumber::name)->value;
+  };
+  Snapshot now = touching(scene);
+  EXPECT_NEAR(largest(now).value(), 0.1 / 2.0, 1e-14);
+  now.contacts = Contacts{};
+  EXPECT_FALSE(largest(now));
+}
+
 TEST(Region, HasMomentsOfItsDisks) {
   const CouetteRun run = averaged(threeDisks());
   const auto last = [&](const char* name) { return *valuesOf(*run.series, name).back(); };

@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from harness import BAD_INPUT, COLLISION, COUETTE, HARD_SPHERE, FELL_SHORT, HELD, SystemTest, settings
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, HARD_SPHERE, FELL_SHORT, HELD, SystemTest, settings
 
 
 class CaseFiles(SystemTest):
@@ -108,6 +108,13 @@ class Overrides(SystemTest):
 
     def test_wrong_type_of_a_setting(self):
         self.refuse("engines.grain.skin=wide", "[engines.grain]", "skin", "a number", "a string")
+
+    def test_of_two_engines_the_first_is_told_of(self):
+        """The one in Python answers last."""
+        own = CASES.parent / "examples/python/engine.toml"
+        wrong = ["--set=engines.numpy.skim=1.0", "--set=engines.grain.skim=0.1"]
+        done = self.compare("--quiet", *wrong, engines=f"{own},grain")
+        self.assert_one_line(done, BAD_INPUT, "[engines.numpy]", "'skim'")
 
     def test_settings_are_checked_by_collide_too(self):
         done = self.run_program(
