@@ -95,11 +95,12 @@ PairedComparison describe(const PairedSample& sample, double alpha) {
   return result;
 }
 
-/// Turns the family's p-values into Holm's adjusted ones.
+/// Turns the family's p-values into Holm's adjusted ones. What is no number is no test.
 void adjustByHolm(std::vector<std::optional<PairedComparison>>& family) {
   std::vector<double*> tests;
   for (auto& comparison : family)
-    if (comparison && comparison->pDisagree) tests.push_back(&*comparison->pDisagree);
+    if (comparison && comparison->pDisagree && std::isfinite(*comparison->pDisagree))
+      tests.push_back(&*comparison->pDisagree);
   std::ranges::stable_sort(tests, {}, [](const double* p) { return *p; });
   double largest = 0.0;
   for (std::size_t k = 0; k < tests.size(); ++k) {

@@ -1,5 +1,7 @@
 #include "cases/flow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +10,7 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
+#include "support/fingerprint.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -17,9 +20,20 @@ bool isAssembly(const Case& setup) {
   return setup.kind == CaseKind::assembly;
 }
 
+/// Of the disks of a start file that stand still: its moving disks alone do not tell a scene.
+std::string fixedHash(const StartFiles& starts) {
+  if (starts.fixedRadius.empty()) return {};
+  std::string text;
+  for (std::size_t k = 0; k < starts.fixedRadius.size(); ++k)
+    text += fmt::format("{} {} {};", starts.fixedPosition[k].x(), starts.fixedPosition[k].y(),
+                        starts.fixedRadius[k]);
+  return fmt::format("{:016x}", fnv1a(text));
+}
+
 Packing assemblyPacking(const Case& setup, int index) {
   Packing packing;
   packing.disks = assemblyDisks(setup, index);
+  packing.fixed = fixedHash(setup.assembly.starts);
   packing.hash = contentHash(packing);
   return packing;
 }

@@ -215,7 +215,7 @@ void readAssembly(Reader& in, Assembly& assembly) {
   readVector(in, "gravity", assembly.gravity, "m/s^2");
   in.read("inertia_factor", assembly.inertiaFactor, aboveZeroTo(1.0));
   Reader start = in.section("start");
-  readStart(start, assembly);
+  if (in.has("start")) readStart(start, assembly);
   in.read("rotation", assembly.rotation);
   in.read("max_overlap", assembly.maxOverlap, between(0.0, 2.0));
   in.read("seed", assembly.seed, between(0, mostSeed));

@@ -9,6 +9,7 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
+#include "cases/time_step.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
@@ -215,6 +216,13 @@ void checkAveragedTime(const Reader& in, const Case& c) {
   const double duration = assemblyDuration(c);
   if (!(c.average->region.from < duration))
     in.fail("from", fmt::format("must be < {:g} s, which the run takes", duration));
+  const double interval = (duration - c.average->region.from) / c.average->region.snapshots;
+  const double dt = timeStep(c);
+  constexpr double rounding = 1e-9;  // a snapshot at every step is no mistake
+  if (interval < dt * (1.0 - rounding))
+    in.fail(in.has("snapshots") ? "snapshots" : "from",
+            fmt::format("{} snapshots would be {:.3g} s apart, less than the time step of {:.3g} s",
+                        c.average->region.snapshots, interval, dt));
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <numbers>
 
 #include "cases/loader_sections.hpp"
+#include "cases/packing.hpp"
 #include "cases/start_file.hpp"
 #include "support/bad_input.hpp"
 
@@ -10,29 +12,36 @@ namespace crossgrain::inline cases {
 namespace {
 
 /// Disks of the file that stand still, as one more body.
-WallGroup fixedWall(const Start& start) {
+WallGroup fixedWall(const StartFiles& starts) {
   WallGroup wall;
-  wall.position = start.fixedPosition;
-  wall.radii = start.fixedRadius;
+  wall.position = starts.fixedPosition;
+  wall.radii = starts.fixedRadius;
   return wall;
 }
 
-bool sameWall(const Start& a, const Start& b) {
-  return a.fixedPosition == b.fixedPosition && a.fixedRadius == b.fixedRadius;
+/// One start that counts as two packings would make a scatter too small.
+void requireDifferent(const StartFiles& starts) {
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t k = 0; k < starts.disks.size(); ++k) {
+    Packing packing;
+    packing.disks = starts.disks[k];
+    const auto [same, isNew] = seen.emplace(contentHash(packing), k);
+    if (!isNew)
+      throw BadInput(fmt::format("{}: its disks are those of {}: each file must be another start",
+                                 starts.files[k].string(), starts.files[same->second].string()));
+  }
 }
 
 }  // namespace
 
 void readStart(Reader& in, Assembly& assembly) {
   StartFiles& starts = assembly.starts;
-  const bool there = !in.keys().empty();
-  if (there) in.require("file", starts.files, ".csv");
+  in.require("file", starts.files, ".csv");
   double density = 0.0;
   in.read("density", density, positive("kg/m^2"));
   in.read("velocity_rms", starts.velocityRms, atLeast(0.0, "m/s"));
   in.finish();
-  if (!there) return;
-  std::vector<Start> read;
+  if (starts.files.empty()) in.fail("file", "must name one file or more");
   for (const auto& file : starts.files) {
     const auto mass = [&](double radius) {
       if (density == 0.0)
@@ -40,13 +49,18 @@ void readStart(Reader& in, Assembly& assembly) {
             fmt::format("{}: tells no masses, and [assembly.start] no density", file.string()));
       return density * std::numbers::pi * radius * radius;
     };
-    read.push_back(readStart(file, {mass, assembly.inertiaFactor}));
-    if (!sameWall(read.back(), read.front()))
+    Start start = readStart(file, {mass, assembly.inertiaFactor});
+    if (starts.disks.empty()) {
+      starts.fixedPosition = start.fixedPosition;
+      starts.fixedRadius = start.fixedRadius;
+    }
+    if (start.fixedPosition != starts.fixedPosition || start.fixedRadius != starts.fixedRadius)
       throw BadInput(fmt::format("{}: its fixed disks are not those of {}", file.string(),
                                  starts.files.front().string()));
-    starts.disks.push_back(read.back().disks);
+    starts.disks.push_back(std::move(start.disks));
   }
-  if (!read.front().fixedRadius.empty()) assembly.walls.push_back(fixedWall(read.front()));
+  requireDifferent(starts);
+  if (!starts.fixedRadius.empty()) assembly.walls.push_back(fixedWall(starts));
 }
 
 }  // namespace crossgrain::inline cases

@@ -39,6 +39,7 @@ std::string contentHash(const Packing& packing) {
   add(disks.velocity);
   std::string hash = fmt::format("{:016x} {}", fnv1a(bytes), packing.wheelAngle);
   if (packing.wallTime != 0.0) hash += fmt::format(" {}", packing.wallTime);
+  if (!packing.fixed.empty()) hash += " fixed " + packing.fixed;
   return hash;
 }
 

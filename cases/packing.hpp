@@ -15,6 +15,7 @@ struct Packing {
   Disks disks;
   double wheelAngle = 0.0;  ///< by which the wheel's disks have turned since it was built [rad]
   double wallTime = 0.0;    ///< for which the walls of an assembly have moved [s]
+  std::string fixed;        ///< fingerprint of disks of its file that stand still; empty: none
   std::string hash;         ///< of all that it was made from
   bool fromCache = false;
   std::string notCached;  ///< why it could not be kept for next time; empty if it could

@@ -46,6 +46,8 @@ class StartReader {
       : file_(file), defaults_(defaults) {}
 
   Start read(std::string_view text) {
+    constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin with it
+    if (text.starts_with(byteOrderMark)) text.remove_prefix(byteOrderMark.size());
     while (!text.empty()) {
       const auto end = text.find('\n');
       readLine(trimmed(text.substr(0, end)));

@@ -30,7 +30,7 @@ void requireStable(const Case& setup, double dt, std::optional<double> lightest 
 }
 
 double stepOf(const Case& setup) {
-  if (!setup.run.dt && packingsAreFiles(setup))
+  if (!setup.run.dt && setup.particles.file)  // whose masses are not known yet
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   const double dt = timeStep(setup);
   requireStable(setup, dt);
@@ -135,8 +135,9 @@ void Campaign::preparePackings(int count) {
   for (const std::string& failure : failures)
     if (!failure.empty()) throw BadInput(failure);
   std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
-  if (packingsAreFiles(setup_))  // whose disks may be lighter than the case says
-    requireStable(setup_, dt_, std::ranges::min(packings_.front().disks.mass) / 2.0);
+  if (setup_.particles.file)  // its disks may be lighter than the case says
+    for (const Packing& packing : packings_)
+      requireStable(setup_, dt_, std::ranges::min(packing.disks.mass) / 2.0);
   if (there == 0) store_.begin();
 }
 

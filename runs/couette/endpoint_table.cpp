@@ -29,8 +29,16 @@ double testMargin(const EndpointSpec& endpoint, const Margin& margin) {
   return endpoint.byRatio ? std::log1p(margin.value) : margin.value;
 }
 
+/// Those that can be tested: what is not positive has no ratio, and its packing counts as lost.
+Numbers testable(const EndpointSpec& endpoint, Numbers values) {
+  for (auto& value : values)
+    if (value && (!std::isfinite(*value) || (endpoint.byRatio && *value <= 0.0))) value.reset();
+  return values;
+}
+
 /// On the scale of the test.
 Numbers onScale(const EndpointSpec& endpoint, Numbers values) {
+  values = testable(endpoint, std::move(values));
   if (endpoint.byRatio)
     for (auto& value : values)
       if (value) value = std::log(*value);
@@ -61,7 +69,7 @@ TestedEndpoint tested(const Case& setup, const EndpointSpec& endpoint, const Num
   const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
   TestedEndpoint own{
       endpoint, &margin, endpointSample(endpoint, margin, reference, other), 0.0, {}};
-  if (const auto mean = ensembleMean(reference)) own.reference = mean->mean;
+  if (const auto mean = ensembleMean(testable(endpoint, reference))) own.reference = mean->mean;
   return own;
 }
 
@@ -192,8 +200,9 @@ std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPl
 
 LookPlan looksOf(const Case& setup) {
   const int first = flowPackings(setup);
-  return looksAt(first, first < fewestPackings ? 1 : setup.looks.count,
-                 1.0 - setup.averaging.confidence);
+  // Files are all there are: a further look would see them again.
+  const bool oneLook = first < fewestPackings || packingsAreFiles(setup);
+  return looksAt(first, oneLook ? 1 : setup.looks.count, 1.0 - setup.averaging.confidence);
 }
 
 PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
+#include <utility>
 
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/carriers.hpp"
@@ -70,24 +70,22 @@ class Sequence {
     std::vector<Variant> whole, canaries, changed;
     for (const std::size_t e : open_)
       (mayBeCarried(e) ? canaries : whole).push_back({e, "", &setup_});
+    std::vector<std::size_t> responding;
+    if (!canaries.empty()) responding = respondingEngines();
     std::vector<ChangedCase> cases;
-    std::size_t responding = 0;
-    if (const auto e = canaries.empty() ? std::optional<std::size_t>() : respondingEngine()) {
-      responding = *e;
+    if (!responding.empty()) {
       cases = changedCases(setup_);
+      changed = changedOf(responding.front(), cases);
     }
-    for (const ChangedCase& one : cases) changed.push_back({responding, "", &one.setup, one.name});
     const int packings = plan_.packings.front();
     std::vector<CouetteRun> runs = campaign_.runSome(
         {{whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}}, "running engines");
     const auto firstChanged = runs.end() - static_cast<std::ptrdiff_t>(cases.size()) * packings;
-    const std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
+    std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
     runs.erase(firstChanged, runs.end());
     campaign_.add(std::move(runs));
     if (canaries.empty()) return;
-    if (!cases.empty() && finishedIn(nameOf(responding)) > 0)
-      findings_.responses =
-          endpointResponses(setup_, campaign_, nameOf(responding), cases, ofChanged, packings);
+    if (!cases.empty()) respond(responding, cases, std::move(ofChanged));
     judgeCanaries(setup_, campaign_, findings_.responses, findings_.carried);
     std::vector<Variant> themselves;
     for (const Variant& variant : canaries)
@@ -95,6 +93,28 @@ class Sequence {
     if (!themselves.empty() && packings > 1)
       campaign_.add(
           campaign_.runSome({{themselves, {1, packings}}}, "running what no mirror carries"));
+  }
+
+  static std::vector<Variant> changedOf(std::size_t e, const std::vector<ChangedCase>& cases) {
+    std::vector<Variant> variants;
+    for (const ChangedCase& one : cases) variants.push_back({e, "", &one.setup, one.name});
+    return variants;
+  }
+
+  /// How averages respond, by the first of these engines that finished its runs.
+  /// @param ofChanged  the very first one's runs of the changed cases
+  void respond(const std::vector<std::size_t>& engines, const std::vector<ChangedCase>& cases,
+               std::vector<CouetteRun> ofChanged) {
+    const int packings = plan_.packings.front();
+    for (const std::size_t e : engines) {
+      if (finishedIn(nameOf(e)) == 0) continue;
+      if (e != engines.front())
+        ofChanged = campaign_.runSome({{changedOf(e, cases), {0, packings}}},
+                                      fmt::format("running changed cases by {}", nameOf(e)));
+      findings_.responses =
+          endpointResponses(setup_, campaign_, nameOf(e), cases, ofChanged, packings);
+      return;
+    }
   }
 
   void runOn(int from, int to) {
@@ -163,13 +183,14 @@ class Sequence {
            findings_.carried.end();
   }
 
-  /// The first that runs all packings by the case's own normal law.
-  std::optional<std::size_t> respondingEngine() const {
+  /// Those that run all packings by the case's own normal law.
+  std::vector<std::size_t> respondingEngines() const {
+    std::vector<std::size_t> engines;
     for (const std::size_t e : open_) {
       const auto& can = campaign_.capabilities(e);
-      if (can && !mayBeCarried(e) && hasNormalLaw(*can, setup_.law)) return e;
+      if (can && !mayBeCarried(e) && hasNormalLaw(*can, setup_.law)) engines.push_back(e);
     }
-    return std::nullopt;
+    return engines;
   }
 
   std::string nameOf(std::size_t e) const { return campaign_.engines()[e].name; }

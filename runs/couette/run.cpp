@@ -82,9 +82,12 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
     progress(t / end);
   };
 
-  const int settleSlices = watch.settlingSnapshots > 0
-                               ? watch.settlingSnapshots
-                               : static_cast<int>(std::ceil(settled / interval));
+  // Slices only tell the progress: advanceTo() goes in pieces of its own.
+  constexpr double mostSlices = 1e6;
+  const int settleSlices =
+      watch.settlingSnapshots > 0
+          ? watch.settlingSnapshots
+          : static_cast<int>(std::min(std::ceil(settled / interval), mostSlices));
   for (int k = 1; k <= settleSlices; ++k) {
     advanceTo(settled * k / settleSlices);
     if (k <= settlingSeen || k > watch.settlingSnapshots) continue;

@@ -1,5 +1,7 @@
 #include "runs/lockstep/lockstep.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "adapters/registry.hpp"
@@ -71,6 +73,9 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
   const std::vector<FlowState> states =
       statesAlongTheFlow(setup, plan.packings, plan.dt, plan.starts,
                          [&](double fraction) { progress.update(0, "states", fraction); });
+  if (states.size() < plan.starts)
+    progress.say(fmt::format("{} different starts along the flow, of the {} asked for",
+                             states.size(), plan.starts));
   std::vector<KeptTask<LockstepRow>> tasks;
   for (const LockstepEngine& engine : engines)
     tasks.push_back(taskOf(engine, setup, states, plan.dt, store));

@@ -3,7 +3,10 @@
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
-#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "adapters/registry.hpp"
 #include "cases/flow.hpp"
@@ -29,6 +32,11 @@ std::vector<double> timesOf(const Case& setup, std::size_t packing, std::size_t 
   return times;
 }
 
+/// Whether the case's seed makes any number of packings at no cost.
+bool canDrawMore(const Case& setup) {
+  return setup.kind == CaseKind::assembly && !packingsAreFiles(setup);
+}
+
 }  // namespace
 
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
@@ -36,21 +44,31 @@ std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<P
                                           const std::function<void(double)>& progress) {
   const double span = std::min(flowDuration(setup), startSteps * dt);
   std::vector<FlowState> states;
-  for (std::size_t p = 0; p < packings.size(); ++p) {
-    const std::size_t share = count / packings.size() + (p < count % packings.size() ? 1 : 0);
-    if (share == 0) continue;
+  std::set<std::string> seen;
+  const auto addStates = [&](std::size_t p, const Packing& packing, std::size_t share) {
     const auto engine = engineRegistry().front().make();
-    const Scene scene = flowScene(setup, packings[p], dt);
+    const Scene scene = flowScene(setup, packing, dt);
     engine->load(scene, {});
     for (const double time : timesOf(setup, p, share, span)) {
       throwIfInterrupted();
       engine->advance(flowRestart(setup, time));
       const Snapshot now = engine->snapshot(ContactReport::none);
-      FlowState& state = states.emplace_back();
-      state.packing = packingAt(packings[p], scene, now);
-      state.start = {p, now.positionTime, state.packing.wheelAngle};
+      Packing there = packingAt(packing, scene, now);
+      if (!seen.insert(there.hash).second) continue;
+      const LockstepStart start{p, now.positionTime, there.wheelAngle};
+      states.push_back({start, std::move(there)});
       progress(static_cast<double>(states.size()) / static_cast<double>(count));
     }
+  };
+  for (std::size_t p = 0; p < packings.size(); ++p) {
+    const std::size_t share = count / packings.size() + (p < count % packings.size() ? 1 : 0);
+    if (share > 0) addStates(p, packings[p], share);
+  }
+  for (std::size_t p = packings.size(); states.size() < count && canDrawMore(setup); ++p) {
+    const std::size_t before = states.size();
+    const auto none = std::unique_ptr<Engine>();  // nothing is prepared
+    addStates(p, flowPacking(setup, static_cast<int>(p), dt, *none, [](double) {}), count - before);
+    if (states.size() == before) break;
   }
   return states;
 }

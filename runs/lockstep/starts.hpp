@@ -15,7 +15,9 @@ struct FlowState {
 };
 
 /// `count` states of the case's flow as the in-house engine has it: from each packing in turn, one
-/// in each of equal spans of time, at a random moment of it that follows from the case's seed.
+/// in each of equal spans of time, at a random moment of it that follows from the case's seed. No
+/// state comes twice: walls that swing leave few moments to start at, so that an assembly's further
+/// packings are drawn then; there are fewer states where it has none (files, or nothing random).
 /// @param dt  the case's [s]
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
                                           double dt, std::size_t count,

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "cases/case_files.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
@@ -174,6 +175,8 @@ class Suite {
     std::ranges::replace(task.name, ' ', '-');
     task.key = runKey(setup, entry.name, versions_[e]);
     if (!packings_[c].hash.empty()) task.key["packing"] = packings_[c].hash;
+    if (!setup.assembly.starts.files.empty())  // the case has their paths only
+      task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
     const Case& original = originalOf(setup);
     if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
       task.key["held against"] = original.variant;

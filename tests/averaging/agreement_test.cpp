@@ -131,6 +131,15 @@ TEST(ComparePaired, HolmByHand) {
   EXPECT_EQ(family[2]->verdict, Verdict::disagree);
 }
 
+TEST(ComparePaired, WhatIsNoNumberIsNoTestOfTheFamily) {
+  const PairedSample far = differing({9.9, 10.1, 10.2, 9.8}, 1.0);
+  const PairedSample none = differing({NAN, 10.1, 10.2, 9.8}, 1.0);
+  const auto family = comparePaired(std::vector{none, far}, confidence);
+  EXPECT_EQ(family[0]->verdict, Verdict::undecided);
+  EXPECT_EQ(family[1]->verdict, Verdict::disagree);
+  EXPECT_EQ(*family[1]->pDisagree, *compareOne(far).pDisagree);  // as if it were alone
+}
+
 TEST(ComparePaired, FalseAlarmsAreHeldToAlpha) {
   // 20 rings × 4 packings of equal engines. Margin 0 is the hardest null: any disagree is false.
   // α = 5 %, binomial sd of 4000 families 0.34 %: three of them on top.

@@ -83,6 +83,23 @@ TEST(Flow, BeginsAnewWhereSwingingWallsPassTheirMiddle) {
   EXPECT_NEAR(flowRestart(setup, 0.7), 0.5, 1e-15);
 }
 
+TEST(Flow, TellsStartsByTheirFixedDisksToo) {
+  Case setup = swingingBox();
+  const std::string none = packing(setup, 0).hash;
+  setup.assembly.starts.fixedPosition = {{0.5, 0.0}};
+  setup.assembly.starts.fixedRadius = {0.1};
+  const Packing fixed = packing(setup, 0);
+  EXPECT_NE(fixed.hash, none);
+  EXPECT_EQ(expectedPacking(setup, 0, 1e-3).hash, fixed.hash);
+  Snapshot now;
+  now.position = fixed.disks.position;
+  now.velocity = fixed.disks.velocity;
+  now.bodies.resize(2);
+  EXPECT_EQ(packingAt(fixed, flowScene(setup, fixed, 1e-3), now).hash, fixed.hash);
+  setup.assembly.starts.fixedRadius = {0.2};
+  EXPECT_NE(packing(setup, 0).hash, fixed.hash);
+}
+
 TEST(Flow, TakesFilesInTurnWithVelocitiesOfEachPacking) {
   Case setup = swingingBox();
   Disks one;

@@ -77,6 +77,10 @@ TEST_F(Average, SaysWhatIsWrong) {
   expectMessage(
       with("quantity = \"spin\"\nabsolute = 1") + endpoint("quantity = \"spin\"\nabsolute = 1"),
       "two endpoints have this name");
+  expectMessage(scene + slabs + "snapshots = 1000000\n",
+                "average.snapshots = 1000000: 1000000 snapshots would be 2e-06 s apart, less than");
+  expectMessage(scene + withLine(slabs, 7, "from = 2.9999"),
+                "average.from = 2.9999: 100 snapshots");
   expectMessage(scene + "[looks]\ncount = 2\n", "is of no use without [average]");
   expectMessage(scene + withLine(slabs, 7, "from = 3"), "average.from = 3: must be < 3 s");
   expectMessage(withLine(scene, 13, "") + slabs, "no packing would differ from another");
@@ -107,8 +111,20 @@ TEST_F(Average, StartsFromAFile) {
     write("start.csv", text);
     expectMessage(start, message);
   }
+  write("start.csv", "\xEF\xBB\xBFx,y,radius\n0,1,1\n");  // as spreadsheets save it
+  EXPECT_EQ(messageOfText(start), "");
   write("start.csv", "x,y,radius\n0,1,1\n");
   expectMessage(start.substr(0, start.find("density")), "tells no masses");
+  expectMessage(start.substr(0, start.find("file")), "assembly.start.file is missing");
+  const auto of = [&](const std::string& files) {
+    return start.substr(0, start.find("file")) + "file = " + files + "\ndensity = 2\n";
+  };
+  expectMessage(of("[]"), "assembly.start.file: must name one file or more");
+  write("other.csv", "radius,x,y\n1.0,0,1\n");
+  expectMessage(of("[\"start.csv\", \"other.csv\"]"),
+                "other.csv: its disks are those of start.csv: each file must be another start");
+  write("other.csv", "x,y,radius\n0,1.5,1\n");
+  EXPECT_EQ(messageOfText(of("[\"start.csv\", \"other.csv\"]")), "");
   expectMessage(start + scene.substr(scene.find("[[")), "come from one of the two");
 }
 

@@ -15,8 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The in-house engine, a peer that is right until that step of a run, and the peer's mirror.
+/// @param failing  the in-house engine ends its runs halfway, and another one is there
 EndpointFindings compared(const std::string& mischief, std::uint64_t step,
-                          LockstepFindings& lockstep) {
+                          LockstepFindings& lockstep, bool failing = false) {
   const Case setup = loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
                               {"preparation.packings=4", "preparation.shrink_time=0.3",
                                "preparation.rotations=0.1", "averaging.settle_rotations=0.05",
@@ -24,17 +25,23 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
                          .front();
   EngineEntry inHouse = *findEngine("grain"), peer = test::misbehavingEntry(mischief, step),
               mirror = test::misbehavingEntry("none", 0);
-  inHouse.command = mirror.command;  // no program "__serve" here
+  // No program "__serve" here.
+  inHouse.command = failing ? test::misbehavingEntry("exit", 3000).command : mirror.command;
+  EngineEntry another = mirror;
+  another.name = "another";
   mirror.name = "mirror";
   mirror.mirrors = peer.name;
   RunCommand command;
-  command.engines = {inHouse.name, peer.name};
-  command.out = fs::path(testing::TempDir()) / ("canary-" + mischief);
+  std::vector<EngineEntry> entries = {inHouse, peer, mirror};
+  if (failing) entries = {inHouse, another, peer, mirror};
+  for (const EngineEntry& entry : entries)
+    if (entry.mirrors.empty()) command.engines.push_back(entry.name);
+  command.out = fs::path(testing::TempDir()) / ("canary-" + mischief + (failing ? "-failing" : ""));
   command.quiet = true;
   command.jobs = 2;
   fs::remove_all(command.out);
   RunStore store(command, "compare", soleCase(setup));
-  Campaign campaign(setup, command, {inHouse, peer, mirror}, store);
+  Campaign campaign(setup, command, entries, store);
   campaign.askEngines();
   campaign.preparePackings();
   lockstep = lockstepOf(campaign, setup, command, quickLockstepStarts,
@@ -52,6 +59,15 @@ TEST(Canary, LetsAnEngineThatIsRightBeCarried) {
   EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
   for (const EndpointRow& row : found.rows) EXPECT_EQ(row.carrierB, "mirror");
   EXPECT_EQ(found.rows.size(), 9u);
+}
+
+TEST(Canary, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
+  LockstepFindings lockstep;
+  const EndpointFindings found = compared("none", 0, lockstep, true);
+  EXPECT_FALSE(found.responses.empty());
+  for (const EndpointResponse& response : found.responses) EXPECT_EQ(response.packings, 4);
+  ASSERT_EQ(found.carried.size(), 1u);
+  EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
 }
 
 TEST(Canary, CatchesWhatBeginsAfterTheWindows) {

@@ -155,6 +155,37 @@ TEST(EndpointTable, LooksBeginWithTheCasesPackings) {
   EXPECT_EQ(looksOf(setup).packings, std::vector{1});
 }
 
+TEST(EndpointTable, FilesHaveOneLook) {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.average.emplace();
+  setup.looks.count = 2;
+  setup.assembly.starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
+  EXPECT_EQ(looksOf(setup).packings, std::vector{4});
+  setup.assembly.starts.velocityRms = 0.1;  // any number of packings
+  setup.preparation.packings = 6;
+  EXPECT_EQ(looksOf(setup).packings, (std::vector{6, 12}));
+}
+
+TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
+  Case setup = judging("pressure", {0.1, true, "because", ""});
+  setup.averaging.endpoints["spin_at_wheel"] = {0.1, false, "because", ""};
+  const Numbers spin = {-1.0, -1.1, -0.9, -1.0}, far = {1.0, 0.9, 1.1, 1.05};
+  const auto rowsWith = [&](const Numbers& pressure) {
+    return endpointRows(setup, {{"pressure", pressure, pressure}, {"spin_at_wheel", spin, far}},
+                        {"a", "b"}, looksOf(setup));
+  };
+  const auto rows = rowsWith({-2.0, -2.0, -2.0, -2.0});
+  EXPECT_EQ(rows[0].answer, Answer::undecided);
+  EXPECT_EQ(rows[0].packings, 0);
+  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  const auto some = rowsWith({2.0, -2.0, 4.0, 0.0});
+  EXPECT_EQ(some[0].packings, 2);
+  EXPECT_EQ(some[0].lost, 2);
+  EXPECT_EQ(some[0].reference, 3.0);  // of those that are tested
+  EXPECT_EQ(some[1].answer, Answer::disagree);
+}
+
 TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
   const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
   // Two responses of the same 8 packings: 7 degrees of freedom, rms scatter 0.5 margins.

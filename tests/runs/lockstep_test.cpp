@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
+#include <set>
 
 #include "adapters/grain.hpp"
 #include "adapters/registry.hpp"
 #include "cases/couette.hpp"
+#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
@@ -75,6 +78,44 @@ TEST_F(Lockstep, StatesLieInEqualPartsOfTheFlowAndAreTheSameEachTime) {
   const auto again = statesAlongTheFlow(flow_->setup, flow_->packings, flow_->dt, 4, [](double) {});
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(again[k].packing.hash, flow_->states[k].packing.hash);
+}
+
+TEST(LockstepStarts, OfWallsThatSwingAreAllDifferent) {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.law.normal = NormalLaw::linear;
+  setup.law.kn = 100.0;
+  setup.run.dt = 1e-3;
+  DiskGroup group;
+  group.radius = 0.5;
+  group.mass = 1.0;
+  group.velocityRms = 0.1;
+  group.places = {{0.0, 2.0}, {2.0, 2.0}};
+  setup.assembly.disks = {group};
+  setup.assembly.duration = 3.0;
+  WallGroup wall;
+  wall.planes = {{{0.0, 0.0}, Vec2::UnitY()}};
+  wall.motion = {.kind = Motion::Kind::oscillating,
+                 .amplitude = {0.1, 0.0},
+                 .frequency = 2.0 * std::numbers::pi};
+  setup.assembly.walls = {wall};
+  setup.average.emplace();
+  const auto statesOf = [&setup](std::size_t count) {
+    const auto none = std::unique_ptr<Engine>();
+    const std::vector<Packing> one = {flowPacking(setup, 0, 1e-3, *none, [](double) {})};
+    return statesAlongTheFlow(setup, one, 1e-3, count, [](double) {});
+  };
+  // Three periods of 1 s: three places to begin at in each packing.
+  const auto states = statesOf(8);
+  ASSERT_EQ(states.size(), 8u);
+  std::set<std::string> hashes;
+  for (const FlowState& state : states) hashes.insert(state.packing.hash);
+  EXPECT_EQ(hashes.size(), 8u);
+  EXPECT_EQ(states[2].start.packing, 0u);
+  EXPECT_EQ(states[3].start.packing, 1u);
+  EXPECT_EQ(states.back().start.packing, 2u);
+  setup.assembly.disks.front().velocityRms = 0.0;  // no packing differs from another
+  EXPECT_EQ(statesOf(8).size(), 3u);
 }
 
 TEST_F(Lockstep, WithoutAFaultNothingParts) {

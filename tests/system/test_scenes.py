@@ -13,6 +13,34 @@ SHEAR = CASES / "assembly/plane-shear.toml"
 EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/starts"
 SHORT = settings(assembly__duration=0.06, average__from=0.03, average__snapshots=10, preparation__packings=4, looks__count=1, run__mirrors="false")
 
+# A disk that falls on a fixed one, without run.dt.
+FILES = """
+[case]
+kind = "assembly"
+extends = "LAWS/rough.toml"
+[assembly]
+duration = 0.02
+gravity = [0.0, -9.81]
+[assembly.start]
+file = ["start-0.csv", "start-1.csv", "start-2.csv", "start-3.csv"]
+density = 6.4
+[looks]
+count = 2
+[average]
+bins = "whole"
+low = [-0.01, 0.0]
+high = [0.01, 0.02]
+from = 0.01
+snapshots = 5
+[[endpoints]]
+name = "height"
+quantity = "top"
+absolute = 0.001
+why = "a test"
+[run]
+mirrors = false
+"""
+
 
 class Scenes(SystemTest):
     def compare(self, case, *arguments, engines="grain,box2d-penalty"):
@@ -70,6 +98,27 @@ class Scenes(SystemTest):
         bad = self.compare(case)
         self.assert_status(bad, BAD_INPUT)
         self.assertRegex(bad.error_lines()[0], r"start\.csv:5: \w+ = .*: must be a number")
+
+    def test_files_are_counted_once_and_told_apart(self):
+        """Four files are four packings however many looks, need no run.dt, and are not taken up where a fixed disk changed."""
+        for k in range(4):
+            self.write(f"start-{k}.csv", f"x,y,radius,fixed\n0,{0.0077 + 0.0001 * k},0.0037,0\n0,0,0.0037,1\n")
+        case = self.write("case.toml", FILES.replace("LAWS", str(CASES / "laws")))
+        self.assert_status(self.compare(case, engines="grain"), HELD)
+        self.assertEqual(4, len(self.results()["packings"]))
+        before = self.finished_runs()
+        self.assert_status(self.compare(case, engines="grain"), HELD)
+        self.assertEqual(before, self.finished_runs())
+        for k in range(4):
+            start = self.folder / f"start-{k}.csv"
+            start.write_text(start.read_text(encoding="utf-8").replace("0,0,0.0037", "0.001,0,0.0037"), encoding="utf-8")
+        done = self.compare(case, engines="grain")
+        self.assert_one_line(done, BAD_INPUT, "depends on what has changed: packing:", "--fresh")
+
+    def test_check_and_compare_refuse_the_same_step(self):
+        for command in (["check"], ["compare", "--out", self.out, "--quiet"]):
+            done = self.run_program(*command, SHEAR, "--engines", "grain", "--set=run.dt=2e-3")
+            self.assert_one_line(done, BAD_INPUT, "run.dt = 0.002 s is beyond 2/ω")
 
     def test_an_assembly_that_does_not_say_what_is_averaged(self):
         done = self.compare(CASES / "hard/pile.toml")
