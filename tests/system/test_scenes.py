@@ -64,7 +64,7 @@ class Scenes(SystemTest):
         self.assertEqual(expected, endpoints)
         page = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("6 slabs of width", page)
-        self.assertIn("mean of stress_xy / stress_yy over the averaged part", page)
+        self.assertIn("ratio of the means of stress_xy and stress_yy over the averaged part", page)
         first = self.results()["runs"]
         again = self.compare(SHEAR, *SHORT)
         self.assertEqual(done.status, again.status)
