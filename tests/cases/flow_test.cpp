@@ -6,24 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/two_disks.hpp"
+
 namespace crossgrain {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
 Case swingingBox() {
-  Case setup;
-  setup.kind = CaseKind::assembly;
-  setup.law.normal = NormalLaw::linear;
-  setup.law.kn = 100.0;
-  setup.run.dt = 1e-3;
-  DiskGroup group;
-  group.radius = 0.5;
-  group.mass = 1.0;
-  group.radiusSpread = 0.1;
-  group.places = {{0.0, 2.0}, {2.0, 2.0}};
-  setup.assembly.disks = {group};
-  setup.assembly.duration = 3.0;
+  Case setup = test::twoDisks();
+  setup.assembly.disks.front().radiusSpread = 0.1;
   setup.assembly.walls.resize(2);
   setup.assembly.walls[0].planes = {{{0.0, 0.0}, Vec2::UnitY()}};
   setup.assembly.walls[0].motion = {.kind = Motion::Kind::translating, .velocity = {0.0, 0.5}};

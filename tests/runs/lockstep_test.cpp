@@ -20,6 +20,7 @@
 #include "runs/lockstep/rules.hpp"
 #include "tests/runs/planted_engine.hpp"
 #include "tests/runs/quick_flow.hpp"
+#include "tests/support/two_disks.hpp"
 
 namespace {
 
@@ -81,18 +82,8 @@ TEST_F(Lockstep, StatesLieInEqualPartsOfTheFlowAndAreTheSameEachTime) {
 }
 
 TEST(LockstepStarts, OfWallsThatSwingAreAllDifferent) {
-  Case setup;
-  setup.kind = CaseKind::assembly;
-  setup.law.normal = NormalLaw::linear;
-  setup.law.kn = 100.0;
-  setup.run.dt = 1e-3;
-  DiskGroup group;
-  group.radius = 0.5;
-  group.mass = 1.0;
-  group.velocityRms = 0.1;
-  group.places = {{0.0, 2.0}, {2.0, 2.0}};
-  setup.assembly.disks = {group};
-  setup.assembly.duration = 3.0;
+  Case setup = test::twoDisks();
+  setup.assembly.disks.front().velocityRms = 0.1;
   WallGroup wall;
   wall.planes = {{{0.0, 0.0}, Vec2::UnitY()}};
   wall.motion = {.kind = Motion::Kind::oscillating,
