@@ -54,14 +54,33 @@ class MovingWall {
   std::size_t diskCount() const { return wall_.diskX.size(); }
   const std::vector<double>& radii() const { return wall_.diskRadius; }
   bool moves() const { return wall_.moves; }
-  WallPoint disk(std::size_t k) const;
+  WallPoint disk(std::size_t k) const {
+    const auto [dx, dy, distance] = offsets_[k];
+    const double x = cos_ * dx - sin_ * dy;
+    const double y = sin_ * dx + cos_ * dy;
+    if (!radial_ || distance == 0.0)
+      return {now_.x + x, now_.y + y, now_.vx - now_.spin * y, now_.vy + now_.spin * x};
+    const double scale = 1.0 + now_.radialShift / distance;
+    const double rx = scale * x;
+    const double ry = scale * y;
+    const double radial = now_.radialVelocity / (distance * scale);
+    return {now_.x + rx, now_.y + ry, now_.vx - now_.spin * ry + radial * rx,
+            now_.vy + now_.spin * rx + radial * ry};
+  }
   Plane plane(std::size_t k) const;
   /// No member is faster than this now [m/s].
   double speed() const;
 
  private:
+  /// From the wall's centre to a disk at t = 0, and how far that is [m].
+  struct Offset {
+    double x, y, distance;
+  };
+
   Wall wall_;
   WallState start_, now_;
+  std::vector<Offset> offsets_;  ///< of the disks
+  bool radial_ = false;          ///< disks are shifted along their offsets, or move along them
   double cos_ = 1.0, sin_ = 0.0;
   double reach_ = 0.0;  ///< of the farthest disk from the centre [m]
 };
