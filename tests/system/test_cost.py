@@ -11,8 +11,10 @@ from harness import (
     COLLISION,
     HELD,
     INTERRUPTED,
+    PATIENCE,
     SystemTest,
     settings,
+    wait_for,
 )
 
 COST = CASES / "cost/quick.toml"
@@ -149,11 +151,14 @@ class Resume(CostTest):
 
     def test_interrupted_it_keeps_what_it_has(self):
         running = self.start(*self.arguments(*settings(cost__timed=0.2, cost__repeats=3)))
-        running.worker_at_work("grain", 1.5, stage="measuring, one at a time")
+        wait_for(self.has_collision_of_grain, PATIENCE, "a point that is measured")
         os.kill(running.process.pid, signal.SIGINT)
         done = self.check_no_crash(running.end())
         self.assert_one_error(done, INTERRUPTED, "the same command goes on")
-        self.assertTrue(any(name.startswith("collision-grain") for name in self.finished_runs()))
+        self.assertTrue(self.has_collision_of_grain())
+
+    def has_collision_of_grain(self):
+        return any(name.startswith("collision-grain") for name in self.finished_runs())
 
 
 class BadInput(CostTest):
