@@ -47,10 +47,11 @@ struct Preparation {
   std::string engine;  ///< that prepares them; empty: the in-house one
   int packings = 4;
   std::uint64_t seed = 1;
-  double dilation = 1.25;   ///< R_prepare / R_o
-  double velocity = 0.05;   ///< rms of each component of the initial velocities [m/s]
-  double shrinkTime = 1.0;  ///< in which the ring goes from R_prepare to R_o [s]
-  double rotations = 2.0;   ///< of the wheel, after the ring has reached R_o
+  double dilation = 1.25;    ///< R_prepare / R_o
+  double velocity = 0.05;    ///< rms of each component of the initial velocities [m/s]
+  double shrinkTime = 1.0;   ///< in which the ring goes from R_prepare to R_o [s]
+  double rotations = 2.0;    ///< of the wheel, after the ring has reached R_o
+  std::optional<double> dt;  ///< time step of all that [s]; absent: that of the runs
 };
 
 /// How far apart two engines may be in one field and still agree.

@@ -111,16 +111,20 @@ void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
 /// Runs that no machine ends are mistyped numbers.
 void checkLength(const Reader& cell, const Case& c) {
   constexpr double mostSteps = 1e12;
-  const double rotations =
-      c.preparation.rotations + c.averaging.settleRotations + c.averaging.rotations;
-  const double time =
-      c.preparation.shrinkTime + rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
-  const double steps = time / timeStep(c);
+  const double rotations = c.averaging.settleRotations + c.averaging.rotations;
+  const double time = rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
+  const double steps = preparationSteps(c) + time / timeStep(c);
   if (!(steps <= mostSteps))
     cell.fail("omega",
               fmt::format("preparation, settling and averaging would take {:.3g} steps: at "
                           "most {:g}",
                           steps, mostSteps));
+}
+
+void checkPreparation(const Reader& preparation, const Case& c) {
+  if (!c.preparation.dt) return;
+  const std::string why = whyUnstableStep(c, *c.preparation.dt, "dt");
+  if (!why.empty()) preparation.fail("dt", why);
 }
 
 /// A plate without friction is none.
@@ -148,6 +152,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   readCost(cost, c.cost);
   checkDamping(law, c);
   checkFit(cell, particles, c);
+  checkPreparation(preparation, c);
   if (c.run.dt || !c.particles.file) checkLength(cell, c);
 }
 

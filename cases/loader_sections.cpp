@@ -132,6 +132,8 @@ void readPreparation(Reader& in, Preparation& preparation) {
   in.read("velocity", preparation.velocity, atLeast(0.0, "m/s"));
   in.read("shrink_time", preparation.shrinkTime, positive("s"));
   in.read("rotations", preparation.rotations, atLeast(0.0));
+  if (in.has("dt")) in.read("dt", preparation.dt.emplace(), positive("s"));
+  in.take("dt");
   in.finish();
 }
 

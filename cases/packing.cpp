@@ -45,7 +45,7 @@ std::string contentHash(const Packing& packing) {
 
 std::string packingHash(const Case& setup, int index, double dt) {
   // The leading tag changes whenever the preparation itself does.
-  std::string text = fmt::format("preparation 2; dt {};", dt);
+  std::string text = fmt::format("preparation 2; dt {};", setup.preparation.dt.value_or(dt));
   const ContactLaw& law = setup.law;
   for (const LawOption& option : lawOptions())
     text += fmt::format("{} {};", option.name, option.values[option.get(law)]);

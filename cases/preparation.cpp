@@ -11,6 +11,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparer.hpp"
+#include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/random.hpp"
@@ -109,12 +110,11 @@ Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
   const Random random = randomStream(setup.preparation.seed, static_cast<std::uint64_t>(index));
   placeAtRandom(packing.disks, setup, random.get());
 
-  const Scene scene = diluteScene(setup, packing.disks, dt);
+  const Scene scene = diluteScene(setup, packing.disks, setup.preparation.dt.value_or(dt));
   checkStart(scene, setup.particles,
              setup.file.string() + ": preparation.dilation leaves too little room");
   load(engine, setup, scene);
-  const double rotation = 2.0 * std::numbers::pi / std::abs(setup.cell.omega);
-  const double end = setup.preparation.shrinkTime + setup.preparation.rotations * rotation;
+  const double end = preparationTime(setup);
   // Where the engine stops is part of what a packing is: other slices give other bits.
   constexpr int slices = 200;
   for (int slice = 1; slice <= slices; ++slice) {

@@ -11,6 +11,7 @@ namespace crossgrain::inline cases {
 /// Prepares packing `index` of a case as Lätzel (2003, section 3.3) does: disks on a dilute
 /// triangular lattice with random velocities, wheel turning, ring shrinking from R_prepare to R_o,
 /// then some rotations.
+/// @param dt        the step, where [preparation] says none [s]
 /// @param engine    does the work, on the scene as far as the case lets engines differ
 /// @throws UnsupportedScene, EngineFailure, BadInput
 /// @param progress  told the fraction done, 0 … 1

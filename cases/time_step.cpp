@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cases/collision_scene.hpp"
 #include "oracle/impact.hpp"
@@ -44,6 +45,15 @@ double timeStep(const Case& c) {
   if (c.kind == CaseKind::collision) return collisionTimeSteps(c).front();
   if (c.run.dt) return *c.run.dt;
   return contactTime(c.law, lightestReducedMass(c)) / c.run.stepsPerContact;
+}
+
+double preparationTime(const Case& c) {
+  const Preparation& how = c.preparation;
+  return how.shrinkTime + how.rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
+}
+
+double preparationSteps(const Case& c) {
+  return preparationTime(c) / (c.preparation.dt ? *c.preparation.dt : timeStep(c));
 }
 
 ImpactTimes impactTimes(const Case& c) {

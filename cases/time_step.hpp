@@ -25,4 +25,10 @@ ImpactTimes impactTimes(const Case& c);
 /// steps_per_contact, or the one [run] dt of a rigid law [s].
 std::vector<double> collisionTimeSteps(const Case& c);
 
+/// How long a cell is shrunk and sheared until its packing is prepared [s].
+double preparationTime(const Case& c);
+
+/// Time steps that this takes, of [preparation] dt or, without one, of timeStep().
+double preparationSteps(const Case& c);
+
 }  // namespace crossgrain::inline cases

@@ -169,9 +169,7 @@ json predictionOf(const Case& setup, const Asked& asked, const json& engines,
                             : briefTiming(*startEngine(inHouse, scratch, setup.run.timeout),
                                           inHouse, setup, asked.scene)
                                   .secondsPerStep;
-    const double time =
-        setup.preparation.shrinkTime + setup.preparation.rotations * rotationTime(setup);
-    preparing = packings * step * time / timeStep(setup);
+    preparing = packings * step * preparationSteps(setup);
   }
   return {{"timed_on", asked.packing},
           {"preparing_s", preparing},

@@ -31,11 +31,10 @@ constexpr double besidesSteps = 1.2;
 /// Sizes of a run that its time goes by: steps of the case's dt, the ring's shrinking included,
 /// times disks.
 double workOf(const Case& setup) {
-  const double time =
-      setup.preparation.shrinkTime +
-      (setup.preparation.rotations + setup.averaging.settleRotations + setup.averaging.rotations) *
-          rotationTime(setup);
-  return time / timeStep(setup) * (setup.particles.small + setup.particles.large);
+  const double run =
+      (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
+  return (preparationSteps(setup) + run / timeStep(setup)) *
+         (setup.particles.small + setup.particles.large);
 }
 
 /// What is left of a run that has come to that time [s]: of a whole one 1, and never nothing.

@@ -7,6 +7,7 @@
 #include "adapters/grain.hpp"
 #include "cases/preparation.hpp"
 #include "cases/preparer.hpp"
+#include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "tests/support/laws.hpp"
 
@@ -71,6 +72,32 @@ TEST(Couette, PreparationFillsTheCell) {
   // Ω·(shrink time + 0.01 rotations), to the steps that make up that time.
   EXPECT_NEAR(packing.wheelAngle, 0.1 + 0.01 * 2.0 * std::numbers::pi, 4e-5);
   EXPECT_NO_THROW(checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "here"));
+}
+
+TEST(Couette, PackingsOfAStepOfTheirOwnAreTheSameForAnyRun) {
+  Case setup = quickCell();
+  const std::string byTheRuns = packingHash(setup, 0, 8e-5);
+  setup.preparation.dt = 8e-5;
+  EXPECT_EQ(packingHash(setup, 0, 4e-5), byTheRuns);
+  EXPECT_EQ(packingHash(setup, 0, 1e-5), byTheRuns);
+  setup.preparation.rotations = 0.0;
+  const auto prepared = [&](double dt) {
+    return preparePacking(setup, 0, dt, *makeGrain(), [](double) {}).disks.position;
+  };
+  EXPECT_EQ(prepared(4e-5), prepared(1e-5));
+  const auto withOwn = prepared(4e-5);
+  setup.preparation.dt.reset();
+  EXPECT_EQ(prepared(8e-5), withOwn);
+  EXPECT_NE(prepared(4e-5), withOwn);
+}
+
+TEST(Couette, PreparingTakesTheRingsTimeAndTheWheels) {
+  Case setup = quickCell();  // 0.1 s and 2π/100 s
+  EXPECT_NEAR(preparationTime(setup), 0.1 + 0.0628319, 1e-7);
+  setup.run.dt = 4e-5;
+  EXPECT_NEAR(preparationSteps(setup), 4070.8, 0.1);
+  setup.preparation.dt = 8e-5;
+  EXPECT_NEAR(preparationSteps(setup), 2035.4, 0.1);
 }
 
 TEST(Couette, PackingsDifferBySeedAndRepeatByIt) {

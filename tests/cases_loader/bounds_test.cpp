@@ -16,7 +16,7 @@ TEST_F(LoaderErrors, NotANumberIsSaidOfEveryNumberOfEverySection) {
   const std::string whole = plus(
       "inertia_factor = 0.5\nmax_overlap = 0.2\n[bottom]\nmu = 2e-5\nkb = 267.1\ngb = 0.15\n"
       "tau_m = 1e-4\ngravity = 9.81\n[preparation]\ndilation = 1.25\nvelocity = 0.05\n"
-      "shrink_time = 1.0\nrotations = 2.0\n[averaging]\nline_width = 0.5\n"
+      "shrink_time = 1.0\nrotations = 2.0\ndt = 1e-5\n[averaging]\nline_width = 0.5\n"
       "settle_rotations = 0.25\nrotations = 1.0\nconfidence = 0.95\n[averaging.margins]\n"
       "spin = { relative = 0.1, why = \"w\" }\n[run]\ntimeout = 120.0\n"
       "steps_per_contact = 50.0\n[cost]\nspeed = 0.01\nomega = [0.5]\n[engines.grain]\n"
@@ -39,6 +39,14 @@ TEST_F(LoaderErrors, NotANumberIsSaidOfEveryNumberOfEverySection) {
     }
   }
   EXPECT_GT(tried, 100);
+}
+
+// 2/ω of two small disks on the sound case's k_n: 2 √(m/2 / k_n), whatever the runs' own step is.
+TEST_F(LoaderErrors, StepOfPreparingThatNoContactBears) {
+  write("case.toml", plus("[preparation]\ndt = 1e-2\n"));
+  const std::string message = messageOf("case.toml");
+  EXPECT_TRUE(message.starts_with("case.toml:25:6: preparation.dt = ")) << message;
+  EXPECT_NE(message.find("no soft law is stable there"), std::string::npos) << message;
 }
 
 TEST_F(LoaderErrors, MinusZeroIsZero) {
