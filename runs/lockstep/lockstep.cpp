@@ -70,9 +70,9 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
                                     const LockstepPlan& plan, const RunStore& store,
                                     Progress& progress) {
   progress.begin("finding states of the flow", {1.0});
-  const std::vector<FlowState> states =
-      statesAlongTheFlow(setup, plan.packings, plan.dt, plan.starts,
-                         [&](double fraction) { progress.update(0, "states", fraction); });
+  const std::vector<FlowState> states = statesAlongTheFlow(
+      setup, plan.packings, plan.dt, plan.starts,
+      [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
   if (states.size() < plan.starts)
     progress.say(fmt::format("{} different starts along the flow, of the {} asked for",
                              states.size(), plan.starts));

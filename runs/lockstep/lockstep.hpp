@@ -24,7 +24,7 @@ struct LockstepPlan {
   std::vector<Packing> packings;  ///< that the flow starts from
   double dt = 0.0;                ///< the case's [s]
   std::size_t starts = 0;
-  int jobs = 1;  ///< engines side by side
+  int jobs = 1;  ///< packings and engines side by side
 };
 
 /// Why an engine has no mirror in this scene; empty: it has one.

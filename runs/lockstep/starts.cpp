@@ -3,6 +3,7 @@
 #include <gsl/gsl_rng.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "runs/lockstep/rules.hpp"
 #include "support/interrupt.hpp"
 #include "support/random.hpp"
+#include "support/task_pool.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
@@ -41,11 +43,11 @@ bool canDrawMore(const Case& setup) {
 
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
                                           double dt, std::size_t count,
-                                          const std::function<void(double)>& progress) {
+                                          const std::function<void(double)>& progress, int jobs) {
   const double span = std::min(flowDuration(setup), startSteps * dt);
-  std::vector<FlowState> states;
-  std::set<std::string> seen;
-  const auto addStates = [&](std::size_t p, const Packing& packing, std::size_t share) {
+  std::atomic<std::size_t> found = 0;
+  const auto statesOf = [&](std::size_t p, const Packing& packing, std::size_t share) {
+    std::vector<FlowState> states;
     const auto engine = engineRegistry().front().make();
     const Scene scene = flowScene(setup, packing, dt);
     engine->load(scene, {});
@@ -54,20 +56,34 @@ std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<P
       engine->advance(flowRestart(setup, time));
       const Snapshot now = engine->snapshot(ContactReport::none);
       Packing there = packingAt(packing, scene, now);
-      if (!seen.insert(there.hash).second) continue;
       const LockstepStart start{p, now.positionTime, there.wheelAngle};
       states.push_back({start, std::move(there)});
-      progress(static_cast<double>(states.size()) / static_cast<double>(count));
+      progress(std::min(1.0, static_cast<double>(++found) / static_cast<double>(count)));
     }
+    return states;
   };
+  std::vector<std::vector<FlowState>> byPacking(packings.size());
+  std::vector<Task> tasks;
   for (std::size_t p = 0; p < packings.size(); ++p) {
     const std::size_t share = count / packings.size() + (p < count % packings.size() ? 1 : 0);
-    if (share > 0) addStates(p, packings[p], share);
+    if (share > 0)
+      tasks.push_back({static_cast<double>(share),
+                       [&, p, share] { byPacking[p] = statesOf(p, packings[p], share); }});
   }
+  runTasks(tasks, jobs);
+
+  std::vector<FlowState> states;
+  std::set<std::string> seen;
+  const auto add = [&](std::vector<FlowState> some) {
+    for (FlowState& state : some)
+      if (seen.insert(state.packing.hash).second) states.push_back(std::move(state));
+  };
+  for (std::vector<FlowState>& some : byPacking) add(std::move(some));
   for (std::size_t p = packings.size(); states.size() < count && canDrawMore(setup); ++p) {
     const std::size_t before = states.size();
     const auto none = std::unique_ptr<Engine>();  // nothing is prepared
-    addStates(p, flowPacking(setup, static_cast<int>(p), dt, *none, [](double) {}), count - before);
+    add(statesOf(p, flowPacking(setup, static_cast<int>(p), dt, *none, [](double) {}),
+                 count - before));
     if (states.size() == before) break;
   }
   return states;

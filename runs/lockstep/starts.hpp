@@ -18,9 +18,12 @@ struct FlowState {
 /// in each of equal spans of time, at a random moment of it that follows from the case's seed. No
 /// state comes twice: walls that swing leave few moments to start at, so that an assembly's further
 /// packings are drawn then; there are fewer states where it has none (files, or nothing random).
-/// @param dt  the case's [s]
+/// @param dt        the case's [s]
+/// @param progress  told the fraction done, from all threads
+/// @param jobs      packings side by side
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
                                           double dt, std::size_t count,
-                                          const std::function<void(double)>& progress);
+                                          const std::function<void(double)>& progress,
+                                          int jobs = 1);
 
 }  // namespace crossgrain::inline runs
