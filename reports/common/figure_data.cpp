@@ -46,15 +46,25 @@ std::string partName(const Figure& figure, std::size_t element, std::size_t plot
   return isMultiplot(figure) ? number + static_cast<char>('a' + plot % 26) : number;
 }
 
-Json pointsOf(const Panel& panel, const Curve& curve) {
+/// What all points of the curve are told by, so that it is told once; empty where they differ.
+std::string commonPlace(const Curve& curve) {
+  if (curve.points.empty()) return {};
+  const std::string& first = curve.points.front().place;
+  const bool same =
+      std::ranges::all_of(curve.points, [&](const Point& point) { return point.place == first; });
+  return same ? first : std::string();
+}
+
+/// @param place  told with the curve
+Json pointsOf(const Panel& panel, const Curve& curve, const std::string& place) {
   Json points = Json::array();
   for (const Point& point : curve.points) {
     if (!drawable(panel, point)) continue;
     Json one = {fewDigits(point.x), fewDigits(point.y)};
     const bool barred = point.error && std::isfinite(*point.error);
-    if (barred || !point.place.empty())
-      one.push_back(barred ? Json(fewDigits(*point.error)) : Json());
-    if (!point.place.empty()) one.push_back(point.place);
+    const bool ownPlace = point.place != place;
+    if (barred || ownPlace) one.push_back(barred ? Json(fewDigits(*point.error)) : Json());
+    if (ownPlace) one.push_back(point.place);
     points.push_back(std::move(one));
   }
   return points;
@@ -74,10 +84,13 @@ Json panelData(const Figure& figure, std::size_t place, const Axes& axes,
     if (const auto key = std::ranges::find(above, curve.name); key != above.end())
       parts.push_back(partName(figure, static_cast<std::size_t>(key - above.begin()) + 1,
                                figure.panels.size()));
-    curves.push_back({{"name", curve.name},
-                      {"owner", ownerOf(curve, legend)},
-                      {"parts", std::move(parts)},
-                      {"points", pointsOf(panel, curve)}});
+    const std::string common = commonPlace(curve);
+    Json data = {{"name", curve.name},
+                 {"owner", ownerOf(curve, legend)},
+                 {"parts", std::move(parts)},
+                 {"points", pointsOf(panel, curve, common)}};
+    if (!common.empty()) data["place"] = common;
+    curves.push_back(std::move(data));
   }
   return {{"box", {axes[0], axes[1], height - axes[3], height - axes[2]}},
           {"x", {axes[4], axes[5]}},

@@ -72,7 +72,8 @@
     const name = document.createElement('b');
     name.textContent = curve.name || (curve.owner >= 0 ? names[curve.owner] : '');
     if (name.textContent) tip.append(name);
-    if (point[3]) line('', point[3]);
+    const place = point[3] || curve.place;
+    if (place) line('', place);
     const barred = typeof point[2] === 'number' ? ' ± ' + inWords(point[2]) : '';  // across, where rows are
     if (panel.rows.length) line('', panel.rows[Math.round(point[1])] || '');
     if (panel.columns.length) line('', panel.columns[Math.round(point[0])] || '');

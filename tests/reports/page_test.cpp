@@ -462,6 +462,22 @@ TEST(FigureData, FindsWhoseCurvesAre) {
   EXPECT_TRUE(figureData(figures[0], "80 540 60\n", legend).is_null());
 }
 
+TEST(FigureData, SaysOnceWhereAllPointsOfACurveAre) {
+  using namespace reports;
+  auto figures = twoPanels();
+  auto& curves = figures[0].panels[0].curves;
+  curves[0].points = {{0.0, 1.0, {}, "", "packing 7"}, {0.5, 2.0, 0.1, "", "packing 7"}};
+  curves[1].points = {{0.0, 1.0, {}, "", "ring 1"}, {0.5, 2.0, {}, "", "ring 2"}};
+  const json data = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", {});
+  const json& told = data["panels"][0]["curves"];
+  EXPECT_EQ(told[0]["place"], "packing 7");
+  EXPECT_EQ(told[0]["points"], json::parse("[[0.0, 1.0], [0.5, 2.0, 0.1]]"));
+  EXPECT_FALSE(told[1].contains("place"));
+  EXPECT_EQ(told[1]["points"],
+            json::parse(R"([[0.0, 1.0, null, "ring 1"], [0.5, 2.0, null, "ring 2"]])"));
+  EXPECT_FALSE(told[2].contains("place"));
+}
+
 TEST(FigureData, LeavesOutAKeyThatThePageHas) {
   using namespace reports;
   auto figures = twoPanels();
