@@ -47,6 +47,7 @@ struct OverviewRow {
   std::string name;
   bool isEngine = true;             ///< else an effect
   std::vector<OverviewCell> cells;  ///< one for each column
+  std::string anchor = {};          ///< of a page that has more of it; empty: none
 };
 
 /// What a state means here, where that is not what it means everywhere.

@@ -14,7 +14,10 @@ namespace crossgrain::reports {
 
 /// For the page, as "overview": part_overview.mustache.
 /// @param engines  of the results: rows that are engines get their colours
-void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines);
+/// @param wrapped  every cell says its question, and those without one are left out: for rows that
+///                 share few questions, and for more than mostColumns of them
+void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines,
+                 bool wrapped = false);
 
 /// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.
 inline constexpr std::size_t mostColumns = 10;

@@ -34,16 +34,12 @@ Json cellView(const Overview& overview, const OverviewCell& cell, const std::str
           {"state", meaningOf(overview, cell.state)}};
 }
 
-bool isWrapped(const Overview& overview) {
-  return overview.columns.size() > mostColumns;
-}
-
 /// What the marks stand for, of those that occur.
-Json legendOf(const Overview& overview) {
+Json legendOf(const Overview& overview, bool wrapped) {
   std::set<CellState> seen;
   for (const OverviewRow& row : overview.rows)
     for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
-  if (isWrapped(overview)) seen.erase(CellState::notApplicable);  // such cells are not there
+  if (wrapped) seen.erase(CellState::notApplicable);  // such cells are not there
   Json legend = Json::array();
   for (const CellState state : seen) {
     const CellLook look = lookOf(state);
@@ -55,8 +51,10 @@ Json legendOf(const Overview& overview) {
 
 }  // namespace
 
-void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines) {
+void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines,
+                 bool wrapped) {
   if (overview.rows.empty() || overview.columns.empty()) return;
+  wrapped = wrapped || overview.columns.size() > mostColumns;
   const std::vector<LineStyle> styles = engineStyles(engines);
   Json columns = Json::array(), rows = Json::array();
   for (const OverviewColumn& column : overview.columns)
@@ -72,6 +70,7 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
     const LineStyle style =
         drawn ? styles[static_cast<std::size_t>(engine - engines.begin())] : LineStyle();
     rows.push_back({{"name", row.name},
+                    {"page", row.anchor},
                     {"isEngine", drawn},
                     {"colour", style.colour},
                     {"dashed", style.dashed},
@@ -80,9 +79,12 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   Json conclusion = Json::array();
   for (const std::string& sentence : overview.conclusion)
     conclusion.push_back(symbolsHtml(sentence));
-  view["overview"] = {{"many", isWrapped(overview)},   {"rowsAre", overview.rowsAre},
-                      {"columns", std::move(columns)}, {"rows", std::move(rows)},
-                      {"legend", legendOf(overview)},  {"conclusion", std::move(conclusion)}};
+  view["overview"] = {{"many", wrapped},
+                      {"rowsAre", overview.rowsAre},
+                      {"columns", std::move(columns)},
+                      {"rows", std::move(rows)},
+                      {"legend", legendOf(overview, wrapped)},
+                      {"conclusion", std::move(conclusion)}};
 }
 
 }  // namespace crossgrain::reports

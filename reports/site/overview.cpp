@@ -21,29 +21,12 @@ constexpr std::size_t mostPlaces = 2;
 constexpr std::array answers = {CellState::bad, CellState::borderline, CellState::undecided,
                                 CellState::modelDifference, CellState::good};
 
-const OverviewRow* rowOf(const Overview& overview, const std::string& engine) {
-  const auto found = std::ranges::find_if(
-      overview.rows, [&](const OverviewRow& row) { return row.isEngine && row.name == engine; });
-  return found == overview.rows.end() ? nullptr : &*found;
-}
-
 /// Questions of a report that came out so for an engine.
 Names questionsWith(const Overview& overview, const OverviewRow& row, CellState state) {
   Names names;
   for (std::size_t k = 0; k < row.cells.size(); ++k)
     if (row.cells[k].state == state) names.push_back(overview.columns[k].name);
   return names;
-}
-
-std::string pageOf(const SiteReport& report) {
-  return report.folder + "/report.html";
-}
-
-/// "compare quick"
-std::string nameOfReport(const SiteReport& report) {
-  const CaseHead& setup = report.digest.head.setup;
-  const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
-  return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
 }
 
 bool tookPart(const SiteReport& report, const std::string& engine) {
@@ -128,6 +111,23 @@ std::vector<std::string> conclusionOf(const Overview& overview, const Names& eng
 
 }  // namespace
 
+const OverviewRow* rowOf(const Overview& overview, const std::string& engine) {
+  const auto found = std::ranges::find_if(
+      overview.rows, [&](const OverviewRow& row) { return row.isEngine && row.name == engine; });
+  return found == overview.rows.end() ? nullptr : &*found;
+}
+
+std::string pageOf(const SiteReport& report) {
+  return report.folder + "/report.html";
+}
+
+/// "compare quick"
+std::string nameOfReport(const SiteReport& report) {
+  const CaseHead& setup = report.digest.head.setup;
+  const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
+  return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
+}
+
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
   std::vector<EngineRow> engines;
   for (const SiteReport& report : reports)
@@ -144,14 +144,15 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
                      {CellState::notApplicable, "not in it"}};
   for (const SiteReport& report : reports)
     overview.columns.push_back({nameOfReport(report), titleOf(report.digest.head), pageOf(report)});
-  for (const EngineRow& engine : siteEngines(reports)) {
-    OverviewRow row{engine.name, true, {}};
-    for (const SiteReport& report : reports) row.cells.push_back(cellOf(report, engine.name));
-    overview.rows.push_back(std::move(row));
-  }
+  const std::vector<EngineRow> all = siteEngines(reports);
+  const std::vector<std::string> pages = enginePages(all);
   Names engines;
-  for (const EngineRow& engine : siteEngines(reports))
-    if (engine.mirrors.empty()) engines.push_back(engine.name);
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    OverviewRow row{all[e].name, true, {}, pages[e]};
+    for (const SiteReport& report : reports) row.cells.push_back(cellOf(report, all[e].name));
+    overview.rows.push_back(std::move(row));
+    if (all[e].mirrors.empty()) engines.push_back(all[e].name);
+  }
   overview.conclusion = conclusionOf(overview, engines);
   return overview;
 }

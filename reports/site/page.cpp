@@ -6,6 +6,7 @@
 
 #include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/common/templates.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
@@ -46,6 +47,42 @@ Json reportRows(const std::vector<SiteReport>& reports) {
   return rows;
 }
 
+/// The name or, where another has it, with a number.
+void addOnce(std::vector<std::string>& names, const std::string& name) {
+  std::string own = name;
+  for (int k = 2; std::ranges::find(names, own) != names.end(); ++k)
+    own = fmt::format("{}-{}", name, k);
+  names.push_back(std::move(own));
+}
+
+/// "0.3.0 in compare quick and cost quick; 0.2.0 in rev quick"
+std::string versionsOf(const std::vector<SiteReport>& reports, const EngineRow& engine) {
+  SaidOf said;
+  for (const SiteReport& report : reports) {
+    const auto& engines = report.digest.engines;
+    const auto own = std::ranges::find(engines, engine.name, &EngineRow::name);
+    if (own != engines.end() && !own->version.empty()) said.add(nameOfReport(report), own->version);
+  }
+  std::string words;
+  for (const auto& [version, where] : said.all())
+    words += fmt::format("{}version {} in {}", words.empty() ? "" : "; ", version, listed(where));
+  return words;
+}
+
+void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesystem::path& site) {
+  const std::vector<EngineRow> engines = siteEngines(reports);
+  const std::vector<std::string> pages = enginePages(engines);
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const EngineRow& engine = engines[e];
+    Json view = {{"style", templates().at("style.css")}, {"title", "crossgrain: " + engine.name},
+                 {"kicker", "crossgrain engine"},        {"heading", engine.name},
+                 {"meta", versionsOf(reports, engine)},  {"mirrors", engine.mirrors},
+                 {"engineSummary", engine.summary}};
+    addOverview(view, engineOverview(reports, engine.name), engines, true);
+    writeFile(site / pages[e], render("engine.html", view));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& results) {
@@ -53,13 +90,16 @@ std::vector<std::string> siteFolders(const std::vector<std::filesystem::path>& r
   for (const std::filesystem::path& folder : results) {
     const auto plain = std::filesystem::absolute(folder).lexically_normal();
     // Of "out/" the last part is empty.
-    const std::string own =
-        (plain.has_filename() ? plain : plain.parent_path()).filename().string();
-    std::string name = forAddress(own);
-    for (int k = 2; std::ranges::find(names, name) != names.end(); ++k)
-      name = fmt::format("{}-{}", forAddress(own), k);
-    names.push_back(std::move(name));
+    addOnce(names,
+            forAddress((plain.has_filename() ? plain : plain.parent_path()).filename().string()));
   }
+  return names;
+}
+
+std::vector<std::string> enginePages(const std::vector<EngineRow>& engines) {
+  std::vector<std::string> names;
+  for (const EngineRow& engine : engines) addOnce(names, "engine-" + forAddress(engine.name));
+  for (std::string& name : names) name += ".html";
   return names;
 }
 
@@ -80,6 +120,7 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
                         std::back_inserter(cases));
   writeFile(site / "junit.xml", junitXml("reports", cases));
   writeFile(site / "summary.md", overviewMarkdown(overview, "crossgrain: " + heading));
+  writeEnginePages(reports, site);
   writeFile(site / "index.html", render("site.html", view));
 }
 

@@ -25,6 +25,15 @@ struct SiteReport {
   std::vector<std::string> tables;  ///< names of its CSV files
 };
 
+/// Where it is, from the site's own pages.
+std::string pageOf(const SiteReport& report);
+
+/// "compare quick"
+std::string nameOfReport(const SiteReport& report);
+
+/// The engine's row; null where the matrix has none.
+const OverviewRow* rowOf(const Overview& overview, const std::string& engine);
+
 /// Of all reports, each once, so that its colour is that of its reports.
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
 
@@ -32,7 +41,14 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
 /// engine, and in how many of its questions.
 Overview siteOverview(const std::vector<SiteReport>& reports);
 
-/// Writes index.html, summary.md and, of all but the thesis, which judges no engine, junit.xml.
+/// One engine's answers: reports × questions, each cell as its report has it.
+Overview engineOverview(const std::vector<SiteReport>& reports, const std::string& engine);
+
+/// Names of the engines' pages, "engine-yade.html", in their order and each once.
+std::vector<std::string> enginePages(const std::vector<EngineRow>& engines);
+
+/// Writes index.html, a page for each engine, summary.md and, of all but the thesis, which judges
+/// no engine, junit.xml.
 /// @throws std::runtime_error where they cannot be written
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site);
 

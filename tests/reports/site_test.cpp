@@ -63,6 +63,48 @@ TEST(SiteOverview, TellsTheGravestAnswerOfEachReport) {
             std::vector<std::string>{"Nothing is open, and nothing falls short, of ours."});
 }
 
+TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
+  using enum CellState;
+  std::vector<SiteReport> reports = {reportOf("collide", good, bad),
+                                     reportOf("compare", undecided, modelDifference),
+                                     reportOf("thesis", bad, bad)};
+  reports[0].digest.overview->rows[0].cells[1].anchor = "scores";
+  reports[1].digest.overview->columns[0].name = "averages";  // a question of its own
+  const Overview ours = engineOverview(reports, "ours");
+  ASSERT_EQ(ours.rows.size(), 3u);
+  ASSERT_EQ(ours.columns.size(), 3u);
+  EXPECT_EQ(ours.columns[2].name, "averages");
+  const auto statesOf = [&](std::size_t row) {
+    std::vector<CellState> states;
+    for (const OverviewCell& cell : ours.rows[row].cells) states.push_back(cell.state);
+    return states;
+  };
+  EXPECT_EQ(statesOf(0), (std::vector{good, bad, notApplicable}));
+  EXPECT_EQ(statesOf(1), (std::vector{notApplicable, modelDifference, undecided}));
+  EXPECT_EQ(ours.rows[0].cells[1].anchor, "collide/report.html#scores");
+  EXPECT_EQ(ours.rows[0].cells[0].anchor, "");
+  EXPECT_EQ(ours.rows[1].anchor, "compare/report.html");
+  // Claims of the thesis are not the engine's.
+  EXPECT_EQ(
+      ours.conclusion,
+      (std::vector<std::string>{
+          "Falls short: 1 question (collide quick).",
+          "Borderline or undecided: 1 question (compare quick).",
+          "Differs by its model, true to the law that it declares: 1 question (compare quick)."}));
+  EXPECT_EQ(engineOverview({reportOf("collide", good, good)}, "ours").conclusion,
+            std::vector<std::string>{"Holds: 2 questions (collide quick)."});
+  const Overview theirs = engineOverview(reports, "theirs");  // no row is its
+  EXPECT_TRUE(theirs.rows.empty());
+  EXPECT_EQ(theirs.conclusion,
+            std::vector<std::string>{"Nothing is judged of it in these reports."});
+}
+
+TEST(EnginePages, HaveNamesForAnAddressEachOnce) {
+  EXPECT_EQ(enginePages({engine("yade"), engine("my engine"), engine("my/engine")}),
+            (std::vector<std::string>{"engine-yade.html", "engine-my-engine.html",
+                                      "engine-my-engine-2.html"}));
+}
+
 TEST(SiteFolders, AreTheirsEachOnceAndFitForAnAddress) {
   EXPECT_EQ(siteFolders({"out/two/", "out/two", "a b#c", ".hidden", "µ"}),
             (std::vector<std::string>{"two", "two-2", "a-b-c", "-hidden", "-"}));
@@ -82,6 +124,10 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
                     std::string("classname=\"") +
                         std::string(page).substr(0, std::string(page).find('/')) + "\""));
   }
+  const std::string engine = readFile(site / "engine-grain.html").value();
+  EXPECT_TRUE(has(index, "href=\"engine-grain.html\""));
+  EXPECT_TRUE(has(engine, "href=\"one-2/report.html#"));
+  EXPECT_FALSE(has(engine, "{{"));
   EXPECT_TRUE(has(index, "href=\"one-2/stability.csv\""));
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
   EXPECT_FALSE(has(index, "{{"));
