@@ -41,7 +41,9 @@ def failures(command, results, engine, errors):
     for row in (results.get("lockstep") or {}).get("rows", []):
         if row["engine"] == engine and row["failure"]:
             said.append(row["failure"])
-    said += [run["reason"] for run in results.get("runs", []) if run.get("engine") == engine and run.get("reason")]
+    said += [run["reason"] for run in results.get("runs", [])
+             if run.get("engine") == engine and run.get("reason")
+             and run.get("status") != "refused" and run.get("verdict") != "stable"]
     return said
 
 
@@ -92,7 +94,7 @@ def named(command, results, engine, fault, errors):
     broken = failures(command, results, engine, errors)
     if broken and "says" in fault and any(re.search(fault["says"], what) for what in broken):
         return "rightly"
-    if command == "conformance" and set(failed_checks(results)) & set(fault.get("checks", [])):
+    if command == "conformance" and set(failed_checks(results)) & {*fault.get("checks", []), *fault.get("later", [])}:
         return "rightly"
     return ""
 
