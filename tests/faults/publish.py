@@ -17,7 +17,7 @@ cmake --build build/release --target planted_faults    # an hour and more
 tests/faults/publish.py --from build/release/planted_faults --to reports/curated/trust
 ```
 
-`table.csv` and `harness.csv` have every row with the sentence that the report says. Seconds are those of the whole command, {machine}.
+`table.csv` and `harness.csv` have every row with the sentence that the report says. Seconds are those of the whole command, {machine}.{note}
 
 """
 
@@ -36,7 +36,7 @@ def machine_of(records):
 
 
 def machine_words(machine):
-    return machine if isinstance(machine, str) else str(machine.get("cpu", machine.get("processor", "one machine")))
+    return f"{machine.get('cores', '?')} cores of {machine.get('cpu', 'an unknown kind')}"
 
 
 def harness_table(path):
@@ -66,11 +66,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--from", dest="source", type=pathlib.Path, required=True)
     parser.add_argument("--to", type=pathlib.Path, required=True)
+    parser.add_argument("--note", default="", help="a sentence on how it was run")
     options = parser.parse_args()
     source, to = options.source, options.to
     to.mkdir(parents=True, exist_ok=True)
     records = source / "records"
-    page = head.format(versions=versions_of(records), machine=machine_of(records))
+    page = head.format(versions=versions_of(records), machine=machine_of(records), note=options.note and " " + options.note)
     page += "## In the engine\n\n" + (source / "totals.md").read_text() + "\n"
     page += "✓ found, · not found, – not measured; *named* or *misnamed* what was planted.\n\n" + (source / "table.md").read_text()
     files = ["table.csv"]
