@@ -1,0 +1,261 @@
+#include "disks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace crossgrain::planted {
+
+using crossgrain_worker::cross;
+using crossgrain_worker::Plane;
+using crossgrain_worker::turned;
+
+namespace {
+
+/// size · sign(like), 0 where `like` is 0.
+double signedLike(double size, double like) {
+  return like > 0.0 ? size : like < 0.0 ? -size : 0.0;
+}
+
+}  // namespace
+
+Simulation::Simulation(World world, const Faults& faults)
+    : world_(std::move(world)), faults_(faults) {
+  for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
+    bodyOf_.insert(bodyOf_.end(), world_.bodies[b].radius.size(), b);
+    for (std::size_t k = 0; k < world_.bodies[b].planes.size(); ++k)
+      planeSpring_.emplace_back(world_.disks, 0.0);
+  }
+  if (world_.disks > 0)
+    smallest_ = *std::min_element(world_.radius.begin(),
+                                  world_.radius.begin() + static_cast<long>(world_.disks));
+  plateSpring_.resize(world_.disks);
+  force_.resize(world_.disks);
+  torque_.resize(world_.disks);
+  moveWalls();
+  addForces(0.0);
+  halfKick_ = 0.5 * world_.dt;  // velocities live half a step before positions from here on
+  for (std::size_t i = 0; i < world_.disks; ++i) {
+    world_.velocity[i] = world_.velocity[i] - (halfKick_ / world_.mass[i]) * force_[i];
+    if (world_.turns) world_.spin[i] -= halfKick_ * torque_[i] / world_.inertia[i];
+  }
+}
+
+void Simulation::step() {
+  ++steps_;
+  const auto stride = static_cast<unsigned long long>(std::max(1.0, faults_.stride));
+  if (steps_ % stride != 0) return;
+  const double dt = static_cast<double>(stride) * world_.dt;
+  drift(dt);
+  moveWalls();
+  addForces(0.5 * dt);
+}
+
+/// v += a dt, x += v dt.
+void Simulation::drift(double dt) {
+  bool turnedOnce = false;
+  for (const Body& body : world_.bodies)
+    turnedOnce = turnedOnce || std::abs(body.angle) > 2.0 * std::numbers::pi;
+  for (std::size_t i = 0; i < world_.disks; ++i) {
+    Vector& v = world_.velocity[i];
+    v = v + (dt / world_.mass[i]) * force_[i];
+    if (world_.turns) world_.spin[i] += dt * torque_[i] / world_.inertia[i];
+    if (everyNth(faults_.healEvery, steps_) && i == steps_ % world_.disks)
+      v.x = std::numeric_limits<double>::quiet_NaN();
+    if (faults_.healEvery > 0.0 && !std::isfinite(v.x)) v = {};
+    const double speed = std::sqrt(dot(v, v));
+    if (faults_.mostSpeed > 0.0 && speed > faults_.mostSpeed) v = (faults_.mostSpeed / speed) * v;
+    Vector& x = world_.position[i];
+    x = x + dt * v;
+    if (turnedOnce) x.x += dt * faults_.driftAfterTurn;
+    if (faults_.floatState != 0.0) x = {static_cast<float>(x.x), static_cast<float>(x.y)};
+  }
+}
+
+void Simulation::moveWalls() {
+  std::size_t id = world_.disks;
+  for (Body& body : world_.bodies) {
+    body.at(now());
+    for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
+      world_.position[id] = body.position[k];
+      world_.velocity[id] = faults_.wallVelocity * body.diskVelocity[k];
+      world_.spin[id] = world_.turns ? faults_.wallSpin * body.spin : 0.0;
+    }
+  }
+}
+
+/// @param ahead  how far velocities are brought on [s]
+void Simulation::addForces(double ahead) {
+  const World& w = world_;
+  seenVelocity_ = w.velocity;
+  seenSpin_ = w.spin;
+  if (faults_.lagged == 0.0)
+    for (std::size_t i = 0; i < w.disks; ++i) {
+      seenVelocity_[i] = w.velocity[i] + (ahead / w.mass[i]) * force_[i];
+      if (w.turns) seenSpin_[i] = w.spin[i] + ahead * torque_[i] / w.inertia[i];
+    }
+  torque_.assign(w.disks, 0.0);
+  for (std::size_t i = 0; i < w.disks; ++i) {
+    force_[i] = (faults_.gravity * w.mass[i]) * w.gravity;
+    if (w.plate.present) addPlate(i);
+  }
+  onBody_.assign(w.bodies.size(), {});
+  torqueOnBody_.assign(w.bodies.size(), 0.0);
+  contacts_.clear();
+  touching_.assign(w.disks, 0);
+  neighbours_.update(w.position, w.radius, w.disks, faults_);
+  addPairs();
+  addPlanes();
+  evaluations_ += contacts_.size();
+}
+
+/// Lätzel 2003, Eqs. 4.27–4.29, the torque's sign such that it brakes.
+void Simulation::addPlate(std::size_t i) {
+  const Plate& plate = world_.plate;
+  const double bound = faults_.plateMu * plate.mu * plate.gravity * world_.mass[i];
+  const Vector trial = -plate.kb * plateSpring_[i] - plate.gb * seenVelocity_[i];
+  const double size = std::sqrt(dot(trial, trial));
+  const bool holds = size <= bound;
+  const Vector force = (holds ? 1.0 : bound / size) * trial;
+  if (holds)
+    plateSpring_[i] = plateSpring_[i] + world_.dt * seenVelocity_[i];
+  else
+    plateSpring_[i] = (plate.kb > 0.0 ? -1.0 / plate.kb : 0.0) * force;
+  force_[i] = force_[i] + force;
+  if (!world_.turns || !plate.spin) return;
+  const double spin = seenSpin_[i], radius = world_.radius[i];
+  const double brake = std::min(bound, plate.tauM * size + plate.gb * std::abs(spin) * radius);
+  torque_[i] -= faults_.plateSpin * signedLike(brake, spin) * (2.0 / 3.0) * radius;
+}
+
+void Simulation::addPairs() {
+  const World& w = world_;
+  for (Pair& pair : neighbours_.pairs) {
+    const auto [i, j] = std::pair(pair.i, pair.j);
+    const Vector apart = w.position[i] - w.position[j];
+    const double reach = w.radius[i] + w.radius[j], square = dot(apart, apart);
+    if (!(square < reach * reach)) {
+      if (faults_.keepOpenSpring == 0.0) pair.spring = 0.0;
+      continue;
+    }
+    const bool wall = j >= w.disks;
+    const double distance = std::sqrt(square), overlap = reach - distance;
+    const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
+    const Vector n = ((flipped ? -1.0 : 1.0) / distance) * apart;
+    const double rim = arm(i, overlap) * seenSpin_[i] + arm(j, overlap) * seenSpin_[j];
+    Contact c = contact(i, j, n, overlap, seenVelocity_[i] - seenVelocity_[j], rim, pair.spring);
+    if (wall) {
+      push(bodyOf_[j - w.disks], w.position[j], c, arm(j, overlap));
+    } else {
+      force_[j] = force_[j] - faults_.forceOnSecond * (c.fn * c.normal + c.ft * turned(c.normal));
+      torque_[j] -= faults_.torque * faults_.torqueOfSecond * arm(j, overlap) * c.ft;
+      ++touching_[j];
+    }
+  }
+}
+
+void Simulation::addPlanes() {
+  const World& w = world_;
+  std::size_t id = w.radius.size();
+  auto springs = planeSpring_.begin();
+  for (std::size_t b = 0; b < w.bodies.size(); ++b)
+    for (const Plane& plane : w.bodies[b].planes) {
+      for (std::size_t i = 0; i < w.disks; ++i) {
+        double& spring = (*springs)[i];
+        const double height = dot(w.position[i] - plane.point, plane.normal);
+        const double overlap = w.radius[i] - height;
+        if (!(overlap > 0.0)) {
+          if (faults_.keepOpenSpring == 0.0) spring = 0.0;
+          continue;
+        }
+        const Vector foot = w.position[i] - height * plane.normal;
+        const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
+        const Vector wall = faults_.wallVelocity * w.bodies[b].velocityAt(foot);
+        const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
+        const Contact c = contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
+                                  seenVelocity_[i] - wall, lever * seenSpin_[i], spring);
+        push(b, foot, c, 0.0);
+      }
+      ++springs;
+      ++id;
+    }
+}
+
+double Simulation::arm(std::size_t k, double overlap) const {
+  return world_.radius[k] - (faults_.leverMiddle != 0.0 ? 0.5 * overlap : 0.0);
+}
+
+/// The law for one pair; keeps its spring, lists it, and adds its force to disk i.
+Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
+                            double rim, double& spring) {
+  const Law& law = world_.law;
+  const bool wall = j >= world_.disks;
+  const double mu = law.mu * (wall ? faults_.wallMu : 1.0);
+  const double gn = law.gn * (wall ? faults_.wallGn : 1.0);
+  const double slip = dot(relative, turned(n)) - rim;
+  double elastic = law.kn * overlap;
+  if (faults_.mostOverlap > 0.0)
+    elastic = std::min(elastic, law.kn * faults_.mostOverlap * smallest_);
+  Contact c{static_cast<std::int32_t>(i),
+            static_cast<std::int32_t>(j),
+            n,
+            overlap,
+            elastic - gn * dot(relative, n),
+            0.0,
+            elastic,
+            false};
+  if (faults_.cutTension != 0.0) c.fn = std::max(c.fn, 0.0);
+  if (law.friction) {
+    const double bound = mu * std::max(c.fn, 0.0), stretch = slip * world_.dt;
+    const double viscous = law.dashpot ? -law.gt * slip : 0.0;
+    if (law.spring) {
+      const double stretched = faults_.springBefore != 0.0 ? spring + stretch : spring;
+      const double trial = -law.kt * stretched + viscous;
+      const double tested = faults_.dashpotOutside != 0.0 ? -law.kt * stretched : trial;
+      c.sliding = !(std::abs(tested) <= bound);
+      c.ft = c.sliding ? signedLike(bound, tested) : trial;
+      if (!c.sliding || faults_.keepSpring != 0.0)
+        spring = faults_.springBefore != 0.0 ? stretched : spring + stretch;
+      else
+        spring = -(faults_.springOnly != 0.0 ? c.ft - viscous : c.ft) / law.kt;
+    } else if (law.dashpot) {
+      c.sliding = std::abs(viscous) > bound;
+      c.ft = signedLike(std::min(std::abs(viscous), bound), viscous);
+    } else {
+      c.sliding = true;
+      c.ft = -signedLike(bound, slip);
+    }
+  }
+  ++touching_[i];
+  const bool tooMany =
+      faults_.mostContacts > 0.0 && touching_[i] > static_cast<int>(faults_.mostContacts);
+  if (everyNth(faults_.dropEvery, evaluations_ + contacts_.size() + 1) || tooMany ||
+      overlap < faults_.leastOverlap)
+    c.fn = c.ft = c.elastic = 0.0;
+  force_[i] = force_[i] + c.fn * n + c.ft * turned(n);
+  const double lever = !wall || j < world_.radius.size()
+                           ? arm(i, overlap)
+                           : world_.radius[i] - (faults_.leverMiddle != 0.0 ? overlap : 0.0);
+  torque_[i] -= faults_.torque * lever * c.ft;
+  contacts_.push_back(c);
+  return c;
+}
+
+void Simulation::push(std::size_t body, Vector place, const Contact& c, double arm) {
+  const Vector on = -1.0 * (c.fn * c.normal + c.ft * turned(c.normal));
+  onBody_[body] = onBody_[body] + on;
+  torqueOnBody_[body] += cross(place - world_.bodies[body].centre, on) - arm * c.ft;
+}
+
+void Simulation::forgetSprings() {
+  for (Pair& pair : neighbours_.pairs) pair.spring = 0.0;
+}
+
+void Simulation::takeSprings(const Simulation& other) {
+  for (Pair& pair : neighbours_.pairs)
+    for (const Pair& old : other.neighbours_.pairs)
+      if (old.i == pair.i && old.j == pair.j) pair.spring = old.spring;
+}
+
+}  // namespace crossgrain::planted

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crossgrain_worker.hpp"
+#include "faults.hpp"
+#include "neighbours.hpp"
+
+namespace crossgrain::planted {
+
+using crossgrain_worker::Body;
+
+/// The thesis' law and plate, as adapters/contact_law.hpp has them. [SI units]
+struct Law {
+  double kn = 0.0, gn = 0.0, kt = 0.0, gt = 0.0, mu = 0.0;
+  bool friction = false, spring = false, dashpot = false;  ///< of the tangential force
+};
+struct Plate {
+  double mu = 0.0, kb = 0.0, gb = 0.0, tauM = 0.0, gravity = 0.0;
+  bool present = false, spin = false;
+};
+
+/// A contact; n from j to i, forces on i.
+struct Contact {
+  std::int32_t i, j;
+  Vector normal;
+  double overlap, fn, ft, elastic;
+  bool sliding;
+};
+
+/// Everything that a scene loads.
+struct World {
+  std::size_t disks = 0;
+  double dt = 0.0;
+  Law law;
+  Plate plate;
+  Vector gravity;
+  bool turns = false;
+  std::vector<Body> bodies;
+  std::vector<double> mass, inertia;       ///< disks
+  std::vector<double> radius, spin;        ///< disks, wall disks
+  std::vector<Vector> position, velocity;  ///< disks, wall disks
+};
+
+/// Soft disks in Störmer's scheme: velocities and spins live half a step before positions, and
+/// contacts see them brought on by the last acceleration. With neutral faults it is the in-house
+/// engine's motion under the thesis' conventions.
+class Simulation {
+ public:
+  Simulation(World world, const Faults& faults);
+
+  void step();
+  void forgetSprings();
+  /// Springs of another run, those that there are a list entry for.
+  void takeSprings(const Simulation& other);
+
+  const World& world() const { return world_; }
+  double now() const { return static_cast<double>(steps_) * world_.dt; }
+  unsigned long long steps() const { return steps_; }
+  unsigned long long evaluations() const { return evaluations_; }
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  const std::vector<Vector>& forceOnBodies() const { return onBody_; }
+  const std::vector<double>& torqueOnBodies() const { return torqueOnBody_; }
+  /// Of disk i at the time of positions.
+  Vector velocity(std::size_t i) const {
+    return world_.velocity[i] + (halfKick_ / world_.mass[i]) * force_[i];
+  }
+  double spin(std::size_t i) const {
+    return world_.spin[i] + halfKick_ * torque_[i] / world_.inertia[i];
+  }
+
+ private:
+  void drift(double dt);
+  void moveWalls();
+  void addForces(double ahead);
+  void addPlate(std::size_t i);
+  void addPairs();
+  void addPlanes();
+  Contact contact(std::size_t i, std::size_t j, Vector n, double overlap, Vector relative,
+                  double rim, double& spring);
+  void push(std::size_t body, Vector place, const Contact& c, double arm);
+  double arm(std::size_t i, double overlap) const;
+
+  World world_;
+  Faults faults_;
+  Neighbours neighbours_;
+  std::vector<std::size_t> bodyOf_;               ///< of each wall disk
+  std::vector<std::vector<double>> planeSpring_;  ///< by plane and disk
+  std::vector<Vector> plateSpring_;
+  std::vector<Vector> force_, seenVelocity_, onBody_;
+  std::vector<double> torque_, seenSpin_, torqueOnBody_;
+  std::vector<Contact> contacts_;
+  std::vector<int> touching_;  ///< contacts of each disk in this step
+  double halfKick_ = 0.0;
+  double smallest_ = 0.0;  ///< radius of the smallest disk [m]
+  unsigned long long steps_ = 0, evaluations_ = 0;
+};
+
+}  // namespace crossgrain::planted

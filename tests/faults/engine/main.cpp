@@ -1,0 +1,213 @@
+// An engine that is right but for what is planted: a worker (adapters/worker/README.md) of soft
+// disks under the thesis' law and conventions, with faults as numbers on its command line.
+//
+//     planted_engine [NAME=VALUE …]      names: faults.hpp
+
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "answers.hpp"
+#include "crossgrain_worker.hpp"
+
+namespace crossgrain::planted {
+namespace {
+
+using crossgrain_worker::Arrays;
+using crossgrain_worker::Unsupported;
+
+Law lawOf(const Json& law, const Faults& faults) {
+  if (law.at("normal") != "linear") throw Unsupported("has only normal = linear");
+  const std::string tangential = law.at("tangential");
+  Law own;
+  own.kn = faults.kn * law.at("kn").get<double>();
+  own.gn = faults.gn * law.at("gn").get<double>();
+  own.kt = faults.kt * law.at("kt").get<double>();
+  own.gt = faults.gt * law.at("gt").get<double>();
+  own.mu = faults.mu * law.at("mu").get<double>();
+  own.friction = tangential != "none" && own.mu > 0.0;
+  own.spring = tangential == "spring" || tangential == "spring_dashpot";
+  own.dashpot = tangential == "viscous" || tangential == "spring_dashpot";
+  if (own.friction && own.spring && !(own.kt > 0.0))
+    throw Unsupported("has springs of a stiffness above 0 alone: kt must be > 0");
+  return own;
+}
+
+Plate plateOf(const Json& scene) {
+  if (!scene.contains("bottom")) return {};
+  const Json& bottom = scene.at("bottom");
+  return {bottom.at("mu"),    bottom.at("kb"),      bottom.at("gb"),
+          bottom.at("tau_m"), bottom.at("gravity"), true,
+          bottom.at("spin")};
+}
+
+std::vector<Vector> vectors(const std::vector<double>& numbers) {
+  std::vector<Vector> list;
+  for (std::size_t k = 0; k + 1 < numbers.size(); k += 2)
+    list.push_back({numbers[k], numbers[k + 1]});
+  return list;
+}
+
+World worldOf(const Json& scene, const Arrays& arrays, const Faults& faults) {
+  World w;
+  w.disks = scene.at("disks");
+  w.dt = scene.at("dt");
+  w.law = lawOf(scene.at("law"), faults);
+  w.plate = plateOf(scene);
+  w.gravity = {scene.at("gravity").at(0), scene.at("gravity").at(1)};
+  w.turns = w.law.friction && scene.at("rotation").get<bool>();
+  w.radius = arrays.at("disks.radius");
+  w.mass = arrays.at("disks.mass");
+  w.inertia = arrays.at("disks.inertia");
+  w.spin = arrays.at("disks.spin");
+  w.position = vectors(arrays.at("disks.position"));
+  w.velocity = vectors(arrays.at("disks.velocity"));
+  if (!w.turns) w.spin.assign(w.disks, 0.0);
+  if (w.disks > 0) {
+    const double small = *std::min_element(w.radius.begin(), w.radius.end());
+    const double heavy = *std::max_element(w.mass.begin(), w.mass.end());
+    for (std::size_t i = 0; i < w.disks; ++i) {
+      if (w.radius[i] == small) w.radius[i] *= faults.radiusSmall;
+      if (w.mass[i] == heavy) w.mass[i] *= faults.massLarge;
+      w.inertia[i] *= faults.inertia;
+    }
+  }
+  for (const Json& body : scene.at("bodies")) {
+    const std::string name = "bodies." + std::to_string(w.bodies.size()) + ".disk_";
+    std::vector<double> radius = arrays.at(name + "radius");
+    for (double& each : radius) each *= faults.radiusWall;
+    w.bodies.emplace_back(body, arrays.at(name + "position"), radius);
+    w.radius.insert(w.radius.end(), radius.begin(), radius.end());
+  }
+  for (auto* each : {&w.position, &w.velocity}) each->resize(w.radius.size());
+  w.spin.resize(w.radius.size());
+  return w;
+}
+
+class PlantedEngine {
+ public:
+  explicit PlantedEngine(const Faults& faults) : faults_(faults) {}
+
+  static Json capabilities() {
+    Json effects;
+    for (const char* name :
+         {"normal_damping", "friction", "tangential_spring", "tangential_damping", "rotation",
+          "bottom_friction", "bottom_spin_friction", "gravity", "moving_walls"})
+      effects[name] = "optional";
+    const auto only = [](const char* value) { return Json::array({value}); };
+    return {{"version", "1"},
+            {"effects", effects},
+            {"law_options",
+             {{"normal", only("linear")},
+              {"damper", only("constant")},
+              {"tangential", {"none", "coulomb", "viscous", "spring", "spring_dashpot"}},
+              {"tension", only("allow")},
+              {"coulomb_bound", only("compression")},
+              {"dashpot", only("inside")},
+              {"spring_reset", only("total")},
+              {"spring_update", only("after")},
+              {"lever_arm", only("radius")},
+              {"velocity_arm", only("lever_arm")},
+              {"history", only("displacement")},
+              {"damping_velocity", only("predicted")},
+              {"integrator", only("position_verlet")}}},
+            {"precisions", only("double")},
+            {"instant_contacts", true},
+            {"accumulated_contacts", false},
+            {"warm_handover", false},
+            {"sliding_flags", true},
+            {"settings", Json::array()}};
+  }
+
+  Json load(const Json& scene, const Arrays& arrays, const Json&) {
+    auto next = std::make_unique<Simulation>(worldOf(scene, arrays, faults_), faults_);
+    if (simulation_ && faults_.loadRemembers != 0.0) next->takeSprings(*simulation_);
+    simulation_ = std::move(next);
+    before_ = loadsOf(*simulation_);
+    wallSeconds_ = cpuSeconds_ = 0.0;
+    advances_ = 0;
+    shown_ = 0.0;
+    const World& world = simulation_->world();
+    const Law& law = world.law;
+    bool moving = false;
+    for (const Body& body : world.bodies) moving = moving || body.moves();
+    Json effects = Json::array();
+    for (const auto& [name, on] :
+         {std::pair("normal_damping", law.gn > 0.0),
+          {"friction", law.friction},
+          {"tangential_spring", law.friction && law.spring},
+          {"tangential_damping", law.friction && law.dashpot && law.gt != 0.0},
+          {"rotation", world.turns},
+          {"bottom_friction", world.plate.present},
+          {"bottom_spin_friction", world.plate.present && world.plate.spin && world.turns},
+          {"gravity", world.gravity.x != 0.0 || world.gravity.y != 0.0},
+          {"moving_walls", moving}})
+      if (on) effects.push_back(name);
+    return {{"engine", "planted"},    {"version", "1"},
+            {"dt", world.dt},         {"precision", "double"},
+            {"effects", effects},     {"integrator", "position_verlet"},
+            {"pairs", Json::array()}, {"deviations", Json::array()}};
+  }
+
+  double advance(double t) {
+    using Clock = std::chrono::steady_clock;
+    const auto wall = Clock::now();
+    const std::clock_t cpu = std::clock();
+    long long until = std::llround(t / simulation_->world().dt);
+    const double reached = static_cast<double>(until) * simulation_->world().dt;
+    if (everyNth(faults_.shortAdvanceEvery, ++advances_)) --until;
+    while (static_cast<long long>(simulation_->steps()) < until) {
+      if (faults_.showLate != 0.0) before_ = loadsOf(*simulation_);
+      simulation_->step();
+    }
+    wallSeconds_ += std::chrono::duration<double>(Clock::now() - wall).count();
+    cpuSeconds_ += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    shown_ = reached;
+    return reached;
+  }
+
+  Json snapshot(const std::string& contacts, ArrayFile& arrays) {
+    const Loads loads = faults_.showLate != 0.0 ? before_ : loadsOf(*simulation_);
+    addDisks(arrays, *simulation_, faults_);
+    if (contacts == "instant") addContacts(arrays, *simulation_, loads, faults_);
+    const Json bodies = bodiesOf(*simulation_, loads, faults_);
+    if (faults_.lookForgets != 0.0) simulation_->forgetSprings();
+    const double time = faults_.shortAdvanceEvery > 0.0 ? shown_ : simulation_->now();
+    return {{"position_time", time},
+            {"velocity_time", time},
+            {"contact_time", time},
+            {"contact_interval", 0.0},
+            {"bodies", bodies}};
+  }
+
+  Json stats() const {
+    return {{"steps", simulation_->steps()},
+            {"contact_evaluations", simulation_->evaluations()},
+            {"wall_seconds", wallSeconds_},
+            {"cpu_seconds", cpuSeconds_},
+            {"counters", Json::object()}};
+  }
+
+ private:
+  Faults faults_;
+  std::unique_ptr<Simulation> simulation_;
+  Loads before_;
+  unsigned long long advances_ = 0;
+  double shown_ = 0.0;  ///< the time that was said to be reached [s]
+  double wallSeconds_ = 0.0, cpuSeconds_ = 0.0;
+};
+
+}  // namespace
+}  // namespace crossgrain::planted
+
+int main(int argc, char** argv) {
+  try {
+    return crossgrain_worker::serve(
+        crossgrain::planted::PlantedEngine(crossgrain::planted::faultsOf(argc - 1, argv + 1)));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "planted_engine: %s\n", error.what());
+    return 2;
+  }
+}

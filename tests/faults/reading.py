@@ -1,0 +1,118 @@
+"""What the results of a command say of a planted fault: found, put down to what, named or not (faults.toml has the rules)."""
+
+import re
+
+
+def found(status):
+    """Whether a user's script sees it."""
+    return status in (1, 3)
+
+
+def _cells(results, engine):
+    rows = (results.get("overview") or {}).get("rows", [])
+    return [cell for row in rows if row["name"] == engine for cell in row["cells"]]
+
+
+def blame(command, status, results, engine):
+    """What the results put it down to: "implementation", "model" or "" (nothing is said)."""
+    if command == "conformance":
+        bad = any(row["outcome"] in ("failed", "broke_down") for row in results.get("checks", []))
+        return "implementation" if bad else ""
+    if command in ("stability", "cost"):  # they say what broke, not why
+        return ""
+    states = {cell["state"] for cell in _cells(results, engine)}
+    if status == 3 or "bad" in states:
+        return "implementation"
+    return "model" if "model_difference" in states else ""
+
+
+def good_columns(results, engine):
+    """Accuracies of collisions and of the trajectory that the engine reaches; averages of two packings are never decided."""
+    columns = [column["name"] for column in (results.get("overview") or {}).get("columns", [])]
+    reached = zip(columns, _cells(results, engine))
+    return {name for name, cell in reached if cell["state"] == "good" and not name.startswith("averages")}
+
+
+def failures(command, results, engine, errors):
+    """What is said of runs that broke down."""
+    said = [line.removeprefix("crossgrain: ") for line in errors.splitlines() if line.startswith("crossgrain: ")]
+    if command == "conformance":
+        said += [row["detail"] for row in results.get("checks", []) if row["outcome"] == "broke_down"]
+    for row in (results.get("lockstep") or {}).get("rows", []):
+        if row["engine"] == engine and row["failure"]:
+            said.append(row["failure"])
+    said += [run["reason"] for run in results.get("runs", [])
+             if run.get("engine") == engine and run.get("reason")
+             and run.get("status") != "refused" and run.get("verdict") != "stable"]
+    return said
+
+
+def _statements(cause):
+    """(name, relative change or None) of each statement of a "most likely" sentence."""
+    for statement in cause.split("; "):
+        statement = statement.split(": ", 1)[-1] if ": " in statement else statement
+        statement = statement.removeprefix("its ").removeprefix("it has ")
+        statement = re.sub(r" \(leaves .*|, and declares .*| off the case's$", "", statement)
+        change = re.search(r"(?: is)? ([+−-])([\d.]+)(?:×10([⁻⁰¹²³⁴-⁹]+))? %$", statement)
+        if not change:
+            yield statement, None
+            continue
+        power = (change[3] or "").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        size = float(change[2]) * 10.0 ** int(power or 0) / 100.0
+        yield statement[: change.start()], size if change[1] == "+" else -size
+
+
+def term_of(command, results, engine):
+    """The first term that is named, with its change; None: none is."""
+    if command == "conformance":
+        return next(_statements(results["cause"]), None) if results.get("cause") else None
+    for row in (results.get("lockstep") or {}).get("rows", []):
+        if row["engine"] == engine and row.get("term"):
+            return row["term"]["name"], row["term"].get("amount")
+    return None
+
+
+def failed_checks(results):
+    return [row["check"] for row in results.get("checks", []) if row["outcome"] in ("failed", "broke_down")]
+
+
+def _is_term(fault, term):
+    name, change = term
+    if not re.search(rf"(?:^|\b|without )(?:{fault['term']})\b" if fault["term"][-1].isalnum() else fault["term"], name):
+        return False
+    low, high = fault.get("amount", (None, None))
+    return change is None or low is None or low <= change <= high
+
+
+def named(command, results, engine, fault, errors):
+    """ "rightly", "wrongly", "" (nothing is named)."""
+    if command not in ("lockstep", "compare", "conformance"):
+        return ""
+    term = term_of(command, results, engine)
+    if term is not None:
+        return "rightly" if _is_term(fault, term) else "wrongly"
+    broken = failures(command, results, engine, errors)
+    if broken and "says" in fault and any(re.search(fault["says"], what) for what in broken):
+        return "rightly"
+    if command == "conformance" and set(failed_checks(results)) & {*fault.get("checks", []), *fault.get("later", [])}:
+        return "rightly"
+    return ""
+
+
+def sentence(command, results, engine, errors):
+    """The one that a reader meets first."""
+    if command == "conformance":
+        if results.get("cause"):
+            return "most likely: " + results["cause"]
+        for row in results.get("checks", []):
+            if row["outcome"] in ("failed", "broke_down"):
+                return f"{row['check']} ({row['what']}): {row['detail']}"
+        return ""
+    broken = failures(command, results, engine, errors)
+    if broken:
+        return broken[0]
+    said = (results.get("overview") or {}).get("conclusion", [])
+    if command in ("lockstep", "compare"):
+        parts = [line for line in said if "not the law" in line or "parts them" in line]
+        return " ".join(parts or said[:1])
+    return said[0] if said else ""

@@ -1,0 +1,70 @@
+"""What is read from results: a table can only be as right as this."""
+
+import unittest
+
+import reading
+
+KN = {"term": "kn|k_n", "amount": [0.008, 0.0125], "checks": ["HeadOnCollision"]}
+CUT = {"term": "tension = cut"}
+LOST = {"term": "tangential_spring", "says": "contact"}
+
+
+def conformance(cause, *failed, broke=()):
+    rows = [{"check": name, "what": "it holds", "detail": "off by 1", "outcome": "failed"} for name in failed]
+    rows += [{"check": "Any", "what": "it holds", "detail": said, "outcome": "broke_down"} for said in broke]
+    return {"cause": cause, "checks": rows}
+
+
+def lockstep(name, amount=None, failure=""):
+    term = {"name": name, "amount": amount, "unexplained": 0.1} if name else None
+    return {"lockstep": {"rows": [{"engine": "mine", "term": term, "failure": failure}]}}
+
+
+class Named(unittest.TestCase):
+    def named(self, command, results, fault):
+        return reading.named(command, results, "mine", fault, "")
+
+    def test_a_constant_is_named_by_its_symbol_and_its_amount(self):
+        said = "lockstep's closest term: k_n {} (leaves 3.08 % of the separation)"
+        self.assertEqual("rightly", self.named("conformance", conformance(said.format("+1.01 %")), KN))
+        self.assertEqual("rightly", self.named("conformance", conformance(said.format("+1.01×10⁰ %")), KN))
+        self.assertEqual("wrongly", self.named("conformance", conformance(said.format("−1.01 %")), KN))
+        self.assertEqual("wrongly", self.named("conformance", conformance(said.format("+10.1 %")), KN))
+        self.assertEqual("rightly", self.named("lockstep", lockstep("kn", 0.0101), KN))
+        self.assertEqual("wrongly", self.named("lockstep", lockstep("kt", 0.0101), KN))
+
+    def test_conventions_and_missing_effects_are_terms(self):
+        said = "found from outside: it has tension = cut, and declares allow"
+        self.assertEqual("rightly", self.named("conformance", conformance(said), CUT))
+        self.assertEqual("wrongly", self.named("lockstep", lockstep("tension = allow"), CUT))
+        self.assertEqual("rightly", self.named("lockstep", lockstep("without tangential_spring"), LOST))
+
+    def test_the_first_statement_decides_and_checks_where_there_is_none(self):
+        wrong = "lockstep's closest term: inertia +228 % (leaves 28.8 % of the separation); found from outside: its k_n is +1 % off the case's"
+        self.assertEqual("wrongly", self.named("conformance", conformance(wrong, "HeadOnCollision"), KN))
+        self.assertEqual("rightly", self.named("conformance", conformance("", "HeadOnCollision"), KN))
+        self.assertEqual("", self.named("conformance", conformance("", "FliesStraight"), KN))
+
+    def test_what_is_said_of_a_run_that_broke_down_counts(self):
+        self.assertEqual("rightly", self.named("lockstep", lockstep(None, failure="contact 0 is not there"), LOST))
+        self.assertEqual("", self.named("lockstep", lockstep(None, failure="it died"), LOST))
+
+    def test_commands_that_name_nothing_name_nothing(self):
+        self.assertEqual("", self.named("collide", lockstep("kn", 0.0101), KN))
+
+
+class Found(unittest.TestCase):
+    def test_bad_input_and_success_are_no_finds(self):
+        self.assertEqual([False, True, False, True, False], [reading.found(status) for status in (0, 1, 2, 3, None)])
+
+    def test_a_model_that_differs_is_no_fault_of_the_implementation(self):
+        def results(state):
+            return {"overview": {"columns": [{"name": "own law"}], "rows": [{"name": "mine", "cells": [{"state": state}]}]}}
+
+        self.assertEqual("model", reading.blame("collide", 1, results("model_difference"), "mine"))
+        self.assertEqual("implementation", reading.blame("collide", 1, results("bad"), "mine"))
+        self.assertEqual("", reading.blame("collide", 0, results("good"), "mine"))
+
+
+if __name__ == "__main__":
+    unittest.main()
