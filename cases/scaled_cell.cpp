@@ -217,8 +217,8 @@ double growthOf(const Case& setup, double room) {
 
 }  // namespace
 
-Case scaledCase(std::size_t disks) {
-  Case setup = loadCase(dataFolder() / "cases/couette/nu-0.804.toml").front();
+Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides) {
+  Case setup = loadCase(dataFolder() / "cases/couette/nu-0.804.toml", overrides).front();
   Particles& particles = setup.particles;
   const double all = particles.small + particles.large;
   const double growth = growthOf(setup, static_cast<double>(disks) / all);

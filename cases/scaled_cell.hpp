@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
@@ -19,8 +21,9 @@ inline constexpr std::size_t leastScaled = 1000, mostScaled = 20'000'000;
 /// proportion; the wheel turns slower, so that its rim keeps its speed. What is kept is ν̄ of the
 /// room that the walls leave: at the same ν̄ of the whole ring, of which walls take less and less, a
 /// large cell falls below the transition and its disks hardly touch.
+/// @param overrides  as of loadCase(), of what has nothing to do with how many disks there are
 /// @throws BadInput as loadCase()
-Case scaledCase(std::size_t disks);
+Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides = {});
 
 /// That cell filled, at rest in the bulk, with the thesis' law, bottom plate and time step; the
 /// packing is kept in `folder` as an HDF5 file that is also a `particles.file` of a case, or made

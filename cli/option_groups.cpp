@@ -150,12 +150,16 @@ void addSnapshots(CLI::App& app, CommandLine& line) {
 }
 
 void addRun(CLI::App& app, CommandLine& line, const char* usual) {
-  addEngines(app, line, usual);
-  addResults(app, line);
+  addRunInTurn(app, line, usual);
   constexpr int mostJobs = 4096;
   app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
       ->type_name("N")
       ->check(wholeNumber(1, mostJobs));
+}
+
+void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
+  addEngines(app, line, usual);
+  addResults(app, line);
   addQuiet(app, line);
   app.add_flag("--dry-run", line.run.dryRun,
                "say what would run, and what is finished; compute and write nothing");

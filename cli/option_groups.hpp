@@ -59,6 +59,9 @@ void addSnapshots(CLI::App& app, CommandLine& line);
 /// @param usual  engine where none is named; null: they must be
 void addRun(CLI::App& app, CommandLine& line, const char* usual = nullptr);
 
+/// The same without --jobs: of a command that times one engine at a time.
+void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual = nullptr);
+
 void addQuiet(CLI::App& app, CommandLine& line);
 
 /// Of all commands that run engines on packings: --seed, --quick.
