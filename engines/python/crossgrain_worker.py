@@ -69,10 +69,13 @@ def one_line(error):
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 
-def serve(engine):
-    """Answers requests until "quit" or until they end."""
-    with os.fdopen(3, "r", encoding="utf-8") as requests, os.fdopen(
-        4, "w", encoding="utf-8"
+def serve(engine, answer=answer, descriptors=(3, 4)):
+    """Answers requests until "quit" or until they end.
+
+    answer       may be another function of engine and request
+    descriptors  to read requests from and write replies to"""
+    with os.fdopen(descriptors[0], "r", encoding="utf-8") as requests, os.fdopen(
+        descriptors[1], "w", encoding="utf-8"
     ) as replies:
         for line in requests:
             request = json.loads(line)
