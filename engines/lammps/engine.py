@@ -92,6 +92,10 @@ class Engine:
         self.rotation = self.law.friction and scene["rotation"]
         self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.law, self.rotation)
 
+    def forget_arrays(self):
+        """Of who makes snapshots alone: nothing of a scene's disks but their radii."""
+        self.made.arrays = self.mass = self.inertia = None
+
     def load(self, scene, arrays, settings):
         self.take(scene, arrays, settings)
         self.lammps.command("clear")

@@ -47,15 +47,20 @@ class Lammps:
     def close(self):
         self.library.lammps_close(self.handle)
 
+    def end_mpi(self):
+        """Once, last of all: mpirun takes a rank for broken that ends without."""
+        self.library.lammps_mpi_finalize()
+
     def create_atoms(self, kind, position):
         """Atoms 1, 2, … of the given types at the rows of `position` (n, 3)."""
         n = len(kind)
+        ids = np.arange(1, n + 1, dtype=np.int32)  # several ranks would number them in another order
         kind = np.ascontiguousarray(kind, np.int32)
         position = np.ascontiguousarray(position, float)
         made = self.library.lammps_create_atoms(
             self.handle,
             n,
-            None,
+            ids.ctypes.data_as(ctypes.c_void_p),
             kind.ctypes.data_as(ctypes.c_void_p),
             position.ctypes.data_as(ctypes.c_void_p),
             None,

@@ -22,6 +22,10 @@ class Unsupported(Exception):
     """The engine cannot do what the scene calls for; the text names the first such thing."""
 
 
+class Failed(Exception):
+    """The engine failed; the text says it all."""
+
+
 def read_arrays(path, entries):
     """The arrays of an array file by name."""
     with open(path, "rb") as file:
@@ -83,6 +87,8 @@ def serve(engine, answer=answer, descriptors=(3, 4)):
                 reply = {"ok": True, **answer(engine, request)}
             except Unsupported as refusal:
                 reply = {"ok": False, "kind": "unsupported", "what": str(refusal)}
+            except Failed as failure:
+                reply = {"ok": False, "kind": "failed", "what": str(failure)}
             except Exception as error:
                 reply = {"ok": False, "kind": "failed", "what": one_line(error)}
             replies.write(json.dumps(reply) + "\n")

@@ -56,7 +56,11 @@ OverviewCell cellOf(const ScaleResults& results, const EngineRow& engine,
   OverviewCell cell{CellState::notMeasured, {}, question.unit, {}, {}, "table"};
   const ScalePoint* const point = largestWith(results, engine.name, question.figure);
   if (!point) {
-    if (engine.status == EngineStatus::failed) {
+    const bool ofSharing =
+        question.figure == &ScaleFigures::strong || question.figure == &ScaleFigures::weak;
+    if (ofSharing && workersOf(results, engine.name).empty())
+      cell.state = CellState::notApplicable;
+    else if (engine.status == EngineStatus::failed) {
       cell.state = CellState::bad;
       cell.shown = "failed";
     }

@@ -77,14 +77,16 @@ class ScaleStudy {
       point.disks = planned.disks;
       point.workers = planned.workers;
       point.steps = plan_.steps.value_or(stepsFor(planned.disks));
+      if (points_.empty() || points_.back().disks != point.disks)
+        cells_.push_back(cellOf(scaledCase(point.disks, overrides_)));
       planned_.push_back(planned);
       points_.push_back(std::move(point));
     }
-    takeUp();
   }
 
   void run() {
     store_.begin();
+    takeUp();
     std::vector<double> weights;
     for (const ScalePoint& point : points_)
       weights.push_back(static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6);
@@ -125,17 +127,14 @@ class ScaleStudy {
   }
 
  private:
-  /// Cells, and what an earlier command has timed.
+  /// What an earlier command has timed.
   void takeUp() {
     taken_.assign(points_.size(), false);
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      if (k == 0 || points_[k].disks != points_[k - 1].disks)
-        cells_.push_back(cellOf(scaledCase(points_[k].disks, overrides_)));
+    for (std::size_t k = 0; k < points_.size(); ++k)
       if (const auto before = store_.find(nameOf(k), keyOf(k))) {
         readFrom(*before, points_[k]);
         taken_[k] = true;
       }
-    }
   }
 
   std::string nameOf(std::size_t k) const {

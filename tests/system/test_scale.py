@@ -74,6 +74,10 @@ class Scale(SystemTest):
         self.assertEqual(2, len(after))
         self.assertEqual(before, {name: after[name] for name in before})
         self.assert_one_error(self.scale("--disks=1000", "--steps=41", "--repetitions=2"), BAD_INPUT, "steps")
+        anew = self.scale(*SMALL, "--threads=1", "--fresh")
+        self.assert_status(anew, HELD)
+        self.assertNotIn("finished in an earlier run", anew.stderr)
+        self.assertEqual(1, len(self.finished_runs()))
 
     def test_dry_run(self):
         done = self.scale(*SMALL, "--threads=1,2", "--dry-run")
