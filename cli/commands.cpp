@@ -8,16 +8,17 @@ namespace crossgrain::inline cli {
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,
-    averageCommand, revCommand, calibrateCommand, reportCommand, helpCommand, manualCommand,
-    completionCommand, serveCommand;
+    averageCommand, revCommand, calibrateCommand, reportCommand, planCommand, helpCommand,
+    manualCommand, completionCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,    &conformanceCommand,
-      &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,       &recordCommand,
-      &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand,  &costCommand,
-      &scaleCommand,    &thesisCommand,   &averageCommand,  &revCommand,        &calibrateCommand,
-      &reportCommand,   &helpCommand,     &manualCommand,   &completionCommand, &serveCommand};
+      &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
+      &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
+      &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
+      &scaleCommand,    &thesisCommand,   &averageCommand,  &revCommand,       &calibrateCommand,
+      &reportCommand,   &planCommand,     &helpCommand,     &manualCommand,    &completionCommand,
+      &serveCommand};
   return table;
 }
 

@@ -73,6 +73,11 @@ void addArgument(CLI::App& app, const std::string& name, std::string& text, cons
   app.add_option(name, text, what)->type_name(type)->required();
 }
 
+void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& texts,
+              const std::string& what, const std::string& type) {
+  app.add_option(name, texts, what)->type_name(type)->allow_extra_args(false);
+}
+
 void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other) {
   app.get_option(one)->excludes(app.get_option(other));
 }
@@ -114,9 +119,8 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
 }
 
 void addOverrides(CLI::App& app, CommandLine& line) {
-  app.add_option("--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  addTexts(app, "--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40",
+           "KEY=VALUE");
 }
 
 void addCase(CLI::App& app, CommandLine& line, const std::string& what) {
