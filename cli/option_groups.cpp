@@ -10,6 +10,7 @@
 #include "cases/engine_file.hpp"
 #include "runs/common/strangers.hpp"
 #include "support/bad_input.hpp"
+#include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -42,9 +43,8 @@ std::string trimmed(const std::string& text) {
 /// "grain, yade" is two names; that of a file adds the engine that it describes.
 /// @throws BadInput where nothing stands between two commas, or for the file
 void addNames(const std::string& list, std::vector<std::string>& names) {
-  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
-    comma = list.find(',', from);
-    names.push_back(trimmed(list.substr(from, comma - from)));
+  for (const std::string& name : commaList(list)) {
+    names.push_back(trimmed(name));
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
     if (namesEngineFile(names.back())) names.back() = addStranger(loadEngineFile(names.back()));

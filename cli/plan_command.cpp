@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "runs/common/strangers.hpp"
 #include "runs/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
+#include "support/comma_list.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -27,12 +29,9 @@ struct PlanOptions {
 };
 
 std::vector<std::string> between(const std::string& list, const std::string& option) {
-  std::vector<std::string> parts;
-  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
-    comma = list.find(',', from);
-    parts.push_back(list.substr(from, comma - from));
-    if (parts.back().empty()) throw BadInput(fmt::format("{} '{}': a part is empty", option, list));
-  }
+  std::vector<std::string> parts = commaList(list);
+  if (std::ranges::find(parts, "") != parts.end())
+    throw BadInput(fmt::format("{} '{}': a part is empty", option, list));
   return parts;
 }
 

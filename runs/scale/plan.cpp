@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "support/bad_input.hpp"
+#include "support/comma_list.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -58,9 +59,7 @@ std::vector<std::size_t> wholeNumbers(const std::string& option, const std::stri
                                       std::size_t least, std::size_t most) {
   std::vector<std::size_t> numbers;
   std::set<std::size_t> seen;
-  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
-    comma = list.find(',', from);
-    const std::string text = list.substr(from, comma - from);
+  for (const std::string& text : commaList(list)) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size() || number < least || number > most)
