@@ -116,7 +116,7 @@ class Ranks:
             self.connections[told["rank"]] = connection, stream
 
     def ask_all(self, requests):
-        """@param requests  one for each rank. @returns their replies, by rank, all of which are ok or one that is not"""
+        """@param requests  one for each rank. @returns their replies, by rank: all are ok, or it is one that is not"""
         if self.failure:
             raise Failed(self.failure)
         with selectors.DefaultSelector() as waiting:
