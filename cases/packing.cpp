@@ -95,16 +95,15 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
   const Hdf5File in = Hdf5File::open(file);
-  const auto most = static_cast<std::size_t>(mostDisks);
   for (const auto& [name, columns] : {std::pair{"radius", 1u},
                                       {"position", 2u},
                                       {"velocity", 2u},
                                       {"spin", 1u},
                                       {"mass", 1u},
                                       {"inertia", 1u}})
-    if (const auto count = in.length(name); count && *count > columns * most)
+    if (const auto count = in.length(name); count && *count > columns * defaults.most)
       throw bad(fmt::format("{} has {} values: a case may have at most {} disks", name, *count,
-                            mostDisks));
+                            defaults.most));
   const auto radius = in.read("radius");
   const auto position = in.read("position");
   if (!radius || !position)
@@ -150,12 +149,12 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
 
 }  // namespace
 
-Packing readPacking(const std::filesystem::path& file, const Case& setup) {
+Packing readPacking(const std::filesystem::path& file, const Case& setup, std::size_t most) {
   const Particles& kinds = setup.particles;
   const double border = 0.5 * (kinds.smallRadius + kinds.largeRadius);
   return readPacking(
       file, {[&](double radius) { return radius < border ? kinds.smallMass : kinds.largeMass; },
-             kinds.inertiaFactor});
+             kinds.inertiaFactor, most});
 }
 
 Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {

@@ -33,13 +33,16 @@ std::string contentHash(const Packing& packing);
 /// of the user's own: then they are zero, and what the case says for the radius.
 void writePacking(const Packing& packing, const std::filesystem::path& file);
 
+/// @param most  disks: more are refused
 /// @throws BadInput naming the file and what it lacks
-Packing readPacking(const std::filesystem::path& file, const Case& setup);
+Packing readPacking(const std::filesystem::path& file, const Case& setup,
+                    std::size_t most = mostDisks);
 
 /// What a file of disks may leave out.
 struct DiskDefaults {
   std::function<double(double radius)> mass;  ///< [kg]
   double inertiaFactor = 0.5;                 ///< q in J = q m a²
+  std::size_t most = mostDisks;               ///< more in a file are refused
 };
 /// @throws likewise
 Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults);

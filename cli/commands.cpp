@@ -7,18 +7,18 @@ namespace crossgrain::inline cli {
 // Each in a file of its name.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
-    compareCommand, effectsCommand, stabilityCommand, costCommand, thesisCommand, averageCommand,
-    revCommand, calibrateCommand, reportCommand, helpCommand, manualCommand, completionCommand,
-    serveCommand;
+    compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,
+    averageCommand, revCommand, calibrateCommand, reportCommand, planCommand, helpCommand,
+    manualCommand, completionCommand, serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
-      &enginesCommand,     &listCommand,      &checkCommand,      &collideCommand,
-      &conformanceCommand, &lockstepCommand,  &identifyCommand,   &baselineCommand,
-      &diffCommand,        &recordCommand,    &replayCommand,     &compareCommand,
-      &effectsCommand,     &stabilityCommand, &costCommand,       &thesisCommand,
-      &averageCommand,     &revCommand,       &calibrateCommand,  &reportCommand,
-      &helpCommand,        &manualCommand,    &completionCommand, &serveCommand};
+      &enginesCommand,  &listCommand,     &checkCommand,    &collideCommand,   &conformanceCommand,
+      &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
+      &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
+      &scaleCommand,    &thesisCommand,   &averageCommand,  &revCommand,       &calibrateCommand,
+      &reportCommand,   &planCommand,     &helpCommand,     &manualCommand,    &completionCommand,
+      &serveCommand};
   return table;
 }
 

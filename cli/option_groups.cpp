@@ -10,6 +10,7 @@
 #include "cases/engine_file.hpp"
 #include "runs/common/strangers.hpp"
 #include "support/bad_input.hpp"
+#include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -42,9 +43,8 @@ std::string trimmed(const std::string& text) {
 /// "grain, yade" is two names; that of a file adds the engine that it describes.
 /// @throws BadInput where nothing stands between two commas, or for the file
 void addNames(const std::string& list, std::vector<std::string>& names) {
-  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
-    comma = list.find(',', from);
-    names.push_back(trimmed(list.substr(from, comma - from)));
+  for (const std::string& name : commaList(list)) {
+    names.push_back(trimmed(name));
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
     if (namesEngineFile(names.back())) names.back() = addStranger(loadEngineFile(names.back()));
@@ -71,6 +71,11 @@ void addNumber(CLI::App& app, const std::string& name, std::optional<double>& nu
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
                  const std::string& type) {
   app.add_option(name, text, what)->type_name(type)->required();
+}
+
+void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& texts,
+              const std::string& what, const std::string& type) {
+  app.add_option(name, texts, what)->type_name(type)->allow_extra_args(false);
 }
 
 void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other) {
@@ -114,9 +119,8 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
 }
 
 void addOverrides(CLI::App& app, CommandLine& line) {
-  app.add_option("--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  addTexts(app, "--set", line.overrides, "key=value: changes the case, e.g. averaging.rings=40",
+           "KEY=VALUE");
 }
 
 void addCase(CLI::App& app, CommandLine& line, const std::string& what) {
@@ -150,12 +154,16 @@ void addSnapshots(CLI::App& app, CommandLine& line) {
 }
 
 void addRun(CLI::App& app, CommandLine& line, const char* usual) {
-  addEngines(app, line, usual);
-  addResults(app, line);
+  addRunInTurn(app, line, usual);
   constexpr int mostJobs = 4096;
   app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
       ->type_name("N")
       ->check(wholeNumber(1, mostJobs));
+}
+
+void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
+  addEngines(app, line, usual);
+  addResults(app, line);
   addQuiet(app, line);
   app.add_flag("--dry-run", line.run.dryRun,
                "say what would run, and what is finished; compute and write nothing");

@@ -21,6 +21,10 @@ void addNumber(CLI::App& app, const std::string& name, std::optional<double>& nu
 void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
              const std::string& what, const std::string& type = "TEXT");
 
+/// An option that may stand several times.
+void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& texts,
+              const std::string& what, const std::string& type);
+
 /// An argument, or an option, that is required.
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
                  const std::string& type = "TEXT");
@@ -58,6 +62,9 @@ void addSnapshots(CLI::App& app, CommandLine& line);
 /// Of all commands that run engines: --engines, results, --jobs, --quiet, --dry-run, --resume.
 /// @param usual  engine where none is named; null: they must be
 void addRun(CLI::App& app, CommandLine& line, const char* usual = nullptr);
+
+/// The same without --jobs: of a command that times one engine at a time.
+void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual = nullptr);
 
 void addQuiet(CLI::App& app, CommandLine& line);
 

@@ -9,6 +9,7 @@
 #include "reports/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
+#include "runs/plan/job_plan.hpp"
 #include "runs/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -33,7 +34,7 @@ nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& fold
   throw BadInput(fmt::format("{}: {}", (folder / "results.json").string(), error.what()));
 }
 
-struct Options {
+struct ReportOptions {
   std::optional<std::string> reasons, site;
   bool open = false;
 };
@@ -42,8 +43,11 @@ std::optional<fs::path> pathOf(const std::optional<std::string>& text) {
   return text ? std::optional<fs::path>(*text) : std::nullopt;
 }
 
-int rebuildReports(const CommandLine& line, const Options& options) {
+int rebuildReports(const CommandLine& line, const ReportOptions& options) {
   for (const fs::path& folder : line.inputs) {
+    if (fs::exists(folder / planFile))
+      throw BadInput(
+          fmt::format("{}: holds a plan: --out says where its jobs are merged", folder.string()));
     const nlohmann::json results =
         concludedAnew(readResults(folder), folder, pathOf(options.reasons));
     if (options.open) requireBrowser();
@@ -55,16 +59,41 @@ int rebuildReports(const CommandLine& line, const Options& options) {
   return exitHeld;
 }
 
+/// A plan's folder stands for those of its jobs, as far as they can be merged.
+/// @returns whether all is as planned; what is not is told on standard error, a line each
+bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
+  if (!fs::exists(input / planFile)) {
+    folders.push_back(input);
+    return true;
+  }
+  bool asPlanned = true;
+  const std::size_t before = folders.size();
+  const std::vector<JobOutcome> outcomes = lookAtJobs(readPlan(input), input);
+  for (const JobOutcome& job : outcomes) {
+    if (!job.results.empty()) folders.push_back(job.results);
+    if (job.trouble.empty()) continue;
+    asPlanned = false;
+    fmt::print(stderr, "crossgrain: {}: {}\n", job.name, BadInput(job.trouble).what());
+  }
+  if (folders.size() == before)
+    throw BadInput(fmt::format("{}: none of its {} jobs has results that can be merged",
+                               input.string(), outcomes.size()));
+  return asPlanned;
+}
+
 /// The folders stay as they are.
-int makeSite(const CommandLine& line, const Options& options) {
+int makeSite(const CommandLine& line, const ReportOptions& options) {
   const fs::path site = *options.site;
   if (fs::exists(site / "results.json"))
     throw BadInput(
         fmt::format("--out {}: holds results of its own; give a new folder, or that of "
                     "an earlier site",
                     site.string()));
+  bool asPlanned = true;
+  std::vector<fs::path> folders;
+  for (const fs::path& input : line.inputs) asPlanned &= addFolders(input, folders);
   std::vector<std::pair<fs::path, nlohmann::json>> results;
-  for (const fs::path& folder : line.inputs)
+  for (const fs::path& folder : folders)
     results.emplace_back(folder,
                          concludedAnew(readResults(folder), folder, pathOf(options.reasons)));
   if (options.open) requireBrowser();
@@ -73,12 +102,13 @@ int makeSite(const CommandLine& line, const Options& options) {
   writeSite(results, site);
   fmt::print("site: {}\n", (site / "index.html").string());
   if (options.open) openPage(site / "index.html");
-  return exitHeld;
+  return asPlanned ? exitHeld : exitFellShort;
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {
-  addInputs(app, line, "folder", "folders that hold a results.json", 1, anyNumber);
-  const auto options = std::make_shared<Options>();
+  addInputs(app, line, "folder", "folders that hold a results.json, or a plan of jobs that did", 1,
+            anyNumber);
+  const auto options = std::make_shared<ReportOptions>();
   addText(app, "--out", options->site,
           "write the reports there, in folders of their own, and an index.html of all: engines × "
           "reports (default: each in its folder)",
@@ -98,7 +128,8 @@ extern const Command reportCommand = {
     "report", "rebuild reports from results.json, or make one site of several",
     "crossgrain report out\n"
     "crossgrain report out --open\n"
-    "crossgrain report out/compare out/collide --out site",
+    "crossgrain report out/compare out/collide --out site\n"
+    "crossgrain report slurm --out site                        # the jobs of a plan",
     declareReport};
 
 }  // namespace crossgrain::inline cli

@@ -23,6 +23,8 @@
 #include "reports/effects/report.hpp"
 #include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/report.hpp"
+#include "reports/scale/overview.hpp"
+#include "reports/scale/report.hpp"
 #include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/figures.hpp"
@@ -121,6 +123,9 @@ const Kind<StabilityResults> stabilityKind = {
 const Kind<CostResults> costKind = {
     {{"cost.csv", costCsv}}, costFigures, noPictures, costPage, costOverview};
 
+const Kind<ScaleResults> scaleKind = {
+    {{"scale.csv", scaleCsv}}, scaleFiguresOf, noPictures, scalePage, scaleOverview};
+
 const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
                                          {"history.csv", historyCsv},
                                          {"regime_map.csv", regimeMapCsv},
@@ -201,6 +206,10 @@ void writeReport(const LockstepResults& results, const std::filesystem::path& di
   write(lockstepKind, results, toJson(results), dir);
 }
 
+void writeReport(const ScaleResults& results, const std::filesystem::path& dir) {
+  write(scaleKind, results, toJson(results), dir);
+}
+
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
   write(stabilityKind, results, toJson(results), dir);
 }
@@ -231,6 +240,7 @@ ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::p
   if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
   if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
   if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
+  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir);
   if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
   if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
   const CompareResults compared = compareFromJson(results);

@@ -12,6 +12,7 @@
 #include "results/effects.hpp"
 #include "results/lockstep.hpp"
 #include "results/rev.hpp"
+#include "results/scale.hpp"
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
@@ -19,8 +20,8 @@ namespace crossgrain {
 
 /// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
 /// The kind of report follows from results["kind"], "compare", "collide", "lockstep",
-/// "effects", "cost", "stability", "thesis", "conformance", "average" or "rev"; the layout of
-/// results is in reports/README.md.
+/// "effects", "cost", "scale", "stability", "thesis", "conformance", "average" or "rev"; the layout
+/// of results is in reports/README.md.
 ///
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are
@@ -32,6 +33,7 @@ reports::ReportDigest writeReport(const nlohmann::json& results, const std::file
 void writeReport(const CollideResults& results, const std::filesystem::path& dir);
 void writeReport(const ConformanceResults& results, const std::filesystem::path& dir);
 void writeReport(const CostResults& results, const std::filesystem::path& dir);
+void writeReport(const ScaleResults& results, const std::filesystem::path& dir);
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
 void writeReport(const CompareResults& results, const std::filesystem::path& dir);
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir);

@@ -1,4 +1,4 @@
-"""Reads the contacts of LAMMPS' last step, with the forces that it applied."""
+"""The contacts of LAMMPS' last step, with the forces that it applied."""
 
 import numpy as np
 
@@ -8,10 +8,16 @@ def turned(v):
     return np.column_stack([-v[:, 1], v[:, 0]])
 
 
-def read_contacts(lammps, made, position):
+def pair_rows(lammps):
+    """Of the pairs that this rank tells of: ids from 1 on, normal force, tangential force along x and y."""
+    ids = lammps.local_compute("ids", 2).reshape(-1, 2)
+    return np.column_stack([ids, lammps.local_compute("pairs", 3).reshape(-1, 3)])
+
+
+def contacts_of_rows(rows, made, position):
     """Of two atoms: i < j, normal from j to i, overlap, forces on i."""
-    ids = lammps.local_compute("ids", 2).astype(int).reshape(-1, 2) - 1
-    force, x, y = lammps.local_compute("pairs", 3).reshape(-1, 3).T
+    ids = rows[:, :2].astype(int) - 1
+    force, x, y = rows[:, 2:].T
     # LAMMPS' tangential force is that on the first of the two.
     forward = ids[:, 0] < ids[:, 1]
     sign = np.where(forward, 1.0, -1.0)

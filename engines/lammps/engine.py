@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 from build import Scene, check
-from contacts import read_contacts, read_plane_contacts
+from contacts import contacts_of_rows, pair_rows, read_plane_contacts
 from crossgrain_answers import effects_called, effects_without_bottom, setting
 from crossgrain_walls import Body
 from law import Law
@@ -15,7 +15,9 @@ CHUNK = 1000  # steps between two looks at the number of contacts
 
 
 class Engine:
-    """What a descendant says otherwise: the members before __init__, and `contacts_of_pairs`."""
+    """What a descendant says otherwise: the members before __init__, `pair_rows` and `contacts_of_rows`.
+
+    One instance for each rank where several share a run; what LAMMPS is asked for is then this rank's part."""
 
     name = "lammps"
     Law, Scene, check = Law, Scene, staticmethod(check)
@@ -37,8 +39,11 @@ class Engine:
     def __init__(self, lammps=None):
         self.lammps = lammps or Lammps()
 
-    def contacts_of_pairs(self, position):
-        return read_contacts(self.lammps, self.made, position)
+    def pair_rows(self):
+        return pair_rows(self.lammps)
+
+    def contacts_of_rows(self, rows, position):
+        return contacts_of_rows(rows, self.made, position)
 
     def capabilities(self):
         return {
@@ -72,7 +77,8 @@ class Engine:
             ],
         }
 
-    def load(self, scene, arrays, settings):
+    def take(self, scene, arrays, settings):
+        """All of a scene that LAMMPS need not know of."""
         self.law = self.Law(scene["law"])
         self.bodies = [
             Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
@@ -84,8 +90,15 @@ class Engine:
         self.disks = scene["disks"]
         self.mass, self.inertia = arrays["disks.mass"], arrays["disks.inertia"]
         self.rotation = self.law.friction and scene["rotation"]
-        self.lammps.command("clear")
         self.made = self.Scene(self.lammps, scene, arrays, self.bodies, self.law, self.rotation)
+
+    def forget_arrays(self):
+        """Of who makes snapshots alone: nothing of a scene's disks but their radii."""
+        self.made.arrays = self.mass = self.inertia = None
+
+    def load(self, scene, arrays, settings):
+        self.take(scene, arrays, settings)
+        self.lammps.command("clear")
         self.made.place(settings.get("skin", 0.2), self.dt)
         self.lammps.command("run 0 post no")
         self.made.put_first_forces()
@@ -116,13 +129,57 @@ class Engine:
         return self.steps * self.dt
 
     def snapshot(self, report):
+        return self.snapshot_of([self.look(report)], report, self.steps)
+
+    def look(self, report):
+        """What this rank knows of its own atoms, in LAMMPS' order, and of its pairs."""
         if report == "accumulated":
             raise ValueError("has no accumulated contacts")
-        now = self.steps * self.dt
-        position = self.lammps.gather("x", 3)[:, :2]
-        velocity = self.lammps.gather("v", 3)[:, :2]
-        spin = self.lammps.gather("omega", 3)[:, 2]
-        n = self.disks
+        found = {
+            "ids": self.lammps.ids(),
+            "position": self.lammps.own("x")[:, :2].copy(),
+            "velocity": self.lammps.own("v")[:, :2].copy(),
+            "spin": self.lammps.own("omega")[:, 2].copy(),
+            "force": self.lammps.own("f")[:, :2].copy(),
+            "torque": self.lammps.own("torque")[:, 2].copy(),
+        }
+        for k in range(self.made.planes):
+            found[f"on_plane.{k}"] = self.lammps.fix_array(f"plane{k}", 4)[:, 1:3]
+        if report == "instant":
+            found["pairs"] = self.pairs_of_step(found)
+        return found
+
+    def pairs_of_step(self, found):
+        """LAMMPS tells forces of pairs from the velocities that it has when it is asked, and the step
+        from those before its second half kick; so these are put there while it is asked. What a rank
+        sees of others' atoms was sent to it before that kick. It answers once in a step: nobody else
+        may ask for "pairs"."""
+        if not self.steps:
+            return self.pair_rows()
+        velocity, spin = self.lammps.own("v"), self.lammps.own("omega")
+        kept = velocity.copy(), spin.copy()
+        free = found["ids"] <= self.disks
+        which = found["ids"][free] - 1
+        velocity[free, :2] -= 0.5 * self.dt * found["force"][free] / self.mass[which, None]
+        if self.rotation:
+            spin[free, 2] -= 0.5 * self.dt * found["torque"][free] / self.inertia[which]
+        rows = self.pair_rows()
+        velocity[:], spin[:] = kept
+        return rows
+
+    def snapshot_of(self, looks, report, steps):
+        """One snapshot of what all ranks saw after that many steps."""
+        ids = np.concatenate([look["ids"] for look in looks])
+        if len(ids) != self.made.atoms:
+            raise RuntimeError(f"{len(ids)} of {self.made.atoms} atoms are left")
+        order = np.argsort(ids)
+
+        def of_all(name):
+            return np.concatenate([look[name] for look in looks])[order]
+
+        now, n = steps * self.dt, self.disks
+        position, force, torque = of_all("position"), of_all("force"), of_all("torque")
+        on_planes = [of_all(f"on_plane.{k}") for k in range(self.made.planes)]
         snapshot = {
             "position_time": now,
             "velocity_time": now,
@@ -131,36 +188,22 @@ class Engine:
         }
         arrays = {
             "position": ("f64", position[:n]),
-            "velocity": ("f64", velocity[:n]),
+            "velocity": ("f64", of_all("velocity")[:n]),
             "wall_position": ("f64", position[n:]),
         }
         if self.law.friction:
-            arrays["spin"] = ("f64", spin[:n])
-        force = self.lammps.gather("f", 3)[:, :2]
-        torque = self.lammps.gather("torque", 3)[:, 2]
-        on_planes = [self.lammps.fix_array(f"plane{k}", 4)[:, 1:3] for k in range(self.made.planes)]
+            arrays["spin"] = ("f64", of_all("spin")[:n])
         if report == "instant":
-            arrays.update(self.contacts(position, velocity, spin, force, torque, on_planes))
+            rows = np.concatenate([look["pairs"] for look in looks])
+            arrays.update(self.contacts(rows, position, on_planes))
         snapshot["bodies"] = [
             self.body_snapshot(body, now, position, force, torque, on_planes)
             for body in self.bodies
         ]
         return snapshot, arrays
 
-    def contacts(self, position, velocity, spin, force, torque, on_planes):
-        """LAMMPS tells forces of pairs from the velocities that it has when it is asked, and the step
-        from those before its second half kick; so these are put there while it is asked. It answers
-        once in a step: nobody else may ask for "pairs"."""
-        if self.steps:
-            before, turning = velocity.copy(), spin.copy()
-            n = self.disks
-            before[:n] -= 0.5 * self.dt * force[:n] / self.mass[:, None]
-            if self.rotation:
-                turning[:n] -= 0.5 * self.dt * torque[:n] / self.inertia
-            self.put_velocities(before, turning)
-        of_pairs = self.contacts_of_pairs(position)
-        if self.steps:
-            self.put_velocities(velocity, spin)
+    def contacts(self, rows, position, on_planes):
+        of_pairs = self.contacts_of_rows(rows, position)
         columns = [of_pairs, *read_plane_contacts(self.made, self.bodies, position, on_planes)]
         i, j, normal, overlap, pressing, tangential = map(np.concatenate, zip(*columns))
         return {
@@ -172,11 +215,6 @@ class Engine:
             "contacts.tangential_force": ("f64", tangential),
             "contacts.sliding": ("u8", self.law.sliding(pressing, tangential)),
         }
-
-    def put_velocities(self, velocity, spin):
-        zero = np.zeros(len(spin))
-        self.lammps.scatter("v", np.column_stack([velocity, zero]))
-        self.lammps.scatter("omega", np.column_stack([zero, zero, spin]))
 
     def body_snapshot(self, body, now, position, force, torque, on_planes):
         centre, velocity, angle, spin = body.state(now)

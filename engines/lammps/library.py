@@ -37,18 +37,30 @@ class Lammps:
     def command(self, line):
         self.library.lammps_command(self.handle, line.encode())
 
+    def place(self):
+        """This process' rank, and how many ranks share the run."""
+        return tuple(
+            self.library.lammps_extract_setting(self.handle, name)
+            for name in (b"world_rank", b"world_size")
+        )
+
     def close(self):
         self.library.lammps_close(self.handle)
+
+    def end_mpi(self):
+        """Once, last of all: mpirun takes a rank for broken that ends without."""
+        self.library.lammps_mpi_finalize()
 
     def create_atoms(self, kind, position):
         """Atoms 1, 2, … of the given types at the rows of `position` (n, 3)."""
         n = len(kind)
+        ids = np.arange(1, n + 1, dtype=np.int32)  # several ranks would number them in another order
         kind = np.ascontiguousarray(kind, np.int32)
         position = np.ascontiguousarray(position, float)
         made = self.library.lammps_create_atoms(
             self.handle,
             n,
-            None,
+            ids.ctypes.data_as(ctypes.c_void_p),
             kind.ctypes.data_as(ctypes.c_void_p),
             position.ctypes.data_as(ctypes.c_void_p),
             None,
@@ -66,6 +78,22 @@ class Lammps:
             self.handle, name.encode(), 1, components, values.ctypes.data_as(ctypes.c_void_p)
         )
         return values if components > 1 else values[:, 0]
+
+    def own_count(self):
+        """Atoms of this rank, without those that it only sees."""
+        return self.library.lammps_extract_setting(self.handle, b"nlocal")
+
+    def own(self, name):
+        """A quantity of this rank's atoms in LAMMPS' own order, (n, 3): its memory, not a copy."""
+        n = self.own_count()
+        if n == 0:
+            return np.empty((0, 3))
+        self.library.lammps_extract_atom.restype = ctypes.c_void_p
+        rows = ctypes.cast(
+            self.library.lammps_extract_atom(self.handle, name.encode()),
+            ctypes.POINTER(ctypes.POINTER(ctypes.c_double)),
+        )
+        return np.ctypeslib.as_array(rows[0], (n, 3))  # rows follow each other in memory
 
     def scatter(self, name, values):
         values = np.ascontiguousarray(values, float)
@@ -89,15 +117,16 @@ class Lammps:
         return np.ctypeslib.as_array(array[0], (rows, columns)).copy()
 
     def fix_array(self, name, columns):
-        """The first columns of a fix's array of all atoms, in the order of ids."""
-        n = self.atoms()
+        """The first columns of a fix's array of this rank's atoms, in LAMMPS' own order."""
+        n = self.own_count()
         pointer = self.library.lammps_extract_fix(self.handle, name.encode(), ATOM, ARRAY, 0, 0)
         rows = ctypes.cast(pointer, ctypes.POINTER(ctypes.POINTER(ctypes.c_double)))
-        own = np.array([rows[atom][:columns] for atom in range(n)])
-        return own[np.argsort(self.ids())]
+        return np.array([rows[atom][:columns] for atom in range(n)]).reshape(n, columns)
 
     def ids(self):
-        """Of the atoms in LAMMPS' own order, which changes as it sorts them."""
-        n = self.atoms()
-        self.library.lammps_extract_atom.restype = ctypes.POINTER(ctypes.c_int)
-        return np.array(self.library.lammps_extract_atom(self.handle, b"id")[:n])
+        """Of this rank's atoms in LAMMPS' own order, which changes as it sorts them."""
+        n = self.own_count()
+        self.library.lammps_extract_atom.restype = ctypes.c_void_p
+        pointer = self.library.lammps_extract_atom(self.handle, b"id")
+        ids = ctypes.cast(pointer, ctypes.POINTER(ctypes.c_int))
+        return np.ctypeslib.as_array(ids, (n,)).copy() if n else np.empty(0, np.int32)

@@ -12,6 +12,17 @@ sys.path[:0] = [os.path.join(HERE, "..", "python")]
 sys.dont_write_bytecode = True
 
 import crossgrain_worker
+from crossgrain_answers import setting
 from engine import Engine
+from ranks import Front
 
-crossgrain_worker.serve(Engine())
+
+class LammpsEngine(Engine):
+    def capabilities(self):
+        can = super().capabilities()
+        doc = "processes that share a step, under mpirun; sums in another order, so not to the same bits"
+        can["settings"].append(setting("ranks", 1.0, "-", doc))
+        return can
+
+
+crossgrain_worker.serve(Front(LammpsEngine()), Front.answer)

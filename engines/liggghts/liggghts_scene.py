@@ -26,6 +26,9 @@ class Liggghts(Lammps):
         for each, (x, y, z) in zip(kind.tolist(), position.tolist()):
             self.command(f"create_atoms {each} single {x!r} {y!r} {z!r} units box")
 
+    def own_count(self):
+        return self.atoms()  # one rank
+
     def count_of_compute(self, name):
         """LIGGGHTS does not tell the rows of a local compute: half of all disks' partners."""
         self.library.lammps_extract_compute.restype = ctypes.c_void_p
@@ -91,13 +94,16 @@ class Scene(build.Scene):
         return "nve/sphere" if self.rotation else "nve"
 
 
-def read_contacts(lammps, made, position):
+def pair_rows(lammps, law):
+    return lammps.local_compute("pairs", 9 if law.friction else 6)
+
+
+def contacts_of_rows(rows, made, position):
     """Of two atoms: i < j, normal from j to i, overlap, forces on i.
 
     LIGGGHTS evaluates its law anew when it is asked. A spring that was set to the bound is not over it then, so it
     would show the dashpot beside it, which did not act: there the force is the spring's alone."""
     law = made.law
-    rows = lammps.local_compute("pairs", 9 if law.friction else 6)
     ids = rows[:, :2].astype(int) - 1
     force = rows[:, 3:5]  # on the first of the two
     sign = np.where(ids[:, 0] < ids[:, 1], 1.0, -1.0)[:, None]

@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 import crossgrain_worker
 from engine import Engine
 from liggghts_law import Law
-from liggghts_scene import Liggghts, Scene, read_contacts
+from liggghts_scene import Liggghts, Scene, contacts_of_rows, pair_rows
 
 
 class LiggghtsEngine(Engine):
@@ -29,8 +29,11 @@ class LiggghtsEngine(Engine):
 
     limits = Engine.limits | {"inertia": [0.5], "plane_motions": []}
 
-    def contacts_of_pairs(self, position):
-        return read_contacts(self.lammps, self.made, position)
+    def pair_rows(self):
+        return pair_rows(self.lammps, self.law)
+
+    def contacts_of_rows(self, rows, position):
+        return contacts_of_rows(rows, self.made, position)
 
 
 crossgrain_worker.serve(LiggghtsEngine(Liggghts()))

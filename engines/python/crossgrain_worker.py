@@ -22,6 +22,10 @@ class Unsupported(Exception):
     """The engine cannot do what the scene calls for; the text names the first such thing."""
 
 
+class Failed(Exception):
+    """The engine failed; the text says it all."""
+
+
 def read_arrays(path, entries):
     """The arrays of an array file by name."""
     with open(path, "rb") as file:
@@ -69,10 +73,13 @@ def one_line(error):
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 
-def serve(engine):
-    """Answers requests until "quit" or until they end."""
-    with os.fdopen(3, "r", encoding="utf-8") as requests, os.fdopen(
-        4, "w", encoding="utf-8"
+def serve(engine, answer=answer, descriptors=(3, 4)):
+    """Answers requests until "quit" or until they end.
+
+    answer       may be another function of engine and request
+    descriptors  to read requests from and write replies to"""
+    with os.fdopen(descriptors[0], "r", encoding="utf-8") as requests, os.fdopen(
+        descriptors[1], "w", encoding="utf-8"
     ) as replies:
         for line in requests:
             request = json.loads(line)
@@ -80,6 +87,8 @@ def serve(engine):
                 reply = {"ok": True, **answer(engine, request)}
             except Unsupported as refusal:
                 reply = {"ok": False, "kind": "unsupported", "what": str(refusal)}
+            except Failed as failure:
+                reply = {"ok": False, "kind": "failed", "what": str(failure)}
             except Exception as error:
                 reply = {"ok": False, "kind": "failed", "what": one_line(error)}
             replies.write(json.dumps(reply) + "\n")

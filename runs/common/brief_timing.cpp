@@ -1,29 +1,8 @@
 #include "runs/common/brief_timing.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <string>
-
-#include "adapters/worker/worker_engine.hpp"
+#include "runs/common/worker_memory.hpp"
 
 namespace crossgrain::inline runs {
-
-namespace {
-
-/// VmHWM of /proc/PID/status (proc(5)), given in kB.
-std::optional<std::size_t> mostMemoryOf(const Engine& engine) {
-  const auto* const worker = dynamic_cast<const WorkerEngine*>(&engine);
-  if (!worker || worker->pid() < 0) return std::nullopt;
-  std::ifstream status(fmt::format("/proc/{}/status", worker->pid()));
-  for (std::string word; status >> word;)
-    if (std::size_t kilobytes = 0; word == "VmHWM:" && status >> kilobytes) return 1024 * kilobytes;
-  return std::nullopt;
-}
-
-}  // namespace
 
 BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
                         const Scene& scene) {

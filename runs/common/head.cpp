@@ -32,13 +32,17 @@ std::string operatingSystem() {
 
 }  // namespace
 
+std::string timeStamp() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
 ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command) {
   ResultsHead head;
   head.schema = schemaVersion;
   head.kind = kind;
   head.version = programVersion;
   head.command = command;
-  head.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  head.started = timeStamp();
   head.machine = {cpuName(), operatingSystem(), std::thread::hardware_concurrency()};
   head.setup = {setup.name, setup.variant, setup.file.string(), setup.resolvedToml};
   return head;

@@ -8,6 +8,9 @@
 
 namespace crossgrain::inline runs {
 
+/// Now, as ISO 8601 in UTC.
+std::string timeStamp();
+
 /// What all results begin with.
 ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command);
 

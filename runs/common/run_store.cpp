@@ -197,6 +197,10 @@ fs::path RunStore::file(const std::string& name) const {
   return out_ / "runs" / (name + ".json");
 }
 
+std::string programOf(const fs::path& folder) {
+  return parsed(readFile(folder / marker)).value("program", "");
+}
+
 CaseKeys keysThatMatter(const Case& setup) {
   // Which runs there are: more or fewer of them leave the others as they are. What a worker may
   // take, and what an engine may differ in, decides whether it runs, not what comes out.

@@ -34,8 +34,8 @@ class RunStore {
   /// A folder that was made for a command that could not begin goes with it.
   ~RunStore();
 
-  /// Called once it is known that the command can begin; by each of its parts. Sets aside what an earlier one left, if
-  /// that is wanted, and says where on standard error.
+  /// Called once it is known that the command can begin; by each of its parts. Sets aside what an
+  /// earlier one left, if that is wanted, and says where on standard error.
   void begin();
 
   /// The finished run of that name.
@@ -66,6 +66,9 @@ class RunStore {
   std::optional<FolderLock> lock_;
   std::optional<ScratchFolder> elsewhere_;  ///< scratch of a dry run
 };
+
+/// The program, thisProgram(), that an output folder's runs are of; empty where it does not say.
+std::string programOf(const std::filesystem::path& folder);
 
 /// The keys of a case that its runs depend on: not how many there are to be, nor how they are
 /// judged, nor which engines may take part. Settings of engines are left to runKey().

@@ -10,7 +10,6 @@
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
 #include "runs/couette/averages.hpp"
-#include "tests/bench/packings.hpp"
 #include "tests/bench/packings_option.hpp"
 
 namespace crossgrain::bench {
@@ -38,7 +37,7 @@ void average(benchmark::State& state, std::size_t disks, Make&& make) {
   Case setup = scaledCase(disks);
   setup.averaging.rings = rings(setup).count();
   const double dt = timeStep(setup);
-  const Scene scene = couetteScene(setup, packed(disks, packingFolder), dt);
+  const Scene scene = couetteScene(setup, packedInto(setup, packingFolder), dt);
   const auto engine = makeGrain();
   engine->load(scene, {});
   auto averages = make(setup, scene);

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <map>
 
-#include "tests/bench/packings.hpp"
 #include "tests/bench/packings_option.hpp"
 #include "tests/bench/stream.hpp"
 #include "tests/bench/traffic.hpp"
@@ -48,9 +47,9 @@ std::filesystem::path packingFolder;
 /// Packings are shared by all benchmarks of one size.
 const Setup& packed(std::size_t disks) {
   static std::map<std::size_t, Setup> kept;
-  const auto found = kept.find(disks);
-  return found != kept.end() ? found->second
-                             : kept.emplace(disks, packedSetup(disks, packingFolder)).first->second;
+  if (const auto found = kept.find(disks); found != kept.end()) return found->second;
+  const Case scaled = scaledCase(disks);
+  return kept.emplace(disks, scaledSetup(scaled, packedInto(scaled, packingFolder))).first->second;
 }
 
 struct Variant {

@@ -2,11 +2,16 @@
 
 #include <benchmark/benchmark.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 #include "cases/preparation.hpp"
+#include "cases/scaled_cell.hpp"
 
 namespace crossgrain::bench {
 
@@ -22,6 +27,16 @@ inline std::filesystem::path takePackingFolder(int& argc, char** argv) {
     return folder;
   }
   return packingCacheFile("").parent_path();
+}
+
+/// A scaled cell's packing, kept in `folder`. Says so where it has to be made.
+inline Packing packedInto(const Case& scaled, const std::filesystem::path& folder) {
+  bool told = false;
+  return scaledPacking(scaled, folder, [&](double) {
+    if (!std::exchange(told, true))
+      fmt::print(stderr, "preparing {} disks, kept in {}\n",
+                 scaled.particles.small + scaled.particles.large, folder.string());
+  });
 }
 
 /// The main() of a program of benchmarks on packings, which are kept in `packings`.

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::averageResults(), dir / "average");
   crossgrain::writeReport(crossgrain::sample::revResults(), dir / "rev");
   crossgrain::writeReport(crossgrain::sample::thesisClaims(), dir / "thesis");
+  crossgrain::writeReport(crossgrain::sample::scaleResults(), dir / "scale");
   crossgrain::writeSite({{"lockstep", toJson(crossgrain::sample::lockstepResults())},
                          {"thesis", toJson(crossgrain::sample::thesisClaims())}},
                         dir / "site");

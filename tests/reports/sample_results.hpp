@@ -7,6 +7,7 @@
 #include "results/effects.hpp"
 #include "results/lockstep.hpp"
 #include "results/rev.hpp"
+#include "results/scale.hpp"
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
@@ -47,6 +48,9 @@ ThesisResults thesisResults();
 
 /// The claims alone, of two engines and of none: every verdict, and several readings.
 ThesisResults thesisClaims();
+
+/// Three sizes on one and two threads of one engine; another that failed on the largest.
+ScaleResults scaleResults();
 
 /// What users may put into a name or reason.
 inline constexpr const char* awkward = "odd <b>\"name\"</b> & `touch pwned` {x 'y' _z";

@@ -1,19 +1,20 @@
-#include "tests/bench/packings.hpp"
+#include "cases/scaled_cell.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
-#include "cases/packing.hpp"
 #include "cases/time_step.hpp"
+#include "support/data_folder.hpp"
+#include "support/fingerprint.hpp"
 
-namespace crossgrain::bench {
+namespace crossgrain::inline cases {
 namespace {
 
 /// Uniform in [0, 1), the same on every platform.
@@ -92,7 +93,9 @@ grain::Law grainLaw(const ContactLaw& law) {
   return to;
 }
 
-grain::Setup grainSetup(const Case& setup, const Packing& packing) {
+}  // namespace
+
+grain::Setup scaledSetup(const Case& setup, const Packing& packing) {
   grain::Setup to;
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     to.disks.x.push_back(packing.disks.position[i].x());
@@ -115,24 +118,45 @@ grain::Setup grainSetup(const Case& setup, const Packing& packing) {
   return to;
 }
 
+namespace {
+
+constexpr std::uint64_t relaxing = 3000, shearing = 2000;  // steps
+
+/// Told the steps done so far, of all that making a packing takes.
+using StepsDone = std::function<void(std::uint64_t)>;
+
+/// As many threads as there are cores: the packing is the same to the bit on any number.
+grain::Setup onAllCores(grain::Setup setup) {
+  setup.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
+  return setup;
+}
+
+void advanceTelling(grain::Simulation& simulation, std::uint64_t steps, const StepsDone& tell) {
+  constexpr std::uint64_t atOnce = 10;
+  for (std::uint64_t done = 0; done < steps; done += atOnce) {
+    tell(done);
+    simulation.advance(std::min(atOnce, steps - done));
+  }
+}
+
 /// Moves what overlaps apart: no friction, and a bath that takes the velocities.
-void relax(grain::Setup setup, std::uint64_t steps, Disks& disks) {
+void relax(grain::Setup setup, Disks& disks, const StepsDone& tell) {
   setup.maxOverlap = 0.0;  // sites next to a wall disk may begin deep in it
   setup.law.tangential = grain::Tangential::none;
   setup.law.gn = 0.4;  // kg/s, nearly critical
   // k_b = 0 and a bound that is never reached: the plate's force is −γ v.
   setup.bottom = grain::Bottom{1e9, 0.0, 0.05, 0.0, 9.81, false};
-  grain::Simulation simulation(std::move(setup));
-  simulation.advance(steps);
+  grain::Simulation simulation(onAllCores(std::move(setup)));
+  advanceTelling(simulation, relaxing, tell);
   for (std::size_t i = 0; i < disks.size(); ++i) {
     disks.position[i] = {simulation.x(i), simulation.y(i)};
     disks.velocity[i] = Vec2::Zero();
   }
 }
 
-void shear(grain::Setup setup, std::uint64_t steps, Packing& packing) {
-  grain::Simulation simulation(std::move(setup));
-  simulation.advance(steps);
+void shear(grain::Setup setup, Packing& packing, const StepsDone& tell) {
+  grain::Simulation simulation(onAllCores(std::move(setup)));
+  advanceTelling(simulation, shearing, tell);
   for (std::size_t i = 0; i < packing.disks.size(); ++i) {
     packing.disks.position[i] = {simulation.x(i), simulation.y(i)};
     packing.disks.velocity[i] = {simulation.velocityX(i), simulation.velocityY(i)};
@@ -155,9 +179,10 @@ Disks reordered(const Disks& disks, const std::vector<std::size_t>& to) {
   return result;
 }
 
-Packing makePacking(const Case& setup, std::size_t disks) {
+Packing makePacking(const Case& setup, const std::function<void(double)>& progress) {
   Random random(1);
   const Disks kinds = diskKinds(setup.particles);
+  const std::size_t disks = kinds.size();
   std::vector<std::size_t> idAtSite(disks);
   for (std::size_t k = 0; k < disks; ++k) idAtSite[k] = k;
   shuffle(idAtSite, random);
@@ -171,8 +196,11 @@ Packing makePacking(const Case& setup, std::size_t disks) {
     packing.disks.inertia[k] = kinds.inertia[idAtSite[k]];
   }
   packing.disks.position = jitteredSites(setup, disks, random);
-  relax(grainSetup(setup, packing), 3000, packing.disks);
-  shear(grainSetup(setup, packing), 2000, packing);
+  const auto tell = [&](std::uint64_t done) {
+    progress(static_cast<double>(done) / static_cast<double>(relaxing + shearing));
+  };
+  relax(scaledSetup(setup, packing), packing.disks, tell);
+  shear(scaledSetup(setup, packing), packing, [&](std::uint64_t done) { tell(relaxing + done); });
   packing.disks = reordered(packing.disks, idAtSite);
   return packing;
 }
@@ -189,8 +217,8 @@ double growthOf(const Case& setup, double room) {
 
 }  // namespace
 
-Case scaledCase(std::size_t disks) {
-  Case setup = loadCase(CROSSGRAIN_SOURCE_DIR "/cases/couette/nu-0.804.toml").front();
+Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides) {
+  Case setup = loadCase(dataFolder() / "cases/couette/nu-0.804.toml", overrides).front();
   Particles& particles = setup.particles;
   const double all = particles.small + particles.large;
   const double growth = growthOf(setup, static_cast<double>(disks) / all);
@@ -203,18 +231,26 @@ Case scaledCase(std::size_t disks) {
   return setup;
 }
 
-Packing packed(std::size_t disks, const std::filesystem::path& folder) {
-  const Case setup = scaledCase(disks);
-  const std::filesystem::path file = folder / fmt::format("bench-packing-1-{}.h5", disks);
-  if (!std::filesystem::exists(file)) {
-    fmt::print(stderr, "preparing {} disks, kept in {}\n", disks, file.string());
-    writePacking(makePacking(setup, disks), file);
+Packing scaledPacking(const Case& scaled, const std::filesystem::path& folder,
+                      const std::function<void(double)>& progress) {
+  // The tag changes whenever the making itself does.
+  const std::string hash =
+      fmt::format("{:016x}", fnv1a("scaled cell 1; " + packingHash(scaled, 0, timeStep(scaled))));
+  const auto disks = static_cast<std::size_t>(scaled.particles.small + scaled.particles.large);
+  const std::filesystem::path file = folder / fmt::format("scaled-{}-{}.h5", disks, hash);
+  if (std::filesystem::exists(file)) {
+    Packing kept = readPacking(file, scaled, mostScaled);
+    kept.fromCache = true;
+    return kept;
   }
-  return readPacking(file, setup);
+  Packing packing = makePacking(scaled, progress);
+  packing.hash = hash;
+  try {
+    writePacking(packing, file);
+  } catch (const std::exception& error) {
+    packing.notCached = error.what();
+  }
+  return packing;
 }
 
-grain::Setup packedSetup(std::size_t disks, const std::filesystem::path& folder) {
-  return grainSetup(scaledCase(disks), packed(disks, folder));
-}
-
-}  // namespace crossgrain::bench
+}  // namespace crossgrain::inline cases
