@@ -82,12 +82,23 @@ Scene diluteScene(const Case& setup, const Disks& disks, double dt) {
   return scene;
 }
 
+/// What the case lets the in-house engine go on with: it ends a run or does not, and changes
+/// nothing of a packing.
+Settings guardOf(const Case& setup) {
+  Settings guard;
+  if (const auto own = setup.engines.find(engineRegistry().front().name);
+      own != setup.engines.end())
+    if (const auto limit = own->second.find("max_overlap"); limit != own->second.end())
+      guard.insert(*limit);
+  return guard;
+}
+
 /// The in-house engine can do every scene as it is; another one does it as the case lets it, with
 /// its own settings.
 void load(Engine& engine, const Case& setup, const Scene& scene) {
   const EngineEntry* const entry = ownPreparer(setup);
   if (!entry) {
-    engine.load(scene, {});
+    engine.load(scene, guardOf(setup));
     return;
   }
   const auto settings = setup.engines.find(entry->name);

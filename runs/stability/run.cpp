@@ -194,6 +194,8 @@ void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
 StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress) {
   StabilityRun row = rowOf(task);
   try {
+    if (!task.unprepared.empty())
+      throw BadInput(task.unprepared);  // nobody's failure: it never ran
     const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
     judge(row, task, *engine, progress);
   } catch (const Interrupted&) {

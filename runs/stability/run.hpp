@@ -16,6 +16,7 @@ struct StabilityTask {
   EngineEntry entry;
   const Packing* packing;         ///< of a Couette case
   std::filesystem::path scratch;  ///< the worker's
+  std::string unprepared = {};    ///< why there is no packing, empty: there is
 };
 
 /// Runs it in a worker of its own. Whatever the engine does is a verdict.

@@ -71,6 +71,7 @@ class Suite {
         store_(store),
         progress_(command.quiet),
         packings_(cases.size()),
+        unprepared_(cases.size()),
         versions_(engines_.size()) {
     for (const Case& setup : cases) checkEngineSections(setup);
     for (const EngineEntry& entry : engines_)
@@ -97,11 +98,20 @@ class Suite {
       if (cases_[c].kind != CaseKind::couette) continue;
       const auto engine = engineRegistry().front().make();
       progress_.begin("preparing packings", {1.0});
-      packings_[c] = packingOf(cases_[c], 0, timeStep(cases_[c]), *engine, [&](double fraction) {
-        throwIfInterrupted();
-        progress_.update(0, cases_[c].name, fraction);
-      });
-      progress_.finish(0, cases_[c].name + ": packing ready");
+      try {
+        packings_[c] = packingOf(cases_[c], 0, timeStep(cases_[c]), *engine, [&](double fraction) {
+          throwIfInterrupted();
+          progress_.update(0, cases_[c].name, fraction);
+        });
+        progress_.finish(0, cases_[c].name + ": packing ready");
+      } catch (const Interrupted&) {
+        throw;
+      } catch (const BadInput&) {
+        throw;
+      } catch (const std::exception& failure) {  // the other cases go on
+        unprepared_[c] = fmt::format("no packing was prepared: {}", failure.what());
+        progress_.finish(0, fmt::format("{}: {}", cases_[c].name, unprepared_[c]));
+      }
     }
   }
 
@@ -183,8 +193,9 @@ class Suite {
     task.weight = predicted(setup, entry);
     task.work = [this, &setup, &original, &entry, c,
                  name = task.name](const std::function<void(double)>& progress) {
-      StabilityRun run =
-          runStability({&setup, &original, entry, &packings_[c], store_.scratch(name)}, progress);
+      StabilityRun run = runStability(
+          {&setup, &original, entry, &packings_[c], store_.scratch(name), unprepared_[c]},
+          progress);
       const std::string verdict(nameOf(run.verdict));
       const bool finished = run.status != HardRunStatus::failed;
       return KeptTask<StabilityRun>::Outcome{std::move(run), finished, verdict};
@@ -213,7 +224,8 @@ class Suite {
   std::vector<EngineEntry> engines_;
   RunStore& store_;
   Progress progress_;
-  std::vector<Packing> packings_;  ///< of Couette cases
+  std::vector<Packing> packings_;        ///< of Couette cases
+  std::vector<std::string> unprepared_;  ///< why they have none
   std::vector<std::string> versions_;
   std::vector<StabilityRun> runs_;  ///< case by case, engine by engine
 };

@@ -68,6 +68,19 @@ class Stability(SystemTest):
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, r"(?m)^nothing was judged: .*refused.*checkpoints")
 
+    def test_where_no_packing_can_be_prepared_the_other_cases_go_on(self):
+        """The guard of the engine that prepares them ends it at a rim of 3 m/s; the others never ran there."""
+        done = self.run_program(
+            "stability", HARD / "couette-rates.toml", "--engines", "grain,box2d-penalty", "--out", self.out,
+            "--set", "engines.grain.max_overlap=1.0", env={"CROSSGRAIN_CACHE": str(self.folder / "cache")},
+        )
+        self.assert_status(done, HELD)
+        rows = {(row["engine"], row["variant"]): row for row in self.table()}
+        for engine in ("grain", "box2d-penalty"):
+            self.assertEqual("stable", rows[engine, "1"]["verdict"])
+            self.assertEqual("refused", rows[engine, "1e2"]["verdict"])
+            self.assertRegex(rows[engine, "1e2"]["reason"], "no packing was prepared: .*overlap by")
+
     def test_a_case_that_is_no_hard_one_is_bad_input(self):
         done = self.run_program(
             "stability", CASES / "couette/quick.toml", "--engines", "grain", "--out",
