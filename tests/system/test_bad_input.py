@@ -344,7 +344,10 @@ class Unsupported(SystemTest):
         )  # fmt: skip
         # What it advises is the way out.
         allowed.append("bottom_friction")
-        short = settings(averaging__rotations=0.01, preparation__packings=1)
+        short = (
+            *settings(averaging__rotations=0.01, preparation__packings=1),
+            "--set=engines.box2d-impulse.dt=5e-4",  # the finer, the harder
+        )
         done = self.compare(
             "--quiet", *settings(run__may_differ=allowed), *short, engines="grain,box2d-impulse"
         )

@@ -133,7 +133,7 @@ class Baseline(SystemTest):
     def test_nothing_is_judged_where_no_time_is_met(self):
         """A step that never comes by the times that were kept; collisions that do not differ do not make a flow the same."""
         self.assert_status(self.keep("box2d-impulse", "--starts=1"), HELD)
-        done = self.diff("box2d-impulse", "--set=engines.box2d-impulse.dt=3e-4")
+        done = self.diff("box2d-impulse", "--set=engines.box2d-impulse.dt=1.4142e-3")
         self.assertIn("meets the times that were kept", done.stdout)
         self.assert_status(done, FELL_SHORT)
 
