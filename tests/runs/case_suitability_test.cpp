@@ -25,8 +25,8 @@ bool has(const std::vector<std::string>& notes, const std::string& note) {
 
 TEST(CaseSuitability, IsWhatTheEngineTellsOnceItHasTheScene) {
   const Suitability found = of("box2d-impulse");
-  EXPECT_EQ(found.dt, 5e-4);
-  EXPECT_TRUE(has(found.deviations, "takes steps of 0.0005 s, the case's are 4e-05 s"));
+  EXPECT_EQ(found.dt, 1.5e-3);
+  EXPECT_TRUE(has(found.deviations, "takes steps of 0.0015 s, the case's are 4e-05 s"));
   EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
   EXPECT_EQ(found.notSimulated,
             (std::vector<std::string>{"tangential_spring", "tangential_damping", "bottom_friction",
