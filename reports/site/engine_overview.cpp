@@ -21,7 +21,7 @@ std::size_t columnOf(Overview& overview, const OverviewColumn& question) {
   return columns.size() - 1;
 }
 
-/// "3 questions of 2 reports", of those that the thesis' claims are not.
+/// How many questions came out so, and in which reports.
 struct Tally {
   std::size_t answered = 0;
   std::vector<std::string> places;  ///< reports, each once

@@ -55,7 +55,7 @@ void addOnce(std::vector<std::string>& names, const std::string& name) {
   names.push_back(std::move(own));
 }
 
-/// "0.3.0 in compare quick and cost quick; 0.2.0 in rev quick"
+/// "version 0.3.0 in compare quick and cost quick; version 0.2.0 in rev quick"
 std::string versionsOf(const std::vector<SiteReport>& reports, const EngineRow& engine) {
   SaidOf said;
   for (const SiteReport& report : reports) {

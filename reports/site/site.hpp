@@ -44,7 +44,7 @@ Overview siteOverview(const std::vector<SiteReport>& reports);
 /// One engine's answers: reports × questions, each cell as its report has it.
 Overview engineOverview(const std::vector<SiteReport>& reports, const std::string& engine);
 
-/// Names of the engines' pages, "engine-yade.html", in their order and each once.
+/// Names of the engines' pages, "engine-NAME.html", in their order and each once.
 std::vector<std::string> enginePages(const std::vector<EngineRow>& engines);
 
 /// Writes index.html, a page for each engine, summary.md and, of all but the thesis, which judges
