@@ -14,12 +14,11 @@
 #include "cases/volume_fraction.hpp"
 #include "results/scale_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/advance.hpp"
 #include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/head.hpp"
 #include "runs/common/progress.hpp"
-#include "runs/common/worker_memory.hpp"
+#include "runs/scale/timing.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
@@ -195,7 +194,8 @@ class ScaleStudy {
     progress_.update(k, labelOf(k), static_cast<double>(repetition) / plan_.repetitions);
     if (point.measured.empty()) point.measured = timeStamp();
     try {
-      timeOnce(k, scaled, scene);
+      const std::size_t e = planned_[k].engine;
+      timeSteps(point, engines_[e], sharing_[e].workers, scaled, scene, store_.scratch(nameOf(k)));
     } catch (const UnsupportedScene& refusal) {
       point.status = EngineStatus::refused;
       point.reason = refusal.what();
@@ -205,70 +205,12 @@ class ScaleStudy {
     }
   }
 
-  void timeOnce(std::size_t k, Case scaled, const Scene& scene) {
-    ScalePoint& point = points_[k];
-    const EngineEntry& entry = engines_[planned_[k].engine];
-    scaled.run.timeout = std::max(scaled.run.timeout, patience(point));
-    if (const std::string& sharing = sharing_[planned_[k].engine].workers; !sharing.empty())
-      scaled.engines[entry.name][sharing] = static_cast<double>(point.workers);
-    const LoadedEngine loaded = loadEngine(entry, scaled, scene, store_.scratch(nameOf(k)));
-    Engine& engine = *loaded.engine;
-    const Realised& realised = loaded.realised;
-
-    const std::uint64_t warmUp = warmUpSteps(point.steps), end = warmUp + point.steps;
-    advance(engine, realised, 0, warmUp);
-    const Stats before = engine.stats();
-    advance(engine, realised, warmUp, end);
-    const Stats after = engine.stats();
-    const auto steps = static_cast<double>(after.steps - before.steps);
-    point.seconds.push_back((after.wallSeconds - before.wallSeconds) / steps);
-    point.contacts =
-        static_cast<double>(after.contactEvaluations - before.contactEvaluations) / steps;
-    if (const auto memory = mostMemoryOf(engine))
-      point.memory = std::max(point.memory.value_or(0.0), static_cast<double>(*memory));
-    point.dt = realised.dt;
-    point.precision = realised.precision;
-    point.differs.clear();
-    for (const Deviation& deviation : realised.deviations) point.differs.push_back(deviation.name);
-  }
-
-  /// In so many pieces that Ctrl-C is heard on the largest cells, too.
-  static void advance(Engine& engine, const Realised& realised, std::uint64_t from,
-                      std::uint64_t to) {
-    constexpr std::uint64_t pieces = 10;
-    const std::uint64_t piece = std::max<std::uint64_t>(1, (to - from) / pieces);
-    for (std::uint64_t at = from; at < to; at += piece)
-      advanceInPieces(engine, realised, static_cast<double>(at) * realised.dt,
-                      static_cast<double>(std::min(at + piece, to)) * realised.dt);
-  }
-
-  /// For one answer [s]: loading, or a tenth of the steps, a hundred times slower than `grain`.
-  static double patience(const ScalePoint& point) {
-    const auto disks = static_cast<double>(point.disks);
-    return 60.0 + 1e-3 * disks + 2.5e-7 * disks * static_cast<double>(point.steps);
-  }
-
-  /// By the largest cell that this engine has run with as many workers, else with one.
   void refuseWithoutMemory(std::size_t k) {
-    ScalePoint& point = points_[k];
-    const ScalePoint* smaller = nullptr;
-    for (std::size_t before = 0; before < k; ++before) {
-      const ScalePoint& other = points_[before];
-      if (other.engine == point.engine && other.memory && other.disks < point.disks &&
-          (other.workers == 1 || other.workers == point.workers))
-        smaller = &other;
-    }
-    const auto available = availableMemory();
-    if (!smaller || !available) return;
-    const double expected = expectedMemory(point.disks, smaller->disks, *smaller->memory);
-    // Of a small cell most is the program itself, which does not grow.
-    constexpr std::size_t telling = 100'000;
-    if (smaller->disks < telling || expected < static_cast<double>(*available)) return;
-    point.status = EngineStatus::refused;
-    point.reason = fmt::format(
-        "by what {} disks took it would take {:.3g} GB of memory, and {:.3g} GB are available",
-        smaller->disks, 1e-9 * expected, 1e-9 * static_cast<double>(*available));
-    progress_.finish(k, labelOf(k) + ": refused: " + point.reason);
+    const auto lack = lackOfMemory(points_, k);
+    if (!lack) return;
+    points_[k].status = EngineStatus::refused;
+    points_[k].reason = *lack;
+    progress_.finish(k, labelOf(k) + ": refused: " + *lack);
   }
 
   static std::string outcomeOf(const ScalePoint& point) {
