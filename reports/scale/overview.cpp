@@ -73,13 +73,16 @@ OverviewCell cellOf(const ScaleResults& results, const EngineRow& engine,
   return cell;
 }
 
-/// "grain takes 25 ns a disk and step on 1 000 000 disks with 2 threads"
+/// "grain takes 25 ns a disk and step on 1 000 000 disks (2 threads)"; behind the threads what it
+/// does otherwise than the scene says, for it has less to do, or more
 std::string fastestOf(const ScaleResults& results, const std::string& engine) {
   const ScalePoint* const point = largestWith(results, engine, &ScaleFigures::perDisk);
   if (!point) return {};
-  return fmt::format("{} takes {} ns a disk and step on {} ({})", engine,
+  const auto differs = scaleDifferences(results, engine);
+  return fmt::format("{} takes {} ns a disk and step on {} ({}{})", engine,
                      readable(1e9 * *scaleFigures(results, *point).perDisk), disksInWords(*point),
-                     workersInWords(results, *point));
+                     workersInWords(results, *point),
+                     differs.empty() ? "" : "; otherwise than the scene: " + listed(differs));
 }
 
 }  // namespace

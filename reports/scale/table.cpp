@@ -6,6 +6,7 @@
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/scale/report.hpp"
 #include "results/json_fields.hpp"
 
@@ -57,6 +58,16 @@ std::string workersOf(const ScaleResults& results, const std::string& engine) {
   return found == results.sharing.end() ? std::string() : found->workers;
 }
 
+std::vector<std::string> scaleDifferences(const ScaleResults& results, const std::string& engine) {
+  std::vector<std::string> differences;
+  for (const ScalePoint& point : results.points) {
+    if (point.engine != engine || point.status != EngineStatus::ran) continue;
+    for (const std::string& name : point.differs)
+      if (std::ranges::find(differences, name) == differences.end()) differences.push_back(name);
+  }
+  return differences;
+}
+
 std::string workersInWords(const ScaleResults& results, const ScalePoint& point) {
   return results::workersInWords({point.engine, workersOf(results, point.engine)}, point.workers);
 }
@@ -77,14 +88,17 @@ std::vector<std::string> scaleCells(const ScaleResults& results, const ScalePoin
 std::string scaleText(const ScaleResults& results) {
   std::vector<std::vector<std::string>> rows = {{"engine"}};
   for (const ScaleColumn& column : scaleColumns()) rows[0].push_back(column.name);
-  std::string troubles;
+  std::string notes;
+  for (const EngineRow& engine : results.engines)
+    if (const auto differs = scaleDifferences(results, engine.name); !differs.empty())
+      notes += fmt::format("{} differs from the scene: {}\n", engine.name, listed(differs));
   for (const ScalePoint& point : results.points) {
     rows.push_back({point.engine});
     for (std::string& cell : scaleCells(results, point)) rows.back().push_back(std::move(cell));
     if (point.status != EngineStatus::ran)
-      troubles += fmt::format("{}, {} disks, {}: {}: {}\n", point.engine,
-                              readableCount(static_cast<double>(point.disks)),
-                              workersInWords(results, point), nameOf(point.status), point.reason);
+      notes += fmt::format("{}, {} disks, {}: {}: {}\n", point.engine,
+                           readableCount(static_cast<double>(point.disks)),
+                           workersInWords(results, point), nameOf(point.status), point.reason);
   }
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& cells : rows)
@@ -96,7 +110,7 @@ std::string scaleText(const ScaleResults& results) {
       text += (k == 0 ? "" : "  ") + aligned(cells[k], widths[k], k == 0);
     text += '\n';
   }
-  return text + troubles;
+  return text + notes;
 }
 
 std::string scaleCsv(const ScaleResults& results) {

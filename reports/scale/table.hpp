@@ -21,6 +21,9 @@ std::vector<std::string> scaleCells(const ScaleResults& results, const ScalePoin
 /// "2 threads"; "one process" of an engine that has no workers.
 std::string workersInWords(const ScaleResults& results, const ScalePoint& point);
 
+/// Names of what the engine did otherwise than the scene says, on any cell that it ran.
+std::vector<std::string> scaleDifferences(const ScaleResults& results, const std::string& engine);
+
 /// What workers are to the engine; empty: it has one.
 std::string workersOf(const ScaleResults& results, const std::string& engine);
 

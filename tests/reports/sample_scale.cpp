@@ -32,6 +32,7 @@ ScaleResults scaleResults() {
     odd.disks = disks;
     odd.steps = 100;
     odd.seconds = {10.0 * perDisk * n};
+    odd.differs = {"bottom_friction", "slop"};
     if (disks == 100'000) {
       odd.status = EngineStatus::failed;
       odd.reason = awkward;

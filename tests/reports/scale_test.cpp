@@ -25,7 +25,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
   const auto lines = linesOf(scaleText(sample::scaleResults()));
-  ASSERT_EQ(lines.size(), 1u + 9u + 1u);  // head, points, the one that failed
+  ASSERT_EQ(lines.size(), 1u + 9u + 2u);  // head, points, who differs, the one that failed
   EXPECT_EQ(lines[1],
             "grain       1000     1 thread  16.0 µs     16.0     5 %       –     –     1.00      "
             "20\u202f300");
@@ -36,7 +36,8 @@ TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
             "odd-one     1000  one process   160 µs      160       –       –     –     10.0           "
             "–");
   EXPECT_TRUE(has(lines[9], "–  "));
-  EXPECT_TRUE(lines[10].starts_with("odd-one, 100\u202f000 disks, one process: failed: odd <b>"));
+  EXPECT_EQ(lines[10], "odd-one differs from the scene: bottom_friction, slop");
+  EXPECT_TRUE(lines[11].starts_with("odd-one, 100\u202f000 disks, one process: failed: odd <b>"));
 }
 
 TEST(ScaleCsv, IsTheContract) {
@@ -58,6 +59,9 @@ TEST(ScaleOverview, TellsTheLargestCellThatEachRan) {
   EXPECT_EQ(overview.rows[1].cells[0].words, "10\u202f000 disks, one process");
   EXPECT_EQ(overview.rows[1].cells[1].state, CellState::notApplicable);  // it has one process
   EXPECT_EQ(overview.rows[1].cells[3].state, CellState::bad);
+  EXPECT_TRUE(has(overview.conclusion.at(0), "2 threads)"));
+  EXPECT_TRUE(has(overview.conclusion.at(0),
+                  "one process; otherwise than the scene: bottom_friction, slop)"));
   EXPECT_TRUE(has(overview.conclusion.at(1), "odd-one ends at 100\u202f000 disks"));
 }
 
