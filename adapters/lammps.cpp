@@ -34,14 +34,14 @@ std::string lammpsMissing() {
 
 EngineEntry lammpsEngine() {
   return {"lammps",
-          "LAMMPS, pair_style granular with Hooke's law, in two dimensions",
+          "LAMMPS, pair_style granular with Hooke's or Hertz' law, in two dimensions",
           {},
           lammpsCommand,
           lammpsMissing,
           ""};
 }
 
-/// pair_style granular with linear_history, and fix nve/sphere (engines/lammps/README.md).
+/// pair_style granular with linear_history or mindlin, and fix nve/sphere (engines/lammps/README.md).
 EngineEntry lammpsMirror() {
   const auto make = [] {
     return makeGrainMirror({{"tension", {"allow"}},
@@ -57,7 +57,7 @@ EngineEntry lammpsMirror() {
   };
   return {
       "grain-as-lammps", "the in-house engine held to LAMMPS' conventions", make, {}, {}, "lammps",
-      {"linear"}};
+      {"linear", "hertz"}};
 }
 
 }  // namespace crossgrain

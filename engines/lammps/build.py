@@ -9,6 +9,7 @@ from crossgrain_worker import Unsupported
 DISKS = 1  # the type of moving disks; wall bodies are 2, 3, …
 AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 FEW = 50  # atoms: a box that small may have no room for bins
+IMMOVABLE = 1e30  # kg, of walls: nothing integrates them, and m₁₂ of a pair with one is the disk's mass to the last bit
 SHAPES = {0.5: "disc", 0.4: ""}  # J/(m a²) → what `fix nve/sphere` calls it
 
 
@@ -76,7 +77,7 @@ class Scene:
         self.set_up(position, kind, skin)
         self.lammps.create_atoms(kind, np.column_stack([position, zero]))
         self.lammps.scatter("radius", self.radius)
-        mass = np.ones(len(kind))  # a wall's plays no part: nothing integrates it
+        mass = np.full(len(kind), IMMOVABLE)
         mass[:n] = arrays["disks.mass"]
         self.lammps.scatter("rmass", mass)
         self.lammps.scatter("v", np.column_stack([velocity, zero]))

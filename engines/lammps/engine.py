@@ -8,7 +8,7 @@ from build import Scene, check
 from contacts import contacts_of_rows, pair_rows, read_plane_contacts
 from crossgrain_answers import effects_called, effects_without_bottom, setting
 from crossgrain_walls import Body
-from law import Law
+from law import DAMPERS, KINDS, NORMALS, Law
 from library import Lammps
 
 CHUNK = 1000  # steps between two looks at the number of contacts
@@ -22,7 +22,10 @@ class Engine:
     name = "lammps"
     Law, Scene, check = Law, Scene, staticmethod(check)
     conventions = {
-        "tangential": ["none", "viscous", "spring", "spring_dashpot"],
+        "normal": list(NORMALS),
+        "damper": list(DAMPERS),
+        "history": ["displacement", "force"],
+        "tangential": list(KINDS),
         "dashpot": ["inside"],
         "spring_reset": ["spring_only"],
         "velocity_arm": ["radius"],

@@ -28,11 +28,18 @@ def demand_linear(law, kinds):
     """Of `load`: the linear law with a tangential part of one of those kinds.
 
     @raise Unsupported"""
-    if law["normal"] != "linear":
-        raise Unsupported(f'has normal = linear, not "{law["normal"]}"')
+    demand_law(law, ("linear",), ("constant",), kinds)
+
+
+def demand_law(law, normals, dampers, kinds):
+    """Of `load`: a law of one of those kinds each; a damper where there is one.
+
+    @raise Unsupported"""
+    if law["normal"] not in normals:
+        raise Unsupported(f'has normal = {" | ".join(normals)}, not "{law["normal"]}"')
     demand_tangential(law, kinds)
-    if (law["gn"] > 0 or law["gt"] > 0) and law["damper"] != "constant":
-        raise Unsupported(f'has damper = "constant", not "{law["damper"]}"')
+    if (law["gn"] > 0 or law["gt"] > 0) and law["damper"] not in dampers:
+        raise Unsupported(f'has damper = {" | ".join(dampers)}, not "{law["damper"]}"')
 
 
 def demand_tangential(law, kinds):

@@ -2,6 +2,7 @@
 
 import array
 import csv
+import json
 import math
 import os
 import pathlib
@@ -72,12 +73,34 @@ class Lammps(SystemTest):
         )
         self.assert_status(done, HELD)
 
+    def test_hertz(self):
+        """Mindlin's spring as displacement and as force, critical dashpots, at disks of walls too: same to rounding."""
+        for history in ("displacement", "force"):
+            with self.subTest(history):
+                out = self.folder / history
+                done = self.run_program(
+                    "lockstep", CASES / "cost" / "hertz.toml", "--engines", "lammps", "--out", out, "--quick",
+                    "--quiet", "--starts=2", f"--set=law.history={history}",
+                )  # fmt: skip
+                self.assert_status(done, HELD)
+                row = json.loads((out / "results.json").read_text())["lockstep"]["rows"][0]
+                self.assertEqual("same_to_rounding", row["verdict"])
+                self.assertGreater(row["kinds"]["wall"], 0)
+                self.assertLess(row["forces"]["tangential"], 1e-12)
+
     def test_what_it_cannot_do_is_refused_by_name(self):
-        done = self.run_program(
-            "collide", CASES / "collision" / "chung-ooi-1.toml", "--engines", "lammps", "--out", self.out, "--quiet"
-        )
-        self.assert_status(done, BAD_INPUT)
-        self.assertIn("has normal = linear, not hertz", done.stderr)
+        for file, changes, reason in (
+            ("measured-disk", [], "has normal = linear | hertz, not polynomial"),
+            ("chung-ooi-1", ["law.damper=viscoelastic", "law.gn=1e-6"], "has damper = constant | critical, not"),
+            ("chung-ooi-1", ["law.gn=1.2"], "between 0.0003 and 1.27, not 1.47"),  # 1.2 √1.5
+        ):
+            with self.subTest(reason):
+                done = self.run_program(
+                    "collide", CASES / "collision" / f"{file}.toml", "--engines", "lammps", "--quiet",
+                    "--out", self.folder / "refused", "--fresh", *(f"--set={change}" for change in changes),
+                )  # fmt: skip
+                self.assert_status(done, BAD_INPUT)
+                self.assertIn(reason, done.stderr)
 
 
 TWO = "--set=engines.lammps.ranks=2"
