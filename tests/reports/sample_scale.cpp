@@ -37,6 +37,7 @@ ScaleResults scaleResults() {
       odd.status = EngineStatus::failed;
       odd.reason = awkward;
       odd.seconds.clear();
+      odd.differs.clear();
     }
     results.points.push_back(odd);
     perDisk *= 1.1;

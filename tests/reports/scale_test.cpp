@@ -32,11 +32,12 @@ TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
   EXPECT_EQ(lines[2],
             "grain       1000    2 threads  10.0 µs     10.0     5 %    0.80     –    0.625      "
             "20\u202f300");
-  EXPECT_EQ(lines[3],
-            "odd-one     1000  one process   160 µs      160       –       –     –     10.0           "
-            "–");
+  EXPECT_EQ(
+      lines[3],
+      "odd-one     1000  one process   160 µs      160       –       –     –     10.0           "
+      "–");
   EXPECT_TRUE(has(lines[9], "–  "));
-  EXPECT_EQ(lines[10], "odd-one differs from the scene: bottom_friction, slop");
+  EXPECT_EQ(lines[10], "odd-one differs from the scene: bottom_friction and slop");
   EXPECT_TRUE(lines[11].starts_with("odd-one, 100\u202f000 disks, one process: failed: odd <b>"));
 }
 
@@ -61,7 +62,7 @@ TEST(ScaleOverview, TellsTheLargestCellThatEachRan) {
   EXPECT_EQ(overview.rows[1].cells[3].state, CellState::bad);
   EXPECT_TRUE(has(overview.conclusion.at(0), "2 threads)"));
   EXPECT_TRUE(has(overview.conclusion.at(0),
-                  "one process; otherwise than the scene: bottom_friction, slop)"));
+                  "one process; otherwise than the scene: bottom_friction and slop)"));
   EXPECT_TRUE(has(overview.conclusion.at(1), "odd-one ends at 100\u202f000 disks"));
 }
 
