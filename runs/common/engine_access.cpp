@@ -119,8 +119,11 @@ std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesy
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
   Settings settings = settingsSaid(setup, engine);
-  const std::string where = fmt::format("{}: [engines.{}]", setup.file.string(), engine);
+  const auto section = setup.engines.find(engine);
   for (const auto& [name, value] : settings) {
+    const bool ofCase = section != setup.engines.end() && section->second.contains(name);
+    const std::string where = ofCase ? fmt::format("{}: [engines.{}]", setup.file.string(), engine)
+                                     : fmt::format("{}: [settings] of its file:", engine);
     const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
     if (spec == can.settings.end()) {
       std::vector<std::string> known;

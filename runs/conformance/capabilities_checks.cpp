@@ -57,9 +57,10 @@ void defaultsSpokenAloudChangeNothing(Exam& it) {
   it.load(scene);
   const double dt = it.realised.dt;
   const Snapshot silent = it.at(busyEnd);
-  Settings defaults;
-  for (const SettingSpec& setting : it.can.settings) defaults[setting.name] = setting.defaultValue;
-  it.load(scene, defaults);
+  Settings spoken = it.entry.settings;
+  for (const SettingSpec& setting : it.can.settings)
+    spoken.try_emplace(setting.name, setting.defaultValue);
+  it.load(scene, spoken);
   it.equal(it.realised.dt, dt, "the time step with its defaults as settings");
   it.expect(sameBits(it.at(busyEnd), silent), "with its defaults as settings, and without");
 }
@@ -135,11 +136,11 @@ void effectsAreThoseThatItsCapabilitiesSay(Exam& it) {
   for (const LawOption& option : lawOptions()) all.emplace_back(option.name);
   Scene scene = adaptScene(it.can, busy, all).scene;
   try {
-    it.realised = it.engine().load(scene, {});
+    it.realised = it.engine().load(scene, it.entry.settings);
   } catch (const UnsupportedScene&) {  // nor can it put another law in this one's place
     busy.law = it.law();
     scene = adaptScene(it.can, busy, all).scene;
-    it.realised = it.engine().load(scene, {});
+    it.realised = it.engine().load(scene, it.entry.settings);
   }
   for (const Effect effect : effectsOf(busy))
     it.equal(it.realised.effects.contains(effect), it.can.effects.at(effect) != Support::never,

@@ -195,6 +195,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   results.engine = {entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
   const Capabilities can = startEngine(entry, scratch.path / "hello", 60.0)->capabilities();
   results.engine.version = can.version;
+  settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
 
   Progress progress(task.quiet);
   progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});

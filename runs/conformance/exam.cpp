@@ -80,7 +80,9 @@ Tolerance Exam::byPrecision(double ifDouble, double ifFloat, const char* why) co
   return {allowed, allowed, why};
 }
 
-std::optional<std::string> Exam::refused(const Scene& wanted, const Settings& settings) {
+std::optional<std::string> Exam::refused(const Scene& wanted, const Settings& changed) {
+  Settings settings = changed;
+  settings.insert(entry.settings.begin(), entry.settings.end());
   try {
     scene = adaptScene(can, wanted, {}).scene;
     realised = engine_.load(scene, settings);

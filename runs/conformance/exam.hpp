@@ -59,7 +59,8 @@ class Exam {
   ContactReport contactReport() const;
   Tolerance byPrecision(double ifDouble, double ifFloat, const char* why) const;
 
-  /// Has the engine load a scene. @returns why it cannot
+  /// Has the engine load a scene with these settings, the others as its file has them.
+  /// @returns why it cannot
   [[nodiscard]] std::optional<std::string> refused(const Scene& scene,
                                                    const Settings& settings = {});
   /// The same; a refusal is a skip. @throws Skipped

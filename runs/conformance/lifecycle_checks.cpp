@@ -117,7 +117,7 @@ void workersAgreeBitForBit(Exam& it) {
   it.load(scene);
   const Snapshot here = it.at(busyEnd);
   const auto other = it.another(it.entry);
-  other->load(scene, {});
+  other->load(scene, it.entry.settings);
   other->advance(busyEnd);
   it.expect(sameBits(other->snapshot(it.contactReport()), here), "two workers");
 }

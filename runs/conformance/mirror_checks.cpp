@@ -15,6 +15,7 @@ struct Pair {
   Exam& it;
   std::unique_ptr<Engine> peer = {};
   Capabilities canPeer = {};
+  Settings settingsPeer = {};
 
   explicit Pair(Exam& exam) : it(exam) {
     const EngineEntry* entry = findEngine(it.entry.mirrors);
@@ -22,6 +23,7 @@ struct Pair {
     if (entry->missing)
       if (const std::string why = entry->missing(); !why.empty()) it.skip(why);
     peer = it.another(*entry);
+    settingsPeer = entry->settings;
     canPeer = peer->capabilities();
     if (it.rigid() != (followed(canPeer, fullLaw()).normal == NormalLaw::rigid))
       it.skip("its peer has another normal law");
@@ -33,7 +35,7 @@ struct Pair {
   void load(Scene scene) {
     scene.law = followed(canPeer, scene.law);
     try {
-      scene.dt = peer->load(scene, {}).dt;
+      scene.dt = peer->load(scene, settingsPeer).dt;
     } catch (const UnsupportedScene& refusal) {
       it.skip(refusal.what());
     }

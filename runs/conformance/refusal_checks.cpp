@@ -81,7 +81,7 @@ void engineRefusesOrSaysHowItDeviates(Exam& it) {
   const auto expectHonest = [&](const Scene& scene, const std::string& what) {
     Realised realised;
     const std::string why =
-        refusalOf<UnsupportedScene>([&] { realised = it.engine().load(scene, {}); });
+        refusalOf<UnsupportedScene>([&] { realised = it.engine().load(scene, it.entry.settings); });
     if (why.empty()) {
       it.expect(named(realised.deviations, what), said("runs ", what, " without a word"));
     } else {
@@ -106,7 +106,7 @@ void livesOnAfterARefusal(Exam& it) {
   const Snapshot before = it.at(Encounter::end);
   Scene other = scene;
   other.law.normal = it.rigid() ? NormalLaw::linear : NormalLaw::rigid;
-  refusalOf<UnsupportedScene>([&] { it.engine().load(other, {}); });
+  refusalOf<UnsupportedScene>([&] { it.engine().load(other, it.entry.settings); });
   it.load(scene);
   it.expect(sameBits(it.at(Encounter::end), before), "after a refusal, and before");
 }

@@ -102,6 +102,29 @@ class Conformance(SystemTest):
         self.assertRegex(done.stdout, r"most likely: .*k_n")
         self.assertIn("Most likely", (self.out / "report.html").read_text(encoding="utf-8"))
 
+    def test_it_is_loaded_as_its_file_says(self):
+        """[settings] of the file reach every load; one that the engine does not have is bad input."""
+        engine = self.changed(
+            '"settings": [],\n',
+            '"settings": [{"name": "loudness", "default": 0.0, "unit": "-", "doc": "-", "choices": []}],\n',
+        )
+        program = engine.parent / "engine.py"
+        load = "def load(self, scene, arrays, settings):\n"
+        text = program.read_text(encoding="utf-8")
+        self.assertIn(load, text)
+        program.write_text(text.replace(load, f"{load}        assert settings['loudness'] == 2.0\n"), encoding="utf-8")
+        said = engine.read_text(encoding="utf-8")
+        engine.write_text(f"{said}[settings]\nloudness = 2.0\n", encoding="utf-8")
+        for check in ("DefaultsSpoken", "WorkersAgree", "LivesOn", "EffectsAreThose"):
+            with self.subTest(check):
+                self.assert_status(self.conformance(engine, "-k", check), HELD)
+        engine.write_text(f"{said}[settings]\nloudnes = 2.0\n", encoding="utf-8")
+        done = self.conformance(engine, "-k", "Flies")
+        self.assert_status(done, BAD_INPUT)
+        self.assertIn(
+            "numpy: [settings] of its file: there is no setting 'loudnes' (did you mean loudness?)", done.error_lines()[0]
+        )
+
     def test_one_that_breaks_down(self):
         engine = self.changed("def advance(self, t):\n", "def advance(self, t):\n        raise SystemExit(3)\n")
         done = self.conformance(engine, "-k", "Flies")
