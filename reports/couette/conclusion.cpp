@@ -105,6 +105,13 @@ std::string whatIsToBlame(const CompareResults& results, const Engines& engines)
                              row->term ? ", off in " + constantWords(row->term->name) : ""));
       continue;
     }
+    if (const Names parted = partedFromItsMirror(results, engine.name); !parted.empty()) {
+      Names words;
+      for (const std::string& endpoint : parted) words.push_back(endpointWords(endpoint));
+      parts.push_back(fmt::format("{} is not its own mirror in {}, whatever its law", engine.name,
+                                  listedShortly(words, mostNames)));
+      continue;
+    }
     if (&engine == &engines.front() || !disagrees(results, engine)) continue;
     const Names conventions = conventionsOf(engine);
     if (!isModelDifference(results, engine))

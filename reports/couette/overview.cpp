@@ -159,8 +159,19 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
   return cell;
 }
 
+std::vector<std::string> partedFromItsMirror(const CompareResults& results,
+                                             const std::string& engine) {
+  std::vector<std::string> endpoints;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
+        row.answer == Answer::disagree)
+      endpoints.push_back(row.endpoint);
+  return endpoints;
+}
+
 bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!engine.mirrors.empty()) return true;
+  if (!partedFromItsMirror(results, engine.name).empty()) return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
       if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured)

@@ -23,9 +23,13 @@ const EndpointRow* gravestOf(const std::vector<const EndpointRow*>& rows);
 /// That row as a cell. @param isModel  a disagreement is one of declared laws
 OverviewCell endpointCell(const EndpointRow& row, bool isModel);
 
+/// Endpoints in which an engine and its own mirror disagree: no law parts these two.
+std::vector<std::string> partedFromItsMirror(const CompareResults& results,
+                                             const std::string& engine);
+
 /// Whether what parts an engine from the reference is shown to be its declared law: lockstep finds
-/// it to be that law, or its mirror agrees with it wherever both it and the reference disagree. Of
-/// a mirror always: it is the in-house engine.
+/// it to be that law, or its mirror agrees with it wherever both it and the reference disagree, and
+/// nowhere does it disagree with its mirror. Of a mirror always: it is the in-house engine.
 bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 
 /// At most three sentences: who agrees with whom on what, what is to blame, what to do next.

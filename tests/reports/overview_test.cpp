@@ -193,6 +193,24 @@ TEST(CompareOverview, AMirrorThatAgreesWithItsPeerBlamesTheLaw) {
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 }
 
+TEST(CompareOverview, WhatPartsAnEngineFromItsOwnMirrorIsNoLaw) {
+  CompareResults results = disagreeing();
+  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
+  results.lockstep.emplace();
+  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
+
+  EndpointRow row = results.endpoints.rows[0];
+  row.a = "mirror";
+  row.kind = PairKind::mirrorImplementation;
+  row.answer = Answer::disagree;
+  results.endpoints.rows.push_back(row);
+  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
+  EXPECT_EQ(compareOverview(results).conclusion[1],
+            "What parts them: theirs is not its own mirror in " + endpointWords(row.endpoint) +
+                ", whatever its law.");
+}
+
 TEST(CompareOverview, SaysWhatToDoNext) {
   CompareResults results = disagreeing();
   EXPECT_TRUE(has(compareConclusion(results).back(), "Next: hold the margins against"));
