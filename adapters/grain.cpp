@@ -71,7 +71,9 @@ grain::Wall translate(const WallBody& body) {
   return wall;
 }
 
-grain::Setup translate(const Scene& scene) {
+}  // namespace
+
+grain::Setup setupOf(const Scene& scene) {
   grain::Setup setup;
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
     setup.disks.x.push_back(scene.disks.position[i].x());
@@ -97,6 +99,8 @@ grain::Setup translate(const Scene& scene) {
   setup.ledger = scene.energyLedger;
   return setup;
 }
+
+namespace {
 
 EnergyLedger translate(const grain::EnergyLedger& from) {
   EnergyLedger to;
@@ -168,7 +172,7 @@ class GrainEngine : public Engine {
     Scene own = scene;
     own.law = law;
     own.dt = scene.dt / std::sqrt(stiffness);
-    grain::Setup setup = translate(own);
+    grain::Setup setup = setupOf(own);
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);

@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "engines/grain/setup.hpp"
 
 namespace crossgrain {
+
+/// A scene in the in-house engine's own terms, on one thread, for those who drive the engine
+/// without an adapter. Its law is one that the engine has.
+grain::Setup setupOf(const Scene& scene);
 
 /// The in-house engine.
 std::unique_ptr<Engine> makeGrain();

@@ -8,6 +8,7 @@
 #include <random>
 #include <thread>
 
+#include "adapters/grain.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
@@ -65,104 +66,50 @@ std::vector<Vec2> jitteredSites(const Case& setup, std::size_t disks, Random& ra
   return kept;
 }
 
-grain::Wall grainWall(const WallBody& body, double omega, double angle) {
-  grain::Wall wall;
-  for (const Vec2& position : body.diskPosition) {
-    wall.diskX.push_back(position.x());
-    wall.diskY.push_back(position.y());
-  }
-  wall.diskRadius = body.diskRadius;
-  wall.moves = omega != 0.0;
-  wall.motion = [omega, angle](double t) {
-    grain::WallState state;
-    state.angle = angle + omega * t;
-    state.spin = omega;
-    return state;
-  };
-  return wall;
-}
-
-grain::Law grainLaw(const ContactLaw& law) {
-  grain::Law to;  // the conventions of the thesis are the engine's defaults
-  to.kn = law.kn;
-  to.gn = law.gn;
-  to.kt = law.kt;
-  to.gt = law.gt;
-  to.mu = law.mu;
-  to.tangential = grain::Tangential::springDashpot;
-  return to;
-}
-
-}  // namespace
-
-grain::Setup scaledSetup(const Case& setup, const Packing& packing) {
-  grain::Setup to;
-  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
-    to.disks.x.push_back(packing.disks.position[i].x());
-    to.disks.y.push_back(packing.disks.position[i].y());
-    to.disks.vx.push_back(packing.disks.velocity[i].x());
-    to.disks.vy.push_back(packing.disks.velocity[i].y());
-  }
-  to.disks.spin = packing.disks.spin;
-  to.disks.radius = packing.disks.radius;
-  to.disks.mass = packing.disks.mass;
-  to.disks.inertia = packing.disks.inertia;
-  const Cell& cell = setup.cell;
-  to.walls.push_back(
-      grainWall(wallRing(wheelName, cell, cell.innerRadius, packing.wheelAngle), cell.omega, 0.0));
-  to.walls.push_back(grainWall(wallRing(ringName, cell, cell.outerRadius, 0.0), 0.0, 0.0));
-  to.law = grainLaw(setup.law);
-  const BottomPlate& plate = setup.bottom.value();
-  to.bottom = {plate.mu, plate.kb, plate.gb, plate.tauM, plate.gravity, plate.spin};
-  to.dt = timeStep(setup);
-  return to;
-}
-
-namespace {
-
 constexpr std::uint64_t relaxing = 3000, shearing = 2000;  // steps
 
 /// Told the steps done so far, of all that making a packing takes.
 using StepsDone = std::function<void(std::uint64_t)>;
 
 /// As many threads as there are cores: the packing is the same to the bit on any number.
-grain::Setup onAllCores(grain::Setup setup) {
-  setup.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u));
-  return setup;
+Settings onAllCores() {
+  return {
+      {"threads", static_cast<double>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u))}};
 }
 
-void advanceTelling(grain::Simulation& simulation, std::uint64_t steps, const StepsDone& tell) {
+void advanceTelling(Engine& engine, double dt, std::uint64_t steps, const StepsDone& tell) {
   constexpr std::uint64_t atOnce = 10;
-  for (std::uint64_t done = 0; done < steps; done += atOnce) {
+  for (std::uint64_t done = 0; done < steps;) {
     tell(done);
-    simulation.advance(std::min(atOnce, steps - done));
+    done += std::min(atOnce, steps - done);
+    engine.advance(static_cast<double>(done) * dt);
   }
 }
 
 /// Moves what overlaps apart: no friction, and a bath that takes the velocities.
-void relax(grain::Setup setup, Disks& disks, const StepsDone& tell) {
-  setup.maxOverlap = 0.0;  // sites next to a wall disk may begin deep in it
-  setup.law.tangential = grain::Tangential::none;
-  setup.law.gn = 0.4;  // kg/s, nearly critical
+void relax(Scene scene, Disks& disks, const StepsDone& tell) {
+  scene.law.tangential = TangentialLaw::none;
+  scene.law.gn = 0.4;  // kg/s, nearly critical
   // k_b = 0 and a bound that is never reached: the plate's force is −γ v.
-  setup.bottom = grain::Bottom{1e9, 0.0, 0.05, 0.0, 9.81, false};
-  grain::Simulation simulation(onAllCores(std::move(setup)));
-  advanceTelling(simulation, relaxing, tell);
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    disks.position[i] = {simulation.x(i), simulation.y(i)};
-    disks.velocity[i] = Vec2::Zero();
-  }
+  scene.bottom = BottomPlate{1e9, 0.0, 0.05, 0.0, 9.81, false};
+  Settings settings = onAllCores();
+  settings["max_overlap"] = 0.0;  // sites next to a wall disk may begin deep in it
+  const auto engine = makeGrain();
+  const double dt = engine->load(scene, settings).dt;
+  advanceTelling(*engine, dt, relaxing, tell);
+  disks.position = engine->snapshot(ContactReport::none).position;
+  disks.velocity.assign(disks.size(), Vec2::Zero());
 }
 
-void shear(grain::Setup setup, Packing& packing, const StepsDone& tell) {
-  grain::Simulation simulation(onAllCores(std::move(setup)));
-  advanceTelling(simulation, shearing, tell);
-  for (std::size_t i = 0; i < packing.disks.size(); ++i) {
-    packing.disks.position[i] = {simulation.x(i), simulation.y(i)};
-    packing.disks.velocity[i] = {simulation.velocityX(i), simulation.velocityY(i)};
-    packing.disks.spin[i] = simulation.spin(i);
-  }
-  packing.wheelAngle += simulation.wallState(0).angle;
+void shear(const Scene& scene, Packing& packing, const StepsDone& tell) {
+  const auto engine = makeGrain();
+  const double dt = engine->load(scene, onAllCores()).dt;
+  advanceTelling(*engine, dt, shearing, tell);
+  Snapshot end = engine->snapshot(ContactReport::none);
+  packing.disks.position = std::move(end.position);
+  packing.disks.velocity = std::move(end.velocity);
+  packing.disks.spin = std::move(end.spin.value());
+  packing.wheelAngle += end.bodies.front().angle;
 }
 
 /// The same disks in another order: disk k becomes disk `to[k]`.
@@ -199,8 +146,9 @@ Packing makePacking(const Case& setup, const std::function<void(double)>& progre
   const auto tell = [&](std::uint64_t done) {
     progress(static_cast<double>(done) / static_cast<double>(relaxing + shearing));
   };
-  relax(scaledSetup(setup, packing), packing.disks, tell);
-  shear(scaledSetup(setup, packing), packing, [&](std::uint64_t done) { tell(relaxing + done); });
+  const auto scene = [&] { return couetteScene(setup, packing, timeStep(setup)); };
+  relax(scene(), packing.disks, tell);
+  shear(scene(), packing, [&](std::uint64_t done) { tell(relaxing + done); });
   packing.disks = reordered(packing.disks, idAtSite);
   return packing;
 }

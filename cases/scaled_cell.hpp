@@ -8,7 +8,6 @@
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
-#include "engines/grain/simulation.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -38,8 +37,5 @@ Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides = {
 /// @param progress  told the fraction done, 0 … 1, if it has to be made
 Packing scaledPacking(const Case& scaled, const std::filesystem::path& folder,
                       const std::function<void(double)>& progress);
-
-/// A cell filled with a packing as a scene of the in-house engine, on one thread.
-grain::Setup scaledSetup(const Case& scaled, const Packing& packing);
 
 }  // namespace crossgrain::inline cases

@@ -6,6 +6,9 @@
 #include <chrono>
 #include <map>
 
+#include "adapters/grain.hpp"
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
 #include "tests/bench/packings_option.hpp"
 #include "tests/bench/stream.hpp"
 #include "tests/bench/traffic.hpp"
@@ -49,7 +52,8 @@ const Setup& packed(std::size_t disks) {
   static std::map<std::size_t, Setup> kept;
   if (const auto found = kept.find(disks); found != kept.end()) return found->second;
   const Case scaled = scaledCase(disks);
-  return kept.emplace(disks, scaledSetup(scaled, packedInto(scaled, packingFolder))).first->second;
+  const Scene scene = couetteScene(scaled, packedInto(scaled, packingFolder), timeStep(scaled));
+  return kept.emplace(disks, setupOf(scene)).first->second;
 }
 
 struct Variant {
