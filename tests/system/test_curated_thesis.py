@@ -1,4 +1,4 @@
-"""What reports/curated has of the thesis' claims follows from its results to the bit, and why a claim is refuted stands beside it."""
+"""Kept reports of the thesis' claims follow from their results to the bit, and say why a claim is refuted."""
 
 import json
 import pathlib
@@ -26,7 +26,8 @@ def turned(condition):
 
 def toml_of(reasons):
     def inline(condition):
-        return "{ " + ", ".join(f"{key} = {json.dumps(value)}" for key, value in condition.items()) + " }"
+        members = (f"{key} = {json.dumps(value)}" for key, value in condition.items())
+        return "{ " + ", ".join(members) + " }"
 
     parts = []
     for reason in reasons:
