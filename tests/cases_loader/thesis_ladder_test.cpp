@@ -109,8 +109,9 @@ TEST(Ladders, OfTheThesisBeginWithNineThatSpanItsTable) {
   EXPECT_EQ(*labels.rbegin(), std::rbegin(table32)->nu);
 }
 
-TEST(Ladders, BothHoldEveryFamilyAndLabelLegsByTheirDisks) {
-  for (const char* file : {"ladder.toml", "ladder-quick.toml"}) {
+TEST(Ladders, HoldEveryFamilyAndLabelLegsByTheirDisks) {
+  for (const char* file :
+       {"ladder.toml", "ladder-quick.toml", "ladder-early.toml", "ladder-fast.toml"}) {
     const ThesisLadder ladder = loadLadder(thesisFolder / file);
     std::map<std::string, int> legs;
     for (const LadderLeg& leg : ladder.legs) {
