@@ -44,8 +44,11 @@ void addRows(History& history) {
     for (const DigestValue& value : digest.values)
       rowIn(history, value.engine, value.quantity).cells[k] = value.cell;
   }
+  std::vector<std::string> engines;  // in the order of the oldest report
+  for (const HistoryRow& row : history.rows)
+    if (std::ranges::find(engines, row.engine) == engines.end()) engines.push_back(row.engine);
   std::ranges::stable_sort(history.rows, {}, [&](const HistoryRow& row) {
-    return std::ranges::find(history.rows, row.engine, &HistoryRow::engine) - history.rows.begin();
+    return std::ranges::find(engines, row.engine) - engines.begin();
   });
 }
 
@@ -57,7 +60,8 @@ std::pair<const OverviewCell*, const OverviewCell*> endsOf(const HistoryRow& row
     if (!first) first = &*cell;
     last = &*cell;
   }
-  return first == last ? std::pair{first = nullptr, last = nullptr} : std::pair{first, last};
+  if (first == last) return {nullptr, nullptr};
+  return {first, last};
 }
 
 bool answerChanged(const HistoryRow& row) {

@@ -135,7 +135,11 @@ TEST(History, FollowsACaseFromOneVersionToTheNext) {
   EXPECT_EQ(history.name, "compare quick");
   EXPECT_EQ(stampOf(history.reports[0]->digest.head), "0.3.0 (old)");
   ASSERT_EQ(history.rows.size(), 5u);
-  EXPECT_EQ(history.rows[2].question, "mean of spin") << "an engine's rows stand together";
+  std::vector<std::string> engines;
+  for (const HistoryRow& row : history.rows) engines.push_back(row.engine);
+  EXPECT_EQ(engines, (std::vector<std::string>{"ours", "ours", "ours", "mirror", "mirror"}))
+      << "an engine's rows stand together";
+  EXPECT_EQ(history.rows[2].question, "mean of spin");
   EXPECT_EQ(changeOf(history.rows[0]), "holds → falls short");
   EXPECT_EQ(changeOf(history.rows[1]), "");  // no number
   EXPECT_EQ(changeOf(history.rows[2]), "−25 %");
