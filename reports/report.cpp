@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 
@@ -51,6 +52,10 @@ struct Kind {
   std::vector<Picture> (*pictures)(const Results&);
   std::string (*page)(const Results&, const Illustrations&);
   Overview (*overview)(const Results&) = nullptr;  ///< null: its report opens with none
+  /// Of what the folder keeps beside the results; null: it shows none.
+  std::vector<Picture> (*films)(const Results&, const std::filesystem::path& folder) = nullptr;
+  /// Numbers beside the matrix, to be followed over versions; null: there are none.
+  std::vector<DigestValue> (*values)(const Results&) = nullptr;
 };
 
 /// What the report's matrix says, for build servers.
@@ -75,7 +80,9 @@ const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
                                           compareFigures,
                                           comparePictures,
                                           comparePage,
-                                          compareOverview};
+                                          compareOverview,
+                                          compareFilms,
+                                          compareValues};
 
 const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
                                            {"series.csv", seriesCsv},
@@ -163,14 +170,15 @@ std::vector<EngineRow> enginesOf(const Results& results) {
     return {{results.engine, "", "", "", EngineStatus::ran, ""}};  // whose snapshots
 }
 
-/// @param document  results.json
+/// @param document  results.json  @param from  the folder of its runs, with what they kept
 template <typename Results>
 ReportDigest write(const Kind<Results>& kind, const Results& results, Json document,
-                   const std::filesystem::path& dir) {
+                   const std::filesystem::path& dir, const std::filesystem::path& from) {
   makeDirectory(dir);
   ReportDigest digest{results.head, enginesOf(results), {}};
   if (kind.overview) {
     digest.overview = kind.overview(results);
+    if (kind.values) digest.values = kind.values(results);
     document["overview"] = toJson(*digest.overview);
     writeFile(dir / "summary.md", overviewMarkdown(*digest.overview, titleOf(results.head)));
   }
@@ -180,7 +188,8 @@ ReportDigest write(const Kind<Results>& kind, const Results& results, Json docum
   const auto plots = dir / "plots";
   const auto figures = kind.figures(results);
   const auto missing = draw(figures, plots);
-  const auto pictures = kind.pictures(results);
+  auto pictures = kind.pictures(results);
+  if (kind.films) std::ranges::move(kind.films(results, from), std::back_inserter(pictures));
   for (const Picture& picture : pictures) writePicture(picture, plots);
 
   writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
@@ -191,62 +200,69 @@ ReportDigest write(const Kind<Results>& kind, const Results& results, Json docum
 }  // namespace
 
 void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
-  write(collideKind, results, toJson(results), dir);
+  write(collideKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const ConformanceResults& results, const std::filesystem::path& dir) {
-  write(conformanceKind, results, toJson(results), dir);
+  write(conformanceKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const CostResults& results, const std::filesystem::path& dir) {
-  write(costKind, results, toJson(results), dir);
+  write(costKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const LockstepResults& results, const std::filesystem::path& dir) {
-  write(lockstepKind, results, toJson(results), dir);
+  write(lockstepKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const ScaleResults& results, const std::filesystem::path& dir) {
-  write(scaleKind, results, toJson(results), dir);
+  write(scaleKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
-  write(stabilityKind, results, toJson(results), dir);
+  write(stabilityKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
-  write(kindOf(results), results, toJson(results), dir);
+  write(kindOf(results), results, toJson(results), dir, dir);
 }
 
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
-  write(effectsKind, results, toJson(results), dir);
+  write(effectsKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const RevResults& results, const std::filesystem::path& dir) {
-  write(revKind, results, toJson(results), dir);
+  write(revKind, results, toJson(results), dir, dir);
 }
 
 void writeReport(const ThesisResults& results, const std::filesystem::path& dir) {
-  write(thesisKind, results, toJson(results), dir);
+  write(thesisKind, results, toJson(results), dir, dir);
 }
 
-ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) try {
+ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
+                         const std::filesystem::path& from) try {
   checkSchema(results, "results");
   const std::string kind = results.at("kind");
-  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
+  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir, from);
   if (kind == kindConformance)
-    return write(conformanceKind, conformanceFromJson(results), results, dir);
-  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
-  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
-  if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
-  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
-  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir);
-  if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
-  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
+    return write(conformanceKind, conformanceFromJson(results), results, dir, from);
+  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir, from);
+  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir, from);
+  if (kind == kindLockstep)
+    return write(lockstepKind, lockstepFromJson(results), results, dir, from);
+  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir, from);
+  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir, from);
+  if (kind == kindStability)
+    return write(stabilityKind, stabilityFromJson(results), results, dir, from);
+  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir, from);
   const CompareResults compared = compareFromJson(results);
-  return write(kindOf(compared), compared, results, dir);
+  return write(kindOf(compared), compared, results, dir, from);
 } catch (const FieldError& error) {
-  throw BadInput(fmt::format("{}: {}", (dir / "results.json").string(), error.what()));
+  throw BadInput(fmt::format("{}: {}", (from / "results.json").string(), error.what()));
+}
+
+ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {
+  return writeReport(results, dir, dir);
 }
 
 void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,
@@ -257,7 +273,8 @@ void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json
   const std::vector<std::string> names = siteFolders(folders);
   std::vector<SiteReport> reports;
   for (std::size_t k = 0; k < results.size(); ++k) {
-    SiteReport report{names[k], writeReport(results[k].second, site / names[k]), {}};
+    SiteReport report{
+        names[k], writeReport(results[k].second, site / names[k], results[k].first), {}};
     for (const auto& entry : std::filesystem::directory_iterator(site / names[k]))
       if (entry.path().extension() == ".csv")
         report.tables.push_back(entry.path().filename().string());

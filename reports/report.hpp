@@ -29,6 +29,9 @@ namespace crossgrain {
 /// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
 ///         BadInput for JSON that is no such document
 /// @returns what the report opens with
+/// @param from  the folder that results.json and what runs kept beside it are in (default: dir)
+reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
+                                  const std::filesystem::path& from);
 reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
 void writeReport(const CollideResults& results, const std::filesystem::path& dir);
 void writeReport(const ConformanceResults& results, const std::filesystem::path& dir);

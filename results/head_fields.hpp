@@ -23,6 +23,7 @@ void fields(auto& io, ResultsHead& head) {
   io("schema", head.schema);
   io("kind", head.kind);
   io("version", head.version);
+  io.when(!head.build.empty(), "build", head.build);
   io("command", head.command);
   io("started", head.started);
   io("machine", head.machine);

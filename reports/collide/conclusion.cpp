@@ -97,7 +97,7 @@ std::string nextStep(const CollideResults& results) {
   if (const std::string nothing = nothingJudged(results); !nothing.empty())
     return fmt::format("Nothing was judged: {}.", nothing);
   const CollideCount count = countOf(results);
-  if (count.failed > 0) return "Next: see why sweeps failed, in the table of every score.";
+  if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
   if (count.fellShort > 0)
     return "Next: see at which time steps what fell short does; an error that falls with the step "
            "asks for a smaller one, one that does not is a fault or another law.";

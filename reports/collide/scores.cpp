@@ -155,6 +155,19 @@ std::pair<const char*, const char*> styleOf(SweepOutcome outcome) {
   }
 }
 
+/// Whether a sweep held at a time step between the largest and the smallest of its engine: it says
+/// nothing that those do not.
+bool heldBetween(const CollisionVariant& variant, const CollisionCurve& curve) {
+  const auto dt = finite(curve.dt);
+  if (!dt || outcomeOf(curve) != SweepOutcome::held) return false;
+  bool larger = false, smaller = false;
+  for (const CollisionCurve* other : curvesOf(variant, curve.engine)) {
+    larger = larger || finite(other->dt).value_or(*dt) > *dt;
+    smaller = smaller || finite(other->dt).value_or(*dt) < *dt;
+  }
+  return larger && smaller;
+}
+
 /// By which of both laws a curve is scored, and what that one is known by.
 struct ScoredBy {
   const CurveScore& score;
@@ -244,7 +257,8 @@ Json scoreRows(const CaseGroup& group) {
   const auto scored = scoredIn(group);
   Json rows = Json::array();
   for (const CollisionVariant* variant : group.variants)
-    for (const CollisionCurve& curve : variant->curves)
+    for (const CollisionCurve& curve : variant->curves) {
+      if (heldBetween(*variant, curve)) continue;
       for (const ScoredBy& law : lawsOf(curve)) {
         const bool first = &law.score == &curve.score;
         Json cells = Json::array();
@@ -263,6 +277,7 @@ Json scoreRows(const CaseGroup& group) {
                         {"reason", cells.empty() ? curve.reason : ""},
                         {"cells", std::move(cells)}});
       }
+    }
   return rows;
 }
 

@@ -33,6 +33,9 @@ struct Curve {
   Draw draw = Draw::linesAndPoints;
   std::vector<Point> points;
   double width = 1.5;
+  /// What the points are means of, one list for each packing and as long as they, NaN where there
+  /// is nothing: the page draws it when it is asked to, and plots do not.
+  std::vector<std::vector<double>> each = {};
 };
 
 struct Range {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "reports/common/gnuplot.hpp"
+#include "reports/common/numbers.hpp"
 
 namespace crossgrain::reports {
 
@@ -70,12 +71,46 @@ Json pointsOf(const Panel& panel, const Curve& curve, const std::string& place) 
   return points;
 }
 
+/// Where points are told by their place alone, as many are in several curves: the abscissae go to
+/// the panel, each list once, and the curve has its place among them.
+void shareAbscissae(Json& curve, Json& abscissae) {
+  const Json& points = curve["points"];
+  if (points.empty()) return;
+  Json xs = Json::array(), ys = Json::array();
+  for (const Json& point : points) {
+    if (point.size() != 2) return;
+    xs.push_back(point[0]);
+    ys.push_back(point[1]);
+  }
+  const auto known = std::ranges::find(abscissae, xs);
+  curve["xs"] = known - abscissae.begin();
+  if (known == abscissae.end()) abscissae.push_back(std::move(xs));
+  curve["ys"] = std::move(ys);
+  curve.erase("points");
+}
+
+/// Of the points that pointsOf() tells; null where there is nothing to draw.
+Json eachOf(const Panel& panel, const Curve& curve) {
+  Json all = Json::array();
+  for (const std::vector<double>& one : curve.each) {
+    Json values = Json::array();
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+      if (!drawable(panel, curve.points[k])) continue;
+      const auto y = at(one, k);
+      const bool there = y && drawable(panel, {curve.points[k].x, *y, {}});
+      values.push_back(there ? Json(fewDigits(*y)) : Json());
+    }
+    all.push_back(std::move(values));
+  }
+  return all;
+}
+
 Json panelData(const Figure& figure, std::size_t place, const Axes& axes,
                const std::vector<LegendEntry>& legend) {
   const Panel& panel = figure.panels[place];
   const auto height = static_cast<double>(heightOf(figure));
   const std::vector<std::string> above = namesAbove(figure);
-  Json curves = Json::array();
+  Json curves = Json::array(), abscissae = Json::array();
   std::size_t element = 1;
   for (const Curve& curve : panel.curves) {
     Json parts = Json::array();
@@ -90,18 +125,20 @@ Json panelData(const Figure& figure, std::size_t place, const Axes& axes,
                  {"parts", std::move(parts)},
                  {"points", pointsOf(panel, curve, common)}};
     if (!common.empty()) data["place"] = common;
+    if (!curve.each.empty()) {
+      data["each"] = eachOf(panel, curve);
+      data["colour"] = curve.style.colour;
+    }
+    shareAbscissae(data, abscissae);
     curves.push_back(std::move(data));
   }
-  return {{"box", {axes[0], axes[1], height - axes[3], height - axes[2]}},
-          {"x", {axes[4], axes[5]}},
-          {"y", {axes[6], axes[7]}},
-          {"logX", panel.logX},
-          {"logY", panel.logY},
-          {"xLabel", panel.xLabel},
-          {"yLabel", panel.yLabel},
-          {"rows", panel.rows},
-          {"columns", panel.columns},
-          {"curves", std::move(curves)}};
+  return {
+      {"xs", std::move(abscissae)}, {"box", {axes[0], axes[1], height - axes[3], height - axes[2]}},
+      {"x", {axes[4], axes[5]}},    {"y", {axes[6], axes[7]}},
+      {"logX", panel.logX},         {"logY", panel.logY},
+      {"xLabel", panel.xLabel},     {"yLabel", panel.yLabel},
+      {"rows", panel.rows},         {"columns", panel.columns},
+      {"curves", std::move(curves)}};
 }
 
 }  // namespace

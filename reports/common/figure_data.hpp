@@ -31,7 +31,10 @@ int keyRoom(const Figure& figure, const std::string& axes, const std::vector<Leg
 /// {top [px: left out, keyRoom()], height [px: of what is left], panels [{box [px: left, right,
 /// upper, lower], x, y [at left or lower, at right or upper], logX, logY, xLabel, yLabel (gnuplot's
 /// enhanced text), rows, columns [name], curves [{name, owner, parts ["2a" of gnuplot_plot_2a],
-/// points [[x, y, half bar | null, place]], place: of all points where they share it}]}]}
+/// points [[x, y, half bar | null, place]], place: of all points where they share it, each [[y |
+/// null]] and colour: of what the points are means of}]}]}
+/// Of a curve whose points are [x, y] alone there are "ys" in place of points, and "xs", the place
+/// of their abscissae in the panel's "xs".
 /// @param axes  what gnuplot wrote of them (writeFigure()); where it does not fit the figure, null
 Json figureData(const Figure& figure, const std::string& axes,
                 const std::vector<LegendEntry>& legend);

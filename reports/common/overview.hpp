@@ -22,6 +22,10 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
 /// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.
 inline constexpr std::size_t mostColumns = 10;
 
+/// Of more rows than these each says its small words in one line on the page, so that what follows
+/// from them stays on the first screen.
+inline constexpr std::size_t mostRows = 6;
+
 /// Where the terminal's form is printed.
 struct TextLook {
   std::size_t width = 160;  ///< [characters]

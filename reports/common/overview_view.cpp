@@ -80,6 +80,7 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
   for (const std::string& sentence : overview.conclusion)
     conclusion.push_back(symbolsHtml(sentence));
   view["overview"] = {{"many", wrapped},
+                      {"tall", !wrapped && overview.rows.size() > mostRows},
                       {"rowsAre", overview.rowsAre},
                       {"columns", std::move(columns)},
                       {"rows", std::move(rows)},

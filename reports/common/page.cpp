@@ -7,12 +7,12 @@
 #include <kainjow/mustache.hpp>
 #include <stdexcept>
 
-#include "reports/common/base64.hpp"
 #include "reports/common/figure_data.hpp"
 #include "reports/common/headings.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/svg.hpp"
+#include "reports/common/svg_style.hpp"
 #include "reports/common/templates.hpp"
 #include "results/head_fields.hpp"
 #include "results/schema.hpp"
@@ -93,10 +93,16 @@ Json imageView(const Illustrations& shown, const std::string& file, const std::s
                const std::string& caption, int top = 0) {
   const auto svg = readFile(shown.plots / (file + ".svg"));
   if (!svg) return nullptr;
-  return {{"file", file},       {"alt", alt},
-          {"caption", caption}, {"image", base64(compactSvg(withoutTop(*svg, top)))},
-          {"wide", false},      {"least", ""},
-          {"most", ""},         {"data", ""}};
+  return {{"file", file},
+          {"alt", alt},
+          {"caption", caption},
+          {"image", svgAddress(styledByClasses(compactSvg(withoutTop(*svg, top))))},
+          {"wide", false},
+          {"least", ""},
+          {"most", ""},
+          {"data", ""},
+          {"engine", ""},
+          {"film", ""}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -145,7 +151,8 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
   const bool averages = head.kind == kindAverage || head.kind == kindRev;
   return {
       {"style", templates().at("style.css")},
-      {"script", templates().at("figures.js") + templates().at("tables.js")},
+      {"script",
+       templates().at("figures.js") + templates().at("tables.js") + templates().at("pictures.js")},
       {"legend", legend},
       {"hasLegend", !legend.empty()},
       {"title", titleOf(head)},
@@ -189,8 +196,12 @@ Json pictureViews(const Illustrations& shown, Picture::Shows shows) {
     if (picture.shows == shows)
       if (Json view = imageView(shown, picture.name, picture.title,
                                 mustache::html_escape(picture.engine) + ". " + picture.scale);
-          !view.is_null())
+          !view.is_null()) {
+        // Pictures of one scene, to be put upon each other.
+        if (shows != Picture::Shows::worst) view["engine"] = picture.engine;
+        view["film"] = picture.film;
         views.push_back(std::move(view));
+      }
   return views;
 }
 

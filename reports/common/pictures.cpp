@@ -165,6 +165,19 @@ std::optional<double> widestForce(const ScenePicture& picture) {
   return forces[static_cast<std::size_t>(place)];
 }
 
+ForceCount countForces(const ScenePicture& picture, double force) {
+  ForceCount count;
+  if (picture.contactForce)
+    for (const double own : *picture.contactForce) {
+      if (!std::isfinite(own)) continue;
+      ++count.contacts;
+      if (own >= force) ++count.above;
+      count.mean += own;
+    }
+  if (count.contacts > 0) count.mean /= static_cast<double>(count.contacts);
+  return count;
+}
+
 void writePicture(const Picture& picture, const std::filesystem::path& dir) {
   writeFile(dir / (picture.name + ".svg"), toSvg(picture.drawing, pictureSize, picture.title));
   writeFile(dir / (picture.name + ".pdf"), toPdf(picture.drawing, pictureSize));

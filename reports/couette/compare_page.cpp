@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "reports/common/labels.hpp"
+#include "reports/common/motion.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/common/packings.hpp"
 #include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/overview.hpp"
@@ -90,6 +92,41 @@ std::string instantOf(const CompareResults& results, const Engines& engines) {
   return "at one instant";
 }
 
+/// Engines that have a picture of that kind, in the page's order.
+std::vector<std::string> enginesIn(const Illustrations& shown, Picture::Shows shows) {
+  std::vector<std::string> names;
+  for (const Picture& picture : shown.pictures)
+    if (picture.shows == shows) names.push_back(picture.engine);
+  return names;
+}
+
+std::string forcesNote(const Illustrations& shown) {
+  const auto names = enginesIn(shown, Picture::Shows::forces);
+  if (names.empty()) return {};
+  return fmt::format(
+      "The contact forces at the same instant: lines between the centres, width and darkness "
+      "proportional to the normal force, all pictures on one scale: the widest line is the force "
+      "that 99 % of {}'s contacts lie below.",
+      names.front());
+}
+
+std::string filmsNote(const CompareResults& results, const Engines& engines,
+                      const Illustrations& shown) {
+  const auto names = enginesIn(shown, Picture::Shows::motion);
+  if (names.empty()) return {};
+  std::vector<std::string> without;
+  for (const EngineRuns& engine : engines)
+    if (!engine.finished.empty() && std::ranges::find(names, engine.name) == names.end())
+      without.push_back(engine.name);
+  const bool turning = results.cell.omega != 0.0 && results.cell.innerRadius > 0.0;
+  return fmt::format(
+      "From the snapshots that runs kept of their first packing: disks coloured by their speed, "
+      "in parts of {}, each colour from where it begins. The pictures show the last of "
+      "them.{}",
+      turning ? "the wheel's rim's" : "the largest of any disk here",
+      without.empty() ? "" : fmt::format(" No two snapshots are kept of {}.", listed(without)));
+}
+
 void addPictures(Json& view, const CompareResults& results, const Engines& engines,
                  const Illustrations& shown) {
   view["origins"] = pictureViews(shown, Picture::Shows::origins);
@@ -101,9 +138,14 @@ void addPictures(Json& view, const CompareResults& results, const Engines& engin
       results.region ? "" : " What was a straight sector bends where the cell shears.");
   view["forces"] = pictureViews(shown, Picture::Shows::forces);
   view["hasForces"] = !view["forces"].empty();
-  view["forcesNote"] =
-      "The contact forces at the same instant: lines between the centres, width and darkness "
-      "proportional to the normal force, each picture on its own scale.";
+  view["forcesNote"] = forcesNote(shown);
+  view["films"] = pictureViews(shown, Picture::Shows::motion);
+  view["hasFilms"] = !view["films"].empty();
+  view["filmsNote"] = filmsNote(results, engines, shown);
+  view["speedColours"] = Json::array();
+  for (const SpeedColour& colour : speedColours())
+    view["speedColours"].push_back(
+        {{"colour", colour.colour}, {"from", fmt::format("{:.2g}", colour.from)}});
 }
 
 }  // namespace

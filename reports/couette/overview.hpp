@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/common/digest_value.hpp"
 #include "reports/couette/engine_runs.hpp"
 #include "results/compare.hpp"
 #include "results/overview.hpp"
@@ -9,6 +10,9 @@ namespace crossgrain::reports {
 
 /// An engine per row: its own law, averages against the reference, cost, runs lost.
 Overview compareOverview(const CompareResults& results);
+
+/// Means of the endpoints, the reference's as figures and the others' with their answers.
+std::vector<DigestValue> compareValues(const CompareResults& results);
 
 /// Whose snapshots: in which state, how steady, how well balanced, and what the fits give.
 Overview averageOverview(const CompareResults& results);

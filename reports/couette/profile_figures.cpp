@@ -73,11 +73,23 @@ Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
   return {1.0, fieldAxis(plot.field)};
 }
 
-std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& engine,
-                                 const ProfilePlot& plot, double factor) {
-  std::vector<Point> points;
+/// The field of each packing that the engine has a mean over, the first few of them.
+std::vector<const Profile*> eachProfile(const EngineRuns& engine, const std::string& field) {
+  constexpr std::size_t most = 32;  // lines, beyond which there is nothing to be seen
+  std::vector<const Profile*> all;
+  if (engine.ensemble)
+    for (const CouetteRun* run : engine.finished)
+      if (const Profile* own = profileOf(run->profiles, field); own && all.size() < most)
+        all.push_back(own);
+  return all;
+}
+
+void addPoints(const CouetteFrame& frame, const EngineRuns& engine, const ProfilePlot& plot,
+               double factor, Curve& curve) {
   const Profile* profile = profileOf(engine.profiles(), plot.field);
-  if (!profile) return points;
+  if (!profile) return;
+  const auto each = eachProfile(engine, plot.field);
+  curve.each.resize(each.size());
   const double inner = frame.cell.innerRadius;
   for (std::size_t ring = 0; ring < profile->mean.size(); ++ring) {
     const auto mean = at(profile->mean, ring), error = at(profile->standardError, ring);
@@ -87,9 +99,10 @@ std::vector<Point> profilePoints(const CouetteFrame& frame, const EngineRuns& en
     Point point{*x, *mean * factor, {}};
     if (error) point.error = *error * std::abs(factor);
     point.place = fmt::format("{} {}", binWord(frame), ring + 1);
-    points.push_back(point);
+    curve.points.push_back(point);
+    for (std::size_t k = 0; k < each.size(); ++k)
+      curve.each[k].push_back(at(each[k]->mean, ring).value_or(NAN) * factor);
   }
-  return points;
 }
 
 /// A straight line of that slope on log axes, below all curves.
@@ -111,6 +124,7 @@ std::optional<Curve> powerLaw(const Panel& panel, double exponent) {
 
 void makeFaint(Curve& curve) {
   curve.name.clear();
+  curve.each.clear();
   curve.style = {"#b8bec4", 0, false};
   curve.draw = Draw::lines;
   curve.width = 1.0;
@@ -126,8 +140,8 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
   panel.logX = plot.logX;
   panel.logY = plot.logY;
   for (const EngineRuns& engine : engines) {
-    Curve curve{engine.name, engine.style, Draw::linesAndPoints,
-                profilePoints(frame, engine, plot, scale.factor), 1.5};
+    Curve curve{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
+    addPoints(frame, engine, plot, scale.factor, curve);
     if (faint && faint(engine, plot.field)) makeFaint(curve);
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
   }
@@ -173,6 +187,7 @@ Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engine
     Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
     panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
+    for (Curve& curve : panel.curves) curve.each.clear();  // each field has a plot of its own
     figure.panels.push_back(std::move(panel));
   }
   return figure;

@@ -44,7 +44,7 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
     const auto& its = report.digest.overview;
     const OverviewRow* const own = its ? rowOf(*its, engine) : nullptr;
     if (!own) continue;
-    OverviewRow row{nameOfReport(report), false, {}, pageOf(report)};
+    OverviewRow row{ownNameOf(report, reports), false, {}, pageOf(report)};
     for (std::size_t k = 0; k < own->cells.size(); ++k) {
       OverviewCell cell = own->cells[k];
       if (!cell.anchor.empty()) cell.anchor = pageOf(report) + "#" + cell.anchor;

@@ -121,11 +121,18 @@ std::string pageOf(const SiteReport& report) {
   return report.folder + "/report.html";
 }
 
-/// "compare quick"
 std::string nameOfReport(const SiteReport& report) {
   const CaseHead& setup = report.digest.head.setup;
   const std::string name = setup.variant.empty() ? setup.name : setup.name + ", " + setup.variant;
   return name.empty() ? report.digest.head.kind : report.digest.head.kind + " " + name;
+}
+
+std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports) {
+  const std::string name = nameOfReport(report);
+  const bool alone = std::ranges::count(reports, name, [](const SiteReport& one) {
+                       return nameOfReport(one);
+                     }) < 2;
+  return alone ? name : fmt::format("{} ({})", name, report.folder);
 }
 
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
@@ -143,7 +150,8 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
                      {CellState::figure, "took part; nothing is judged by engine"},
                      {CellState::notApplicable, "not in it"}};
   for (const SiteReport& report : reports)
-    overview.columns.push_back({nameOfReport(report), titleOf(report.digest.head), pageOf(report)});
+    overview.columns.push_back(
+        {ownNameOf(report, reports), titleOf(report.digest.head), pageOf(report)});
   const std::vector<EngineRow> all = siteEngines(reports);
   const std::vector<std::string> pages = enginePages(all);
   Names engines;

@@ -8,6 +8,7 @@
 #include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/common/templates.hpp"
+#include "reports/site/history.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
@@ -38,7 +39,7 @@ Json reportRows(const std::vector<SiteReport>& reports) {
     rows.push_back({{"folder", report.folder},
                     {"title", titleOf(head)},
                     {"started", head.started},
-                    {"version", head.version},
+                    {"version", stampOf(head)},
                     {"command", head.command},
                     {"conclusion", overview ? Json(overview->conclusion) : Json::array()},
                     {"summary", overview.has_value()},
@@ -111,7 +112,9 @@ void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::p
                {"kicker", "crossgrain"},
                {"heading", heading},
                {"meta", ""},
-               {"reports", reportRows(reports)}};
+               {"reports", reportRows(reports)},
+               {"histories", historyViews(reports)}};
+  view["hasHistory"] = !view["histories"].empty();
   addOverview(view, overview, siteEngines(reports));
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)

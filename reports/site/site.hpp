@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/common/digest_value.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 #include "results/overview.hpp"
@@ -16,7 +17,8 @@ namespace crossgrain::reports {
 struct ReportDigest {
   ResultsHead head;
   std::vector<EngineRow> engines;
-  std::optional<Overview> overview;  ///< absent: it opens with none
+  std::optional<Overview> overview;      ///< absent: it opens with none
+  std::vector<DigestValue> values = {};  ///< for the history of its case
 };
 
 struct SiteReport {
@@ -30,6 +32,9 @@ std::string pageOf(const SiteReport& report);
 
 /// "compare quick"
 std::string nameOfReport(const SiteReport& report);
+
+/// Its name; with its folder's, "compare quick (old)", where another of the reports has the same.
+std::string ownNameOf(const SiteReport& report, const std::vector<SiteReport>& reports);
 
 /// The engine's row; null where the matrix has none.
 const OverviewRow* rowOf(const Overview& overview, const std::string& engine);

@@ -1,5 +1,6 @@
 // Makes pictures of plots part of the page: an entry of the legend hides what is its in all of them,
-// and pointing at a plot tells the nearest value. Without this the pages lack nothing else.
+// pointing at a plot tells the nearest value and marks the same ring in the others, and lines of each
+// packing are drawn when they are asked for. Without this the pages lack nothing else.
 'use strict';
 (() => {
   const NEAR = 40;  // [px of the figure]: farther points are not told
@@ -49,6 +50,60 @@
     return best;
   }
 
+  let svgSpace = '';  // of the drawings' names
+  function drawn(name, attributes) {
+    const element = document.createElementNS(svgSpace, name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    return element;
+  }
+
+  // A ring has the same name in every plot: a line where it is, a circle at the same engine's value.
+  function link(place, owner) {
+    for (const figure of figures) {
+      if (!figure.svg) continue;
+      figure.linked.replaceChildren();
+      if (!place) continue;
+      for (const panel of figure.data.panels) {
+        let lined = false;
+        for (const curve of panel.curves) {
+          if (hidden.has(curve.owner)) continue;
+          const point = curve.points.find((one) => one[3] === place);
+          if (!point) continue;
+          const at = pixelOf(panel, point);
+          if (!lined) figure.linked.append(drawn('path', { d: `M${at.x} ${panel.box[2]}V${panel.box[3]}`, stroke: '#444', 'stroke-dasharray': '3,3' }));
+          lined = true;
+          if (curve.owner === owner && isWithin(panel, at.x, at.y, 1))
+            figure.linked.append(drawn('circle', { cx: at.x, cy: at.y, r: 7, fill: 'none', stroke: '#444', 'stroke-width': 1.5 }));
+        }
+      }
+    }
+  }
+
+  // What curves are means of, thin and pale, cut off at the edges of each panel.
+  function drawEach(figure) {
+    for (const panel of figure.data.panels) {
+      const [left, right, upper, lower] = panel.box, size = `${left} ${upper} ${right - left} ${lower - upper}`;
+      const view = drawn('svg', { x: left, y: upper, width: right - left, height: lower - upper, viewBox: size });
+      for (const curve of panel.curves) {
+        if (!curve.each || hidden.has(curve.owner)) continue;
+        for (const one of curve.each) {
+          let d = '', pen = 'M';
+          one.forEach((y, k) => {
+            if (y === null) {
+              pen = 'M';
+              return;
+            }
+            const at = pixelOf(panel, [curve.points[k][0], y]);
+            d += `${pen}${at.x.toFixed(1)} ${at.y.toFixed(1)}`;
+            pen = 'L';
+          });
+          view.append(drawn('path', { d, fill: 'none', stroke: curve.colour, 'stroke-width': 0.8, 'stroke-opacity': 0.45 }));
+        }
+      }
+      figure.each.append(view);
+    }
+  }
+
   const tip = document.createElement('div');
   tip.className = 'tip';
   tip.hidden = true;
@@ -83,6 +138,7 @@
     const room = document.documentElement.clientWidth - tip.offsetWidth - 8;
     tip.style.left = Math.max(4, Math.min(event.clientX + 14, room)) + 'px';
     tip.style.top = Math.max(4, event.clientY - tip.offsetHeight - 12) + 'px';
+    link(point[3], curve.owner);
     figure.mark.setAttribute('cx', at.x);
     figure.mark.setAttribute('cy', at.y);
     figure.mark.style.display = '';
@@ -100,9 +156,13 @@
   function leave(figure) {
     tip.hidden = true;
     figure.mark.style.display = 'none';
+    link('');
   }
 
+  let eachShown = false;
   function show(figure) {
+    figure.each.replaceChildren();
+    if (eachShown) drawEach(figure);
     for (const panel of figure.data.panels)
       for (const curve of panel.curves)
         for (const part of curve.parts) {
@@ -114,32 +174,40 @@
   // Names of parts are the same in all figures: each is in a tree of its own.
   function makeLive(figure) {
     if (figure.svg) return;
-    const bytes = Uint8Array.from(atob(figure.image.src.split(',')[1]), (c) => c.charCodeAt(0));
-    const parsed = new DOMParser().parseFromString(new TextDecoder().decode(bytes), 'image/svg+xml');
+    const drawing = decodeURIComponent(figure.image.src.slice(figure.image.src.indexOf(',') + 1));
+    const parsed = new DOMParser().parseFromString(drawing, 'image/svg+xml');
     const svg = document.importNode(parsed.documentElement, true);
     for (const title of svg.querySelectorAll('title, desc')) title.remove();
     svg.setAttribute('role', 'img');
     svg.setAttribute('aria-label', figure.image.alt);
     svg.setAttribute('style', 'display: block; width: 100%; height: auto; background: #fff');
-    const mark = document.createElementNS(svg.namespaceURI, 'circle');
-    for (const [name, value] of [['r', 7], ['fill', 'none'], ['stroke', '#444'], ['stroke-width', 1.5]])
-      mark.setAttribute(name, value);
+    svgSpace = svg.namespaceURI;
+    const mark = drawn('circle', { r: 7, fill: 'none', stroke: '#444', 'stroke-width': 1.5 });
+    const each = drawn('g', { class: 'each' }), linked = drawn('g', { class: 'linked' });
     mark.style.display = 'none';
-    svg.append(mark);
+    svg.append(each, linked, mark);
     const host = document.createElement('div');
     host.className = 'live';
     host.style.cssText = figure.image.style.cssText;
     host.attachShadow({ mode: 'open' }).append(svg);
     figure.image.replaceWith(host);
-    Object.assign(figure, { svg, mark });
+    Object.assign(figure, { svg, mark, each, linked });
     for (const type of ['pointermove', 'pointerdown']) host.addEventListener(type, (event) => look(figure, event));
     host.addEventListener('pointerleave', () => leave(figure));
     show(figure);
   }
 
-  for (const source of document.querySelectorAll('figure script[type="application/json"]')) {
+  function dataOf(text) {
+    const data = JSON.parse(text);
+    for (const panel of data.panels)
+      for (const curve of panel.curves)
+        if (curve.ys) curve.points = curve.ys.map((y, k) => [panel.xs[curve.xs][k], y]);
+    return data;
+  }
+
+  for (const source of document.querySelectorAll('figure script[type="application/json"]:not(.film)')) {
     const image = source.closest('figure').querySelector('img');
-    if (image) figures.push({ image, data: JSON.parse(source.textContent) });
+    if (image) figures.push({ image, data: dataOf(source.textContent) });
   }
   if (figures.length === 0) return;
   const seen = new IntersectionObserver((entries) => {
@@ -154,6 +222,24 @@
   for (const figure of figures) seen.observe(figure.image);
   addEventListener('beforeprint', () => figures.forEach(makeLive));
   addEventListener('scroll', () => { tip.hidden = true; }, { passive: true });
+
+  const block = figures.find((figure) => figure.data.panels.some((panel) => panel.curves.some((curve) => curve.each)))
+    ?.image.closest('.figures');
+  if (block) {
+    const tools = document.createElement('p'), button = document.createElement('button');
+    tools.className = 'tools';
+    button.type = 'button';
+    button.textContent = 'lines of each packing';
+    button.title = 'thin lines behind the means, in all plots that have them';
+    button.setAttribute('aria-pressed', 'false');
+    button.addEventListener('click', () => {
+      eachShown = !eachShown;
+      button.setAttribute('aria-pressed', String(eachShown));
+      update();
+    });
+    tools.append(button);
+    block.before(tools);
+  }
 
   const legend = document.getElementById('legend');
   const entries = legend ? [...legend.querySelectorAll('span')] : [];

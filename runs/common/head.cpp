@@ -41,6 +41,7 @@ ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& 
   head.schema = schemaVersion;
   head.kind = kind;
   head.version = programVersion;
+  head.build = programBuild;
   head.command = command;
   head.started = timeStamp();
   head.machine = {cpuName(), operatingSystem(), std::thread::hardware_concurrency()};

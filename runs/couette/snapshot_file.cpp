@@ -1,11 +1,9 @@
 #include "runs/couette/snapshot_file.hpp"
 
-#include <fmt/format.h>
-
 #include <numeric>
 #include <utility>
 
-#include "runs/couette/snapshot_layout.hpp"
+#include "results/snapshot_layout.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::inline runs {
@@ -67,10 +65,6 @@ std::vector<std::int32_t> countedUp(std::size_t count) {
 }
 
 }  // namespace
-
-std::string snapshotGroup(std::size_t k) {
-  return fmt::format("/snapshot-{:03d}", k);
-}
 
 SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene,
                            int samples, int keep)

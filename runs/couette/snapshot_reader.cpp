@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "cases/couette.hpp"
+#include "results/snapshot_layout.hpp"
 #include "runs/couette/snapshot_file.hpp"
-#include "runs/couette/snapshot_layout.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline runs {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "runs/couette/snapshot_layout.hpp"
+#include "results/snapshot_layout.hpp"
 
 namespace crossgrain::inline runs {
 namespace {

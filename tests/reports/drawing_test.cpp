@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "reports/common/engines.hpp"
@@ -166,21 +167,39 @@ TEST(Strokes, PdfHasTheSameStrokesAndAValidTable) {
   }
 }
 
-TEST(Pictures, ForcesAreDrawnOnTheirPicturesOwnScale) {
+TEST(Pictures, ForcesAreDrawnOnOneScaleTheFirstOnes) {
   CompareResults results = sample::compareResults(1, 200);
-  const auto widestOfFirst = [&] { return widestForce(results.runs[0].picture.value()); };
-  const auto widest = widestOfFirst();
+  const auto widest = widestForce(results.runs[0].picture.value());
   ASSERT_TRUE(widest.has_value());
   const auto pictures = comparePictures(results);
   ASSERT_EQ(pictures.size(), 8u);  // origins and forces of four engines that ran
   EXPECT_EQ(pictures[0].name, "origins_1_grain");
   EXPECT_EQ(pictures[7].name, "forces_4_grain_yade");
-  // Twice the forces, twice the scale: the same lines.
+  for (const Picture& picture : pictures)
+    EXPECT_EQ(picture.drawing.halfWidth, pictures[0].drawing.halfWidth);
+  const auto linesOf = [&](std::size_t place) {
+    return toSvg(comparePictures(results)[place].drawing, 100, "");
+  };
+  // Twice the forces of all engines: the same lines.
   for (CouetteRun& run : results.runs)
     for (double& force : run.picture->contactForce.value()) force *= 2.0;
-  EXPECT_DOUBLE_EQ(widestOfFirst().value(), 2.0 * *widest);
-  EXPECT_EQ(toSvg(comparePictures(results)[4].drawing, 100, ""),
-            toSvg(pictures[4].drawing, 100, ""));
+  EXPECT_EQ(linesOf(4), toSvg(pictures[4].drawing, 100, ""));
+  EXPECT_EQ(linesOf(5), toSvg(pictures[5].drawing, 100, ""));
+  // Twice those of the second alone: its lines are wider, the first's are as they were.
+  for (double& force : results.runs[1].picture->contactForce.value()) force *= 2.0;
+  EXPECT_EQ(results.runs[1].engine, "yade");
+  EXPECT_EQ(linesOf(4), toSvg(pictures[4].drawing, 100, ""));
+  EXPECT_NE(linesOf(5), toSvg(pictures[5].drawing, 100, ""));
+}
+
+TEST(Pictures, ForcesAreCounted) {
+  ScenePicture picture;
+  EXPECT_EQ(countForces(picture, 1.0).contacts, 0u);
+  picture.contactForce = {0.5, 1.0, 1.5, NAN};
+  const ForceCount count = countForces(picture, 1.0);
+  EXPECT_EQ(count.contacts, 3u);
+  EXPECT_EQ(count.above, 2u);
+  EXPECT_DOUBLE_EQ(count.mean, 1.0);
 }
 
 }  // namespace

@@ -245,8 +245,7 @@ TEST(CollideOverview, TellsTheLargestShareOfALimitAndByWhichLaw) {
   EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "good 6 of 6");
   EXPECT_EQ(rowOf(overview, sample::awkward).cells[0].state, CellState::bad);
   EXPECT_TRUE(has(overview.conclusion[0], "grain: all 6 sweeps held"));
-  EXPECT_EQ(overview.conclusion.back(),
-            "Next: see why sweeps failed, in the table of every score.");
+  EXPECT_EQ(overview.conclusion.back(), "Next: see why sweeps failed, in the table of scores.");
 
   for (CollisionVariant& variant : results.variants)
     for (CollisionCurve& curve : variant.curves)
@@ -269,8 +268,8 @@ TEST(StabilityOverview, CountsRunsByFamily) {
   const Overview overview = stabilityOverview(sample::stabilityResults());
   ASSERT_EQ(overview.columns.size(), 1u);
   EXPECT_EQ(overview.columns[0].name, "energy");
-  EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "borderline 2 of 3");
-  EXPECT_EQ(told(rowOf(overview, "odd-one").cells[0]), "bad 1 of 2");
+  EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "borderline 2 of 3 stable");
+  EXPECT_EQ(told(rowOf(overview, "odd-one").cells[0]), "bad 1 of 2 stable");
   EXPECT_EQ(rowOf(overview, "odd-one").cells[0].words, "pile");
   EXPECT_EQ(rowOf(overview, "odd-one").cells[0].anchor, "case_1");
   EXPECT_EQ(overview.conclusion[1], "Unstable: odd-one in pile.");
@@ -406,6 +405,21 @@ TEST(Headings, EachCanBeLinkedTo) {
             "<h2 id=\"a-b\">x<a class=\"anchor\" href=\"#a-b\" aria-label=\"Link to this "
             "part\">#</a></h2><h3 id=\"a-b-2\">A <b>b</b><a class=\"anchor\" href=\"#a-b-2\" "
             "aria-label=\"Link to this part\">#</a></h3><h1>n</h1>");
+}
+
+TEST(OverviewView, OfManyRowsSaysSmallWordsInOneLine) {
+  Overview overview;
+  overview.columns = {{"slide", "", ""}};
+  overview.rows.assign(mostRows, OverviewRow{"ours", true, {OverviewCell{}}});
+  const auto isTall = [&](bool wrapped) {
+    Json view;
+    addOverview(view, overview, {}, wrapped);
+    return view["overview"]["tall"].get<bool>();
+  };
+  EXPECT_FALSE(isTall(false));
+  overview.rows.push_back(overview.rows.front());
+  EXPECT_TRUE(isTall(false));
+  EXPECT_FALSE(isTall(true));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reports/collide/table.hpp"
 #include "reports/common/figure_data.hpp"
 #include "reports/common/svg.hpp"
+#include "reports/common/svg_style.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/report.hpp"
@@ -49,7 +50,7 @@ const Written& collided() {
   return written;
 }
 
-/// The page without its embedded images, whose base64 may spell anything.
+/// The page without its embedded images, whose words are not the page's.
 std::string withoutImages(std::string page) {
   for (std::size_t at; (at = page.find("src=\"data:")) != std::string::npos;)
     page.erase(at, page.find('"', at + 5) + 1 - at);
@@ -321,7 +322,7 @@ TEST(CollidePage, TellsModelFromImplementation) {
   EXPECT_TRUE(has(page, "differ by their model: they hold to the law that their engine declares"));
   EXPECT_TRUE(has(page, "<td class=\"change degraded\"><b>≠ 2, ✓ 4 of 6</b>"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
-  EXPECT_TRUE(has(page, "<td>declared</td>"));
+  EXPECT_TRUE(has(page, "<th>declared</th>"));
   const reports::CollideCount count = reports::countOf(results);
   EXPECT_EQ(count.modelDifference, 2);
   EXPECT_EQ(count.fellShort, 2);
@@ -336,7 +337,7 @@ TEST(CollidePage, ShowsTheOwnScheme) {
   own.held = false;
   const std::string page = Written(results).page;
   EXPECT_TRUE(has(page, "<small>own scheme 1×10⁻⁹</small>"));
-  EXPECT_TRUE(has(page, "<td class=\"n disagree\">✗ 1×10⁻⁹</td>"));
+  EXPECT_TRUE(has(page, "<td class=\"disagree\">✗ 1×10⁻⁹</td>"));
   EXPECT_EQ(reports::outcomeOf(results.variants[0].curves[0]), reports::SweepOutcome::fellShort);
 }
 
@@ -357,17 +358,28 @@ TEST(CollidePage, NamesPointsWithoutALimitAndWhy) {
                   "Not judged: spring and dashpot, Ψ<sub>i</sub> = 0.5573: the law jumps."));
 }
 
-TEST(CollidePage, EveryScoreIsThere) {
-  // 2 variants × (3 + 3 + 1) curves and one that failed; one quantity.
-  const std::string& page = collided().page;
+std::size_t rowsOfScores(const std::string& page) {
   std::size_t rows = 0;
-  for (auto place = page.find("<table class=\"scores\">");
-       (place = page.find("<tr><td>", place)) != std::string::npos &&
-       place < page.find("id=\"engines\"");
-       ++place)
-    ++rows;
-  EXPECT_EQ(rows, 2u * 7u + 1u);
-  EXPECT_TRUE(has(page, "<td class=\"n agree\">✓ 0.0024<small>0.0012</small></td>"));
+  for (std::size_t table = page.find("<table class=\"scores\">"); table != std::string::npos;
+       table = page.find("<table class=\"scores\">", table + 1)) {
+    const std::string own = page.substr(table, page.find("</table>", table) - table);
+    for (std::size_t at = own.find("<th class=\"name\">"); at != std::string::npos;
+         at = own.find("<th class=\"name\">", at + 1))
+      ++rows;
+  }
+  return rows;
+}
+
+TEST(CollidePage, HasScoresButOfWhatHeldBetweenTimeSteps) {
+  // 2 variants × (3 + 3 + 1) curves, less the middle ones of two engines, and one that failed.
+  const std::string& page = collided().page;
+  EXPECT_EQ(rowsOfScores(page), 2u * 5u + 1u);
+  EXPECT_TRUE(has(page, "<td class=\"agree\">✓ 0.0024<small>0.0012</small></td>"));
+  CollideResults results = sample::collideResults();
+  CollisionCurve& middle = results.variants[0].curves[2];
+  ASSERT_EQ(middle.engine, "grain");
+  middle.score.verdict = CurveVerdict::fellShort;
+  EXPECT_EQ(rowsOfScores(Written(results).page), 2u * 5u + 2u) << "what fell short is there";
 }
 
 TEST(AveragePage, SaysWhatItIs) {
@@ -478,6 +490,38 @@ TEST(FigureData, SaysOnceWhereAllPointsOfACurveAre) {
   EXPECT_FALSE(told[2].contains("place"));
 }
 
+TEST(FigureData, SaysOnceWherePointsOfSeveralCurvesAre) {
+  using namespace reports;
+  auto figures = twoPanels();
+  auto& curves = figures[0].panels[0].curves;
+  curves[0].points = {{0.0, 1.0, {}}, {0.5, 2.0, {}}};
+  curves[2].points = {{0.0, 3.0, {}}, {0.5, 4.0, {}}};
+  const json panel = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", {})["panels"][0];
+  EXPECT_EQ(panel["xs"], json::parse("[[0.0, 0.5], [0.0]]"));
+  EXPECT_EQ(panel["curves"][0]["xs"], 0);
+  EXPECT_EQ(panel["curves"][2]["xs"], 0);
+  EXPECT_EQ(panel["curves"][2]["ys"], json::parse("[3.0, 4.0]"));
+  EXPECT_FALSE(panel["curves"][2].contains("points"));
+  EXPECT_EQ(panel["curves"][1]["points"], json::parse("[[0.0, 2.0, 0.5]]")) << "it has a bar";
+  EXPECT_EQ(panel["curves"][3]["xs"], 1);
+}
+
+TEST(FigureData, HasWhatPointsAreMeansOf) {
+  using namespace reports;
+  auto figures = twoPanels();
+  Panel& panel = figures[0].panels[0];
+  panel.logY = true;
+  panel.curves[0].points = {{0.0, 1.0, {}}, {0.5, -1.0, {}}, {1.0, 3.0, {}}};
+  panel.curves[0].each = {{0.9, -1.0, 2.99999}, {1.1, -1.0, NAN}, {-1.0, 1.0, 3.0}};
+  const json data = figureData(figures[0], "80 540 60 300 0 1 0.5 2.5\n", {});
+  const json& curves = data["panels"][0]["curves"];
+  // As long as the points that are told, and null where a log axis has no place.
+  EXPECT_EQ(curves[0]["each"], json::parse("[[0.9, 3.0], [1.1, null], [null, 3.0]]"));
+  EXPECT_EQ(curves[0]["ys"].size(), 2u);
+  EXPECT_EQ(curves[0]["colour"], "#000000");
+  EXPECT_FALSE(curves[1].contains("each"));
+}
+
 TEST(FigureData, LeavesOutAKeyThatThePageHas) {
   using namespace reports;
   auto figures = twoPanels();
@@ -494,12 +538,65 @@ TEST(FigureData, LeavesOutAKeyThatThePageHas) {
 
 TEST(Svg, IsShortenedWithoutTouchingWords) {
   const std::string head = "<?xml version=\"1.0\"?>\n<svg><defs><path d='M0.25,1.33'/></defs>";
+  EXPECT_EQ(reports::compactSvg(
+                head + "\n<g fill=\"none\" stroke-linecap=\"butt\">\n</g>\n"
+                       "\t<path stroke='rgb( 68,  0, 255)'  d='M118.76,3.04 L2.00,-0.51  '/>\n"
+                       "<text>n1.25 of 0.125</text></svg>"),
+            head + "<path stroke='#4400ff' d='M118.8,3 2,-0.5'/><text>n1.25 of 0.125</text></svg>");
+}
+
+TEST(Svg, LinesLoseThePointsOnStraightParts) {
+  const std::string head = "<svg><defs></defs>";
+  const auto path = [&](const std::string& points) {
+    const std::string svg = reports::compactSvg(head + "<path d='" + points + "'/></svg>");
+    const std::size_t from = svg.find(" d='") + 4;
+    return svg.substr(from, svg.find('\'', from) - from);
+  };
+  EXPECT_EQ(path("M0.0,0.0 L1.0,1.0 L2.0,2.05 L3.0,3.0 L4.0,0.0"), "M0,0 3,3 4,0");
+  EXPECT_EQ(path("M0.0,0.0 L1.0,1.0 L2.0,2.5 L3.0,3.0"), "M0,0 1,1 2,2.5 3,3");
+  // An outline comes back, where a point on a straight line may be a corner.
+  EXPECT_EQ(path("M0.0,0.0 L1.0,0.0 L2.0,0.0 L1.5,0.0 M5.0,5.0 L6.0,6.0"),
+            "M0,0 1,0 2,0 1.5,0M5,5 6,6");
+  EXPECT_EQ(path("M0,1 h2 M0,-1 v2"), "M0,1 h2 M0,-1 v2");
+}
+
+TEST(Svg, MarksOfOneColourSayItOnce) {
+  const std::string head = "<svg><defs></defs>";
+  const std::string group = "<g color=\"black\" stroke=\"currentColor\">";
+  const std::string red = "<use href='#a' color='#ff0000'/>",
+                    blue = "<use href='#a' color='#0000ff'/>", plain = "<use href='#a'/>";
+  const auto compact = [&](const std::string& marks) {
+    return reports::compactSvg(head + group + marks + "</g></svg>");
+  };
+  EXPECT_EQ(compact(red + red),
+            head + "<g color=\"#ff0000\" stroke=\"currentColor\">" + plain + plain + "</g></svg>");
+  for (const std::string& marks : {red + blue, red + plain, "<path d='M1,2'/>" + red})
+    EXPECT_EQ(compact(marks), head + group + marks + "</g></svg>");
+}
+
+TEST(Svg, SaysOnceHowThingsLook) {
+  const std::string line = "<path stroke='#444444' stroke-width=\"2\" d='M1,2'/>",
+                    text = "<g transform=\"translate(1,2)\" font-size=\"13\"><text>a</text></g>";
+  const std::string once = "<path stroke='#00ff00' d='M1,2'/>";
+  const std::string head = "<svg viewBox=\"0 0 1 1\"><defs></defs>";
+  const std::string found =
+      reports::styledByClasses(head + line + line + line + text + text + text + once);
   EXPECT_EQ(
-      reports::compactSvg(head +
-                          "\n<g fill=\"none\" stroke-linecap=\"butt\">\n</g>\n"
-                          "\t<path stroke='rgb( 68,  0, 255)'  d='M118.76,3.04 L2.00,-0.51  '/>\n"
-                          "<text>n1.25 of 0.125</text></svg>"),
-      head + "<path stroke='#4400ff' d='M118.8,3 L2,-0.5'/><text>n1.25 of 0.125</text></svg>");
+      found,
+      std::string(
+          "<svg viewBox=\"0 0 1 1\"><style>.a{stroke:#444444;stroke-width:2;}.b{font-size:13px;}"
+          "</style><defs></defs>") +
+          "<path class='a' d='M1,2'/><path class='a' d='M1,2'/><path class='a' d='M1,2'/>"
+          "<g transform=\"translate(1,2)\" class='b'><text>a</text></g>"
+          "<g transform=\"translate(1,2)\" class='b'><text>a</text></g>"
+          "<g transform=\"translate(1,2)\" class='b'><text>a</text></g>" +
+          once);
+  EXPECT_EQ(reports::styledByClasses(head + line + line), head + line + line) << "not worth it";
+}
+
+TEST(Svg, IsAnAddressThatEndsNoAttributeAndNoTag) {
+  EXPECT_EQ(reports::svgAddress("<a b=\"1\" c=\"it's\">say \"100 %\" & 'so'\n</a>"),
+            "data:image/svg+xml,%3Ca b='1' c=%22it's%22%3Esay %22100 %25%22 %26 'so'%0A%3C/a%3E");
 }
 
 TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {

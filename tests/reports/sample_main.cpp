@@ -8,7 +8,9 @@
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path dir = argv[1];
-  crossgrain::writeReport(crossgrain::sample::compareResults(4, 2921), dir / "compare");
+  const crossgrain::CompareResults compared = crossgrain::sample::compareResults(4, 2921);
+  crossgrain::sample::keepSnapshots(compared, dir / "compare");
+  crossgrain::writeReport(compared, dir / "compare");
   crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
   crossgrain::writeReport(crossgrain::sample::lockstepResults(), dir / "lockstep");
@@ -19,7 +21,10 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(crossgrain::sample::revResults(), dir / "rev");
   crossgrain::writeReport(crossgrain::sample::thesisClaims(), dir / "thesis");
   crossgrain::writeReport(crossgrain::sample::scaleResults(), dir / "scale");
+  crossgrain::LockstepResults before = crossgrain::sample::lockstepResults();
+  before.head.version = "0.0.9";
   crossgrain::writeSite({{"lockstep", toJson(crossgrain::sample::lockstepResults())},
+                         {"before", toJson(before)},
                          {"thesis", toJson(crossgrain::sample::thesisClaims())}},
                         dir / "site");
   std::printf("%s\n", dir.c_str());

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/couette/endpoint_words.hpp"
+#include "reports/couette/overview.hpp"
 #include "reports/report.hpp"
+#include "reports/site/history.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
@@ -63,6 +66,16 @@ TEST(SiteOverview, TellsTheGravestAnswerOfEachReport) {
             std::vector<std::string>{"Nothing is open, and nothing falls short, of ours."});
 }
 
+TEST(SiteOverview, TellsReportsOfOneNameApart) {
+  using enum CellState;
+  std::vector<SiteReport> reports = {reportOf("collide", good, bad),
+                                     reportOf("collide", good, bad)};
+  reports[1].folder = "again";
+  const Overview overview = siteOverview(reports);
+  EXPECT_EQ(overview.columns[0].name, "collide quick (collide)");
+  EXPECT_EQ(overview.columns[1].name, "collide quick (again)");
+}
+
 TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
   using enum CellState;
   std::vector<SiteReport> reports = {reportOf("collide", good, bad),
@@ -99,6 +112,80 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
             std::vector<std::string>{"Nothing is judged of it in these reports."});
 }
 
+SiteReport madeBy(const char* build, const char* started, CellState state, double margins) {
+  SiteReport report = reportOf("compare", state, CellState::good);
+  report.folder = std::string("made-by-") + build;
+  report.digest.head.version = "0.3.0";
+  report.digest.head.build = build;
+  report.digest.head.started = started;
+  for (OverviewRow& row : report.digest.overview->rows) row.cells[0].value = margins;
+  return report;
+}
+
+TEST(History, FollowsACaseFromOneVersionToTheNext) {
+  using enum CellState;
+  std::vector<SiteReport> reports = {madeBy("new", "2026-02-01", bad, 2.0),
+                                     reportOf("collide", good, good),
+                                     madeBy("old", "2026-01-01", good, 0.5)};
+  reports[0].digest.values = {{"ours", "mean of spin", {figure, 3.0, "rad/s", "3 rad/s"}}};
+  reports[2].digest.values = {{"ours", "mean of spin", {figure, 4.0, "rad/s", "4 rad/s"}}};
+  std::vector<History> histories = historiesOf(reports);
+  ASSERT_EQ(histories.size(), 1u);  // collisions have one report only
+  const History& history = histories[0];
+  EXPECT_EQ(history.name, "compare quick");
+  EXPECT_EQ(stampOf(history.reports[0]->digest.head), "0.3.0 (old)");
+  ASSERT_EQ(history.rows.size(), 5u);
+  std::vector<std::string> engines;
+  for (const HistoryRow& row : history.rows) engines.push_back(row.engine);
+  EXPECT_EQ(engines, (std::vector<std::string>{"ours", "ours", "ours", "mirror", "mirror"}))
+      << "an engine's rows stand together";
+  EXPECT_EQ(history.rows[2].question, "mean of spin");
+  EXPECT_EQ(changeOf(history.rows[0]), "holds → falls short");
+  EXPECT_EQ(changeOf(history.rows[1]), "");  // no number
+  EXPECT_EQ(changeOf(history.rows[2]), "−25 %");
+  EXPECT_EQ(sentencesOf(history),
+            std::vector<std::string>{"2 answers changed from the first to the last: ours, slide "
+                                     "(holds → falls short) and mirror, slide (holds → falls "
+                                     "short)."});
+  reports[0] = madeBy("new", "2026-02-01", good, 0.5);
+  reports[0].digest.head.setup.toml = "other";
+  histories = historiesOf(reports);
+  EXPECT_EQ(changeOf(histories[0].rows[0]), "same");
+  EXPECT_EQ(sentencesOf(histories[0]),
+            (std::vector<std::string>{
+                "No answer changed from the first to the last.",
+                "The case is not the same in all of them: a change may be the case's."}));
+}
+
+TEST(History, IsOfSeveralVersionsOnly) {
+  using enum CellState;
+  std::vector<SiteReport> reports = {madeBy("one", "2026-01-01", good, 1.0),
+                                     madeBy("one", "2026-01-02", bad, 2.0)};
+  EXPECT_TRUE(historiesOf(reports).empty());
+  reports[1].digest.engines[1].version = "2";  // another engine is another version, too
+  EXPECT_EQ(historiesOf(reports).size(), 1u);
+  // What one report alone has did not change.
+  reports[0].digest.overview.reset();
+  for (const HistoryRow& row : historiesOf(reports)[0].rows) EXPECT_EQ(changeOf(row), "");
+}
+
+TEST(History, HasTheMeansOfEndpoints) {
+  const CompareResults results = sample::compareResults(4, 10);
+  const auto values = compareValues(results);
+  ASSERT_FALSE(results.endpoints.rows.empty());
+  const EndpointRow& row = results.endpoints.rows.front();
+  const auto of = [&](const std::string& engine) {
+    return std::ranges::find_if(values, [&](const DigestValue& value) {
+      return value.engine == engine && value.quantity == "mean of " + endpointWords(row.endpoint);
+    });
+  };
+  ASSERT_NE(of(row.a), values.end());
+  ASSERT_NE(of(row.b), values.end());
+  EXPECT_EQ(of(row.a)->cell.state, CellState::figure);
+  EXPECT_DOUBLE_EQ(of(row.a)->cell.value.value(), row.reference.value());
+  EXPECT_DOUBLE_EQ(of(row.b)->cell.value.value(), *row.reference + row.difference.value());
+}
+
 TEST(EnginePages, HaveNamesForAnAddressEachOnce) {
   EXPECT_EQ(enginePages({engine("yade"), engine("my engine"), engine("my/engine")}),
             (std::vector<std::string>{"engine-yade.html", "engine-my-engine.html",
@@ -132,6 +219,20 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
   EXPECT_FALSE(has(index, "{{"));
   EXPECT_TRUE(has(readFile(site / "summary.md").value(), "# crossgrain: 2 reports"));
+}
+
+TEST(Site, ShowsTheHistoryOfACase) {
+  const TemporaryFolder folder;
+  const auto site = folder.path() / "site";
+  StabilityResults before = sample::stabilityResults(), now = before;
+  before.head.version = "0.1.0";
+  now.head.version = "0.2.0";
+  now.head.build = "abc";
+  writeSite({{"a/before", toJson(before)}, {"b/now", toJson(now)}}, site);
+  const std::string index = readFile(site / "index.html").value();
+  EXPECT_TRUE(has(index, "<h2 id=\"history\">"));
+  EXPECT_TRUE(has(index, "<a href=\"now/report.html\">0.2.0 (abc)</a>"));
+  EXPECT_TRUE(has(index, "No answer changed from the first to the last."));
 }
 
 }  // namespace

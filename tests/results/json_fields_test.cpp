@@ -89,16 +89,20 @@ TEST(JsonFields, ErrorsNameThePath) {
 }
 
 TEST(ResultsHead, RoundTrip) {
-  const ResultsHead head{"s",
-                         "compare",
-                         "1",
-                         "crossgrain compare",
-                         "2026-01-01T00:00:00Z",
-                         {"cpu", "os", 2},
-                         {"quick", "", "quick.toml", "a = 1"}};
+  ResultsHead head{"s",
+                   "compare",
+                   "1",
+                   "abc",
+                   "crossgrain compare",
+                   "2026-01-01T00:00:00Z",
+                   {"cpu", "os", 2},
+                   {"quick", "", "quick.toml", "a = 1"}};
   const Json there = jsonOf(head);
   EXPECT_EQ(there["machine"]["cores"], 2);
+  EXPECT_EQ(there["build"], "abc");
   EXPECT_EQ(jsonOf(readAs<ResultsHead>(there)), there);
+  head.build.clear();
+  EXPECT_FALSE(jsonOf(head).contains("build")) << "of results whose build nobody knows";
 }
 
 }  // namespace

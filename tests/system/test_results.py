@@ -6,6 +6,7 @@ import json
 import math
 import re
 import unittest
+import urllib.parse
 
 from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, SystemTest, settings
 
@@ -52,6 +53,7 @@ class ResultsTest(SystemTest):
     def assert_opens_offline(self):
         page = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("</html>", page)
+        page = urllib.parse.unquote(page)  # what its drawings refer to, too
         for reference in re.findall(r"""(?:src|href)\s*=\s*["']([^"']*)""", page):
             self.assertRegex(reference, r"^(data:|#)", "loads nothing from elsewhere")
         self.assertNotRegex(page, r"@import|url\((?!['\"]?(data:|#))")

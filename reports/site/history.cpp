@@ -1,0 +1,166 @@
+#include "reports/site/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/overview_marks.hpp"
+#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// Versions of the program and of every engine in it.
+std::string versionsOf(const SiteReport& report) {
+  std::string versions = stampOf(report.digest.head);
+  for (const EngineRow& engine : report.digest.engines)
+    versions += "\n" + engine.name + " " + engine.version;
+  return versions;
+}
+
+/// The row of that engine and question, made where no report before had it.
+HistoryRow& rowIn(History& history, const std::string& engine, const std::string& question) {
+  const auto found = std::ranges::find_if(history.rows, [&](const HistoryRow& row) {
+    return row.engine == engine && row.question == question;
+  });
+  if (found != history.rows.end()) return *found;
+  return history.rows.emplace_back(HistoryRow{
+      engine, question, std::vector<std::optional<OverviewCell>>(history.reports.size())});
+}
+
+void addRows(History& history) {
+  for (std::size_t k = 0; k < history.reports.size(); ++k) {
+    const ReportDigest& digest = history.reports[k]->digest;
+    if (digest.overview)
+      for (const OverviewRow& row : digest.overview->rows)
+        for (std::size_t c = 0; c < row.cells.size(); ++c)
+          if (row.cells[c].state != CellState::notApplicable)
+            rowIn(history, row.name, digest.overview->columns[c].name).cells[k] = row.cells[c];
+    for (const DigestValue& value : digest.values)
+      rowIn(history, value.engine, value.quantity).cells[k] = value.cell;
+  }
+  std::vector<std::string> engines;  // in the order of the oldest report
+  for (const HistoryRow& row : history.rows)
+    if (std::ranges::find(engines, row.engine) == engines.end()) engines.push_back(row.engine);
+  std::ranges::stable_sort(history.rows, {}, [&](const HistoryRow& row) {
+    return std::ranges::find(engines, row.engine) - engines.begin();
+  });
+}
+
+/// The first and the last that there are; null where fewer than two reports have the row.
+std::pair<const OverviewCell*, const OverviewCell*> endsOf(const HistoryRow& row) {
+  const OverviewCell *first = nullptr, *last = nullptr;
+  for (const auto& cell : row.cells) {
+    if (!cell) continue;
+    if (!first) first = &*cell;
+    last = &*cell;
+  }
+  if (first == last) return {nullptr, nullptr};
+  return {first, last};
+}
+
+bool answerChanged(const HistoryRow& row) {
+  const auto [first, last] = endsOf(row);
+  return first && first->state != last->state;
+}
+
+bool caseChanged(const History& history) {
+  return std::ranges::any_of(history.reports, [&](const SiteReport* report) {
+    return report->digest.head.setup.toml != history.reports.front()->digest.head.setup.toml;
+  });
+}
+
+Json viewOf(const History& history) {
+  Json columns = Json::array(), rows = Json::array(), sentences = Json::array();
+  for (const SiteReport* report : history.reports)
+    columns.push_back({{"stamp", stampOf(report->digest.head)},
+                       {"started", report->digest.head.started},
+                       {"page", pageOf(*report)}});
+  for (const HistoryRow& row : history.rows) {
+    Json cells = Json::array();
+    for (const auto& cell : row.cells) {
+      const CellLook look = lookOf(cell ? cell->state : CellState::notMeasured);
+      cells.push_back({{"mark", look.mark},
+                       {"class", look.cssClass},
+                       {"shown", cell ? cell->shown : ""},
+                       {"words", cell ? symbolsHtml(cell->words) : ""}});
+    }
+    rows.push_back({{"engine", row.engine},
+                    {"question", symbolsHtml(row.question)},
+                    {"cells", std::move(cells)},
+                    {"change", changeOf(row)}});
+  }
+  for (const std::string& sentence : sentencesOf(history))
+    sentences.push_back(symbolsHtml(sentence));
+  return {{"name", history.name},
+          {"sentences", std::move(sentences)},
+          {"columns", std::move(columns)},
+          {"rows", std::move(rows)}};
+}
+
+}  // namespace
+
+std::string stampOf(const ResultsHead& head) {
+  return head.build.empty() ? head.version : fmt::format("{} ({})", head.version, head.build);
+}
+
+std::vector<History> historiesOf(const std::vector<SiteReport>& reports) {
+  std::vector<History> histories;
+  for (const SiteReport& report : reports) {
+    const std::string name = nameOfReport(report);
+    auto found = std::ranges::find(histories, name, &History::name);
+    if (found == histories.end()) found = histories.insert(histories.end(), {name, {}, {}});
+    found->reports.push_back(&report);
+  }
+  std::erase_if(histories, [](const History& history) {
+    std::set<std::string> versions;
+    for (const SiteReport* report : history.reports) versions.insert(versionsOf(*report));
+    return versions.size() < 2;
+  });
+  for (History& history : histories) {
+    std::ranges::stable_sort(history.reports, {},
+                             [](const SiteReport* report) { return report->digest.head.started; });
+    addRows(history);
+  }
+  return histories;
+}
+
+std::string changeOf(const HistoryRow& row) {
+  const auto [first, last] = endsOf(row);
+  if (!first) return {};
+  if (first->state != last->state)
+    return fmt::format("{} → {}", lookOf(first->state).words, lookOf(last->state).words);
+  if (!first->value || !last->value || first->unit != last->unit) return {};
+  if (*first->value == *last->value) return "same";
+  if (*first->value == 0.0) return {};
+  const double change = 100.0 * (*last->value / *first->value - 1.0);
+  return fmt::format("{}{:.2g} %", change < 0.0 ? "−" : "+", std::abs(change));
+}
+
+std::vector<std::string> sentencesOf(const History& history) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> changed, sentences;
+  for (const HistoryRow& row : history.rows)
+    if (answerChanged(row))
+      changed.push_back(fmt::format("{}, {} ({})", row.engine, row.question, changeOf(row)));
+  sentences.push_back(changed.empty() ? "No answer changed from the first to the last."
+                                      : fmt::format("{} changed from the first to the last: {}.",
+                                                    counted(changed.size(), "answer"),
+                                                    listedShortly(changed, most)));
+  if (caseChanged(history))
+    sentences.push_back("The case is not the same in all of them: a change may be the case's.");
+  return sentences;
+}
+
+Json historyViews(const std::vector<SiteReport>& reports) {
+  Json views = Json::array();
+  for (const History& history : historiesOf(reports)) views.push_back(viewOf(history));
+  return views;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/common/view.hpp"
+#include "reports/site/site.hpp"
+
+/// What became of the answers to one case from one version to the next.
+namespace crossgrain::reports {
+
+/// One engine's answers to one question, or its values of one quantity.
+struct HistoryRow {
+  std::string engine, question;
+  std::vector<std::optional<OverviewCell>> cells;  ///< one for each report; absent: it has none
+};
+
+/// Reports of one command on one case that stem from more than one version of crossgrain or of an
+/// engine.
+struct History {
+  std::string name;                        ///< "compare quick"
+  std::vector<const SiteReport*> reports;  ///< the oldest first
+  std::vector<HistoryRow> rows;
+};
+
+/// "0.3.0 (7902f0e)"
+std::string stampOf(const ResultsHead& head);
+
+std::vector<History> historiesOf(const std::vector<SiteReport>& reports);
+
+/// What changed from the first that has the row to the last: "holds → falls short", "+1.2 %",
+/// "same"; empty where only one has it.
+std::string changeOf(const HistoryRow& row);
+
+/// Which answers changed, and whether the case did, at most three sentences.
+std::vector<std::string> sentencesOf(const History& history);
+
+/// {name, sentences, columns [{stamp, started, page}], rows [{engine, question, cells, change}]}
+Json historyViews(const std::vector<SiteReport>& reports);
+
+}  // namespace crossgrain::reports
