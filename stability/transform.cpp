@@ -143,6 +143,7 @@ std::vector<double> spinsBack(const Transform& by, const std::vector<double>& sp
 std::vector<std::size_t> shuffledOrder(std::size_t disks, std::uint64_t seed) {
   std::vector<std::size_t> order(disks);
   std::iota(order.begin(), order.end(), std::size_t{0});
+  if (disks < 2) return order;
   const Random random = seededRandom(seed);
   gsl_ran_shuffle(random.get(), order.data(), order.size(), sizeof(std::size_t));
   return order;

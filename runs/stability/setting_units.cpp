@@ -16,13 +16,16 @@ struct Dimension {
   int length, mass, time;
 };
 constexpr std::array dimensions = {
-    Dimension{"", 0, 0, 0},      Dimension{"-", 0, 0, 0},     Dimension{"rad", 0, 0, 0},
-    Dimension{"m", 1, 0, 0},     Dimension{"s", 0, 0, 1},     Dimension{"kg", 0, 1, 0},
-    Dimension{"m/s", 1, 0, -1},  Dimension{"m/s²", 1, 0, -2}, Dimension{"1/s", 0, 0, -1},
-    Dimension{"/s", 0, 0, -1},   Dimension{"Hz", 0, 0, -1},   Dimension{"rad/s", 0, 0, -1},
-    Dimension{"N", 1, 1, -2},    Dimension{"N/m", 0, 1, -2},  Dimension{"kg/s", 0, 1, -1},
-    Dimension{"Pa", -1, 1, -2},  Dimension{"J", 2, 1, -2},    Dimension{"1/m", -1, 0, 0},
-    Dimension{"kg/m³", -3, 1, 0}};
+    Dimension{"", 0, 0, 0},       Dimension{"-", 0, 0, 0},
+    Dimension{"rad", 0, 0, 0},    Dimension{"m", 1, 0, 0},
+    Dimension{"s", 0, 0, 1},      Dimension{"kg", 0, 1, 0},
+    Dimension{"m/s", 1, 0, -1},   Dimension{"m/s²", 1, 0, -2},
+    Dimension{"1/s", 0, 0, -1},   Dimension{"/s", 0, 0, -1},
+    Dimension{"Hz", 0, 0, -1},    Dimension{"rad/s", 0, 0, -1},
+    Dimension{"N", 1, 1, -2},     Dimension{"N/m", 0, 1, -2},
+    Dimension{"kg/s", 0, 1, -1},  Dimension{"Pa", -1, 1, -2},
+    Dimension{"J", 2, 1, -2},     Dimension{"1/m", -1, 0, 0},
+    Dimension{"kg/m³", -3, 1, 0}, Dimension{"smallest radius", 0, 0, 0}};
 
 }  // namespace
 
