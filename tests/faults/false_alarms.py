@@ -108,6 +108,7 @@ def main():
     parser.add_argument("--trials", type=int, default=200, help="of each command")
     parser.add_argument("--cpu", type=float, default=float("inf"), help="no trial of a command begins after so much of it [s]")
     parser.add_argument("--first", type=int, default=0, help="number of the first trial")
+    parser.add_argument("--again", action="store_true", help="forget the trials that there are")
     parser.add_argument("--require", action="store_true", help="status 1 where there are alarms of a command that promises none")
     options = parser.parse_args()
     options.crossgrain, options.engine, options.out = (
@@ -116,6 +117,8 @@ def main():
     rules = tomllib.loads((here / "false_alarms.toml").read_text())
     wanted = options.commands.split(",") if options.commands else [name for name in rules if name != "disguise"]
     kept = options.out / "trials.jsonl"
+    if options.again:
+        kept.unlink(missing_ok=True)
     records = [json.loads(line) for line in kept.read_text().splitlines()] if kept.exists() else []
     there = {(record["command"], record["trial"]) for record in records}
     for command in wanted:
