@@ -3,6 +3,7 @@
 import unittest
 
 import false_alarms
+import publish
 import reading
 
 KN = {"term": "kn|k_n", "amount": [0.008, 0.0125], "checks": ["HeadOnCollision"]}
@@ -77,6 +78,10 @@ class FalseAlarms(unittest.TestCase):
         low, high = false_alarms.interval(1, 10)
         self.assertAlmostEqual(0.0025, low, 4)
         self.assertAlmostEqual(0.4450, high, 4)
+
+    def test_the_curated_page_says_what_its_table_says(self):
+        trust = false_alarms.project / "reports/curated/trust"
+        self.assertIn(publish.false_alarms(trust / "false-alarms.csv"), (trust / "README.md").read_text())
 
     def test_alarms_are_counted_for_each_command(self):
         rules = {"collide": {"promised": 0.0}, "compare": {"promised": 0.05}, "disguise": {}}
