@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "cases/case_files.hpp"
@@ -122,6 +123,20 @@ DiskDefaults defaults() {
   return {[](double radius) { return radius * radius; }, 0.5, 1000};
 }
 
+/// @param damaged  what is in the file then  @param disksOf  reads it
+void readDamaged(const fs::path& file, std::uint64_t usual,
+                 const std::function<std::string(test::Draw&)>& damaged,
+                 const std::function<Disks()>& disksOf) {
+  Reading reading;
+  const std::uint64_t all = test::inputs(usual);
+  for (std::uint64_t k = 0; k < all && !testing::Test::HasFailure(); ++k) {
+    test::Draw draw(k);
+    write(file, damaged(draw));
+    reading.read(k, [&] { expectSound(disksOf(), k); });
+  }
+  reading.expectBoth(all);
+}
+
 TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "packing.h5";
@@ -137,15 +152,10 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   packing.hash = "0123456789abcdef";
   writePacking(packing, file);
   const std::string whole = contentOf(file);
-  Reading reading;
   // HDF5 takes ever longer to open files once it has met damaged ones: few, unless asked for.
-  const std::uint64_t all = test::inputs(300);
-  for (std::uint64_t k = 0; k < all && !HasFailure(); ++k) {
-    test::Draw draw(k);
-    write(file, test::damagedBytes(whole, draw));
-    reading.read(k, [&] { expectSound(readPacking(file, defaults()).disks, k); });
-  }
-  reading.expectBoth(all);
+  readDamaged(
+      file, 300, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
+      [&] { return readPacking(file, defaults()).disks; });
 }
 
 TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
@@ -155,14 +165,9 @@ TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
       "# three disks\nx, y, radius, vx, vy, spin, mass, inertia, fixed\n"
       "0.0, 0.0, 0.1, 0.1, 0.0, 2.0, 1.0, 0.005, 0\n\n0.3, 0.0, 0.1, 0, 0, 0, 1e-3, 5e-6, 0\n"
       "0.6, 0.1, 0.15, 0, 0, 0, 1, 0.01, 1\n";
-  Reading reading;
-  const std::uint64_t all = test::inputs(2000);
-  for (std::uint64_t k = 0; k < all && !HasFailure(); ++k) {
-    test::Draw draw(k);
-    write(file, test::damagedText(whole, draw));
-    reading.read(k, [&] { expectSound(readStart(file, defaults()).disks, k); });
-  }
-  reading.expectBoth(all);
+  readDamaged(
+      file, 2000, [&](test::Draw& draw) { return test::damagedText(whole, draw); },
+      [&] { return readStart(file, defaults()).disks; });
 }
 
 TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 
+import harness
 import same_bits
 
 KEPT = same_bits.HERE / "case_digests.json"
@@ -42,16 +43,6 @@ def shipped():
     return [name for name in names if name not in LEFT_OUT]
 
 
-def arrays_of(recording):
-    """The bytes that the engine answered with; runs/README.md has the layout."""
-    with open(recording, "rb") as file:
-        next(file)
-        while line := file.readline():
-            exchange = json.loads(line)
-            file.seek(exchange["sent"], 1)
-            yield file.read(exchange["received"])
-
-
 def digest(name, cache, *arguments, **environment):
     """Of one case, with the command line's changes."""
     seconds = OWN_SECONDS.get(name, SECONDS)
@@ -68,7 +59,7 @@ def digest(name, cache, *arguments, **environment):
             raise AssertionError(f"{name}: status {done.returncode}\n{done.stderr}")
         content = hashlib.sha256()
         size = 0
-        for data in arrays_of(recording):
+        for _, _, data in harness.recorded_exchanges(recording):
             content.update(data)
             size += len(data)
         assert size > 0, name
