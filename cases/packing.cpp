@@ -123,7 +123,7 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
 
   Packing packing;
   Disks& disks = packing.disks;
-  disks.radius = *radius;
+  disks.radius = *sized("radius", 1);
   disks.position = asVectors(*sized("position", 2));
   const auto velocity = sized("velocity", 2);
   disks.velocity = velocity ? asVectors(*velocity) : std::vector<Vec2>(count, Vec2::Zero());
@@ -142,7 +142,12 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
     inertia[i] = defaults.inertiaFactor * disks.mass[i] * disks.radius[i] * disks.radius[i];
   }
   disks.inertia = sized("inertia", 1).value_or(inertia);
+  for (std::size_t i = 0; i < count; ++i)
+    if (!(disks.inertia[i] > 0.0))
+      throw bad(fmt::format("the moment of inertia of disk {} is {} kg m²; it must be > 0", i,
+                            disks.inertia[i]));
   packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
+  if (!std::isfinite(packing.wheelAngle)) throw bad("wheel_angle is not finite");
   packing.hash = in.readTextAttribute("hash").value_or("");
   return packing;
 }

@@ -43,15 +43,16 @@ void printRefusals(const std::vector<StabilityRun>& runs) {
                what.second);
 }
 
-int stability(const CommandLine& line, SuitePart part) {
+int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
   std::vector<fs::path> inputs = line.inputs;
   if (inputs.empty()) inputs.push_back(hereOrInstalled("cases/hard"));
-  std::vector<Case> cases = hardCases(inputs, line.overrides, part);
+  std::vector<Case> cases = asks == SuiteAsks::transforms ? casesToTransform(inputs, line.overrides)
+                                                          : hardCases(inputs, line.overrides, part);
   if (line.only) cases = selectedCases(cases, *line.only);
   RunStore store(line.run, "stability", keysOfEach(cases));
   const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
-  if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store));
-  const StabilityResults results = testStability(cases, engines, line.run, store);
+  if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store, asks));
+  const StabilityResults results = testStability(cases, engines, line.run, store, asks);
   writeReport(results, line.run.out);
 
   const std::vector<StabilityRun>& runs = results.runs;
@@ -79,17 +80,25 @@ int stability(const CommandLine& line, SuitePart part) {
 
 Action declareStability(CLI::App& app, CommandLine& line) {
   const auto longCases = std::make_shared<bool>(false);
+  const auto transforms = std::make_shared<bool>(false);
   addInputs(app, line, "case", "case files or folders of them (default: cases/hard)", 0, anyNumber);
   addSelection(app, line);
   addRun(app, line);
   addFlag(app, "--quick", line.quick, "only cases marked as quick");
   addFlag(app, "--long", *longCases, "also cases marked as long");
+  addFlag(
+      app, "--transforms", *transforms,
+      "whether any case, turned, mirrored, told in other units, renumbered, restarted and in one "
+      "go, does the same");
   excludeEachOther(app, "--quick", "--long");
-  return [&line, longCases] {
+  excludeEachOther(app, "--transforms", "--quick");
+  excludeEachOther(app, "--transforms", "--long");
+  return [&line, longCases, transforms] {
     const SuitePart part = line.quick   ? SuitePart::quick
                            : *longCases ? SuitePart::withLong
                                         : SuitePart::usual;
-    return resumably(line.run, [&] { return stability(line, part); });
+    const SuiteAsks asks = *transforms ? SuiteAsks::transforms : SuiteAsks::limits;
+    return resumably(line.run, [&] { return stability(line, part, asks); });
   };
 }
 
@@ -99,7 +108,8 @@ extern const Command stabilityCommand = {
     "stability", "hard cases: what stays stable on which engine, and what does not",
     "crossgrain stability --engines all --out out              # all of cases/hard\n"
     "crossgrain stability -k pile --engines grain --out out\n"
-    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out",
+    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out\n"
+    "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out out",
     declareStability};
 
 }  // namespace crossgrain::inline cli

@@ -16,6 +16,7 @@ namespace {
 
 struct Family {
   std::string_view measure, name, asks;
+  bool transform = false;  ///< of a case told otherwise
 };
 /// In the order of the columns.
 constexpr std::array families = {
@@ -36,7 +37,13 @@ constexpr std::array families = {
     Family{"step_limit", "time step", "How near to theory is the largest stable time step?"},
     Family{"copies_differ", "copies", "Do turned, shifted and scaled copies behave alike?"},
     Family{"restart_differs", "restart", "Does a run go on from a checkpoint as if uninterrupted?"},
-    Family{"accepted", "bad starts", "Are starts refused that nothing can run?"}};
+    Family{"accepted", "bad starts", "Are starts refused that nothing can run?"},
+    Family{"turned", "turned", "Does a turned scene do the same, turned?", true},
+    Family{"mirrored", "mirrored", "Does a mirrored scene do the same, mirrored?", true},
+    Family{"rescaled", "other units", "Does a scene told in other units do the same?", true},
+    Family{"renumbered", "renumbered", "Do disks do the same under other numbers?", true},
+    Family{"restarted", "taken up", "Does a run taken up from a checkpoint go on the same?", true},
+    Family{"split", "in one go", "Does a run that nobody looks at do the same?", true}};
 
 const Family* known(const std::string& measure) {
   const auto found = std::ranges::find(families, measure, &Family::measure);
@@ -117,6 +124,8 @@ OverviewCell cellOf(const FamilyTally& tally) {
 }
 
 std::string whoIsStable(const StabilityResults& results) {
+  const bool told = areTransforms(results);
+  const char* const same = told ? "the same" : "stable";
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
     std::size_t stable = 0, degraded = 0, unstable = 0;
@@ -127,9 +136,10 @@ std::string whoIsStable(const StabilityResults& results) {
       unstable += run.verdict == StabilityVerdict::unstable;
     }
     const std::size_t judged = stable + degraded + unstable;
-    said.add(engine.name, judged == 0        ? "nothing could be judged"
-                          : stable == judged ? allOf(judged, "run") + " stable"
-                                             : fmt::format("{} of {} runs stable", stable, judged));
+    said.add(engine.name, judged == 0 ? "nothing could be judged"
+                          : stable == judged
+                              ? fmt::format("{} {}", allOf(judged, "run"), same)
+                              : fmt::format("{} of {} runs {}", stable, judged, same));
   }
   std::string sentence;
   for (const auto& [words, engines] : said.all())
@@ -137,8 +147,25 @@ std::string whoIsStable(const StabilityResults& results) {
   return sentence + ".";
 }
 
+/// What breaks when engines are told it otherwise, engine by engine.
+std::string whatBreaks(const StabilityResults& results) {
+  SaidOf said;
+  for (const EngineRow& engine : results.engines) {
+    std::vector<std::string> broken;
+    for (const StabilityRun& run : results.runs)
+      if (run.engine == engine.name && run.verdict == StabilityVerdict::unstable)
+        broken.push_back(fmt::format("{} {}", spaced(run.name), run.variant));
+    if (!broken.empty()) said.add(engine.name, listedShortly(broken, 3));
+  }
+  std::string sentence;
+  for (const auto& [names, engines] : said.all())
+    sentence += fmt::format("{}{} with {}", sentence.empty() ? "" : "; ", listed(engines), names);
+  return sentence.empty() ? sentence : fmt::format("Another run: {}.", sentence);
+}
+
 /// Cases in which engines are unstable, engine by engine.
 std::string whatIsUnstable(const StabilityResults& results) {
+  if (areTransforms(results)) return whatBreaks(results);
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> unstable;
@@ -159,6 +186,13 @@ std::string nextStep(const StabilityResults& results) {
   const auto has = [&](StabilityVerdict verdict) {
     return std::ranges::find(results.runs, verdict, &StabilityRun::verdict) != results.runs.end();
   };
+  if (areTransforms(results)) {
+    if (has(StabilityVerdict::unstable))
+      return "Next: see after which step and by how much; what follows from how a scene is told is "
+             "the engine's and not the scene's.";
+    if (has(StabilityVerdict::stable))
+      return "However these cases were told, no more than rounding came of it.";
+  }
   if (has(StabilityVerdict::unstable))
     return "Next: keep scenes like these away from those engines, or see from which step on the "
            "limit is passed.";
@@ -170,6 +204,13 @@ std::string nextStep(const StabilityResults& results) {
 
 }  // namespace
 
+bool areTransforms(const StabilityResults& results) {
+  return !results.cases.empty() && std::ranges::all_of(results.cases, [](const HardCase& one) {
+    const Family* family = known(one.measure);
+    return family && family->transform;
+  });
+}
+
 std::string familyOf(const std::string& measure) {
   const Family* family = known(measure);
   return family ? std::string(family->name) : spaced(measure);
@@ -177,10 +218,15 @@ std::string familyOf(const std::string& measure) {
 
 Overview stabilityOverview(const StabilityResults& results) {
   Overview overview;
-  overview.states = {{CellState::good, "all stable"},
-                     {CellState::borderline, "some degraded"},
-                     {CellState::bad, "some unstable"},
-                     {CellState::notApplicable, "refused"}};
+  if (areTransforms(results))
+    overview.states = {{CellState::good, "the same, but for rounding"},
+                       {CellState::bad, "another run"},
+                       {CellState::notApplicable, "cannot be done"}};
+  else
+    overview.states = {{CellState::good, "all stable"},
+                       {CellState::borderline, "some degraded"},
+                       {CellState::bad, "some unstable"},
+                       {CellState::notApplicable, "refused"}};
   const std::vector<NamedFamily> all = familiesOf(results);
   for (const NamedFamily& family : all)
     overview.columns.push_back({family.name, family.asks, "matrix"});

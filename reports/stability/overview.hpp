@@ -11,6 +11,9 @@ namespace crossgrain::reports {
 /// here its own name.
 std::string familyOf(const std::string& measure);
 
+/// Whether these are cases told otherwise (runs/stability/transforms.hpp), not hard ones.
+bool areTransforms(const StabilityResults& results);
+
 /// An engine per row, a family of hard cases per column: runs that stayed stable, of those judged.
 Overview stabilityOverview(const StabilityResults& results);
 

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "reports/common/labels.hpp"
@@ -30,11 +31,17 @@ std::string valueOf(const StabilityRun& run) {
   return *run.value > 1e300 ? "beyond numbers" : readable(run.value);
 }
 
+/// Of a case told otherwise: its limit is not the case's.
+bool hasOwnLimit(const StabilityRun& run) {
+  return std::isfinite(run.limit) && !std::isfinite(run.degradedLimit);
+}
+
 /// "3.2 × its limit", "step 120"
 Json cellOf(const StabilityRun* run) {
   if (!run) return {{"text", absentText}, {"class", ""}, {"lines", Json::array()}};
   Json lines = Json::array();
   if (const std::string value = valueOf(*run); !value.empty()) lines.push_back(value);
+  if (hasOwnLimit(*run)) lines.push_back("rounding may do " + readable(run->limit));
   if (run->step && run->verdict != StabilityVerdict::stable)
     lines.push_back("from step " + readableCount(stepOf(*run)));
   if (!run->value) lines.push_back(mathHtml(shortReason(*run)));
@@ -84,6 +91,7 @@ std::string shownUnit(const std::string& unit) {
 }
 
 std::string limitsOf(const HardCase& variant) {
+  if (!std::isfinite(variant.limit)) return "of each run";
   const std::string unit = shownUnit(variant.unit);
   return fmt::format("{}{}{}, degraded up to {}", readableSetting(finite(variant.limit)),
                      unit.empty() ? "" : " ", unit, readableSetting(finite(variant.degradedLimit)));
@@ -119,21 +127,22 @@ Json casesOf(const StabilityResults& results, const std::vector<HardGroup>& grou
     Json figures = Json::array();
     for (Json& view : figureViews(shown, fmt::format("stability_{}", index)))
       if (view.at("file") == fmt::format("stability_{}", index)) figures.push_back(std::move(view));
-    views.push_back({{"id", fmt::format("case_{}", index)},
-                     {"name", spaced(group.name)},
-                     {"tests", first.tests},
-                     {"measure", spaced(first.measure)},
-                     {"what", first.what},
-                     {"unit", shownUnit(first.unit)},
-                     {"limits", limitsOf(first)},
-                     {"why", first.why},
-                     {"file", first.file},
-                     {"toml", first.toml},
-                     {"variants", std::move(rows)},
-                     {"hasPictures", !pictures.empty()},
-                     {"pictures", std::move(pictures)},
-                     {"hasFigures", !figures.empty()},
-                     {"figures", std::move(figures)}});
+    views.push_back(
+        {{"id", fmt::format("case_{}", index)},
+         {"name", spaced(group.name)},
+         {"tests", areTransforms(results) ? "However it is told, the same happens." : first.tests},
+         {"measure", spaced(first.measure)},
+         {"what", first.what},
+         {"unit", shownUnit(first.unit)},
+         {"limits", limitsOf(first)},
+         {"why", first.why},
+         {"file", first.file},
+         {"toml", first.toml},
+         {"variants", std::move(rows)},
+         {"hasPictures", !pictures.empty()},
+         {"pictures", std::move(pictures)},
+         {"hasFigures", !figures.empty()},
+         {"figures", std::move(figures)}});
   }
   return views;
 }
@@ -148,7 +157,11 @@ void addSummary(Json& view, const StabilityResults& results) {
   }
   const int judged = all["stable"] + all["degraded"] + all["unstable"];
   view["lead"] =
-      fmt::format("{} of {} runs of hard cases stayed within their limits.", all["stable"], judged);
+      areTransforms(results)
+          ? fmt::format("{} of {} cases told otherwise came out the same, but for rounding.",
+                        all["stable"], judged)
+          : fmt::format("{} of {} runs of hard cases stayed within their limits.", all["stable"],
+                        judged);
   view["sentences"] = Json::array();
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> words;

@@ -95,7 +95,9 @@ void wallDiskDoesNotYield(Exam& it) {
   it.expect(close(after.velocity[0],
                   Vec2(0.0, restitutionOf(scene.law, smallMass) * Encounter::speed), restitution),
             "the velocity after it [m/s]");
-  it.equal(after.wallPosition[0], Vec2(0.001, 0.0), "the wall disk has moved");
+  const Tolerance place = {it.byPrecision(1e-12, 1e-5, "").absolute * smallRadius, 0.0,
+                           "rounding, of an engine that has coordinates of its own"};
+  it.expect(close(after.wallPosition[0], Vec2(0.001, 0.0), place), "the wall disk's place [m]");
 }
 
 void planeDoesNotYield(Exam& it) {

@@ -11,8 +11,6 @@
 
 namespace crossgrain::inline runs {
 
-namespace {
-
 HardScene plainScene(const Case& setup, const Packing& packing) {
   const double dt = timeStep(setup);
   switch (setup.kind) {
@@ -27,8 +25,6 @@ HardScene plainScene(const Case& setup, const Packing& packing) {
   return {&setup, couetteScene(setup, packing, dt),
           (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup)};
 }
-
-}  // namespace
 
 HardScene hardScene(const Case& setup, const Packing& packing) {
   HardScene hard = plainScene(setup, packing);

@@ -9,15 +9,19 @@
 
 namespace crossgrain::inline runs {
 
-/// A hard case as engines get it, whatever its kind.
+/// A case as engines get it, whatever its kind.
 struct HardScene {
   const Case* setup = nullptr;
   Scene scene;
   double duration = 0.0;  ///< how long it is watched [s]
 };
 
+/// The scene of a case, and for how long it says.
 /// @param packing  of a Couette case
 /// @throws BadInput
+HardScene plainScene(const Case& setup, const Packing& packing);
+
+/// The same of a hard case, with what its measure takes.
 HardScene hardScene(const Case& setup, const Packing& packing);
 
 /// Has an engine load the scene and takes `samples` samples while it runs. An engine that fails

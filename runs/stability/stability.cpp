@@ -20,6 +20,7 @@
 #include "runs/common/run_store.hpp"
 #include "runs/stability/recorder.hpp"
 #include "runs/stability/run.hpp"
+#include "runs/stability/transforms.hpp"
 #include "stability/measures.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -27,6 +28,14 @@
 namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
+
+/// The rows of one engine and case, kept together: they share the run that all are held against.
+struct TransformRows {
+  std::vector<StabilityRun> rows;
+};
+void fields(auto& io, TransformRows& all) {
+  io("rows", all.rows);
+}
 
 namespace {
 
@@ -59,13 +68,24 @@ std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
   return cases;
 }
 
+std::vector<Case> casesToTransform(const std::vector<fs::path>& inputs,
+                                   const std::vector<std::string>& overrides) {
+  std::vector<Case> cases;
+  for (const fs::path& input : inputs)
+    for (const fs::path& file : filesOf(input))
+      std::ranges::move(loadCase(file, overrides), std::back_inserter(cases));
+  requireOwnNames(cases);
+  return cases;
+}
+
 namespace {
 
 class Suite {
  public:
   Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command,
-        RunStore& store)
+        RunStore& store, SuiteAsks asks)
       : cases_(cases),
+        asks_(asks),
         command_(command),
         engines_(std::move(engines)),
         store_(store),
@@ -124,7 +144,7 @@ class Suite {
     for (std::size_t e = 0; e < engines_.size(); ++e) {
       PlannedWork work{engines_[e].name, "hard cases"};
       for (std::size_t c = 0; c < cases_.size(); ++c) {
-        const auto task = taskOf(c, e);
+        const auto task = taskOf<StabilityRun>(c, e);
         count(work, store_.find(task.name, task.key));
       }
       works.push_back(work);
@@ -137,10 +157,12 @@ class Suite {
   }
 
   void run() {
-    std::vector<KeptTask<StabilityRun>> tasks;
-    for (std::size_t c = 0; c < cases_.size(); ++c)
-      for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf(c, e));
-    runs_ = doOrTakeUp(tasks, store_, progress_, "hard cases", command_.jobs);
+    if (asks_ == SuiteAsks::limits) {
+      runs_ = doAll<StabilityRun>("hard cases");
+      return;
+    }
+    for (TransformRows& all : doAll<TransformRows>("transforms"))
+      std::ranges::move(all.rows, std::back_inserter(runs_));
   }
 
   StabilityResults results() const {
@@ -148,9 +170,11 @@ class Suite {
     results.head = headOf(kindStability, cases_.front(), command_.commandLine);
     const bool one =
         std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
-    results.head.setup = {one ? cases_.front().name : "hard cases", "",
+    const char* const many = asks_ == SuiteAsks::transforms ? "cases told otherwise" : "hard cases";
+    results.head.setup = {one ? cases_.front().name : many, "",
                           cases_.front().file.parent_path().string(), ""};
-    for (const Case& setup : cases_) results.cases.push_back(rowOf(setup));
+    for (const Case& setup : cases_)
+      std::ranges::move(rowsOf(setup), std::back_inserter(results.cases));
     results.runs = runs_;
     for (std::size_t e = 0; e < engines_.size(); ++e)
       results.engines.push_back({engines_[e].name, engines_[e].summary, versions_[e],
@@ -175,10 +199,41 @@ class Suite {
     return *std::ranges::find(cases_, setup.name, &Case::name);
   }
 
-  KeptTask<StabilityRun> taskOf(std::size_t c, std::size_t e) const {
+  template <typename Result>
+  std::vector<Result> doAll(const std::string& stage) {
+    std::vector<KeptTask<Result>> tasks;
+    for (std::size_t c = 0; c < cases_.size(); ++c)
+      for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf<Result>(c, e));
+    return doOrTakeUp(tasks, store_, progress_, stage, command_.jobs);
+  }
+
+  static KeptTask<StabilityRun>::Outcome done(const StabilityTask& task,
+                                              const std::function<void(double)>& progress,
+                                              StabilityRun* /*of*/) {
+    StabilityRun run = runStability(task, progress);
+    const std::string verdict(nameOf(run.verdict));
+    const bool finished = run.status != HardRunStatus::failed;
+    return {std::move(run), finished, verdict};
+  }
+
+  static KeptTask<TransformRows>::Outcome done(const StabilityTask& task,
+                                               const std::function<void(double)>& progress,
+                                               TransformRows* /*of*/) {
+    TransformRows all{runTransforms(task, progress)};
+    const auto count = [&](auto member, auto value) {
+      return std::ranges::count(all.rows, value, member);
+    };
+    const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
+    const bool finished = count(&StabilityRun::status, HardRunStatus::failed) == 0;
+    return {std::move(all), finished,
+            broken == 0 ? "nothing breaks" : fmt::format("{} break", broken)};
+  }
+
+  template <typename Result>
+  KeptTask<Result> taskOf(std::size_t c, std::size_t e) const {
     const Case& setup = cases_[c];
     const EngineEntry& entry = engines_[e];
-    KeptTask<StabilityRun> task;
+    KeptTask<Result> task;
     task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
                              setup.variant);
     task.name = task.label;
@@ -188,38 +243,30 @@ class Suite {
     if (!setup.assembly.starts.files.empty())  // the case has their paths only
       task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
     const Case& original = originalOf(setup);
-    if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
+    if (asks_ == SuiteAsks::transforms)
+      task.name += "-transforms";
+    else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
       task.key["held against"] = original.variant;
     task.weight = predicted(setup, entry);
     task.work = [this, &setup, &original, &entry, c,
                  name = task.name](const std::function<void(double)>& progress) {
-      StabilityRun run = runStability(
-          {&setup, &original, entry, &packings_[c], store_.scratch(name), unprepared_[c]},
-          progress);
-      const std::string verdict(nameOf(run.verdict));
-      const bool finished = run.status != HardRunStatus::failed;
-      return KeptTask<StabilityRun>::Outcome{std::move(run), finished, verdict};
+      return done({&setup, &original, entry, &packings_[c], store_.scratch(name), unprepared_[c]},
+                  progress, static_cast<Result*>(nullptr));
     };
     return task;
   }
 
-  static HardCase rowOf(const Case& setup) {
+  std::vector<HardCase> rowsOf(const Case& setup) const {
+    if (asks_ == SuiteAsks::transforms) return transformRows(setup);
     const Stability& hard = *setup.stability;
     const StabilityMeasure& measure = stabilityMeasure(hard.measure);
-    return {setup.name,
-            setup.variant,
-            setup.file.string(),
-            hard.tests,
-            hard.measure,
-            std::string(measure.what),
-            std::string(measure.unit),
-            hard.limit,
-            hard.degraded,
-            hard.why,
-            setup.resolvedToml};
+    return {{setup.name, setup.variant, setup.file.string(), hard.tests, hard.measure,
+             std::string(measure.what), std::string(measure.unit), hard.limit, hard.degraded,
+             hard.why, setup.resolvedToml}};
   }
 
   const std::vector<Case>& cases_;
+  SuiteAsks asks_;
   const RunCommand& command_;
   std::vector<EngineEntry> engines_;
   RunStore& store_;
@@ -233,9 +280,9 @@ class Suite {
 }  // namespace
 
 StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                               const RunCommand& command, RunStore& store) {
+                               const RunCommand& command, RunStore& store, SuiteAsks asks) {
   const auto started = std::chrono::steady_clock::now();
-  Suite suite(cases, std::move(engines), command, store);
+  Suite suite(cases, std::move(engines), command, store, asks);
   suite.askVersions();
   suite.preparePackings();
   suite.run();
@@ -246,8 +293,8 @@ StabilityResults testStability(const std::vector<Case>& cases, std::vector<Engin
 }
 
 std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                          const RunCommand& command, RunStore& store) {
-  Suite suite(cases, std::move(engines), command, store);
+                          const RunCommand& command, RunStore& store, SuiteAsks asks) {
+  Suite suite(cases, std::move(engines), command, store, asks);
   suite.askVersions();
   return suite.plan();
 }

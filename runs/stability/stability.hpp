@@ -21,15 +21,28 @@ enum class SuitePart { quick, usual, withLong };
 std::vector<Case> hardCases(const std::vector<std::filesystem::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part);
 
+/// The same of any cases, for transforms of them: none has to be a hard one.
+/// @throws BadInput for two cases of one name, and a folder without cases
+std::vector<Case> casesToTransform(const std::vector<std::filesystem::path>& inputs,
+                                   const std::vector<std::string>& overrides);
+
+/// What a suite asks of its cases.
+enum class SuiteAsks {
+  limits,     ///< that they stay within their [stability]
+  transforms  ///< that they go the same way however they are told: transforms.hpp
+};
+
 /// Runs every hard case on every engine, each in a worker of its own. Finished runs are kept in the
 /// store at once.
 /// @throws BadInput, OutputError, Interrupted
 StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                               const RunCommand& command, RunStore& store);
+                               const RunCommand& command, RunStore& store,
+                               SuiteAsks asks = SuiteAsks::limits);
 
 /// What that would run, for people. Engines are asked for their version; nothing is computed.
 /// @throws BadInput, Interrupted
 std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                          const RunCommand& command, RunStore& store);
+                          const RunCommand& command, RunStore& store,
+                          SuiteAsks asks = SuiteAsks::limits);
 
 }  // namespace crossgrain::inline runs

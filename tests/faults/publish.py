@@ -62,6 +62,25 @@ def harness_table(path):
     return "\n".join(lines) + "\n"
 
 
+def false_alarms(path):
+    """The section on false alarms, of false_alarms.py's table."""
+    with path.open() as file:
+        rows = list(csv.DictReader(file))
+    trials, alarms = (sum(int(row[name]) for row in rows) for name in ("trials", "alarms"))
+    lines = [
+        "\n## False alarms\n",
+        "The in-house engine in disguise: turned, mirrored, in other units, renumbered, nudged by a rounding, taken up again and again, drawn anew for each trial",
+        "([tests/faults](../../../tests/faults/README.md#false-alarms) says how). Rates with their 95 % intervals after Clopper and Pearson; *promised* is what a command's own rules allow.\n",
+        "| command | alarms | trials | rate | between | promised |",
+        "|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        rate, low, high, promised = (f"{100.0 * float(row[name]):.1f} %" for name in ("rate", "low", "high", "promised"))
+        lines.append(f"| `{row['command']}` | {row['alarms']} | {row['trials']} | {rate} | {low} and {high} | {promised} |")
+    lines.append(f"\n{alarms} in {trials} trials of all commands together. Made by\n\n```\ncmake --build build/release --target false_alarms    # an hour and more\n```")
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--from", dest="source", type=pathlib.Path, required=True)
@@ -78,6 +97,10 @@ def main():
     if (source / "harness.csv").exists():
         page += "\n## In the harness itself, on the right engine\n\n" + harness_table(source / "harness.csv")
         files.append("harness.csv")
+    for made in (source / "false-alarms.csv", to / "false-alarms.csv"):
+        if made.exists():
+            page += false_alarms(made)
+            break
     (to / "README.md").write_text(page)
     for name in files:
         if source.resolve() != to.resolve():

@@ -2,6 +2,8 @@
 
 import unittest
 
+import false_alarms
+import publish
 import reading
 
 KN = {"term": "kn|k_n", "amount": [0.008, 0.0125], "checks": ["HeadOnCollision"]}
@@ -64,6 +66,34 @@ class Found(unittest.TestCase):
         self.assertEqual("model", reading.blame("collide", 1, results("model_difference"), "mine"))
         self.assertEqual("implementation", reading.blame("collide", 1, results("bad"), "mine"))
         self.assertEqual("", reading.blame("collide", 0, results("good"), "mine"))
+
+
+class FalseAlarms(unittest.TestCase):
+    def test_the_interval_is_that_of_clopper_and_pearson(self):
+        """Closed forms without alarms and with nothing else; a value of their table between."""
+        self.assertEqual(0.0, false_alarms.interval(0, 200)[0])
+        self.assertAlmostEqual(1.0 - 0.025 ** (1 / 200), false_alarms.interval(0, 200)[1], 12)
+        self.assertEqual(1.0, false_alarms.interval(5, 5)[1])
+        self.assertAlmostEqual(0.025 ** (1 / 5), false_alarms.interval(5, 5)[0], 12)
+        low, high = false_alarms.interval(1, 10)
+        self.assertAlmostEqual(0.0025, low, 4)
+        self.assertAlmostEqual(0.4450, high, 4)
+
+    def test_the_curated_page_says_what_its_table_says(self):
+        trust = false_alarms.project / "reports/curated/trust"
+        self.assertIn(publish.false_alarms(trust / "false-alarms.csv"), (trust / "README.md").read_text())
+
+    def test_alarms_are_counted_for_each_command(self):
+        rules = {"collide": {"promised": 0.0}, "compare": {"promised": 0.05}, "disguise": {}}
+        records = [{"command": "collide", "alarm": alarm, "cpu": 0.5} for alarm in (False, True, False, False)]
+        (row,) = false_alarms.rates(records, rules)
+        self.assertEqual(("collide", 4, 1, "0.2500", "2"), (row["command"], row["trials"], row["alarms"], row["rate"], row["cpu_s"]))
+
+    def test_a_trial_is_the_same_for_the_same_number(self):
+        kinds = {"turn": [0.0, 1.0], "order": "seed", "mirror": [1]}
+        disguises = [false_alarms.disguise_of(false_alarms.random.Random("collide 7"), kinds) for _ in range(2)]
+        self.assertEqual(disguises[0], disguises[1])
+        self.assertTrue(disguises[0])
 
 
 if __name__ == "__main__":

@@ -276,6 +276,39 @@ TEST(StabilityOverview, CountsRunsByFamily) {
   EXPECT_EQ(familyOf("a_new_measure"), "a new measure");
 }
 
+TEST(StabilityOverview, OfCasesToldOtherwiseSaysWhatBreaks) {
+  StabilityResults results;
+  results.engines = {{"mine", "", "", "", EngineStatus::ran, ""},
+                     {"theirs", "", "", "", EngineStatus::ran, ""}};
+  for (const auto& [measure, variant] :
+       {std::pair("turned", "turned by 1 rad"), std::pair("renumbered", "renumbered")}) {
+    HardCase told;
+    told.name = "cell";
+    told.variant = variant;
+    told.measure = measure;
+    results.cases.push_back(told);
+    for (const EngineRow& engine : results.engines) {
+      StabilityRun run;
+      run.engine = engine.name;
+      run.name = "cell";
+      run.variant = variant;
+      run.measure = measure;
+      run.verdict = StabilityVerdict::stable;
+      results.runs.push_back(run);
+    }
+  }
+  EXPECT_TRUE(areTransforms(results));
+  EXPECT_EQ(stabilityOverview(results).conclusion[0], "mine and theirs: all 2 runs the same.");
+  results.runs[1].verdict = StabilityVerdict::unstable;
+  const Overview overview = stabilityOverview(results);
+  ASSERT_EQ(overview.columns.size(), 2u);
+  EXPECT_EQ(told(rowOf(overview, "theirs").cells[0]), "bad 0 of 1");
+  EXPECT_EQ(told(rowOf(overview, "theirs").cells[1]), "good 1 of 1");
+  EXPECT_EQ(overview.conclusion[0], "mine: all 2 runs the same; theirs: 1 of 2 runs the same.");
+  EXPECT_EQ(overview.conclusion[1], "Another run: theirs with cell turned by 1 rad.");
+  EXPECT_FALSE(areTransforms(sample::stabilityResults()));
+}
+
 TEST(CostOverview, TellsSettingAndTimeForEachAccuracy) {
   const Overview overview = costOverview(sample::costResults());
   ASSERT_FALSE(overview.columns.empty());

@@ -9,6 +9,7 @@
 #include "adapters/box2d.hpp"
 #include "adapters/law_options.hpp"
 #include "oracle/impact.hpp"
+#include "stability/transform.hpp"
 #include "tests/runs/planted_engine.hpp"
 #include "tests/support/pairs.hpp"
 
@@ -59,6 +60,19 @@ TEST(OwnScheme, TheInHouseEngineHoldsToEachToRounding) {
             ++schemes;
           }
   EXPECT_EQ(schemes, 3 * 3 * 3 * 2 * 2);
+}
+
+/// An engine that holds a scene otherwise rounds it otherwise, and does nothing wrong.
+TEST(OwnScheme, ARoundingOfTheStartIsNoFaultUnderAnyLaw) {
+  for (const TangentialLaw tangential :
+       {TangentialLaw::none, TangentialLaw::coulomb, TangentialLaw::viscous, TangentialLaw::spring,
+        TangentialLaw::springDashpot}) {
+    Case setup = test::smallPairCase();
+    setup.law.tangential = tangential;
+    test::PlantedEngine engine(
+        [](Scene& scene) { scene.disks = nudged(scene.disks, 2.3e-16, 22); });
+    EXPECT_EQ(ownScheme(engine, setup).held, true) << static_cast<int>(tangential);
+  }
 }
 
 TEST(OwnScheme, APeerHoldsToItsOwn) {

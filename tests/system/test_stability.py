@@ -1,6 +1,9 @@
 """crossgrain stability: the quick suite on every engine, its verdicts, files and exit status."""
 
 import csv
+import json
+import os
+import pathlib
 import unittest
 
 from harness import BAD_INPUT, CASES, FELL_SHORT, HELD, SystemTest
@@ -58,6 +61,21 @@ class Stability(SystemTest):
         self.assertEqual(("unstable", "grain"), (row["verdict"], row["engine"]))
         self.assertGreater(int(row["step"]), 0)
         self.assertIn("worst_1", (self.out / "report.html").read_text(encoding="utf-8"))
+
+    def test_cases_after_public_threads_catch_what_they_are_named_after(self):
+        """A slipping contact that keeps its anchor, friction of velocity alone, a bounce in seven steps."""
+        planted = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/faults/planted_engine"
+        engine = self.folder / "keeps.toml"
+        engine.write_text(f'name = "keeps"\nsummary = "a test"\ncommand = [{json.dumps(str(planted))}, "keep_spring=1"]\n')
+
+        def verdict(case, *arguments):
+            done = self.run_program("stability", HARD / f"{case}.toml", *arguments, "--fresh", "--out", self.out)
+            self.assertIn(done.status, (HELD, FELL_SHORT), done)
+            return {row["verdict"] for row in self.table()}
+
+        self.assertEqual({"unstable"}, verdict("pushed-and-let-go", "--engines", engine))
+        self.assertEqual({"unstable"}, verdict("pinched", "--engines", "grain", "--set", "law.tangential=viscous"))
+        self.assertEqual({"degraded"}, verdict("bouncing-ball", "--engines", "grain", "--set", "run.dt=4e-4"))
 
     def test_where_all_is_refused_nothing_was_judged(self):
         # The impulse solver has no checkpoints, so no restart of it can be held against anything.

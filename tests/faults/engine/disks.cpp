@@ -79,7 +79,7 @@ void Simulation::moveWalls() {
     body.at(now());
     for (std::size_t k = 0; k < body.radius.size(); ++k, ++id) {
       world_.position[id] = body.position[k];
-      world_.velocity[id] = faults_.wallVelocity * body.diskVelocity[k];
+      world_.velocity[id] = seenOfWall(body.diskVelocity[k]);
       world_.spin[id] = world_.turns ? faults_.wallSpin * body.spin : 0.0;
     }
   }
@@ -98,6 +98,7 @@ void Simulation::addForces(double ahead) {
   torque_.assign(w.disks, 0.0);
   for (std::size_t i = 0; i < w.disks; ++i) {
     force_[i] = (faults_.gravity * w.mass[i]) * w.gravity;
+    force_[i].x *= faults_.gravityX;
     if (w.plate.present) addPlate(i);
   }
   onBody_.assign(w.bodies.size(), {});
@@ -171,7 +172,7 @@ void Simulation::addPlanes() {
         }
         const Vector foot = w.position[i] - height * plane.normal;
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
-        const Vector wall = faults_.wallVelocity * w.bodies[b].velocityAt(foot);
+        const Vector wall = seenOfWall(w.bodies[b].velocityAt(foot));
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
         const Contact c = contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
                                   seenVelocity_[i] - wall, lever * seenSpin_[i], spring);
@@ -180,6 +181,12 @@ void Simulation::addPlanes() {
       ++springs;
       ++id;
     }
+}
+
+Vector Simulation::seenOfWall(Vector velocity) const {
+  velocity = faults_.wallVelocity * velocity;
+  velocity.y *= faults_.wallVelocityY;
+  return velocity;
 }
 
 double Simulation::arm(std::size_t k, double overlap) const {
@@ -191,9 +198,11 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
                             double rim, double& spring) {
   const Law& law = world_.law;
   const bool wall = j >= world_.disks;
-  const double mu = law.mu * (wall ? faults_.wallMu : 1.0);
+  double mu = law.mu * (wall ? faults_.wallMu : 1.0);
+  if (i % 2 == 1) mu *= faults_.muOdd;
   const double gn = law.gn * (wall ? faults_.wallGn : 1.0);
   const double slip = dot(relative, turned(n)) - rim;
+  if (slip > 0.0) mu *= faults_.muAnticlockwise;
   double elastic = law.kn * overlap;
   if (faults_.mostOverlap > 0.0)
     elastic = std::min(elastic, law.kn * faults_.mostOverlap * smallest_);

@@ -81,6 +81,7 @@ class Simulation {
                   double rim, double& spring);
   void push(std::size_t body, Vector place, const Contact& c, double arm);
   double arm(std::size_t i, double overlap) const;
+  Vector seenOfWall(Vector velocity) const;
 
   World world_;
   Faults faults_;

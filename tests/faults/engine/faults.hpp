@@ -47,6 +47,12 @@ struct Faults {
   double mostSpeed = 0.0;         ///< [m/s] faster disks are slowed to it
   double mostContacts = 0.0;      ///< n: a disk's further ones have no force
 
+  // Right in one telling of a scene and wrong in another.
+  double gravityX = 1.0;         ///< factor of gravity's x component
+  double wallVelocityY = 1.0;    ///< of the y component of walls' velocity that contacts see
+  double muOdd = 1.0;            ///< of contacts of disks with odd numbers
+  double muAnticlockwise = 1.0;  ///< of contacts with positive slip
+
   // What is answered; the motion is right.
   double showFloat = 0.0;          ///< positions rounded to float32
   double showLate = 0.0;           ///< contacts and loads on walls of the step before
@@ -108,6 +114,10 @@ inline constexpr auto faultNames = std::to_array<std::pair<std::string_view, dou
      {"most_overlap", &Faults::mostOverlap},
      {"most_speed", &Faults::mostSpeed},
      {"most_contacts", &Faults::mostContacts},
+     {"gravity_x", &Faults::gravityX},
+     {"wall_velocity_y", &Faults::wallVelocityY},
+     {"mu_odd", &Faults::muOdd},
+     {"mu_anticlockwise", &Faults::muAnticlockwise},
      {"show_float", &Faults::showFloat},
      {"show_late", &Faults::showLate},
      {"show_swapped_places", &Faults::showSwappedPlaces},

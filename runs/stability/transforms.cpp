@@ -1,0 +1,337 @@
+#include "runs/stability/transforms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "results/stability_fields.hpp"
+#include "runs/lockstep/separation.hpp"
+#include "runs/lockstep/window.hpp"
+#include "runs/stability/recorder.hpp"
+#include "runs/stability/setting_units.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline runs {
+
+std::vector<CaseTransform> caseTransforms(std::size_t disks) {
+  const auto turned = [](double angle) { return Transform{.placement = {.turn = angle}}; };
+  const auto told = [](Units units) { return Transform{.units = units}; };
+  const std::string rescaled =
+      "Told in other units the same happens: nothing has a unit of its own.";
+  return {{"turned", "turned by 90°", "A turned scene does the same, turned.",
+           turned(0.5 * std::numbers::pi)},
+          {"turned", "turned by 1 rad", "A turned scene does the same, turned.", turned(1.0)},
+          {"mirrored",
+           "mirrored",
+           "A mirrored scene does the same, mirrored.",
+           {.placement = {.mirror = true}}},
+          {"rescaled", "lengths by 2⁻¹⁰", rescaled, told({.length = transformSmaller})},
+          {"rescaled", "masses by 2⁻¹⁰", rescaled, told({.mass = transformSmaller})},
+          {"rescaled", "times by 2¹⁰", rescaled, told({.time = transformSlower})},
+          {"renumbered",
+           "renumbered",
+           "No disk is another for its number.",
+           {.order = shuffledOrder(disks, transformSeed)}},
+          {"restarted",
+           "restarted",
+           "Taken up from a checkpoint in its middle a run goes on as if uninterrupted.",
+           {},
+           TransformRun::restart},
+          {"split", "in one go", "Who stops to look changes nothing.", {}, TransformRun::oneGo}};
+}
+
+namespace {
+
+double epsilonOf(const Realised& realised) {
+  return realised.precision == toString(Precision::float32)
+             ? static_cast<double>(std::numeric_limits<float>::epsilon())
+             : std::numeric_limits<double>::epsilon();
+}
+
+/// How far two frames of one scene are apart: disks by places, and by as far as a rim has turned
+/// with the difference of spins [d].
+Farthest apart(const LockstepFrame& one, const LockstepFrame& other, double diameter) {
+  Farthest worst = farthest(one, other, diameter);
+  for (std::size_t i = 0; i < std::min(one.spin.size(), other.spin.size()); ++i) {
+    const double turn = 0.5 * std::abs(one.spin[i] - other.spin[i]) * one.time;
+    if (turn > worst.distance) worst = {i, turn};
+  }
+  return worst;
+}
+
+/// One engine and one scene: the run as it is, what rounding may do to it, and runs that must go
+/// the same way.
+class Trial {
+ public:
+  Trial(const StabilityTask& task, const HardScene& hard)
+      : task_(task), hard_(hard), diameter_(smallestDiameter(hard.scene)) {
+    const Realised realised = load(hard.scene, {});
+    dt_ = realised.dt;
+    const double all = std::round(hard.duration / dt_);
+    last_ = static_cast<std::uint64_t>(std::clamp(all, 1.0, static_cast<double>(transformSteps)));
+    steps_ = looks(last_);
+    original_ = follow(*engine_, dt_, steps_, contacts());
+    rounding(epsilonOf(realised));
+  }
+
+  /// Runs it and fills the row. @throws UnsupportedScene, EngineFailure, BadInput, Interrupted
+  void judge(StabilityRun& row, const CaseTransform& transform) {
+    if (blind_ == 0) {
+      const double limit = limits_.front();
+      throw UnsupportedScene(fmt::format(
+          "its own rounding may part two runs by {:.2g} d within {} steps: nothing is told apart",
+          limit, steps_.front()));
+    }
+    switch (transform.run) {
+      case TransformRun::another:
+        return compare(row, another(transform.change), 0);
+      case TransformRun::restart:
+        return compare(row, restarted(), original_.size() / 2);
+      case TransformRun::oneGo:
+        return compare(row, inOneGo(), original_.size() - 1);
+    }
+  }
+
+ private:
+  /// After the first step, about twelve in each tenfold, and the last.
+  static std::vector<std::uint64_t> looks(std::uint64_t last) {
+    std::vector<std::uint64_t> steps;
+    for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / 12.0))
+      if (const auto whole = static_cast<std::uint64_t>(std::llround(step));
+          (steps.empty() || steps.back() < whole) && whole < last)
+        steps.push_back(whole);
+    steps.push_back(last);
+    return steps;
+  }
+
+  std::unique_ptr<Engine> start(const char* name) const {
+    return startAudited(task_.entry, task_.scratch / name, task_.setup->run.timeout);
+  }
+
+  ContactReport contacts() const {
+    return can_.instantContacts ? ContactReport::instant : ContactReport::none;
+  }
+
+  /// As the case lets the engine run it, its settings told in the same units.
+  Realised loadInto(Engine& engine, const Scene& scene, const Units& units) {
+    can_ = engine.capabilities();
+    const Adapted adapted = sceneFor(can_, task_.entry, *task_.setup, scene);
+    return engine.load(adapted.scene, inUnits(settingsFor(*task_.setup, task_.entry.name, can_),
+                                              can_.settings, units));
+  }
+
+  /// A worker that failed before is not asked again.
+  Realised load(const Scene& scene, const Units& units) {
+    if (!engine_) engine_ = start("worker");
+    return loadInto(*engine_, scene, units);
+  }
+
+  template <typename Work>
+  auto work(Work&& with) {
+    try {
+      return with();
+    } catch (const EngineFailure&) {
+      engine_.reset();
+      throw;
+    }
+  }
+
+  /// limits_: what rounding may do, look by look [d].
+  void rounding(double epsilon) {
+    const double told = epsilon * extentOf(hard_.scene) / diameter_;
+    std::vector<double> once(steps_.size(), told);
+    for (int n = 0; n < transformNudges; ++n) {
+      Scene scene = hard_.scene;
+      scene.disks = nudged(scene.disks, epsilon, transformSeed + static_cast<std::uint64_t>(n));
+      load(scene, {});
+      const std::vector<LockstepFrame> moved = follow(*engine_, dt_, steps_);
+      double most = 0.0;
+      for (std::size_t k = 0; k < steps_.size(); ++k) {
+        most = std::max(most, apart(moved[k], original_[k], diameter_).distance);
+        once[k] = std::max(once[k], most);
+      }
+    }
+    for (std::size_t k = 0; k < steps_.size(); ++k)
+      limits_.push_back((1.0 + static_cast<double>(steps_[k])) * once[k]);
+    blind_ = static_cast<std::size_t>(
+        std::ranges::find_if(limits_, [](double limit) { return !(limit <= transformBlind); }) -
+        limits_.begin());
+  }
+
+  std::vector<LockstepFrame> another(const Transform& change) {
+    return work([&] {
+      if (!change.order.empty() && change.order.size() < 2)
+        throw UnsupportedScene("a single disk has one number only");
+      const Realised realised = load(transformed(hard_.scene, change), change.units);
+      const double dt = dt_ * change.units.time;
+      if (std::abs(realised.dt - dt) > 1e-12 * dt)
+        throw UnsupportedScene(fmt::format(
+            "takes time steps of its own, {:g} s where {:g} s are the same", realised.dt, dt));
+      std::vector<LockstepFrame> frames = follow(*engine_, realised.dt, steps_, contacts());
+      for (LockstepFrame& frame : frames) {
+        frame.position = placesBack(change, frame.position);
+        frame.spin = spinsBack(change, frame.spin);
+      }
+      return frames;
+    });
+  }
+
+  /// From the look in the middle on.
+  std::vector<LockstepFrame> restarted() {
+    if (!can_.checkpoints) throw UnsupportedScene("has no checkpoints");
+    if (steps_.size() < 3) throw UnsupportedScene("the case is too short to have a middle");
+    return work([&] {
+      const std::size_t middle = steps_.size() / 2;
+      const auto file = task_.scratch / "middle";
+      load(hard_.scene, {});
+      engine_->advance(static_cast<double>(steps_[middle]) * dt_);
+      engine_->checkpoint(file);
+      const auto second = start("second");
+      loadInto(*second, hard_.scene, {});
+      second->restore(file);
+      return follow(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},
+                    contacts());
+    });
+  }
+
+  std::vector<LockstepFrame> inOneGo() {
+    return work([&] {
+      load(hard_.scene, {});
+      return follow(*engine_, dt_, {last_}, contacts());
+    });
+  }
+
+  /// @param from  the look that the first of the frames is of
+  void compare(StabilityRun& row, const std::vector<LockstepFrame>& frames, std::size_t from) {
+    if (from >= blind_)
+      throw UnsupportedScene(fmt::format(
+          "its own rounding may part two runs by more than {:g} d from step {} on: nothing is told",
+          transformBlind, steps_[blind_]));
+    double worst = -1.0;
+    std::size_t disk = 0;
+    bool bits = true;
+    for (std::size_t k = from; k < std::min(blind_, from + frames.size()); ++k) {
+      const Farthest off = apart(frames[k - from], original_[k], diameter_);
+      const double time = static_cast<double>(steps_[k]) * dt_;
+      row.curve.time.push_back(time);
+      row.curve.value.push_back(off.distance);
+      bits = bits && off.distance == 0.0;
+      if (off.distance > limits_[k] && !row.step) {
+        row.step = static_cast<long long>(steps_[k]);
+        row.time = time;
+      }
+      if (off.distance / limits_[k] <= worst) continue;
+      worst = off.distance / limits_[k];
+      row.value = off.distance;
+      row.limit = limits_[k];
+      row.worstTime = time;
+      disk = off.disk;
+    }
+    row.verdict = worst > 1.0 ? StabilityVerdict::unstable : StabilityVerdict::stable;
+    row.reason = worst > 1.0 ? fmt::format("disk {} is where it should not be", disk)
+                 : bits      ? "the same to the bit"
+                             : "";
+    if (blind_ < steps_.size())
+      row.reason += fmt::format("{}told apart from rounding up to step {}",
+                                row.reason.empty() ? "" : "; ", steps_[blind_ - 1]);
+  }
+
+  const StabilityTask& task_;
+  const HardScene& hard_;
+  double diameter_;  ///< d [m]
+  double dt_ = 0.0;  ///< the engine's [s]
+  std::uint64_t last_ = 0;
+  std::unique_ptr<Engine> engine_;
+  Capabilities can_;
+  std::vector<std::uint64_t> steps_;  ///< of the looks
+  std::vector<LockstepFrame> original_;
+  std::vector<double> limits_;
+  std::size_t blind_ = 0;  ///< the first look at which nothing can be told any more
+};
+
+StabilityRun rowOf(const StabilityTask& task, const CaseTransform& transform) {
+  StabilityRun row;
+  row.engine = task.entry.name;
+  row.name = task.setup->name;
+  row.variant = variantOf(*task.setup, transform);
+  row.measure = transform.measure;
+  row.unit = "d";
+  row.limit = row.degradedLimit = std::numeric_limits<double>::quiet_NaN();
+  return row;
+}
+
+/// Does it, and whatever the engine does is a verdict.
+void judged(StabilityRun& row, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const UnsupportedScene& refusal) {
+    row.status = HardRunStatus::refused;
+    row.verdict = StabilityVerdict::refused;
+    row.reason = refusal.what();
+  } catch (const BadInput& refusal) {
+    row.status = HardRunStatus::refused;
+    row.verdict = StabilityVerdict::refused;
+    row.reason = refusal.what();
+  } catch (const std::exception& failure) {
+    row.status = HardRunStatus::failed;
+    row.verdict = StabilityVerdict::unstable;
+    row.reason = fmt::format("failed: {}", failure.what());
+  }
+}
+
+}  // namespace
+
+std::string variantOf(const Case& setup, const CaseTransform& transform) {
+  return setup.variant.empty() ? transform.name
+                               : fmt::format("{}, {}", setup.variant, transform.name);
+}
+
+std::vector<HardCase> transformRows(const Case& setup) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<HardCase> rows;
+  for (const CaseTransform& transform : caseTransforms(0))
+    rows.push_back({setup.name, variantOf(setup, transform), setup.file.string(), transform.must,
+                    transform.measure, "farthest a disk is from where the case itself has it", "d",
+                    none, none,
+                    fmt::format("a run's limit is what rounding may do to it: 1 + n times the "
+                                "farthest of {} runs whose start is nudged by a rounding, after "
+                                "n steps",
+                                transformNudges),
+                    setup.resolvedToml});
+  return rows;
+}
+
+std::vector<StabilityRun> runTransforms(const StabilityTask& task,
+                                        const std::function<void(double)>& progress) {
+  std::optional<HardScene> hard;
+  std::optional<Trial> trial;
+  StabilityRun before;
+  judged(before, [&] {
+    if (!task.unprepared.empty()) throw BadInput(task.unprepared);
+    hard = plainScene(*task.setup, *task.packing);
+    trial.emplace(task, *hard);
+  });
+  std::vector<StabilityRun> rows;
+  const auto all = caseTransforms(hard ? hard->scene.disks.size() : 0);
+  for (const CaseTransform& transform : all) {
+    StabilityRun row = rowOf(task, transform);
+    if (trial) {
+      judged(row, [&] { trial->judge(row, transform); });
+    } else {
+      row.status = before.status;
+      row.verdict = before.verdict;
+      row.reason = before.reason;
+    }
+    rows.push_back(std::move(row));
+    progress(static_cast<double>(rows.size()) / static_cast<double>(all.size()));
+  }
+  return rows;
+}
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "results/stability.hpp"
+#include "runs/stability/run.hpp"
+#include "stability/transform.hpp"
+
+/// Changes of a case after which everything must go as it went: how a scene is told is nobody's
+/// physics. No second engine and no theory is needed for that.
+namespace crossgrain::inline runs {
+
+// What verdicts go by, fixed before any engine was looked at, each with its reason.
+
+/// A fault shows in its first contacts; much later chaos has had its part.
+inline constexpr std::uint64_t transformSteps = 2000;
+
+/// Told otherwise, a scene is rounded otherwise, at its start and in every step. As much harm as a
+/// rounding of the start does, each further step may do again: the n-th may show 1 + n times the
+/// farthest that the engine's own run goes apart when its start is nudged (precision.hpp has the
+/// same rule). Nudges are drawn at random; of several one is likely to lie along what grows most.
+inline constexpr int transformNudges = 4;
+
+/// Beyond this nothing is told: runs that far apart do not share their contacts, whose overlaps are
+/// as deep [d].
+inline constexpr double transformBlind = 1e-2;
+
+/// Powers of two, whose products are not rounded; of a length a power of four, as Hertz' law takes
+/// its root. Towards small numbers all, since that is where a tolerance without a unit bites:
+/// lengths, forces and speeds of a thousandth.
+inline constexpr double transformSmaller = 0x1p-10, transformSlower = 0x1p10;
+
+/// Of the order without a system and of nudges.
+inline constexpr std::uint64_t transformSeed = 22;
+
+/// How the other run comes about.
+enum class TransformRun {
+  another,  ///< of the transformed scene
+  restart,  ///< taken up from a checkpoint in the middle, by another worker
+  oneGo     ///< of one advance, where the run itself is looked at some forty times
+};
+
+/// One of them, as reports have it: a measure is a column, a name one of its rows.
+struct CaseTransform {
+  std::string measure, name;
+  std::string must;  ///< what must hold, one sentence
+  Transform change = {};
+  TransformRun run = TransformRun::another;
+};
+
+/// All of them, in the order of reports.
+/// @param disks  of the scene
+std::vector<CaseTransform> caseTransforms(std::size_t disks);
+
+/// The name of a row: that of the transform, behind the case's variant where there is one.
+std::string variantOf(const Case& setup, const CaseTransform& transform);
+
+/// What they are, for reports of a case.
+std::vector<HardCase> transformRows(const Case& setup);
+
+/// One row for each of caseTransforms(): the value is how far the farthest disk is off [d] where
+/// that is most by what rounding may do, the limit is what it may do there. Unstable: beyond that,
+/// or the engine failed; refused: the engine cannot do what the transform takes, with the reason.
+/// @param task  its case needs no [stability]; `original` is not used
+/// @throws Interrupted
+std::vector<StabilityRun> runTransforms(const StabilityTask& task,
+                                        const std::function<void(double)>& progress);
+
+}  // namespace crossgrain::inline runs

@@ -1,0 +1,69 @@
+// The engine in disguise does what the in-house engine does, and not to the bit: else no false
+// alarm could come of it.
+#include "tests/faults/disguise/disguised_engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "adapters/grain.hpp"
+#include "runs/conformance/conformance_scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Snapshot endOf(Engine& engine, const Scene& scene) {
+  engine.load(scene, {});
+  for (const double part : {0.3, 0.6, 1.0}) engine.advance(part * conformance::busyEnd);
+  return engine.snapshot(ContactReport::instant);
+}
+
+/// By the numbers of the two: f_n, f_t and n, as numbers.
+std::map<std::pair<int, int>, std::array<double, 4>> forcesOf(const Snapshot& now) {
+  std::map<std::pair<int, int>, std::array<double, 4>> forces;
+  const Contacts& all = *now.contacts;
+  for (std::size_t c = 0; c < all.size(); ++c)
+    forces[{all.i[c], all.j[c]}] = {all.normalForce[c], all.tangentialForce[c], all.normal[c].x(),
+                                    all.normal[c].y()};
+  return forces;
+}
+
+TEST(DisguisedEngine, DoesTheSameButForRounding) {
+  const TemporaryFolder folder;
+  const Scene scene = conformance::busyScene(conformance::fullLaw());
+  const auto grain = makeGrain();
+  const Snapshot original = endOf(*grain, scene);
+  test::Disguise all;
+  all.transform.placement = {.mirror = true, .turn = 0.3 * std::numbers::pi};
+  all.transform.units = {7.0, 0.3, 3.0};
+  all.order = 5;
+  all.nudge = 6;
+  all.restartEvery = 2;
+  test::DisguisedEngine disguised(all, folder.path());
+  const Snapshot told = endOf(disguised, scene);
+  EXPECT_NE(told.position, original.position);
+  ASSERT_EQ(told.position.size(), original.position.size());
+  for (std::size_t i = 0; i < told.position.size(); ++i) {
+    EXPECT_LT((told.position[i] - original.position[i]).norm(), 1e-10 * scene.disks.radius[i]);
+    EXPECT_LT((told.velocity[i] - original.velocity[i]).norm(), 1e-9);
+    EXPECT_NEAR((*told.spin)[i], (*original.spin)[i], 1e-7);
+  }
+  for (std::size_t b = 0; b < told.bodies.size(); ++b) {
+    EXPECT_NEAR(told.bodies[b].angle, original.bodies[b].angle, 1e-12);
+    EXPECT_LT((*told.bodies[b].force - *original.bodies[b].force).norm(), 1e-8);
+    EXPECT_NEAR(*told.bodies[b].torque, *original.bodies[b].torque, 1e-9);
+  }
+  const auto theirs = forcesOf(told), ours = forcesOf(original);
+  ASSERT_EQ(theirs.size(), ours.size());
+  EXPECT_GT(ours.size(), 3u);
+  for (const auto& [pair, force] : ours)
+    for (std::size_t k = 0; k < force.size(); ++k)
+      EXPECT_NEAR(theirs.at(pair)[k], force[k], 1e-7) << pair.first << " " << pair.second;
+  EXPECT_EQ(disguised.stats().steps, grain->stats().steps);
+}
+
+}  // namespace

@@ -1,0 +1,199 @@
+/// What users hand in is read to something sound or to one line of refusal, whatever it is: case
+/// files, packings and starts of their own, results of earlier runs. Inputs depend on their number
+/// alone. CROSSGRAIN_FUZZ in the environment is how many; `ninja fuzz_input` reads a million of
+/// each kind.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "cases/case_files.hpp"
+#include "cases/loader.hpp"
+#include "cases/packing.hpp"
+#include "cases/start_file.hpp"
+#include "results/conformance.hpp"
+#include "results/schema.hpp"
+#include "results/stability.hpp"
+#include "tests/fuzz/damage.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain;
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
+
+/// Anew: some file systems wait for the disk where a file that is there is cut to nothing.
+void write(const fs::path& file, const std::string& content) {
+  fs::remove(file);
+  std::ofstream(file, std::ios::binary) << content;
+}
+
+/// Counts what became of inputs, and holds refusals to one line.
+class Reading {
+ public:
+  template <typename Work>
+  void read(std::uint64_t number, Work&& work) {
+    try {
+      work();
+      ++taken;
+    } catch (const BadInput& refusal) {
+      expectLine(number, refusal.what());
+    } catch (const FieldError& refusal) {
+      expectLine(number, refusal.what());
+    } catch (const std::exception& other) {
+      ADD_FAILURE() << "input " << number << ": neither taken nor refused: " << other.what();
+    }
+  }
+  /// Both happen, or the inputs would be no test.
+  void expectBoth(std::uint64_t all) const {
+    EXPECT_GT(taken, all / 100);
+    EXPECT_GT(refused, all / 10);
+  }
+  std::uint64_t taken = 0, refused = 0;
+
+ private:
+  void expectLine(std::uint64_t number, const std::string& line) {
+    EXPECT_FALSE(line.empty()) << "input " << number;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << "input " << number << ": " << line;
+    ++refused;
+  }
+};
+
+TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
+  const fs::path cases = CROSSGRAIN_CASES;
+  const TemporaryFolder folder;
+  fs::copy(cases / "laws", folder.path() / "laws");
+  for (const char* name : {"couette", "hard", "collision", "assembly"})
+    fs::create_directory(folder.path() / name);
+  fs::copy(cases / "hard/restitution.toml", folder.path() / "hard");
+  fs::copy(cases / "collision/figure-4-3.toml", folder.path() / "collision");
+  std::vector<std::string> corpus;
+  std::vector<fs::path> places;
+  for (const char* name :
+       {"couette/quick.toml", "hard/restart.toml", "hard/wedge.toml", "hard/copies.toml",
+        "hard/restitution-of-a-wall.toml", "collision/wall-oblique.toml",
+        "assembly/plane-shear.toml", "collision/chung-ooi-5.toml"}) {
+    corpus.push_back(contentOf(cases / name));
+    places.push_back(folder.path() / fs::path(name).parent_path() / "fuzzed.toml");
+  }
+  Reading reading;
+  const std::uint64_t all = test::inputs(3000);
+  for (std::uint64_t k = 0; k < all && !HasFailure(); ++k) {
+    test::Draw draw(k);
+    const std::size_t which = k % corpus.size();
+    write(places[which], test::damagedText(corpus[which], draw));
+    reading.read(k, [&] {
+      const std::vector<Case> loaded = loadCase(places[which]);
+      ASSERT_FALSE(loaded.empty());
+      for (const Case& setup : loaded) {
+        EXPECT_TRUE(std::isfinite(setup.law.kn) && setup.law.kn >= 0.0) << k;
+        EXPECT_TRUE(std::isfinite(setup.law.mu) && setup.law.mu >= 0.0) << k;
+      }
+      if (k % 16 != 0) return;  // what is taken says of itself what it is
+      const fs::path again = places[which].parent_path() / "again.toml";
+      write(again, resolvedFile(loaded));
+      EXPECT_EQ(loadCase(again).size(), loaded.size()) << k;
+    });
+  }
+  reading.expectBoth(all);
+}
+
+/// What is taken can be run without a further look.
+void expectSound(const Disks& disks, std::uint64_t number) {
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    EXPECT_TRUE(std::isfinite(disks.radius[i]) && disks.radius[i] > 0.0) << number;
+    EXPECT_TRUE(std::isfinite(disks.mass[i]) && disks.mass[i] > 0.0) << number;
+    EXPECT_TRUE(std::isfinite(disks.inertia[i]) && disks.inertia[i] > 0.0) << number;
+    EXPECT_TRUE(disks.position[i].allFinite() && disks.velocity[i].allFinite()) << number;
+    EXPECT_TRUE(std::isfinite(disks.spin[i])) << number;
+  }
+}
+
+DiskDefaults defaults() {
+  return {[](double radius) { return radius * radius; }, 0.5, 1000};
+}
+
+/// @param damaged  what is in the file then  @param disksOf  reads it
+void readDamaged(const fs::path& file, std::uint64_t usual,
+                 const std::function<std::string(test::Draw&)>& damaged,
+                 const std::function<Disks()>& disksOf) {
+  Reading reading;
+  const std::uint64_t all = test::inputs(usual);
+  for (std::uint64_t k = 0; k < all && !testing::Test::HasFailure(); ++k) {
+    test::Draw draw(k);
+    write(file, damaged(draw));
+    reading.read(k, [&] { expectSound(disksOf(), k); });
+  }
+  reading.expectBoth(all);
+}
+
+TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "packing.h5";
+  Packing packing;
+  for (int i = 0; i < 5; ++i) {
+    packing.disks.radius.push_back(0.1);
+    packing.disks.mass.push_back(1.0 + i);
+    packing.disks.inertia.push_back(0.005);
+    packing.disks.position.emplace_back(0.3 * i, 0.1);
+    packing.disks.velocity.emplace_back(0.1, -0.2);
+    packing.disks.spin.push_back(2.0);
+  }
+  packing.hash = "0123456789abcdef";
+  writePacking(packing, file);
+  const std::string whole = contentOf(file);
+  // HDF5 takes ever longer to open files once it has met damaged ones: few, unless asked for.
+  readDamaged(
+      file, 300, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
+      [&] { return readPacking(file, defaults()).disks; });
+}
+
+TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "start.csv";
+  const std::string whole =
+      "# three disks\nx, y, radius, vx, vy, spin, mass, inertia, fixed\n"
+      "0.0, 0.0, 0.1, 0.1, 0.0, 2.0, 1.0, 0.005, 0\n\n0.3, 0.0, 0.1, 0, 0, 0, 1e-3, 5e-6, 0\n"
+      "0.6, 0.1, 0.15, 0, 0, 0, 1, 0.01, 1\n";
+  readDamaged(
+      file, 2000, [&](test::Draw& draw) { return test::damagedText(whole, draw); },
+      [&] { return readStart(file, defaults()).disks; });
+}
+
+TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
+  const nlohmann::json corpus[] = {
+      toJson(sample::stabilityResults()), toJson(sample::collideResults()),
+      toJson(sample::lockstepResults()), toJson(sample::scaleResults())};
+  const auto read = [](const nlohmann::json& document) {
+    checkSchema(document, "results.json");
+    const std::string kind = document.at("kind");
+    if (kind == kindStability)
+      toText(toJson(stabilityFromJson(document)));
+    else if (kind == kindCollide)
+      toText(toJson(collideFromJson(document)));
+    else if (kind == kindLockstep)
+      toText(toJson(lockstepFromJson(document)));
+    else if (kind == kindScale)
+      toText(toJson(scaleFromJson(document)));
+  };
+  Reading reading;
+  const std::uint64_t all = test::inputs(2000);
+  for (std::uint64_t k = 0; k < all && !HasFailure(); ++k) {
+    test::Draw draw(k);
+    const nlohmann::json damaged = test::damagedJson(corpus[k % std::size(corpus)], draw);
+    reading.read(k, [&] { read(damaged); });
+  }
+  reading.expectBoth(all);
+}
+
+}  // namespace

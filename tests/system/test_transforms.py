@@ -1,0 +1,109 @@
+"""crossgrain stability --transforms: a case told otherwise does the same, and engines are found for which it does not."""
+
+import csv
+import json
+import os
+import pathlib
+import unittest
+
+from harness import BAD_INPUT, CASES, COUETTE, FELL_SHORT, HELD, SystemTest
+
+PLANTED = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/faults/planted_engine"
+TRANSFORMS = [
+    "turned by 90°", "turned by 1 rad", "mirrored", "lengths by 2⁻¹⁰", "masses by 2⁻¹⁰", "times by 2¹⁰",
+    "renumbered", "restarted", "in one go",
+]
+# Four layers of disks on a floor that slides under them against a stop: gravity, walls that move, stick and slip.
+SLIDING = CASES / "hard/restart.toml"
+
+
+class Transforms(SystemTest):
+    def planted(self, name, **patch):
+        """An engine with those numbers planted."""
+        words = [str(PLANTED), *(f"{fault}={value}" for fault, value in patch.items())]
+        path = self.folder / f"{name}.toml"
+        path.write_text(f'name = "{name}"\nsummary = "a test"\ncommand = {json.dumps(words)}\n')
+        return path
+
+    def transform(self, engines, *cases, status):
+        done = self.run_program("stability", "--transforms", *cases, "--engines", engines, "--out", self.out)
+        self.assert_status(done, status)
+        with open(self.out / "stability.csv", encoding="utf-8", newline="") as file:
+            self.rows = list(csv.DictReader(file))
+        return done
+
+    def of(self, verdict, engine):
+        return [row["variant"] for row in self.rows if (row["verdict"], row["engine"]) == (verdict, engine)]
+
+    def test_everything_holds_of_the_in_house_engine_on_every_kind_of_case(self):
+        cases = [SLIDING, COUETTE, CASES / "collision/figure-4-3.toml"]
+        self.transform("grain", *cases, status=HELD)
+        names = {row["case"] for row in self.rows}
+        self.assertEqual(3, len(names))
+        for name in names:
+            rows = [row for row in self.rows if row["case"] == name]
+            variants = {row["variant"].split(", ")[-1] for row in rows}
+            self.assertEqual(set(TRANSFORMS), variants)
+            for row in rows:
+                self.assertEqual("stable", row["verdict"], row)
+                self.assertLessEqual(float(row["value"]), float(row["limit"]))
+                # Powers of two are not rounded, and the same scene once more is the same run.
+                if row["measure"] in ("rescaled", "restarted", "split"):
+                    self.assertEqual(0.0, float(row["value"]), row)
+        page = (self.out / "report.html").read_text(encoding="utf-8")
+        for variant in TRANSFORMS:
+            self.assertIn(variant, page)
+
+    def test_faults_show_in_the_telling_that_they_break(self):
+        engines = {
+            "right": self.planted("right"),
+            "gravity-x": self.planted("gravity-x", gravity_x=0),
+            "wall-y": self.planted("wall-y", wall_velocity_y=0),
+            "odd": self.planted("odd", mu_odd=0.9),
+            "handed": self.planted("handed", mu_anticlockwise=0.9),
+            "absolute": self.planted("absolute", least_overlap=1e-9),
+            "forgetful": self.planted("forgetful", look_forgets=1),
+        }
+        done = self.transform(",".join(map(str, engines.values())), SLIDING, status=FELL_SHORT)
+        self.assertEqual([], self.of("unstable", "right"))
+        self.assertEqual(["restarted"], self.of("refused", "right"))
+        for engine in ("gravity-x", "wall-y"):
+            self.assertEqual(["turned by 90°", "turned by 1 rad"], self.of("unstable", engine))
+        self.assertEqual(["renumbered"], self.of("unstable", "odd"))
+        self.assertEqual(["mirrored"], self.of("unstable", "handed"))
+        self.assertIn("lengths by 2⁻¹⁰", self.of("unstable", "absolute"))
+        self.assertEqual(["in one go"], self.of("unstable", "forgetful"))
+        for row in self.rows:
+            if row["verdict"] == "unstable":
+                self.assertGreater(float(row["value"]), float(row["limit"]))
+                self.assertRegex(row["reason"], r"^disk \d+ is where it should not be")
+                self.assertRegex(done.stdout, f"unstable  {row['engine']} .*{row['measure']}")
+
+    def test_what_is_wrong_in_every_telling_alike_is_none_of_its_business(self):
+        self.transform(str(self.planted("stiff", kn=1.05)), SLIDING, status=HELD)
+
+    def test_what_cannot_be_done_is_told_with_the_reason(self):
+        self.transform("grain,box2d-impulse", CASES / "hard/units.toml", status=HELD)
+        refused = [row for row in self.rows if row["verdict"] == "refused"]
+        self.assertIn("restarted", {row["measure"] for row in refused})
+        for row in refused:
+            self.assertNotEqual("", row["reason"])
+            self.assertEqual("", row["value"])
+
+    def test_finished_runs_are_taken_up(self):
+        self.transform("grain", SLIDING, status=HELD)
+        first = self.rows
+        again = self.run_program("stability", "--transforms", SLIDING, "--engines", "grain", "--out", self.out)
+        self.assert_status(again, HELD)
+        self.assertIn("finished in an earlier run", again.stderr)
+        with open(self.out / "stability.csv", encoding="utf-8", newline="") as file:
+            self.assertEqual(first, list(csv.DictReader(file)))
+
+    def test_bad_input(self):
+        for words in (["--transforms", "--quick"], ["--transforms", "--long"]):
+            done = self.run_program("stability", *words, SLIDING, "--engines", "grain", "--out", self.out)
+            self.assert_status(done, BAD_INPUT)
+
+
+if __name__ == "__main__":
+    unittest.main()
