@@ -35,7 +35,7 @@ COMMANDS = {
 NAMES = ("name", "id", "case", "engine", "variant", "packing", "measure", "quantity")
 # What tells of this run and machine, not of the physics; `stats` counts lists that are tuned by time, `overview` has times
 # and says again what the rest does.
-TRANSIENT = ("elapsed_s", "started", "command", "version", "machine", "file", "stats", "wall_s", "cpu_s", "overview")
+TRANSIENT = ("elapsed_s", "started", "command", "version", "build", "machine", "file", "stats", "wall_s", "cpu_s", "overview")
 
 
 def lasting(value):
