@@ -188,6 +188,6 @@ class Scene:
         place = repr(float(plane["point"][axis]))
         ends = f"{place} NULL" if plane["normal"][axis] > 0 else f"NULL {place}"
         self.lammps.command(
-            f"fix plane{number} disks wall/gran granular {self.law.words()} "
+            f"fix plane{number} disks wall/gran granular {self.law.words(plane=True)} "
             f"{'xy'[axis]}plane {ends} contacts"
         )

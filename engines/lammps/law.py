@@ -78,9 +78,13 @@ class Law:
         name = of_hertz if self.normal == "hertz" else "linear_history"
         return f"{name} {self.kt!r} {self.tangential_ratio()!r} {self.mu!r}"
 
-    def words(self):
-        """What follows `pair_coeff * *` and `fix wall/gran granular`."""
+    def words(self, plane=False):
+        """What follows `pair_coeff * *` and `fix wall/gran granular`.
+
+        @raise Unsupported for planes with critical dashpots: LAMMPS' are others there (README.md)"""
         number, damping = self.damping()
+        if plane and damping == "tsuji":
+            raise Unsupported('has damper = "critical" between disks alone, not at planes')
         name = "hertz" if self.normal == "hertz" else "hooke"
         return f"{name} {self.kn!r} {number!r} damping {damping} tangential {self.tangential()}"
 

@@ -302,8 +302,8 @@ TEST(StabilityOverview, OfCasesToldOtherwiseSaysWhatBreaks) {
   results.runs[1].verdict = StabilityVerdict::unstable;
   const Overview overview = stabilityOverview(results);
   ASSERT_EQ(overview.columns.size(), 2u);
-  EXPECT_EQ(told(rowOf(overview, "theirs").cells[0]), "bad 0 of 1");
-  EXPECT_EQ(told(rowOf(overview, "theirs").cells[1]), "good 1 of 1");
+  EXPECT_EQ(told(rowOf(overview, "theirs").cells[0]), "bad 0 of 1 stable");
+  EXPECT_EQ(told(rowOf(overview, "theirs").cells[1]), "good 1 of 1 stable");
   EXPECT_EQ(overview.conclusion[0], "mine: all 2 runs the same; theirs: 1 of 2 runs the same.");
   EXPECT_EQ(overview.conclusion[1], "Another run: theirs with cell turned by 1 rad.");
   EXPECT_FALSE(areTransforms(sample::stabilityResults()));
