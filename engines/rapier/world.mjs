@@ -94,11 +94,22 @@ export class RapierWorld {
   /// −z × normal; its points are where it found them before it moved the disks.
   impulses(visit) {
     const {narrowPhase, bodies} = this.world;
+    const before = narrowPhase.contactPair.length < 4;  // 0.19 does not ask for the bodies
+    const contactPair = (a, b, f) => before ? narrowPhase.contactPair(a, b, f) : narrowPhase.contactPair(a, b, bodies, f);
+    // Rapier drops what its callbacks throw.
+    let failure;
+    const guarded = (f) => (...given) => {
+      try {
+        f(...given);
+      } catch (error) {
+        failure ??= error;
+      }
+    };
     for (let i = 0; i < this.count; ++i)
-      narrowPhase.contactPairsWith(this.colliders[i], (other) => {
+      narrowPhase.contactPairsWith(this.colliders[i], guarded((other) => {
         const j = this.idOf.get(other);
         if (j < i) return;
-        narrowPhase.contactPair(this.colliders[i], other, bodies, (manifold, flipped) => {
+        contactPair(this.colliders[i], other, guarded((manifold, flipped) => {
           for (let k = 0; k < manifold.numContacts(); ++k) {
             const pressing = manifold.contactImpulse(k), along = manifold.contactTangentImpulse(k);
             if (pressing === 0 && along === 0) continue;
@@ -107,7 +118,8 @@ export class RapierWorld {
               return {normal: [away * normal.x, away * normal.y], point: [point.x, point.y]};
             });
           }
-        });
-      });
+        }));
+      }));
+    if (failure) throw failure;
   }
 }

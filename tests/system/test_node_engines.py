@@ -44,6 +44,12 @@ class NodeEngines(SystemTest):
         with open(self.out / "collisions.csv", encoding="utf-8", newline="") as file:
             return done, list(csv.DictReader(file))
 
+    def test_contacts_are_told(self):
+        """Of every version: what reads them is called by the engine, which is silent about what goes wrong there."""
+        for engine in ("rapier", "rapier-before", "box2d-v3"):
+            with self.subTest(engine):
+                self.assert_status(self.run_program("conformance", engine, "-k", "SnapshotsAreSound", "--quiet"), HELD)
+
     def test_what_a_sliding_impact_takes(self):
         """Ψ_i − Ψ_f = 3 (1 + e_n) µ by theory. The two of today bound friction by the impulse before its restitution, so
         3 µ; the older Rapier by all of it, yet it gives back less than it is told."""
