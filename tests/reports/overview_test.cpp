@@ -180,14 +180,19 @@ TEST(CompareOverview, BlamesTheLawOnlyWhereThatIsShown) {
             "damping.");
 }
 
-TEST(CompareOverview, AMirrorThatAgreesWithItsPeerBlamesTheLaw) {
-  CompareResults results = disagreeing();
+/// A mirror of "theirs", and what it answers to it where the two peers disagree.
+void addMirror(CompareResults& results, Answer answer) {
   results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
   EndpointRow row = results.endpoints.rows[0];
   row.a = "mirror";
   row.kind = PairKind::mirrorImplementation;
-  row.answer = Answer::undecided;
+  row.answer = answer;
   results.endpoints.rows.push_back(row);
+}
+
+TEST(CompareOverview, AMirrorThatAgreesWithItsPeerBlamesTheLaw) {
+  CompareResults results = disagreeing();
+  addMirror(results, Answer::undecided);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
   results.endpoints.rows.back().answer = Answer::smallDifference;
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
@@ -195,20 +200,15 @@ TEST(CompareOverview, AMirrorThatAgreesWithItsPeerBlamesTheLaw) {
 
 TEST(CompareOverview, WhatPartsAnEngineFromItsOwnMirrorIsNoLaw) {
   CompareResults results = disagreeing();
-  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
   results.lockstep.emplace();
   results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 
-  EndpointRow row = results.endpoints.rows[0];
-  row.a = "mirror";
-  row.kind = PairKind::mirrorImplementation;
-  row.answer = Answer::disagree;
-  results.endpoints.rows.push_back(row);
+  addMirror(results, Answer::disagree);
   EXPECT_FALSE(isModelDifference(results, results.engines[1]));
   EXPECT_EQ(compareOverview(results).conclusion[1],
-            "What parts them: theirs is not its own mirror in " + endpointWords(row.endpoint) +
-                ", whatever its law.");
+            "What parts them: theirs is not its own mirror in " +
+                endpointWords(results.endpoints.rows[0].endpoint) + ", whatever its law.");
 }
 
 TEST(CompareOverview, SaysWhatToDoNext) {
