@@ -82,7 +82,10 @@ GRAIN_INLINE ContactForce<Real> springForce(const L& law, const ContactMotion<Re
     trial /= Real(1) + gt * contact.tangentialCompliance;
   const Real tested = law.dashpotOutsideBound ? elastic : trial;
   const bool holds = magnitude(tested) <= bound;
-  const Real slipping = signedLike(bound, tested);
+  // Where it does not hold `tested` is no zero, unless the bound is below zero, which turns the
+  // force round.
+  const Real slipping =
+      law.bound == Bound::signedForce ? signedLike(bound, tested) : withSignOf(bound, tested);
   Real slipped = -(law.resetSpringOnly ? slipping - viscous : slipping) * inverse;
   if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
   spring = holds ? stretched + (Real(1) - part) * stretch : slipped;

@@ -21,7 +21,6 @@ struct alignas(64) ContactBlock {
   Vec<Real> force[blockSize];
   Real leverI[blockSize], leverJ[blockSize];
   Real normal[blockSize], tangential[blockSize], sliding[blockSize];
-  Real spring[blockSize], touching[blockSize];
 };
 
 /// A few vectors at a time; a library's way to copy has its beginnings to pay for.
@@ -63,14 +62,15 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
 
 /// The contact kernel: geometry, relative motion, law, force. Pairs that do not touch (yet) take
 /// part with no force.
-/// Writes the block only, so that the compiler sees that no two of its arrays overlap.
+/// Writes the block, and each pair its own spring: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::size_t count,
-                                  ContactBlock<Real>& b) {
+GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* springs,
+                                  std::size_t count, ContactBlock<Real>& b) {
   const bool friction = law.tangential != Tangential::none;
   const bool history =
       law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
-#pragma omp simd
+  Real touching = 0;
+#pragma omp simd reduction(+ : touching)
   for (std::size_t p = 0; p < count; ++p) {
     const Real reach = b.radiusI[p] + b.radiusJ[p];
     Real dx = b.distance[p].x, dy = b.distance[p].y;
@@ -109,11 +109,11 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
                                                        armJ * leverJ * b.inverseInertiaJ[p]);
     }
 
-    Real spring = history ? b.spring[p] : Real(0);
+    Real spring = history ? springs[p] : Real(0);
     const ContactForce<Real> force = contactForce(law, motion, spring);
     const Real fn = touches * force.normal;
     const Real ft = touches * force.tangential;
-    if (history) b.spring[p] = touches * spring;
+    if (history) springs[p] = touches * spring;
     b.force[p].x = friction ? fn * nx - ft * ny : fn * nx;
     b.force[p].y = friction ? fn * ny + ft * nx : fn * ny;
     if (law.rotation) {
@@ -123,11 +123,8 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, std::siz
     b.normal[p] = fn;
     b.tangential[p] = ft;
     b.sliding[p] = touches * force.sliding;
-    b.touching[p] = touches;
+    touching += touches;
   }
-  Real touching = 0;
-#pragma omp simd reduction(+ : touching)
-  for (std::size_t p = 0; p < count; ++p) touching += b.touching[p];
   return static_cast<std::size_t>(touching);
 }
 
@@ -159,9 +156,8 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
     const std::int32_t* i = pairs.i + begin;
     const std::int32_t* j = pairs.j + begin;
     gather(law, disks, i, j, count, b);
-    if (pairs.spring != nullptr) copy(pairs.spring + begin, count, b.spring);
-    touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr, count, b);
-    if (pairs.spring != nullptr) copy(b.spring, count, pairs.spring + begin);
+    touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr,
+                         pairs.spring == nullptr ? nullptr : pairs.spring + begin, count, b);
     if (pairs.normal != nullptr) {
       copy(b.normal, count, pairs.normal + begin);
       copy(b.tangential, count, pairs.tangential + begin);

@@ -40,9 +40,11 @@ GRAIN_INLINE double squareRoot(double v) {
 GRAIN_INLINE float squareRoot(float v) {
   return __builtin_sqrtf(v);
 }
-template <class Real>
-GRAIN_INLINE Real magnitude(Real v) {
-  return v < Real(0) ? -v : v;
+GRAIN_INLINE double magnitude(double v) {
+  return __builtin_fabs(v);
+}
+GRAIN_INLINE float magnitude(float v) {
+  return __builtin_fabsf(v);
 }
 template <class Real>
 GRAIN_INLINE Real larger(Real a, Real b) {
@@ -51,6 +53,13 @@ GRAIN_INLINE Real larger(Real a, Real b) {
 template <class Real>
 GRAIN_INLINE Real smaller(Real a, Real b) {
   return b < a ? b : a;
+}
+/// |v| with the sign of `like`, whose zeros have one, too.
+GRAIN_INLINE double withSignOf(double v, double like) {
+  return __builtin_copysign(v, like);
+}
+GRAIN_INLINE float withSignOf(float v, float like) {
+  return __builtin_copysignf(v, like);
 }
 /// v with the sign of `like`; 0 where `like` is 0.
 template <class Real>
