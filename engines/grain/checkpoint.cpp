@@ -9,7 +9,7 @@
 namespace grain {
 namespace {
 
-constexpr std::uint64_t magic = 0x34'6e'69'61'72'67;  // "grain4"
+constexpr std::uint64_t magic = 0x35'6e'69'61'72'67;  // "grain5"
 
 template <class T>
 void write(std::ostream& out, const T& value) {

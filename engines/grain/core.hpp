@@ -119,10 +119,17 @@ class Core {
 
   std::size_t wallOf(std::size_t number) const;
   WallPoint wallDisk(std::size_t number) const;
-  std::vector<Contact> pairContacts() const;
+  /// Pair k of a list, or a disk and a plane, if they touch; i and j are places, of planes as
+  /// numbers.
+  std::optional<Contact> touching(const PairList<Real>& list, std::size_t k) const;
+  std::optional<Contact> touching(std::size_t plane, std::size_t i) const;
+  /// Calls visit(contact), of places, in the order in which a disk's forces are summed up: disk by
+  /// disk its pairs by ascending partner, wall disks, planes.
+  template <class Visit>
+  void forContactsByPlace(Visit&& visit) const;
+  std::vector<Contact> softContacts() const;
   double ownRadius(const Contact& contact) const;
-  Real pairRadius(const Contact& contact) const;
-  void appendPlaneContacts(std::vector<Contact>& contacts) const;
+  Real pairRadius(std::size_t i, std::size_t j) const;
 
   GeneralLaw<Real> law_;
   Integrator integrator_;
@@ -192,6 +199,24 @@ void Core<Real>::guarded(Work&& work) {
     reportNotFinite(found);
   } catch (const TooDeep& found) {
     reportTooDeep(found);
+  }
+}
+
+template <class Real>
+template <class Visit>
+void Core<Real>::forContactsByPlace(Visit&& visit) const {
+  for (std::size_t part = 0; part < lists_.parts(); ++part) {
+    std::array<std::size_t, sorts.size()> next{};
+    for (std::size_t i = lists_.partBegin(part); i < lists_.partBegin(part + 1); ++i) {
+      for (const Sort sort : sorts) {
+        const PairList<Real>& list = lists_.list(part, sort);
+        std::size_t& k = next[static_cast<std::size_t>(sort)];
+        for (; k < list.count && static_cast<std::size_t>(list.i[k]) == i; ++k)
+          if (const auto contact = touching(list, k)) visit(*contact);
+      }
+      for (std::size_t p = 0; p < placedPlanes_.size(); ++p)
+        if (const auto contact = touching(p, i)) visit(*contact);
+    }
   }
 }
 

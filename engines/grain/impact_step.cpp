@@ -43,7 +43,7 @@ void Core<Real>::addImpacts() {
 template <class Real>
 void Core<Real>::findPairImpacts() {
   for (std::size_t part = 0; part < lists_.parts(); ++part)
-    for (const Sort sort : {Sort::inside, Sort::across, Sort::walls}) {
+    for (const Sort sort : sorts) {
       const PairList<Real>& list = lists_.list(part, sort);
       for (std::size_t k = 0; k < list.count; ++k) {
         const auto i = static_cast<std::size_t>(list.i[k]);

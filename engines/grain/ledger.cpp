@@ -1,5 +1,7 @@
 #include "engines/grain/ledger.hpp"
+#include "engines/grain/real.hpp"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -27,12 +29,12 @@ void LedgerSums::begin() {
   ledger.initial = ledger.states();
 }
 
-void LedgerSums::add(double EnergyLedger::*term, const TwoParts& power, double sign) {
+GRAIN_INLINE void LedgerSums::add(double EnergyLedger::*term, const TwoParts& power, double sign) {
   ledger.*term += sign * power.closing * scheme_.time.closing;
   pending_.*term += sign * power.opening * scheme_.time.opening;
 }
 
-void LedgerSums::spring(SpringAccount now, const TwoParts& power) {
+GRAIN_INLINE void LedgerSums::spring(SpringAccount now, const TwoParts& power) {
   while (place_ < springs_.size() && pairOf(springs_[place_]) < pairOf(now))
     release(springs_[place_++]);
   SpringAccount before;
@@ -51,14 +53,25 @@ void LedgerSums::endSprings() {
   place_ = 0;
 }
 
-void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount now, const TwoParts& power) {
+void LedgerSums::renumber(std::span<const std::int32_t> newPlace) {
+  for (SpringAccount& spring : springs_) {
+    for (std::int32_t* place : {&spring.i, &spring.j})
+      if (static_cast<std::size_t>(*place) < newPlace.size())
+        *place = newPlace[static_cast<std::size_t>(*place)];
+    if (spring.j < spring.i) std::swap(spring.i, spring.j);
+  }
+  std::ranges::sort(springs_, {}, pairOf);
+}
+
+GRAIN_INLINE void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount now,
+                                          const TwoParts& power) {
   settle(spring, now, power.closing * scheme_.time.closing, &EnergyLedger::lostBottom);
   now.openingWork = power.opening * scheme_.time.opening;
   spring = now;
 }
 
-void LedgerSums::settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
-                        double EnergyLedger::*term) {
+GRAIN_INLINE void LedgerSums::settle(const SpringAccount& before, const SpringAccount& now,
+                                     double closingWork, double EnergyLedger::*term) {
   const double stiffening = 0.25 * (now.modulus - before.modulus) * (before.square + now.square);
   ledger.gainedByConvention += stiffening;
   if (before.sliding == 0 && now.sliding == 0) return;
@@ -66,7 +79,7 @@ void LedgerSums::settle(const SpringAccount& before, const SpringAccount& now, d
   spend(term, taken - (now.energy - before.energy - stiffening));
 }
 
-void LedgerSums::spend(double EnergyLedger::*term, double loss) {
+GRAIN_INLINE void LedgerSums::spend(double EnergyLedger::*term, double loss) {
   if (loss >= 0.0)
     ledger.*term += loss;
   else

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engines/grain/walls.hpp"
@@ -34,7 +35,7 @@ struct TwoParts {
 
 /// What a tangential spring was when it was last looked at.
 struct SpringAccount {
-  std::int32_t i = 0, j = 0;  ///< of the contact
+  std::int32_t i = 0, j = 0;  ///< of the contact, places; i < j
   std::int32_t sliding = 0;   ///< at the bound
   double energy = 0.0;        ///< ½ · modulus · square [J]
   double modulus = 0.0;       ///< k of a spring, 1/k of a remembered force
@@ -83,6 +84,8 @@ class LedgerSums {
   void spring(SpringAccount now, const TwoParts& power);
   /// After the last spring: those of contacts that are no more.
   void endSprings();
+  /// Moving disks, the first ones, have other places. @param newPlace  old → new
+  void renumber(std::span<const std::int32_t> newPlace);
   /// The plate's spring with one disk.
   void plateSpring(SpringAccount& before, SpringAccount now, const TwoParts& power);
 

@@ -1,7 +1,3 @@
-#include <optional>
-#include <tuple>
-#include <utility>
-
 #include "engines/grain/ledger_observer.hpp"
 
 #include "engines/grain/contact_force.hpp"
@@ -9,17 +5,11 @@
 
 namespace grain {
 
-/// Velocity of a body's centre, or of a wall's point, and its spin.
-struct BodyMotion {
-  double vx = 0.0, vy = 0.0, spin = 0.0;
-};
-
 /// One contact as the ledger reads it.
 struct Touch {
   double nx = 0.0, ny = 0.0;
   double leverI = 0.0, leverJ = 0.0;  ///< of the force
   double armI = 0.0, armJ = 0.0;      ///< of the spins in v_t
-  std::optional<BodyMotion> wall;     ///< of its point that is touched
   TwoParts normal, tangential;        ///< relative velocities half way through the kicks
   TwoParts slip;          ///< v_t of the law then; the force does its work on tangential
   double seenSlip = 0.0;  ///< v_t that the law saw
@@ -65,6 +55,7 @@ LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
     middle_.x += setup.disks.x[i] / static_cast<double>(disks);
     middle_.y += setup.disks.y[i] / static_cast<double>(disks);
   }
+  for (auto* motions : {&closing_, &opening_, &seen_}) motions->resize(disks);
   if (setup.bottom) {
     plateBefore_.resize(disks);
     plateAccounts_.resize(disks);
@@ -73,8 +64,20 @@ LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
 
 template <class Real>
 void LedgerObserver<Real>::beforeMotion() {
-  for (std::size_t place = 0; place < core_.plateSpring_.size(); ++place)
-    plateBefore_[static_cast<std::size_t>(core_.numberAt_[place])] = core_.plateSpring_[place];
+  plateBefore_.assign(core_.plateSpring_.begin(), core_.plateSpring_.end());
+}
+
+template <class Real>
+void LedgerObserver<Real>::renumber(std::span<const std::int32_t> order,
+                                    std::span<const std::int32_t> newPlace) {
+  const auto follow = [&](auto& array) {
+    const auto before = array;
+    for (std::size_t place = 0; place < array.size(); ++place)
+      array[place] = before[static_cast<std::size_t>(order[place])];
+  };
+  follow(plateBefore_);
+  follow(plateAccounts_);
+  sums_.renumber(newPlace);
 }
 
 template <class Real>
@@ -95,14 +98,28 @@ void LedgerObserver<Real>::account(double time) {
   sums_.beginEvaluation();
   ledger.kinetic = ledger.elasticNormal = ledger.elasticTangential = 0.0;
   ledger.potential = ledger.plateSprings = 0.0;
-  for (const Contact& contact : core_.contacts()) accountContact(contact, time);
+  const LedgerSums::Scheme& scheme = sums_.scheme();
+  for (std::size_t place = 0; place < core_.moving_; ++place) {
+    closing_[place] = carried(place, time + scheme.offset.closing);
+    opening_[place] = carried(place, time + scheme.offset.opening);
+    seen_[place] = seen(place);
+  }
+  if (core_.law_.normal == Normal::impulse)
+    for (Contact contact : core_.contacts()) {
+      for (std::int32_t* disk : {&contact.i, &contact.j})
+        if (static_cast<std::size_t>(*disk) < core_.moving_)
+          *disk = core_.placeOf_[static_cast<std::size_t>(*disk)];
+      accountContact(contact);
+    }
+  else
+    core_.forContactsByPlace([&](const Contact& contact) { accountContact(contact); });
   sums_.endSprings();
-  for (std::size_t number = 0; number < core_.moving_; ++number) accountDisk(number, time);
+  for (std::size_t place = 0; place < core_.moving_; ++place) accountDisk(place, time);
 }
 
 /// Velocity and spin as stored, carried on by the acceleration for a time [s].
 template <class Real>
-BodyMotion LedgerObserver<Real>::carried(std::size_t place, double time) const {
+GRAIN_INLINE BodyMotion LedgerObserver<Real>::carried(std::size_t place, double time) const {
   const double kick = time * static_cast<double>(core_.inverseMass_[place]);
   BodyMotion motion{static_cast<double>(core_.velocity_[place].x) + kick * core_.force_[place].x,
                     static_cast<double>(core_.velocity_[place].y) + kick * core_.force_[place].y,
@@ -113,9 +130,9 @@ BodyMotion LedgerObserver<Real>::carried(std::size_t place, double time) const {
   return motion;
 }
 
-/// As the law saw it, of moving and wall disks.
+/// As the law saw it.
 template <class Real>
-BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
+GRAIN_INLINE BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
   const bool predicted = !core_.seenVelocity_.empty();
   const Vec<Real> velocity = predicted ? core_.seenVelocity_[place] : core_.velocity_[place];
   BodyMotion motion{static_cast<double>(velocity.x), static_cast<double>(velocity.y), 0.0};
@@ -128,32 +145,32 @@ BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
 template <class Real>
 BodyMotion LedgerObserver<Real>::wallMotion(const Contact& contact) const {
   const auto j = static_cast<std::size_t>(contact.j);
-  if (j < core_.position_.size()) {
+  if (j < core_.diskCount()) {
     const WallPoint point = core_.wallDisk(j);
     return {point.vx, point.vy,
             core_.law_.rotation ? core_.walls_[core_.wallOf(j)].state().spin : 0.0};
   }
-  const WallState& wall =
-      core_.walls_[core_.placedPlanes_[j - core_.position_.size()].wall].state();
+  const WallState& wall = core_.walls_[core_.placedPlanes_[j - core_.diskCount()].wall].state();
   const auto i = static_cast<std::size_t>(contact.i);
-  const double own = core_.ownRadius(contact);
+  const auto own = static_cast<double>(core_.radius_[i]);
   const double reach = planePoint(core_.law_, own, own - contact.overlap);
-  const double armX = core_.x(i) - reach * contact.nx - wall.x;
-  const double armY = core_.y(i) - reach * contact.ny - wall.y;
+  const auto number = static_cast<std::size_t>(core_.numberAt_[i]);
+  const double armX = core_.x(number) - reach * contact.nx - wall.x;
+  const double armY = core_.y(number) - reach * contact.ny - wall.y;
   return {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0};
 }
 
+/// @param wall  the motion of its point that is touched; null: j moves as well
 template <class Real>
-Touch LedgerObserver<Real>::touchOf(const Contact& contact, double time) const {
-  const auto i = static_cast<std::size_t>(core_.placeOf_[static_cast<std::size_t>(contact.i)]);
-  const auto number = static_cast<std::size_t>(contact.j);
-  const std::size_t j =
-      number < core_.moving_ ? static_cast<std::size_t>(core_.placeOf_[number]) : number;
-  const double own = core_.ownRadius(contact);
+GRAIN_INLINE Touch LedgerObserver<Real>::touchOf(const Contact& contact,
+                                                 const BodyMotion* wall) const {
+  const auto i = static_cast<std::size_t>(contact.i);
+  const auto j = static_cast<std::size_t>(contact.j);
+  const auto own = static_cast<double>(core_.radius_[i]);
   Touch touch;
   touch.nx = contact.nx;
   touch.ny = contact.ny;
-  if (core_.law_.rotation && j < core_.position_.size()) {
+  if (core_.law_.rotation && j < core_.diskCount()) {
     const auto other = static_cast<double>(core_.radius_[j]);
     touch.leverI = armOf(core_.law_.lever, own, other, contact.overlap);
     touch.leverJ = armOf(core_.law_.lever, other, own, contact.overlap);
@@ -164,34 +181,31 @@ Touch LedgerObserver<Real>::touchOf(const Contact& contact, double time) const {
     touch.leverI = planeArmOf(core_.law_.lever, core_.law_.planeLever, own, height);
     touch.armI = planeArmOf(core_.law_.velocityLever, core_.law_.planeLever, own, height);
   }
-  if (number >= core_.moving_) touch.wall = wallMotion(contact);
-  const auto part = [&](double offset) {
-    const BodyMotion of = carried(i, time + offset);
-    const BodyMotion to = touch.wall ? *touch.wall : carried(j, time + offset);
-    return std::tuple(touch.along(of, to), touch.across(of, to), touch.slipOf(of, to));
-  };
-  const LedgerSums::Scheme& scheme = sums_.scheme();
-  std::tie(touch.normal.closing, touch.tangential.closing, touch.slip.closing) =
-      part(scheme.offset.closing);
-  std::tie(touch.normal.opening, touch.tangential.opening, touch.slip.opening) =
-      part(scheme.offset.opening);
-  touch.seenSlip = touch.slipOf(seen(i), touch.wall ? *touch.wall : seen(j));
+  const BodyMotion& closing = wall != nullptr ? *wall : closing_[j];
+  const BodyMotion& opening = wall != nullptr ? *wall : opening_[j];
+  touch.normal = {touch.along(closing_[i], closing), touch.along(opening_[i], opening)};
+  touch.tangential = {touch.across(closing_[i], closing), touch.across(opening_[i], opening)};
+  touch.slip = {touch.slipOf(closing_[i], closing), touch.slipOf(opening_[i], opening)};
+  touch.seenSlip = touch.slipOf(seen_[i], wall != nullptr ? *wall : seen_[j]);
   return touch;
 }
 
 template <class Real>
-void LedgerObserver<Real>::accountContact(const Contact& contact, double time) {
-  const Touch touch = touchOf(contact, time);
+GRAIN_INLINE void LedgerObserver<Real>::accountContact(const Contact& contact) {
+  const bool atWall = static_cast<std::size_t>(contact.j) >= core_.moving_;
+  const BodyMotion wall = atWall ? wallMotion(contact) : BodyMotion{};
+  const Touch touch = touchOf(contact, atWall ? &wall : nullptr);
   ContactMotion<Real> motion{};
   motion.overlap = static_cast<Real>(contact.overlap);
-  motion.radius = core_.pairRadius(contact);
+  motion.radius =
+      core_.pairRadius(static_cast<std::size_t>(contact.i), static_cast<std::size_t>(contact.j));
   const auto elastic = static_cast<double>(elasticForce(core_.law_, motion));
   sums_.ledger.elasticNormal += static_cast<double>(storedEnergy(core_.law_, motion, Real(0)));
   sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - elastic, touch.normal));
-  if (touch.wall) {
+  if (atWall) {
     const BodyMotion still{};
-    const double power = -(contact.normalForce * touch.along(still, *touch.wall) +
-                           contact.tangentialForce * touch.across(still, *touch.wall));
+    const double power = -(contact.normalForce * touch.along(still, wall) +
+                           contact.tangentialForce * touch.across(still, wall));
     sums_.workOfWall({power, power});
   }
   if (core_.law_.tangential == Tangential::none) return;
@@ -210,8 +224,8 @@ void LedgerObserver<Real>::accountContact(const Contact& contact, double time) {
 /// ξ is kept as the next evaluation will begin with it; what carries the force of this one is ξ
 /// without the part of v_t dt that was added since.
 template <class Real>
-void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& touch,
-                                         double stiffness) {
+GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& touch,
+                                                      double stiffness) {
   const bool remembersForce = core_.law_.history == History::force;
   double part = 0.0;  // of v_t dt
   if (core_.law_.stretch == Stretch::after && !contact.sliding) part = 1.0;
@@ -234,9 +248,9 @@ void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& to
 }
 
 template <class Real>
-void LedgerObserver<Real>::accountDisk(std::size_t number, double time) {
+GRAIN_INLINE void LedgerObserver<Real>::accountDisk(std::size_t place, double time) {
   EnergyLedger& ledger = sums_.ledger;
-  const auto place = static_cast<std::size_t>(core_.placeOf_[number]);
+  const auto number = static_cast<std::size_t>(core_.numberAt_[place]);
   const BodyMotion now = carried(place, time);
   ledger.kinetic += 0.5 * core_.mass_[number] * (now.vx * now.vx + now.vy * now.vy) +
                     0.5 * core_.inertia_[number] * now.spin * now.spin;
@@ -245,17 +259,16 @@ void LedgerObserver<Real>::accountDisk(std::size_t number, double time) {
   if (gx != 0.0 || gy != 0.0)
     ledger.potential -= core_.mass_[number] *
                         (gx * (core_.x(number) - middle_.x) + gy * (core_.y(number) - middle_.y));
-  if (!core_.plateSpring_.empty()) accountPlate(number, time);
+  if (!core_.plateSpring_.empty()) accountPlate(place);
 }
 
 /// The plate's force anew, from the spring that it was made of.
 template <class Real>
-void LedgerObserver<Real>::accountPlate(std::size_t number, double time) {
+GRAIN_INLINE void LedgerObserver<Real>::accountPlate(std::size_t place) {
   const BottomConstants<Real>& plate = core_.motionConstants_.plate;
-  const auto place = static_cast<std::size_t>(core_.placeOf_[number]);
-  const BodyMotion was = seen(place);
+  const BodyMotion& was = seen_[place];
   const auto ux = static_cast<Real>(was.vx), uy = static_cast<Real>(was.vy);
-  Vec<Real> spring = plateBefore_[number];
+  Vec<Real> spring = plateBefore_[place];
   const Real trialX = -plate.kb * spring.x - plate.gb * ux;
   const Real trialY = -plate.kb * spring.y - plate.gb * uy;
   const bool slides =
@@ -263,7 +276,7 @@ void LedgerObserver<Real>::accountPlate(std::size_t number, double time) {
   const auto bottom = plateSpin_ ? bottomForce<true, Real> : bottomForce<false, Real>;
   const BottomForce<Real> force = bottom(plate, core_.weighed_[place], core_.radius_[place], ux, uy,
                                          static_cast<Real>(was.spin), spring.x, spring.y);
-  if (!slides) spring = plateBefore_[number];  // else it is set to what the force is
+  if (!slides) spring = plateBefore_[place];  // else it is set to what the force is
 
   const auto kb = static_cast<double>(plate.kb);
   const double springX = -kb * static_cast<double>(spring.x);
@@ -275,16 +288,14 @@ void LedgerObserver<Real>::accountPlate(std::size_t number, double time) {
                    static_cast<double>(spring.y) * static_cast<double>(spring.y);
   account.energy = 0.5 * kb * account.square;
   sums_.ledger.plateSprings += account.energy;
-  const LedgerSums::Scheme& scheme = sums_.scheme();
-  TwoParts ofSpring, beyond;
-  for (const auto part : {&TwoParts::closing, &TwoParts::opening}) {
-    const BodyMotion u = carried(place, time + scheme.offset.*part);
-    ofSpring.*part = springX * u.vx + springY * u.vy;
-    beyond.*part = static_cast<double>(force.x) * u.vx + static_cast<double>(force.y) * u.vy +
-                   static_cast<double>(force.torque) * u.spin - ofSpring.*part;
-  }
-  sums_.plateSpring(plateAccounts_[number], account, ofSpring);
-  sums_.lose(&EnergyLedger::lostBottom, beyond);
+  const auto ofSpring = [&](const BodyMotion& u) { return springX * u.vx + springY * u.vy; };
+  const auto beyond = [&](const BodyMotion& u) {
+    return static_cast<double>(force.x) * u.vx + static_cast<double>(force.y) * u.vy +
+           static_cast<double>(force.torque) * u.spin - ofSpring(u);
+  };
+  sums_.plateSpring(plateAccounts_[place], account,
+                    {ofSpring(closing_[place]), ofSpring(opening_[place])});
+  sums_.lose(&EnergyLedger::lostBottom, {beyond(closing_[place]), beyond(opening_[place])});
 }
 
 template class LedgerObserver<double>;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engines/grain/ledger.hpp"
@@ -10,7 +12,11 @@ namespace grain {
 
 template <class Real>
 class Core;
-struct BodyMotion;
+/// Velocity of a body's centre, or of a wall's point, and its spin.
+struct BodyMotion {
+  double vx = 0.0, vy = 0.0, spin = 0.0;
+};
+
 struct Touch;
 
 /// Keeps the energy ledger of a core: looks at it before each motion and after each evaluation of
@@ -26,6 +32,8 @@ class LedgerObserver {
   /// Before the motion kernel stretches the plate's springs.
   void beforeMotion();
   void afterForces();
+  /// Places change. @param order  the old place of each new one
+  void renumber(std::span<const std::int32_t> order, std::span<const std::int32_t> newPlace);
 
   const EnergyLedger& ledger() const { return sums_.ledger; }
 
@@ -39,11 +47,11 @@ class LedgerObserver {
 
  private:
   void account(double time);
-  void accountContact(const Contact& contact, double time);
+  void accountContact(const Contact& contact);
   void accountSpring(const Contact& contact, const Touch& touch, double stiffness);
-  void accountDisk(std::size_t number, double time);
-  void accountPlate(std::size_t number, double time);
-  Touch touchOf(const Contact& contact, double time) const;
+  void accountDisk(std::size_t place, double time);
+  void accountPlate(std::size_t place);
+  Touch touchOf(const Contact& contact, const BodyMotion* wall) const;
   BodyMotion carried(std::size_t place, double time) const;
   BodyMotion seen(std::size_t place) const;
   BodyMotion wallMotion(const Contact& contact) const;
@@ -53,7 +61,10 @@ class LedgerObserver {
   double toForces_;       ///< from the stored velocities to the time of the forces [s]
   Vec<double> middle_{};  ///< where potentials are 0 [m]
   bool plateSpin_;
-  std::vector<Vec<Real>> plateBefore_;  ///< springs before the last evaluation, by number [m]
+  // By place, of the moving disks.
+  std::vector<BodyMotion> closing_, opening_;  ///< half way through the two parts' kicks
+  std::vector<BodyMotion> seen_;               ///< as the law saw them
+  std::vector<Vec<Real>> plateBefore_;         ///< springs before the last evaluation [m]
   std::vector<SpringAccount> plateAccounts_;
 };
 

@@ -62,9 +62,8 @@ template <class Real>
 const std::vector<Contact>& Core<Real>::contacts() const {
   if (!known_) {
     if (!recorded_) throw std::logic_error("the last step did not record its contacts");
-    const bool rigid = law_.normal == Normal::impulse;
-    std::vector<Contact> contacts = rigid ? impactContacts() : pairContacts();
-    if (!rigid) appendPlaneContacts(contacts);
+    std::vector<Contact> contacts =
+        law_.normal == Normal::impulse ? impactContacts() : softContacts();
     std::ranges::sort(contacts, [](const Contact& a, const Contact& b) {
       return std::tie(a.i, a.j) < std::tie(b.i, b.j);
     });
@@ -74,58 +73,59 @@ const std::vector<Contact>& Core<Real>::contacts() const {
 }
 
 template <class Real>
-std::vector<Contact> Core<Real>::pairContacts() const {
-  std::vector<Contact> contacts;
-  for (std::size_t part = 0; part < lists_.parts(); ++part)
-    for (const Sort sort : {Sort::inside, Sort::across, Sort::walls}) {
-      const PairList<Real>& list = lists_.list(part, sort);
-      for (std::size_t k = 0; k < list.count; ++k) {
-        const auto i = static_cast<std::size_t>(list.i[k]);
-        const auto j = static_cast<std::size_t>(list.j[k]);
-        // The kernel's own arithmetic: the same bits.
-        Vec<Real> d = position_[i] - position_[j];
-        if (!list.shift.empty()) d += list.shift[k];
-        const Real reach = radius_[i] + radius_[j];
-        const Real distance2 = d.x * d.x + d.y * d.y;
-        if (!(distance2 < reach * reach)) continue;
-        const Real distance = squareRoot(distance2);
-        const Real inverse = Real(1) / distance;
-        Contact contact{numberAt_[i],
-                        j < moving_ ? numberAt_[j] : list.j[k],
-                        static_cast<double>(d.x * inverse),
-                        static_cast<double>(d.y * inverse),
-                        static_cast<double>(reach - distance),
-                        static_cast<double>(list.normal[k]),
-                        static_cast<double>(list.tangential[k]),
-                        list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
-                        list.sliding[k] != Real(0)};
-        if (contact.j < contact.i) {
-          std::swap(contact.i, contact.j);
-          contact.nx = -contact.nx;
-          contact.ny = -contact.ny;
-        }
-        contacts.push_back(contact);
-      }
-    }
-  return contacts;
+GRAIN_INLINE std::optional<Contact> Core<Real>::touching(const PairList<Real>& list,
+                                                         std::size_t k) const {
+  const auto i = static_cast<std::size_t>(list.i[k]);
+  const auto j = static_cast<std::size_t>(list.j[k]);
+  // The kernel's own arithmetic: the same bits.
+  Vec<Real> d = position_[i] - position_[j];
+  if (!list.shift.empty()) d += list.shift[k];
+  const Real reach = radius_[i] + radius_[j];
+  const Real distance2 = d.x * d.x + d.y * d.y;
+  if (!(distance2 < reach * reach)) return std::nullopt;
+  const Real distance = squareRoot(distance2);
+  const Real inverse = Real(1) / distance;
+  return Contact{list.i[k],
+                 list.j[k],
+                 static_cast<double>(d.x * inverse),
+                 static_cast<double>(d.y * inverse),
+                 static_cast<double>(reach - distance),
+                 static_cast<double>(list.normal[k]),
+                 static_cast<double>(list.tangential[k]),
+                 list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
+                 list.sliding[k] != Real(0)};
 }
 
 template <class Real>
-void Core<Real>::appendPlaneContacts(std::vector<Contact>& contacts) const {
-  for (std::size_t p = 0; p < placedPlanes_.size(); ++p) {
-    const PlacedPlane& placed = placedPlanes_[p];
-    const Plane& plane = placed.plane;
-    for (std::size_t number = 0; number < moving_; ++number) {
-      const auto i = static_cast<std::size_t>(placeOf_[number]);
-      if (!(placed.overlap[i] > Real(0))) continue;
-      contacts.push_back(
-          {static_cast<std::int32_t>(number), static_cast<std::int32_t>(position_.size() + p),
-           plane.nx, plane.ny, static_cast<double>(placed.overlap[i]),
-           static_cast<double>(placed.normal[i]), static_cast<double>(placed.tangential[i]),
-           placed.spring.empty() ? 0.0 : static_cast<double>(placed.spring[i]),
-           placed.sliding[i] != Real(0)});
+GRAIN_INLINE std::optional<Contact> Core<Real>::touching(std::size_t plane, std::size_t i) const {
+  const PlacedPlane& placed = placedPlanes_[plane];
+  if (!(placed.overlap[i] > Real(0))) return std::nullopt;
+  return Contact{static_cast<std::int32_t>(i),
+                 static_cast<std::int32_t>(position_.size() + plane),
+                 placed.plane.nx,
+                 placed.plane.ny,
+                 static_cast<double>(placed.overlap[i]),
+                 static_cast<double>(placed.normal[i]),
+                 static_cast<double>(placed.tangential[i]),
+                 placed.spring.empty() ? 0.0 : static_cast<double>(placed.spring[i]),
+                 placed.sliding[i] != Real(0)};
+}
+
+template <class Real>
+std::vector<Contact> Core<Real>::softContacts() const {
+  std::vector<Contact> contacts;
+  forContactsByPlace([&](Contact contact) {
+    contact.i = numberAt_[static_cast<std::size_t>(contact.i)];
+    if (static_cast<std::size_t>(contact.j) < moving_)
+      contact.j = numberAt_[static_cast<std::size_t>(contact.j)];
+    if (contact.j < contact.i) {
+      std::swap(contact.i, contact.j);
+      contact.nx = -contact.nx;
+      contact.ny = -contact.ny;
     }
-  }
+    contacts.push_back(contact);
+  });
+  return contacts;
 }
 
 /// The sum over the wall's contacts, each with the opposite force and, for a wall disk, with the
@@ -184,14 +184,12 @@ double Core<Real>::ownRadius(const Contact& contact) const {
       radius_[static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)])]);
 }
 
-/// R₁₂; of a plane's partner its own radius.
+/// R₁₂ of places; of a plane's partner its own radius.
 template <class Real>
-Real Core<Real>::pairRadius(const Contact& contact) const {
-  const Real own = radius_[static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)])];
-  const auto j = static_cast<std::size_t>(contact.j);
-  if (j >= position_.size()) return own;
-  const Real other = j < moving_ ? radius_[static_cast<std::size_t>(placeOf_[j])] : radius_[j];
-  return own * other / (own + other);
+Real Core<Real>::pairRadius(std::size_t i, std::size_t j) const {
+  const Real own = radius_[i];
+  if (j >= diskCount()) return own;
+  return own * radius_[j] / (own + radius_[j]);
 }
 
 template <class Real>
@@ -200,7 +198,10 @@ double Core<Real>::elasticEnergy() const {
   for (const Contact& contact : contacts()) {
     ContactMotion<Real> motion{};
     motion.overlap = static_cast<Real>(contact.overlap);
-    motion.radius = pairRadius(contact);
+    const auto j = static_cast<std::size_t>(contact.j);
+    motion.radius =
+        pairRadius(static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)]),
+                   j < moving_ ? static_cast<std::size_t>(placeOf_[j]) : j);
     energy += static_cast<double>(storedEnergy(law_, motion, static_cast<Real>(contact.spring)));
   }
   return energy;

@@ -19,6 +19,8 @@ struct NotFinite {
 
 /// Where the disks of a pair belong: j in the same part as i, in a later part, or of a wall.
 enum class Sort { inside, across, walls };
+/// In the order in which a disk's pairs are summed up.
+inline constexpr std::array sorts{Sort::inside, Sort::across, Sort::walls};
 
 /// @throws NotFinite
 void requireFinite(const Places& now);

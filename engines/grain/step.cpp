@@ -206,6 +206,7 @@ void Core<Real>::renumber() {
     placeOf_[static_cast<std::size_t>(numberAt_[place])] = static_cast<std::int32_t>(place);
   localise();
   guarded([&] { lists_.renumber(newPlace_, places(), travel(), team_); });
+  if (ledger_) ledger_->renumber(order, newPlace_);
   findReachedWallDisks();
   rememberChoice();
 }
