@@ -14,6 +14,7 @@
 #include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
 #include "engines/grain/simulation.hpp"
+#include "support/busy_time.hpp"
 
 namespace crossgrain {
 namespace {
@@ -208,6 +209,7 @@ class GrainEngine : public Engine {
   double advance(double t) override {
     const auto wanted = std::llround(t / simulation_->dt());
     const Stopwatch::Lap lap(stopwatch_);
+    const BusyTime::Piece stepping(steppingTime());
     const auto done = static_cast<long long>(simulation_->steps());
     if (wanted > done) simulation_->advance(static_cast<std::uint64_t>(wanted - done));
     return simulation_->time();

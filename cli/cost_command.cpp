@@ -84,6 +84,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
     fmt::print("{}{}\n", reports::costAccuracyText(results), countsInWords(results.points));
     printOverview(reports::costOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
+    if (!line.run.quiet) printTimeSpent();
   }
   for (const std::string& reason : results.engineFailures)
     fmt::print(stderr, "crossgrain: {}\n", BadInput(reason).what());

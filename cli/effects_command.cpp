@@ -50,6 +50,7 @@ int effects(const CommandLine& line) {
     for (const EffectVariant& variant : results.variants) printVariant(variant);
     printOverview(reports::effectsOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
+    if (!line.run.quiet) printTimeSpent();
   }
   int status = exitHeld;
   for (const EffectVariant& variant : results.variants) {

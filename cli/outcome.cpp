@@ -2,7 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
+#include "reports/common/numbers.hpp"
+#include "support/busy_time.hpp"
+
 namespace crossgrain::inline cli {
+
+namespace {
+
+const std::chrono::steady_clock::time_point programBegan = std::chrono::steady_clock::now();
+
+}  // namespace
 
 void printFailure(const std::string& reason) {
   fmt::print(stderr, "crossgrain: {}\n", reason);
@@ -36,6 +47,15 @@ int nothingWasJudged(const CommandLine& line, const std::string& reason, bool by
 
 void printWarnings(const Case& setup) {
   for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
+}
+
+void printTimeSpent() {
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - programBegan;
+  const double stepping = steppingTime().seconds(), drawing = drawingTime().seconds();
+  fmt::print(stderr, "{}: engines stepped for {} ({:.0f} %), plots took {} ({:.0f} %)\n",
+             reports::shortDuration(all.count()), reports::shortDuration(stepping),
+             100.0 * stepping / all.count(), reports::shortDuration(drawing),
+             100.0 * drawing / all.count());
 }
 
 }  // namespace crossgrain::inline cli

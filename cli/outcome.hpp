@@ -30,4 +30,8 @@ int nothingWasJudged(const CommandLine& line, const std::string& reason, bool by
 /// What loads but is hardly meant, one line each on standard error.
 void printWarnings(const Case& setup);
 
+/// One line on standard error: how long the program has run, for how much of that engines stepped
+/// and for how much plots were drawn. What is left are starts, files, averages and pages.
+void printTimeSpent();
+
 }  // namespace crossgrain::inline cli

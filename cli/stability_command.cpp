@@ -71,6 +71,7 @@ int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
                count(StabilityVerdict::degraded), unstable, refused);
     printOverview(reports::stabilityOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
+    if (!line.run.quiet) printTimeSpent();
   }
   if (refused == std::ssize(runs))
     return nothingWasJudged(

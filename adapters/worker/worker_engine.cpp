@@ -5,6 +5,7 @@
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
+#include "support/busy_time.hpp"
 
 namespace crossgrain {
 namespace {
@@ -108,6 +109,7 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
 
 double WorkerEngine::advance(double t) {
   const std::string what = fmt::format("advance(t = {} s)", t);
+  const BusyTime::Piece stepping(steppingTime());
   const json reply = ask({{"request", "advance"}, {"time", t}}, what);
   time_ = understand(what, [&] { return reply.at("time").get<double>(); });
   return time_;

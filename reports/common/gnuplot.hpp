@@ -30,8 +30,8 @@ bool isMultiplot(const Figure& figure);
 /// Of the key above all panels, in its order; empty: there is none.
 std::vector<std::string> namesAbove(const Figure& figure);
 
-/// Runs the scripts in one gnuplot process in that folder. The user's own gnuplot settings are not
-/// read and no shell is involved. What gnuplot says is kept in dir/gnuplot.log.
+/// Runs the scripts in gnuplot, some processes side by side, in that folder. The user's own gnuplot
+/// settings are not read and no shell is involved. What gnuplot says is kept in dir/gnuplot.log.
 /// @throws GnuplotError
 void runGnuplot(const std::vector<std::string>& scripts, const std::filesystem::path& dir);
 
