@@ -244,7 +244,12 @@ TEST(CollideOverview, TellsTheLargestShareOfALimitAndByWhichLaw) {
   EXPECT_EQ(rowOf(overview, "yade").cells[1].anchor, "case_1");
   EXPECT_EQ(told(rowOf(overview, "grain").cells[0]), "good 6 of 6");
   EXPECT_EQ(rowOf(overview, sample::awkward).cells[0].state, CellState::bad);
-  EXPECT_TRUE(has(overview.conclusion[0], "grain: all 6 sweeps held"));
+  EXPECT_EQ(
+      overview.conclusion[0],
+      fmt::format("Held in every sweep: grain; fell short: yade and box2d-impulse; not judged: {}.",
+                  sample::awkward));
+  EXPECT_EQ(overview.conclusion[1],
+            "What falls short most often: tangential rebound Ψ_f (yade and box2d-impulse).");
   EXPECT_EQ(overview.conclusion.back(), "Next: see why sweeps failed, in the table of scores.");
 
   for (CollisionVariant& variant : results.variants)
@@ -261,7 +266,34 @@ TEST(CollideOverview, TellsTheLargestShareOfALimitAndByWhichLaw) {
       }
   const Overview declared = collideOverview(results);
   EXPECT_EQ(told(rowOf(declared, "yade").cells[1]), "model_difference 1.2 × limit");
-  EXPECT_EQ(declared.conclusion[1], "Models differ because yade has tension cut.");
+  EXPECT_EQ(
+      declared.conclusion[1],
+      "Laws differ by: tension cut (yade); what falls short most often: tangential rebound Ψ_f "
+      "(box2d-impulse).");
+}
+
+TEST(CollideOverview, ConcludesShortlyHoweverManyEnginesThereAre) {
+  CollideResults results = sample::collideResults();
+  results.engines.pop_back();  // its name alone is a sentence
+  const std::vector<EngineRow> engines = results.engines;
+  for (const std::string again : {"-2", "-3", "-4"})
+    for (EngineRow engine : engines) {
+      engine.name += again;
+      results.engines.push_back(engine);
+    }
+  for (CollisionVariant& variant : results.variants) {
+    const std::vector<CollisionCurve> curves = variant.curves;
+    for (const std::string again : {"-2", "-3", "-4"})
+      for (CollisionCurve curve : curves) {
+        curve.engine += again;
+        variant.curves.push_back(curve);
+      }
+  }
+  const std::vector<std::string> conclusion = collideConclusion(results);
+  EXPECT_LE(conclusion.size(), 3u);
+  for (const std::string& sentence : conclusion) EXPECT_LE(sentence.size(), 240u) << sentence;
+  EXPECT_TRUE(has(conclusion[0],
+                  "fell short: yade, box2d-impulse, yade-2, box2d-impulse-2, yade-3 and 3 more"));
 }
 
 TEST(StabilityOverview, CountsRunsByFamily) {
