@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <ranges>
 
 #include "reports/collide/overview.hpp"
 #include "reports/collide/table.hpp"
@@ -16,18 +17,20 @@ namespace {
 using Names = std::vector<std::string>;
 
 /// Of a list in a sentence: the matrix above has all names.
-constexpr std::size_t mostEngines = 5, mostCauses = 2;
+constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
 
-/// What engines came to: their names by it.
-struct Standings {
-  Names hold, ownLaw, fallShort, unjudged;
+/// How an engine's sweeps came out.
+struct Standing {
+  std::string engine;
+  int held = 0, model = 0, fellShort = 0;
+  int judged() const { return held + model + fellShort; }
 };
 
-/// What makes sweeps differ or fall short: in how many, and of which engines.
+/// What may make sweeps differ or fall short.
 struct Cause {
   std::string words;
-  int sweeps = 0;
-  Names engines;
+  int excess = 0;  ///< of sweeps that it could explain over sweeps that hold in spite of it
+  Names engines;   ///< whose sweeps it could explain
 };
 using Causes = std::vector<Cause>;
 
@@ -39,43 +42,45 @@ Names asked(const CollideResults& results) {
   return names;
 }
 
-Standings standingsOf(const CollideResults& results) {
-  Standings standings;
+std::vector<Standing> standingsOf(const CollideResults& results) {
+  std::vector<Standing> standings;
   for (const std::string& engine : asked(results)) {
-    int held = 0, model = 0, fellShort = 0;
+    Standing& standing = standings.emplace_back(Standing{engine});
     for (const CollisionVariant& variant : results.variants)
       for (const CollisionCurve* curve : curvesOf(variant, engine)) {
         const SweepOutcome outcome = outcomeOf(*curve);
-        held += outcome == SweepOutcome::held;
-        model += outcome == SweepOutcome::modelDifference;
-        fellShort += outcome == SweepOutcome::fellShort;
+        standing.held += outcome == SweepOutcome::held;
+        standing.model += outcome == SweepOutcome::modelDifference;
+        standing.fellShort += outcome == SweepOutcome::fellShort;
       }
-    Names& names = fellShort > 0 ? standings.fallShort
-                   : model > 0   ? standings.ownLaw
-                   : held > 0    ? standings.hold
-                                 : standings.unjudged;
-    names.push_back(engine);
   }
   return standings;
 }
 
-void count(Causes& causes, const std::string& words, const std::string& engine) {
-  auto cause = std::ranges::find(causes, words, &Cause::words);
-  if (cause == causes.end()) cause = causes.insert(causes.end(), {words, 0, {}});
-  ++cause->sweeps;
-  if (cause->engines.empty() || cause->engines.back() != engine) cause->engines.push_back(engine);
+Cause& causeOf(Causes& causes, const std::string& words) {
+  const auto found = std::ranges::find(causes, words, &Cause::words);
+  return found == causes.end() ? causes.emplace_back(Cause{words, 0, {}}) : *found;
 }
 
-/// Of the sweeps that came out so, the most frequent cause first.
+/// Of the sweeps that came out so, the likeliest cause first: what is in as many sweeps that hold
+/// explains nothing.
 /// @param causesIn  of a sweep: its causes' words
 Causes causesOf(const CollideResults& results, SweepOutcome outcome, const auto& causesIn) {
   Causes causes;
   for (const std::string& engine : asked(results))
     for (const CollisionVariant& variant : results.variants)
-      for (const CollisionCurve* curve : curvesOf(variant, engine))
-        if (outcomeOf(*curve) == outcome)
-          for (const std::string& words : causesIn(*curve)) count(causes, words, engine);
-  std::ranges::stable_sort(causes, std::greater(), &Cause::sweeps);
+      for (const CollisionCurve* curve : curvesOf(variant, engine)) {
+        const bool explained = outcomeOf(*curve) == outcome;
+        if (!explained && outcomeOf(*curve) != SweepOutcome::held) continue;
+        for (const std::string& words : causesIn(*curve)) {
+          Cause& cause = causeOf(causes, words);
+          cause.excess += explained ? 1 : -1;
+          if (explained && (cause.engines.empty() || cause.engines.back() != engine))
+            cause.engines.push_back(engine);
+        }
+      }
+  std::erase_if(causes, [](const Cause& cause) { return cause.excess <= 0; });
+  std::ranges::stable_sort(causes, std::greater(), &Cause::excess);
   return causes;
 }
 
@@ -101,11 +106,31 @@ Names shortIn(const CollisionCurve& curve) {
 /// "tension cut (yade and liggghts) and dashpot outside (yade)"
 std::string told(const Causes& causes) {
   Names words;
-  for (const Cause& cause : causes) {
-    if (words.size() == mostCauses) break;
-    words.push_back(fmt::format("{} ({})", cause.words, listedShortly(cause.engines, 3)));
-  }
+  for (const Cause& cause : causes | std::views::take(mostCauses))
+    words.push_back(
+        fmt::format("{} ({})", cause.words, listedShortly(cause.engines, mostOfACause)));
   return listed(words);
+}
+
+/// "siconos (44 of 45 sweeps) and grain (2 of 242)"
+std::string toldShort(std::vector<Standing> standings) {
+  std::erase_if(standings, [](const Standing& one) { return one.fellShort == 0; });
+  std::ranges::stable_sort(standings, std::greater(), [](const Standing& one) {
+    return static_cast<double>(one.fellShort) / one.judged();
+  });
+  Names words;
+  for (const Standing& one : standings)
+    words.push_back(fmt::format("{} ({} of {}{})", one.engine, one.fellShort, one.judged(),
+                                words.empty() ? " sweeps" : ""));
+  return listedShortly(words, mostEngines);
+}
+
+/// Engines that hold in every sweep that was judged.
+Names holdAll(const std::vector<Standing>& standings) {
+  Names names;
+  for (const Standing& one : standings)
+    if (one.held > 0 && one.held == one.judged()) names.push_back(one.engine);
+  return names;
 }
 
 /// "Held: grain; fell short: siconos." Of what has no words nothing is said.
@@ -120,19 +145,26 @@ std::string sentenceOf(const std::vector<std::pair<std::string_view, std::string
 }
 
 std::string whoHolds(const CollideResults& results) {
-  const Standings standings = standingsOf(results);
-  const auto names = [](const Names& all) { return listedShortly(all, mostEngines); };
-  const std::string sentence = sentenceOf({{"held in every sweep", names(standings.hold)},
-                                           {"true to a law of their own", names(standings.ownLaw)},
-                                           {"fell short", names(standings.fallShort)},
-                                           {"not judged", names(standings.unjudged)}});
+  const std::vector<Standing> standings = standingsOf(results);
+  Names ownLaw, unjudged;
+  for (const Standing& one : standings) {
+    if (one.model > 0 && one.fellShort == 0) ownLaw.push_back(one.engine);
+    if (one.judged() == 0) unjudged.push_back(one.engine);
+  }
+  const std::string sentence =
+      sentenceOf({{"held in every sweep", listedShortly(holdAll(standings), mostEngines)},
+                  {"true to a law of their own", listedShortly(ownLaw, mostEngines)},
+                  {"fell short", toldShort(standings)},
+                  {"not judged", listedShortly(unjudged, mostEngines)}});
   return sentence.empty() ? "No engine took part." : sentence;
 }
 
 std::string whatIsToBlame(const CollideResults& results) {
+  const Causes quantities = causesOf(results, SweepOutcome::fellShort, shortIn);
   return sentenceOf(
-      {{"laws differ by", told(causesOf(results, SweepOutcome::modelDifference, conventionsIn))},
-       {"what falls short most often", told(causesOf(results, SweepOutcome::fellShort, shortIn))}});
+      {{"laws differ most by",
+        told(causesOf(results, SweepOutcome::modelDifference, conventionsIn))},
+       {"what falls short most often", quantities.empty() ? "" : quantities.front().words}});
 }
 
 std::string nextStep(const CollideResults& results) {
@@ -145,7 +177,7 @@ std::string nextStep(const CollideResults& results) {
            "fault or another law.";
   if (count.modelDifference == 0)
     return "Nothing here speaks against any of these engines at these time steps.";
-  const Names hold = standingsOf(results).hold;
+  const Names hold = holdAll(standingsOf(results));
   return fmt::format("Next: where the scene's own law is needed, take {}.",
                      hold.empty() ? "an engine that has it" : listedShortly(hold, mostEngines));
 }
