@@ -49,6 +49,13 @@ Json legendOf(const Overview& overview, bool wrapped) {
   return legend;
 }
 
+/// How many lines of small words every row may have for the matrix to end within 800 px.
+std::size_t linesFor(std::size_t rows) {
+  constexpr std::size_t room = 648;            // below the heads [px]
+  constexpr std::size_t mark = 26, line = 16;  // of a row [px]
+  return (std::max(room / rows, mark + line) - mark) / line;
+}
+
 }  // namespace
 
 void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines,
@@ -81,6 +88,7 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
     conclusion.push_back(symbolsHtml(sentence));
   view["overview"] = {{"many", wrapped},
                       {"tall", !wrapped && overview.rows.size() > mostRows},
+                      {"lines", linesFor(overview.rows.size())},
                       {"rowsAre", overview.rowsAre},
                       {"columns", std::move(columns)},
                       {"rows", std::move(rows)},
