@@ -11,6 +11,7 @@
 #include "cli/option_groups.hpp"
 #include "runs/check/case_check.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/progress.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -121,9 +122,10 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     return exitHeld;
   }
   const ScratchFolder scratch;
+  Progress progress(line.json || options.untimed);
   json all = json::array();
   for (const Case& setup : cases) {
-    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path));
+    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress));
     if (line.json) continue;
     printChecked(all.back());
     printMissing(line.run.engines);
