@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -122,7 +123,8 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     return exitHeld;
   }
   const ScratchFolder scratch;
-  Progress progress(line.json || options.untimed);
+  // Its lines would stand beside the one of a mistake where they are not redrawn.
+  Progress progress(line.json || options.untimed || ::isatty(STDERR_FILENO) == 0);
   json all = json::array();
   for (const Case& setup : cases) {
     all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress));
