@@ -109,6 +109,9 @@ void merge(toml::table& base, toml::table&& changes) {
 
 /// Where `extends` points to, if anywhere; takes the key out of the document.
 std::optional<fs::path> takeBase(toml::table& document, const fs::path& file) {
+  if (const toml::node* const misplaced = document.get("extends"))
+    throw BadInput(location(misplaced->source()) +
+                   "unknown key extends (did you mean case.extends?)");
   const toml::node* const node = document.at_path("case.extends").node();
   if (!node) return std::nullopt;
   const auto name = node->value_exact<std::string>();

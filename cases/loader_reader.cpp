@@ -179,7 +179,7 @@ std::string Reader::pathOf(std::string_view key) const {
 }
 
 const toml::node* Reader::take(std::string_view key) {
-  known_.emplace_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   return table_ ? table_->get(key) : nullptr;
 }
 

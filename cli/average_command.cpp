@@ -27,7 +27,8 @@ Action declareAverage(CLI::App& app, CommandLine& line) {
 
 extern const Command averageCommand = {
     "average", "average snapshots of a file, of a run or of any other source",
-    "crossgrain average out/snapshots/grain-p0.h5 cases/couette/quick.toml --out averaged",
+    "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out "
+    "out/averaged",
     declareAverage};
 
 }  // namespace crossgrain::inline cli

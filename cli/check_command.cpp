@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "cli/option_groups.hpp"
 #include "runs/check/case_check.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/progress.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -121,9 +123,11 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     return exitHeld;
   }
   const ScratchFolder scratch;
+  // Its lines would stand beside the one of a mistake where they are not redrawn.
+  Progress progress(line.json || options.untimed || ::isatty(STDERR_FILENO) == 0);
   json all = json::array();
   for (const Case& setup : cases) {
-    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path));
+    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress));
     if (line.json) continue;
     printChecked(all.back());
     printMissing(line.run.engines);

@@ -6,6 +6,7 @@
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/collide/overview.hpp"
@@ -65,8 +66,7 @@ int collide(const CommandLine& line, bool strict) {
   const bool isFolder = fs::is_directory(input);
   std::vector<Case> variants =
       isFolder ? collisionsOf(input, line.overrides) : loadCase(input, line.overrides);
-  if (variants.front().kind != CaseKind::collision)
-    throw BadInput(fmt::format("{}: collide cannot run a case of this kind", input.string()));
+  if (variants.front().kind != CaseKind::collision) refuseKind(variants.front(), input, "collide");
   if (line.only) variants = selectedCases(variants, *line.only);
   return collideCases(variants, isFolder ? std::optional(input) : std::nullopt, line, strict);
 }
@@ -85,8 +85,8 @@ Action declareCollide(CLI::App& app, CommandLine& line) {
 
 extern const Command collideCommand = {
     "collide", "two-particle sweeps against the oracle",
-    "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out\n"
-    "crossgrain collide cases/collision -k glass --engines grain --out out",
+    "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out/collide\n"
+    "crossgrain collide cases/collision -k glass --engines grain --out out/glass",
     declareCollide};
 
 }  // namespace crossgrain::inline cli

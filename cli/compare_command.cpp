@@ -118,6 +118,7 @@ Action declareCompare(CLI::App& app, CommandLine& line) {
 
 extern const Command compareCommand = {
     "compare", "run, average, cross-check",
-    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out", declareCompare};
+    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
+    declareCompare};
 
 }  // namespace crossgrain::inline cli

@@ -113,8 +113,8 @@ Action declareCost(CLI::App& app, CommandLine& line) {
 
 extern const Command costCommand = {
     "cost", "error against time, for every engine and every knob that trades one for the other",
-    "crossgrain cost cases/cost/quick.toml --engines all --out out --budget 10m\n"
-    "crossgrain cost cases/cost/quick.toml --engines all --out out --want 1%",
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
     declareCost};
 
 }  // namespace crossgrain::inline cli

@@ -72,6 +72,7 @@ Action declareEffects(CLI::App& app, CommandLine& line) {
 
 extern const Command effectsCommand = {
     "effects", "what each effect of a case costs and changes",
-    "crossgrain effects cases/couette/quick.toml --engines grain --out out", declareEffects};
+    "crossgrain effects cases/couette/quick.toml --engines grain --out out/effects",
+    declareEffects};
 
 }  // namespace crossgrain::inline cli

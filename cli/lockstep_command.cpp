@@ -73,7 +73,7 @@ Action declareLockstep(CLI::App& app, CommandLine& line) {
 
 extern const Command lockstepCommand = {
     "lockstep", "whether engines are the laws that they declare, step by step from equal states",
-    "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out",
+    "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out/lockstep",
     declareLockstep};
 
 }  // namespace crossgrain::inline cli

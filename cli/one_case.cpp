@@ -24,26 +24,35 @@ std::vector<std::string> hurried(const Case& setup) {
 
 Case onlyCase(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
-  if (loadCase(file, line.overrides).front().kind != CaseKind::couette)
-    throw BadInput(fmt::format("{}: {} cannot run a case of this kind", file.string(), command));
+  const Case setup = loadCase(file, line.overrides).front();
+  if (setup.kind != CaseKind::couette) refuseKind(setup, file, command);
   return onlyFlow(line, command);
 }
 
 Case onlyFlow(const CommandLine& line, const char* command) {
   const fs::path& file = line.inputs.front();
   const std::vector<Case> cases = loadCase(file, line.overrides);
-  if (!hasFlow(cases.front()))
+  if (!hasFlow(cases.front())) {
+    if (cases.front().kind != CaseKind::assembly) refuseKind(cases.front(), file, command);
     throw BadInput(fmt::format(
-        "{}: {} cannot run {}", file.string(), command,
-        cases.front().kind == CaseKind::assembly
-            ? "an assembly that does not say what is averaged: give it [average] and [[endpoints]]"
-            : "a case of this kind"));
+        "{}: {} cannot run an assembly that does not say what is averaged: give it [average] and "
+        "[[endpoints]]",
+        file.string(), command));
+  }
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
   if (!line.quick) return cases.front();
   std::vector<std::string> overrides = hurried(cases.front());
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(file, overrides).front();
+}
+
+void refuseKind(const Case& setup, const fs::path& input, const char* command) {
+  const char* const able = setup.kind == CaseKind::collision ? "collide"
+                           : hasFlow(setup)                  ? "compare"
+                                                             : "stability";
+  throw BadInput(fmt::format("{}: {} cannot run a case of this kind; crossgrain {} can",
+                             input.string(), command, able));
 }
 
 std::string effectsInWords(const Effects& called) {

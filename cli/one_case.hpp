@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "adapters/effects.hpp"
@@ -14,6 +15,10 @@ Case onlyCase(const CommandLine& line, const char* command);
 
 /// The same, or an assembly that says what is averaged.
 Case onlyFlow(const CommandLine& line, const char* command);
+
+/// Says which command can.
+[[noreturn]] void refuseKind(const Case& setup, const std::filesystem::path& input,
+                             const char* command);
 
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);

@@ -126,10 +126,10 @@ Action declareReport(CLI::App& app, CommandLine& line) {
 
 extern const Command reportCommand = {
     "report", "rebuild reports from results.json, or make one site of several",
-    "crossgrain report out\n"
-    "crossgrain report out --open\n"
-    "crossgrain report out/compare out/collide --out site\n"
-    "crossgrain report slurm --out site                        # the jobs of a plan",
+    "crossgrain report out/compare\n"
+    "crossgrain report out/compare --open\n"
+    "crossgrain report out/compare out/collide --out out/site\n"
+    "crossgrain report jobs --out out/jobs                      # the jobs of a plan",
     declareReport};
 
 }  // namespace crossgrain::inline cli

@@ -28,6 +28,7 @@ Action declareRev(CLI::App& app, CommandLine& line) {
 
 extern const Command revCommand = {
     "rev", "every field against ring width, under every weight",
-    "crossgrain rev out/snapshots/grain-p0.h5 cases/couette/quick.toml --out rev", declareRev};
+    "crossgrain rev out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out out/rev",
+    declareRev};
 
 }  // namespace crossgrain::inline cli

@@ -107,9 +107,10 @@ Action declareScale(CLI::App& app, CommandLine& line) {
 
 extern const Command scaleCommand = {
     "scale", "what a step takes as the cell grows and threads or ranks share it",
-    "crossgrain scale --disks 1000,10000,100000 --out out\n"
-    "crossgrain scale --disks 100000,200000 --engines grain,lammps --threads 1,2 --out out\n"
-    "crossgrain scale --disks 1000000,10000000 --steps 50 --repetitions 2 --out out",
+    "crossgrain scale --disks 1000,10000,100000 --out out/scale\n"
+    "crossgrain scale --disks 100000,200000 --engines grain,lammps --threads 1,2 --out "
+    "out/threads\n"
+    "crossgrain scale --disks 1000000,10000000 --steps 50 --repetitions 2 --out out/large",
     declareScale};
 
 }  // namespace crossgrain::inline cli

@@ -107,10 +107,11 @@ Action declareStability(CLI::App& app, CommandLine& line) {
 
 extern const Command stabilityCommand = {
     "stability", "hard cases: what stays stable on which engine, and what does not",
-    "crossgrain stability --engines all --out out              # all of cases/hard\n"
-    "crossgrain stability -k pile --engines grain --out out\n"
-    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out\n"
-    "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out out",
+    "crossgrain stability --engines all --out out/stability    # all of cases/hard\n"
+    "crossgrain stability -k pile --engines grain --out out/pile\n"
+    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out/piles\n"
+    "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out "
+    "out/told",
     declareStability};
 
 }  // namespace crossgrain::inline cli

@@ -87,10 +87,11 @@ Action declareThesis(CLI::App& app, CommandLine& line) {
 
 extern const Command thesisCommand = {
     "thesis", "the thesis' claims, one by one: reproduced or refuted, per engine, with a number",
-    "crossgrain thesis --quick --out out                       # minutes\n"
-    "crossgrain thesis --budget 2h --out out                   # and again, until all is run\n"
-    "crossgrain thesis --budget 2h --from before/results.json --out out\n"
-    "crossgrain thesis --engines grain,yade --budget 8h --out out",
+    "crossgrain thesis --quick --out out/claims                       # minutes\n"
+    "crossgrain thesis --budget 2h --out out/thesis                   # and again, until all is "
+    "run\n"
+    "crossgrain thesis --budget 2h --from out/thesis/results.json --out out/more\n"
+    "crossgrain thesis --engines grain,yade --budget 8h --out out/yade",
     declareThesis};
 
 }  // namespace crossgrain::inline cli

@@ -52,10 +52,10 @@ struct Extreme {
   }
 };
 
-std::string placeOf(const CaseGroup& group, const CollisionVariant& variant) {
-  return variant.variant.empty() || variant.variant == group.name
-             ? group.name
-             : group.name + " " + variant.variant;
+/// In a word, for a cell has no room for more: the case, or of the only one the variant.
+std::string placeOf(const std::vector<CaseGroup>& groups, const CaseGroup& group,
+                    const CollisionVariant& variant) {
+  return groups.size() > 1 || variant.variant.empty() ? group.name : variant.variant;
 }
 
 /// Errors of some quantities over all sweeps of an engine: beyond the law that it declares, beyond
@@ -69,8 +69,7 @@ bool isTheLaw(const CollisionCurve& curve) {
 }
 
 void look(Errors& errors, const CollisionCurve& curve, const CollisionQuantity& quantity,
-          const std::string& place, const std::string& anchor) {
-  const std::string words = fmt::format("{}, {}", quantityWords(quantity), place);
+          const std::string& words, const std::string& anchor) {
   const auto shareOf = [](const std::optional<QuantityScore>& score) -> std::optional<double> {
     if (!score || !score->limit || !score->held || *score->limit <= 0.0) return std::nullopt;
     return score->max / *score->limit;
@@ -104,7 +103,7 @@ void forCurves(const std::vector<CaseGroup>& groups, const std::string& engine, 
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const CollisionVariant* variant : groups[g].variants)
       for (const CollisionCurve* curve : curvesOf(*variant, engine))
-        visit(*curve, placeOf(groups[g], *variant), fmt::format("case_{}", g + 1));
+        visit(*curve, placeOf(groups, groups[g], *variant), fmt::format("case_{}", g + 1));
 }
 
 OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string& engine) {
@@ -195,8 +194,12 @@ Overview collideOverview(const CollideResults& results) {
       forCurves(
           groups, engine.name,
           [&](const CollisionCurve& curve, const std::string& place, const std::string& anchor) {
-            for (const QuantityId id : group.quantities)
-              look(errors, curve, collisionQuantity(id), place, anchor);
+            for (const QuantityId id : group.quantities) {
+              const CollisionQuantity& quantity = collisionQuantity(id);
+              const bool alone = group.quantities.size() == 1;  // the question names it
+              look(errors, curve, quantity,
+                   alone ? place : fmt::format("{}, {}", quantity.label, place), anchor);
+            }
           });
       row.cells.push_back(cellOf(errors, besidePeer));
     }

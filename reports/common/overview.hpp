@@ -22,8 +22,8 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
 /// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.
 inline constexpr std::size_t mostColumns = 10;
 
-/// Of more rows than these each says its small words in one line on the page, so that what follows
-/// from them stays on the first screen.
+/// Of more rows than these each has only as many lines of small words on the page as the first
+/// screen has room for; the rest is in the cell's title.
 inline constexpr std::size_t mostRows = 6;
 
 /// Where the terminal's form is printed.

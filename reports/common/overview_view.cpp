@@ -49,6 +49,28 @@ Json legendOf(const Overview& overview, bool wrapped) {
   return legend;
 }
 
+/// How many lines a row's small words take on a page of 1280 px, about.
+std::size_t linesOf(const OverviewRow& row) {
+  constexpr std::size_t letters = 150;  // of a line of small words over all cells
+  const std::size_t each = letters / row.cells.size();
+  std::size_t lines = 0;
+  for (const OverviewCell& cell : row.cells)
+    lines = std::max(lines, (cell.words.size() + each - 1) / each);
+  return lines;
+}
+
+/// The most lines of small words that rows may have for the matrix to end within 800 px.
+std::size_t mostLines(const std::vector<OverviewRow>& rows) {
+  constexpr std::size_t room = 648;            // below the heads [px]
+  constexpr std::size_t mark = 26, line = 16;  // of a row [px]
+  for (std::size_t most = 4; most > 1; --most) {
+    std::size_t height = 0;
+    for (const OverviewRow& row : rows) height += mark + line * std::min(most, linesOf(row));
+    if (height <= room) return most;
+  }
+  return 1;
+}
+
 }  // namespace
 
 void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines,
@@ -81,6 +103,7 @@ void addOverview(Json& view, const Overview& overview, const std::vector<EngineR
     conclusion.push_back(symbolsHtml(sentence));
   view["overview"] = {{"many", wrapped},
                       {"tall", !wrapped && overview.rows.size() > mostRows},
+                      {"lines", mostLines(overview.rows)},
                       {"rowsAre", overview.rowsAre},
                       {"columns", std::move(columns)},
                       {"rows", std::move(rows)},

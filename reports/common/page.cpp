@@ -151,8 +151,8 @@ Json commonView(const ResultsHead& head, std::optional<double> elapsed,
   const bool averages = head.kind == kindAverage || head.kind == kindRev;
   return {
       {"style", templates().at("style.css")},
-      {"script",
-       templates().at("figures.js") + templates().at("tables.js") + templates().at("pictures.js")},
+      {"script", templates().at("controls.js") + templates().at("figures.js") +
+                     templates().at("tables.js") + templates().at("pictures.js")},
       {"legend", legend},
       {"hasLegend", !legend.empty()},
       {"title", titleOf(head)},

@@ -13,7 +13,8 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string allOf(std::size_t count, std::string_view noun) {
-  return count == 1 ? fmt::format("the one {}", noun) : fmt::format("all {} {}s", count, noun);
+  if (count == 1) return fmt::format("the one {}", noun);
+  return count == 2 ? fmt::format("both {}s", noun) : fmt::format("all {} {}s", count, noun);
 }
 
 std::string listedShortly(const std::vector<std::string>& names, std::size_t most) {

@@ -15,7 +15,7 @@ std::string listed(const std::vector<std::string>& names);
 /// The first few, and how many more: "a, b and 3 more".
 std::string listedShortly(const std::vector<std::string>& names, std::size_t most);
 
-/// "all 4 runs", "the one run"
+/// "all 4 runs", "both runs", "the one run"
 std::string allOf(std::size_t count, std::string_view noun);
 
 /// "is" or "are", "differs" or "differ": by how many there are.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -29,22 +30,26 @@ Names endpointsWith(const std::vector<const EndpointRow*>& rows, Answer answer) 
   return names;
 }
 
-/// "disagrees on pressure and coordination and agrees on 5 of 9"; of one pair.
+/// "disagreed on pressure, agreed on 6 of 9 endpoints and left 2 undecided"; of one pair.
 std::string relationOf(const std::vector<const EndpointRow*>& rows) {
   const Names disagree = endpointsWith(rows, Answer::disagree),
               borderline = endpointsWith(rows, Answer::borderline),
               undecided = endpointsWith(rows, Answer::undecided);
   const std::size_t agree = rows.size() - disagree.size() - borderline.size() - undecided.size();
-  if (agree == rows.size()) return "agreement on " + allOf(rows.size(), "endpoint");
+  // The first count says of how many.
+  const auto some = [&](std::size_t count, bool first) {
+    return count == rows.size() ? allOf(count, "endpoint")
+           : first              ? fmt::format("{} of {} endpoints", count, rows.size())
+                                : fmt::format("{}", count);
+  };
   Names parts;
-  if (!disagree.empty()) parts.push_back("disagreement on " + listedShortly(disagree, mostNames));
-  if (!borderline.empty()) parts.push_back("borderline on " + listedShortly(borderline, mostNames));
+  if (!disagree.empty()) parts.push_back("disagreed on " + listedShortly(disagree, mostNames));
+  if (!borderline.empty())
+    parts.push_back("came out borderline on " + listedShortly(borderline, mostNames));
+  if (agree > 0) parts.push_back("agreed on " + some(agree, true));
   if (!undecided.empty())
-    parts.push_back(agree + disagree.size() + borderline.size() == 0
-                        ? allOf(undecided.size(), "endpoint") + " undecided"
-                        : fmt::format("{} of {} undecided", undecided.size(), rows.size()));
-  if (agree > 0) parts.push_back(fmt::format("agreement on {} of {}", agree, rows.size()));
-  return fmt::format("{}", listed(parts));
+    parts.push_back(fmt::format("left {} undecided", some(undecided.size(), agree == 0)));
+  return listed(parts);
 }
 
 /// Who agrees with the reference on what.
@@ -55,10 +60,8 @@ std::string whoAgrees(const CompareResults& results, const Engines& engines) {
   if (said.empty()) return "No two engines could be compared.";
   Names parts;
   for (const auto& [relation, peers] : said.all())
-    parts.push_back(fmt::format("{}: {}", listed(peers), relation));
-  std::string words = fmt::format("Against {}, ", engines.front().name);
-  for (std::size_t k = 0; k < parts.size(); ++k) words += (k == 0 ? "" : "; ") + parts[k];
-  return words + ".";
+    parts.push_back(fmt::format("{} {}", listed(peers), relation));
+  return fmt::format("Against {}: {}.", engines.front().name, fmt::join(parts, "; "));
 }
 
 /// "normal" and "tangential" are laws; the others say what they are.

@@ -204,7 +204,7 @@ Overview compareOverview(const CompareResults& results) {
       {"averages against " + reference,
        "The endpoint that says most, as its distance from the reference in margins.",
        results.endpoints.rows.empty() ? "" : "agreement"},
-      {"CPU time per s", "CPU time for a simulated second.", "engines"},
+      {"CPU time per\u00a0s", "CPU time for a simulated second.", "engines"},
       {"packings lost", "Packings that the engine did not finish.", "packings"}};
   overview.states = {{CellState::bad, "disagrees, fell short or failed"}};
   for (const EngineRuns& engine : engineRuns(results))

@@ -21,6 +21,22 @@ constexpr std::size_t mostPlaces = 2;
 constexpr std::array answers = {CellState::bad, CellState::borderline, CellState::undecided,
                                 CellState::modelDifference, CellState::good};
 
+/// How many answers: "2 of 7 fall short".
+std::string_view verbOf(CellState state) {
+  switch (state) {
+    case CellState::bad:
+      return "fall short";
+    case CellState::borderline:
+      return "borderline";
+    case CellState::undecided:
+      return "undecided";
+    case CellState::modelDifference:
+      return "differ";
+    default:
+      return "hold";
+  }
+}
+
 /// Questions of a report that came out so for an engine.
 Names questionsWith(const Overview& overview, const OverviewRow& row, CellState state) {
   Names names;
@@ -39,8 +55,8 @@ OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const Overv
   const std::size_t reproduced = questionsWith(overview, row, CellState::good).size(),
                     refuted = questionsWith(overview, row, CellState::bad).size();
   cell.value = static_cast<double>(reproduced);
-  cell.shown = fmt::format("{} of {}", reproduced, reproduced + refuted);
-  cell.words = "decided claims reproduced";
+  cell.shown = fmt::format("{} of {} reproduced", reproduced, reproduced + refuted);
+  cell.words = "decided claims";
   return cell;
 }
 
@@ -63,7 +79,7 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
     if (names.empty()) continue;
     cell.state = state;
     cell.value = static_cast<double>(names.size());
-    cell.shown = fmt::format("{} of {}", names.size(), answered);
+    cell.shown = fmt::format("{} of {} {}", names.size(), answered, verbOf(state));
     if (state != CellState::good) cell.words = listedShortly(names, mostPlaces);
     break;
   }

@@ -108,7 +108,7 @@ OverviewCell cellOf(const FamilyTally& tally) {
     return cell;
   }
   cell.value = static_cast<double>(tally.stable);
-  cell.shown = fmt::format("{} of {} stable", tally.stable, tally.judged);
+  cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
   switch (tally.worst->verdict) {
     case StabilityVerdict::unstable:
       cell.state = CellState::bad;

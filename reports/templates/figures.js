@@ -226,26 +226,25 @@
   const block = figures.find((figure) => figure.data.panels.some((panel) => panel.curves.some((curve) => curve.each)))
     ?.image.closest('.figures');
   if (block) {
-    const tools = document.createElement('p'), button = document.createElement('button');
+    const tools = document.createElement('p');
     tools.className = 'tools';
-    button.type = 'button';
-    button.textContent = 'lines of each packing';
-    button.title = 'thin lines behind the means, in all plots that have them';
-    button.setAttribute('aria-pressed', 'false');
-    button.addEventListener('click', () => {
+    const each = button('lines of each packing', 'thin lines behind the means, in all plots that have them', () => {
       eachShown = !eachShown;
-      button.setAttribute('aria-pressed', String(eachShown));
+      each.setAttribute('aria-pressed', String(eachShown));
       update();
     });
-    tools.append(button);
+    each.setAttribute('aria-pressed', 'false');
+    tools.append(each);
     block.before(tools);
   }
 
   const legend = document.getElementById('legend');
   const entries = legend ? [...legend.querySelectorAll('span')] : [];
   const names = entries.map((entry) => entry.textContent);
-  const all = document.createElement('button');
-  all.textContent = 'show all';
+  const all = button('show all', 'brings back what is hidden', () => {
+    hidden.clear();
+    update();
+  });
   all.hidden = true;
 
   function update() {
@@ -269,10 +268,6 @@
       event.preventDefault();
       toggle(event.shiftKey);
     });
-  });
-  all.addEventListener('click', () => {
-    hidden.clear();
-    update();
   });
   if (legend) {
     legend.append(all);

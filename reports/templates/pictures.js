@@ -7,15 +7,6 @@
   const RESOLUTION = 1040;  // of a film [px]
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-  function button(text, title, act) {
-    const made = document.createElement('button');
-    made.type = 'button';
-    made.textContent = text;
-    made.title = title;
-    made.addEventListener('click', () => act(made));
-    return made;
-  }
-
   function slider(label, count, act) {
     const made = document.createElement('input');
     Object.assign(made, { type: 'range', min: 0, max: count - 1, value: 0 });

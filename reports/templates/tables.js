@@ -5,15 +5,6 @@
   const MANY = 12;  // rows from which on a filter pays
   const RAISED = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-  function button(text, title, act) {
-    const made = document.createElement('button');
-    made.type = 'button';
-    made.textContent = text;
-    made.title = title;
-    made.addEventListener('click', () => act(made));
-    return made;
-  }
-
   async function copy(text, from) {
     const said = from.textContent;
     try {

@@ -188,7 +188,7 @@ double volumeFractionOf(const Case& setup, const Scene& scene, bool madeUp) {
 }  // namespace
 
 json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
-                 const std::filesystem::path& scratch) {
+                 const std::filesystem::path& scratch, Progress& progress) {
   checkEngineSections(setup);
   if (setup.particles.file && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
@@ -218,9 +218,14 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   for (const Effect effect : allEffects)
     result[called.contains(effect) ? "effects" : "left_out"].push_back(toString(effect));
   result["engines"] = json::array();
-  for (const EngineEntry& entry : couette ? enginesFor(setup, names) : selectEngines(names)) {
+  const std::vector<EngineEntry> entries =
+      couette ? enginesFor(setup, names) : selectEngines(names);
+  progress.begin("asking engines", std::vector<double>(entries.size(), 1.0));
+  for (std::size_t k = 0; k < entries.size(); ++k) {
     throwIfInterrupted();
-    result["engines"].push_back(suitability(entry, setup, scene, timed && couette, scratch));
+    progress.update(k, entries[k].name, 0.0);
+    result["engines"].push_back(suitability(entries[k], setup, scene, timed && couette, scratch));
+    progress.finish(k, entries[k].name);
   }
   if (setup.average) {
     result["endpoints"] = marginsOf(endpointsOf(setup), setup.averaging.endpoints, "endpoint");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
+#include "runs/common/progress.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -18,6 +19,6 @@ namespace crossgrain::inline runs {
 ///          case also cell figures and predictions (runs/README.md)
 /// @throws BadInput, also for a time step beyond the limit of a case that compare would refuse
 nlohmann::json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
-                           const std::filesystem::path& scratch);
+                           const std::filesystem::path& scratch, Progress& progress);
 
 }  // namespace crossgrain::inline runs

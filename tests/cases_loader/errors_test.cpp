@@ -221,6 +221,12 @@ TEST_F(LoaderErrors, Files) {
   write("a.toml", "[case]\nextends = \"none.toml\"\n");
   EXPECT_EQ(messageOf("a.toml"),
             "a.toml:2:11: case.extends = \"none.toml\": no such file (looked for none.toml)");
+  write("a.toml", "extends = \"none.toml\"\n");
+  EXPECT_EQ(messageOf("a.toml"), "a.toml:1:11: unknown key extends (did you mean case.extends?)");
+  write("a.toml", "[case]\nname = \"a\"\n[zzzzzz]\n");
+  const std::string listed = messageOf("a.toml");
+  ASSERT_NE(listed.find("preparation"), std::string::npos) << listed;
+  EXPECT_EQ(listed.find("preparation"), listed.rfind("preparation")) << "each key once: " << listed;
   write("a.toml", "[case]\nextends = 3\n");
   EXPECT_EQ(messageOf("a.toml"), "a.toml:2:11: case.extends: must be the path of a case file");
   write("a b.toml", soundCase);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/reports/sample_common.hpp"
@@ -103,6 +104,31 @@ CollideResults collideResults() {
   failed.reason = "worker hung <120 s>";
   results.orders = {order("grain", {2.003, 0.012}, {{"4.36e-05", 0.0024}, {"2.18e-06", 6e-6}}),
                     order("yade", {1.01, {}}, {{"4.36e-05", 0.012}})};
+  return results;
+}
+
+CollideResults manyCollideResults() {
+  CollideResults results = collideResults();
+  results.engines.pop_back();  // its name alone is a sentence
+  const std::vector<EngineRow> engines = results.engines;
+  const std::array again = {"-2", "-3"};
+  for (const std::string more : again)
+    for (EngineRow engine : engines) {
+      engine.name += more;
+      results.engines.push_back(engine);
+    }
+  for (CollisionVariant& variant : results.variants) {
+    for (CollisionCurve& curve : variant.curves)
+      for (const QuantityId id : {QuantityId::en, QuantityId::spinI, QuantityId::duration,
+                                  QuantityId::maxOverlap, QuantityId::energyLost})
+        curve.score.of[id] = curve.score.of[QuantityId::psiF];
+    const std::vector<CollisionCurve> curves = variant.curves;
+    for (const std::string more : again)
+      for (CollisionCurve curve : curves) {
+        curve.engine += more;
+        variant.curves.push_back(curve);
+      }
+  }
   return results;
 }
 

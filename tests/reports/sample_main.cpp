@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   crossgrain::writeReport(compared, dir / "compare");
   crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");
+  crossgrain::writeReport(crossgrain::sample::manyCollideResults(), dir / "collide-many");
   crossgrain::writeReport(crossgrain::sample::lockstepResults(), dir / "lockstep");
   crossgrain::writeReport(crossgrain::sample::effectsResults(4), dir / "effects");
   crossgrain::writeReport(crossgrain::sample::stabilityResults(), dir / "stability");

@@ -33,6 +33,9 @@ RevResults revResults();
 /// Two laws, several time steps, a sweep without points.
 CollideResults collideResults();
 
+/// The same on nine engines, with an answer to every question.
+CollideResults manyCollideResults();
+
 /// One engine whose friction changes one ring of one field, whose bottom friction changes nothing,
 /// and which refuses a third switch.
 EffectsResults effectsResults(int packings);

@@ -48,14 +48,14 @@ TEST(SiteOverview, TellsTheGravestAnswerOfEachReport) {
   ASSERT_EQ(overview.rows.size(), 3u);
   const std::vector<OverviewCell>& ours = overview.rows[0].cells;
   EXPECT_EQ(ours[0].state, bad);
-  EXPECT_EQ(ours[0].shown, "1 of 2");
+  EXPECT_EQ(ours[0].shown, "1 of 2 fall short");
   EXPECT_EQ(ours[0].words, "spin");
   EXPECT_EQ(ours[1].state, undecided);
   EXPECT_EQ(ours[2].state, good);
-  EXPECT_EQ(ours[2].shown, "1 of 1");
+  EXPECT_EQ(ours[2].shown, "1 of 1 hold");
   // A refuted claim is a finding about the thesis.
   EXPECT_EQ(ours[3].state, figure);
-  EXPECT_EQ(ours[3].shown, "1 of 2");
+  EXPECT_EQ(ours[3].shown, "1 of 2 reproduced");
   // It took part, and no row is its.
   EXPECT_EQ(overview.rows[1].cells[0].state, figure);
   EXPECT_EQ(overview.conclusion,

@@ -77,6 +77,21 @@ class Help(SystemTest):
                     self.assert_one_error(done, BAD_INPUT, "taken")
 
 
+    def test_examples_follow_upon_each_other(self):
+        """Whoever runs one after the other finds no folder taken by another command, and what an example reads was left by one."""
+        left, read = {}, []
+        for command in commands_of(self):
+            for example in re.findall(r"(?m)^  crossgrain (.*)$", self.run_program(command, "--help").stdout):
+                words = shlex.split(example, comments=True)
+                for option, place in zip(words, words[1:]):
+                    if option in ("--out", "--slurm"):
+                        self.assertEqual(command, left.setdefault(place, command), place)
+                    elif place.startswith("out/"):
+                        read.append(place)
+        self.assertIn("out/compare", left)
+        self.assertEqual([], [place for place in read if not any(place.startswith(one) for one in left)])
+
+
 class Mistakes(SystemTest):
     def refuse(self, arguments, *fragments):
         self.assert_one_line(self.run_program(*arguments), BAD_INPUT, *fragments)

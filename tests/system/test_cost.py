@@ -165,7 +165,7 @@ class BadInput(CostTest):
     def test_one_line_each(self):
         for name, arguments, told in (
             ("engine", ([], {"engines": "grian"}), "did you mean grain?"),
-            ("case", ([], {"case": COLLISION}), "cost cannot run a case of this kind"),
+            ("case", ([], {"case": COLLISION}), "cost cannot run a case of this kind; crossgrain collide can"),
             ("budget", (["--budget=soon"], {}), "must be like 90s"),
             ("want", (["--want=-1%"], {}), "must be like 1%"),
             ("setting", (["--set=cost.settings.grain.skim=[1]"], {}), "did you mean skin?"),

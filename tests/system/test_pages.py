@@ -48,7 +48,7 @@ function look(frame) {
   const doc = frame.contentDocument, view = frame.contentWindow, root = doc.documentElement;
   const found = {name: frame.dataset.name, width: +frame.dataset.width,
                  overflow: root.scrollWidth - root.clientWidth,
-                 paper: view.getComputedStyle(doc.body).backgroundColor, small: [], faint: [], cut: [], plots: []};
+                 paper: view.getComputedStyle(doc.body).backgroundColor, small: [], faint: [], cut: [], told: 0, short: [], matrixCut: 0, plots: []};
   for (const details of doc.querySelectorAll('details')) details.open = false;
   const matrix = doc.querySelector('table.overview');
   found.matrixEnds = matrix ? matrix.getBoundingClientRect().bottom + view.scrollY : null;
@@ -67,6 +67,12 @@ function look(frame) {
   for (const table of doc.querySelectorAll('table')) {
     const box = table.closest('.scroll');
     if (!box || box.getBoundingClientRect().right > root.clientWidth + 1) found.cut.push(table.className || 'table');
+  }
+  if (matrix) found.matrixCut = matrix.parentElement.scrollWidth - matrix.parentElement.clientWidth;
+  for (const words of doc.querySelectorAll('.overview small')) {
+    ++found.told;  // what hangs below a line is no line
+    if (words.scrollHeight > words.clientHeight + 8 || words.scrollWidth > words.clientWidth + 2)
+      found.short.push(words.textContent);
   }
   for (const image of doc.querySelectorAll('img')) {
     const svg = decodeURIComponent(image.src.slice(image.src.indexOf(',') + 1));
@@ -308,10 +314,17 @@ class Pages(unittest.TestCase):
     def test_the_matrix_needs_no_scrolling(self):
         def check(one):
             self.assertIsNotNone(one["matrixEnds"])
+            self.assertLessEqual(one["matrixCut"], 0, "nor at the side")
             if one["width"] == 1280:
                 self.assertLess(one["matrixEnds"], HEIGHT)
 
         self.each(self.light, check)
+
+    def test_small_words_of_the_matrix_are_told_in_full(self):
+        self.each(self.light, lambda one: self.assertEqual(one["short"], []))
+        many = [one["told"] for one in self.light if one["name"] == "collide-many"]
+        self.assertEqual(len(many), len(WIDTHS))
+        self.assertGreater(min(many), 36, "of nine engines, too")
 
     def test_words_stand_out_light_and_dark(self):
         few = {name: self.reports[name] for name in ("compare", "cost", "stability", "thesis", "site")}
