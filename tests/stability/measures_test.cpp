@@ -128,6 +128,8 @@ TEST(StabilityMeasures, MomentumIsThatBeyondGravity) {
   EXPECT_NEAR(at.last("momentum_drift"), 0.25, 1e-12);
   at.run.scene.gravity = {0.25, 0.0};  // M g t = 1
   EXPECT_NEAR(at.last("momentum_drift"), 0.0, 1e-12);
+  at.look(2.0, {0, 0}, {8, 0}, {1.0, 0.0}, {0.0, 0.0});  // Δp = 2 = M g t
+  EXPECT_NEAR(at.last("momentum_drift"), 0.0, 1e-12);
 }
 
 TEST(StabilityMeasures, AngularMomentumIsAboutTheMovingCentre) {
