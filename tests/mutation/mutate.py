@@ -28,15 +28,18 @@ class Records:
     """One line for each mutant that was judged; the last one of the same place counts."""
 
     def __init__(self, path):
-        self.path, self.by_key = path, {}
+        self.path, self.by_key, self.at_first = path, {}, {}
         for line in path.read_text().splitlines() if path.exists() else []:
             record = json.loads(line)
             self.by_key[tuple(record["key"])] = record
+            if tuple(record["key"]) not in self.at_first:
+                self.at_first[tuple(record["key"])] = record["result"]
 
     def add(self, mutant, drawn, result, killed_by, seconds):
         record = {"key": mutant.key, **dataclasses.asdict(mutant), "drawn": drawn, "result": result, "killed_by": killed_by,
                   "seconds": round(seconds, 1)}
         self.by_key[mutant.key] = record
+        self.at_first.setdefault(mutant.key, result)
         with self.path.open("a") as file:
             file.write(json.dumps(record) + "\n")
 
@@ -54,36 +57,62 @@ def once_survived():
     return found
 
 
-def publish(records, folder):
-    """mutation.csv, and what the README says of it."""
+results = ("killed", "lived", "open", "equivalent")
+heading = "## Mutants of the project's own code\n"
+words = """
+One operator made wrong at a time, drawn by a seed folder by folder, and the project's tests asked, without `tests/system` and benchmarks ([tests/mutation](../../../tests/mutation/README.md)).
+*Open*: the tests of its own folder let it live, those of the others were not asked. *Equivalent*: no other program, with the reason in `survivors.toml`. `mutation.csv` has each with
+the test that killed it and the seconds until then. *At first*: before tests were written for what had lived. Mutants that had lived in an earlier trial were not drawn and are not in the table: {others}.
+
+"""
+
+
+def rows_of(records):
     judged = once_survived()
     rows = []
     for key, record in records.by_key.items():
         result = record["result"]
         if result == "does not compile":
             continue
-        entry = judged[key][1] if key in judged else {}
-        if result in ("lived", "open") and entry.get("equivalent"):
+        if result in ("lived", "open") and key in judged and judged[key][1].get("equivalent"):
             result = "equivalent"
         rows.append({"file": record["file"], "line": record["line"], "operator": record["operator"],
                      "change": f"{record['before']} → {record['after'] or 'nothing'}", "drawn": "yes" if record["drawn"] else "no",
-                     "result": result, "killed_by": record["killed_by"], "seconds": record["seconds"], "code": record["text"].strip()})
-    rows.sort(key=lambda row: (row["file"], row["line"], row["change"]))
+                     "result": result, "at_first": records.at_first[key], "killed_by": record["killed_by"], "seconds": record["seconds"], "code": record["text"].strip()})
+    return sorted(rows, key=lambda row: (row["file"], row["line"], row["change"]))
+
+
+def section(rows):
+    """A line for each folder and one for all, of those drawn by the seed."""
+    table = [["folder", "mutants", *results, "killed of those that are another program", "at first"], ["---"] * 8]
+    drawn = [row for row in rows if row["drawn"] == "yes"]
+    for folder in [*mutants.folders, "all"]:
+        of_folder = [row for row in drawn if folder in ("all", mutants.folder_of(row["file"]))]
+        now = [row["result"] for row in of_folder]
+        others = len(now) - now.count("equivalent")
+
+        def rate(killed, others=others):
+            return f"{100 * killed / others:.0f} %" if others else "–"
+
+        first = sum(row["at_first"] == "killed" for row in of_folder)
+        table.append([folder, len(now), *map(now.count, results), rate(now.count("killed")), rate(first)])
+    chosen = [row["result"] for row in rows if row["drawn"] == "no"]
+    others = ", ".join(f"{chosen.count(result)} {result}" for result in results if result in chosen) or "none"
+    return heading + words.format(others=others) + "".join("| " + " | ".join(map(str, line)) + " |\n" for line in table)
+
+
+def publish(records, folder):
+    """mutation.csv, and the section of the README beside it."""
+    rows = rows_of(records)
     with (folder / "mutation.csv").open("w", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    print(summary(rows))
-
-
-def summary(rows):
-    """How many are killed: of those drawn by the seed, since others were chosen for having lived."""
-    drawn = [row for row in rows if row["drawn"] == "yes"]
-    count = {result: sum(row["result"] == result for row in drawn) for result in ("killed", "equivalent", "lived", "open")}
-    telling = len(drawn) - count["equivalent"]
-    rate = f": {100 * count['killed'] / telling:.0f} % of those that change anything" if telling else ""
-    return (f"{count['killed']} of {len(drawn)} killed, {count['equivalent']} equivalent, {count['lived']} lived, "
-            f"{count['open']} lived their own folder's tests and were not asked further{rate}")
+    page = folder / "README.md"
+    text = page.read_text() if page.exists() else ""
+    before, _, after = text.partition("\n" + heading)
+    rest = after[after.index("\n## ") :] if "\n## " in after else ""
+    page.write_text(before.rstrip("\n") + "\n\n" + section(rows) + rest)
 
 
 def main():
