@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparer.hpp"

@@ -1,19 +1,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cases/case_files.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "cli/units.hpp"
 #include "reports/report.hpp"
 #include "reports/stability/overview.hpp"
 #include "results/json_fields.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/stability/stability.hpp"
+#include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -33,17 +37,18 @@ void printVerdict(const StabilityRun& run) {
              figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
 }
 
-/// One line for each engine and reason: nobody reads forty of them.
-void printRefusals(const std::vector<StabilityRun>& runs) {
+/// One line for each engine and reason of what was not judged: nobody reads forty of them.
+void printUnjudged(const std::vector<StabilityRun>& runs, StabilityVerdict verdict,
+                   const char* word) {
   std::map<std::pair<std::string, std::string>, int> count;
   for (const StabilityRun& run : runs)
-    if (run.verdict == StabilityVerdict::refused) ++count[{run.engine, run.reason}];
+    if (run.verdict == verdict) ++count[{run.engine, run.reason}];
   for (const auto& [what, times] : count)
-    fmt::print("refused   {:<16} {} run{}: {}\n", what.first, times, times == 1 ? "" : "s",
+    fmt::print("{:<9} {:<16} {} run{}: {}\n", word, what.first, times, times == 1 ? "" : "s",
                what.second);
 }
 
-int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
+int stability(const CommandLine& line, SuitePart part, SuiteAsks asks, double budget) {
   std::vector<fs::path> inputs = line.inputs;
   if (inputs.empty()) inputs.push_back(hereOrInstalled("cases/hard"));
   std::vector<Case> cases = asks == SuiteAsks::transforms ? casesToTransform(inputs, line.overrides)
@@ -52,7 +57,7 @@ int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
   RunStore store(line.run, "stability", keysOfEach(cases));
   const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
   if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store, asks));
-  const StabilityResults results = testStability(cases, engines, line.run, store, asks);
+  const StabilityResults results = testStability(cases, engines, line.run, store, asks, budget);
   writeReport(results, line.run.out);
 
   const std::vector<StabilityRun>& runs = results.runs;
@@ -60,15 +65,17 @@ int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
     return std::ranges::count(runs, verdict, &StabilityRun::verdict);
   };
   const auto unstable = count(StabilityVerdict::unstable);
-  const auto refused = count(StabilityVerdict::refused);
+  const auto refused = count(StabilityVerdict::refused), notRun = count(StabilityVerdict::notRun);
   if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
   } else {
     for (const StabilityRun& run : runs)
       if (run.verdict > StabilityVerdict::stable) printVerdict(run);
-    printRefusals(runs);
-    fmt::print("{} stable, {} degraded, {} unstable, {} refused\n", count(StabilityVerdict::stable),
-               count(StabilityVerdict::degraded), unstable, refused);
+    printUnjudged(runs, StabilityVerdict::refused, "refused");
+    printUnjudged(runs, StabilityVerdict::notRun, "not run");
+    fmt::print("{} stable, {} degraded, {} unstable, {} refused{}\n",
+               count(StabilityVerdict::stable), count(StabilityVerdict::degraded), unstable,
+               refused, notRun == 0 ? "" : fmt::format(", {} not run", notRun));
     printOverview(reports::stabilityOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
     if (!line.run.quiet) printTimeSpent();
@@ -76,12 +83,15 @@ int stability(const CommandLine& line, SuitePart part, SuiteAsks asks) {
   if (refused == std::ssize(runs))
     return nothingWasJudged(
         line, fmt::format("all runs were refused, the first because it {}", runs.front().reason));
+  if (refused + notRun == std::ssize(runs))
+    return nothingWasJudged(line, "the budget ended before any run could be judged");
   return unstable > 0 ? exitFellShort : exitHeld;
 }
 
 Action declareStability(CLI::App& app, CommandLine& line) {
   const auto longCases = std::make_shared<bool>(false);
   const auto transforms = std::make_shared<bool>(false);
+  const auto budget = std::make_shared<std::optional<std::string>>();
   addInputs(app, line, "case", "case files or folders of them (default: cases/hard)", 0, anyNumber);
   addSelection(app, line);
   addRun(app, line);
@@ -91,15 +101,20 @@ Action declareStability(CLI::App& app, CommandLine& line) {
       app, "--transforms", *transforms,
       "whether any case, turned, mirrored, told in other units, renumbered, restarted and in one "
       "go, does the same");
+  addText(app, "--budget", *budget,
+          "of --transforms: no run begins that would end later, e.g. 90s, 10m, 1h (default: none)",
+          "TIME");
   excludeEachOther(app, "--quick", "--long");
   excludeEachOther(app, "--transforms", "--quick");
   excludeEachOther(app, "--transforms", "--long");
-  return [&line, longCases, transforms] {
+  return [&line, longCases, transforms, budget] {
     const SuitePart part = line.quick   ? SuitePart::quick
                            : *longCases ? SuitePart::withLong
                                         : SuitePart::usual;
     const SuiteAsks asks = *transforms ? SuiteAsks::transforms : SuiteAsks::limits;
-    return resumably(line.run, [&] { return stability(line, part, asks); });
+    if (*budget && !*transforms) throw BadInput("--budget: goes with --transforms only");
+    const double seconds = *budget ? secondsOf(**budget) : std::numeric_limits<double>::infinity();
+    return resumably(line.run, [&] { return stability(line, part, asks, seconds); });
   };
 }
 
@@ -111,7 +126,9 @@ extern const Command stabilityCommand = {
     "crossgrain stability -k pile --engines grain --out out/pile\n"
     "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out/piles\n"
     "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out "
-    "out/told",
+    "out/told\n"
+    "crossgrain stability --transforms --budget 10m cases/couette/quick.toml --engines all --out "
+    "out/brief",
     declareStability};
 
 }  // namespace crossgrain::inline cli

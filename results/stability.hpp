@@ -29,9 +29,9 @@ struct HardCase {
 };
 
 /// How far a run came.
-enum class HardRunStatus { finished, failed, refused };
+enum class HardRunStatus { finished, failed, refused, notRun };
 constexpr auto namesOf(HardRunStatus) {
-  return std::array<std::string_view, 3>{"finished", "failed", "refused"};
+  return std::array<std::string_view, 4>{"finished", "failed", "refused", "not_run"};
 }
 
 /// A measure over time.

@@ -12,13 +12,19 @@ namespace crossgrain::inline stability {
 
 /// What is said of an engine in a hard case, from best to worst.
 enum class StabilityVerdict {
+  notRun,   ///< nothing: there was no time
   refused,  ///< nothing: it lacks what the case calls for, or does not show what the measure takes
   stable,
   degraded,
   unstable  ///< also where it died, hung or returned what is no number
 };
 constexpr auto namesOf(StabilityVerdict) {
-  return std::array<std::string_view, 4>{"refused", "stable", "degraded", "unstable"};
+  return std::array<std::string_view, 5>{"not_run", "refused", "stable", "degraded", "unstable"};
+}
+
+/// Whether it says anything of the engine.
+constexpr bool isJudged(StabilityVerdict verdict) {
+  return verdict >= StabilityVerdict::stable;
 }
 
 /// What a hard case's figure says.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <regex>
 #include <stdexcept>
 #include <utility>
@@ -57,6 +58,12 @@ OutputError notWritten(const std::filesystem::path& file) {
   if (std::smatch found; std::regex_search(reason, found, told))
     return OutputError(file, std::stoi(found[1]));
   return OutputError(file, reason.empty() ? "HDF5 does not say why" : "HDF5: " + reason);
+}
+
+/// Whether there is room for one value where HDF5 would write as many as a damaged file claims.
+bool isOneValue(hid_t attribute) {
+  const Handle space(H5Aget_space(attribute));
+  return H5Sget_simple_extent_npoints(space) == 1;
 }
 
 std::unique_lock<std::mutex> lockLibrary() {
@@ -204,7 +211,8 @@ std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
   if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
   const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
   double value = 0.0;
-  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0) return std::nullopt;
+  if (!isOneValue(attribute) || H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+    fail(name_, name + " is not one number");
   return value;
 }
 
@@ -212,9 +220,20 @@ std::optional<std::string> Hdf5File::readTextAttribute(const std::string& name) 
   if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
   const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
   const Handle type(H5Aget_type(attribute));
+  if (!isOneValue(attribute) || H5Tget_class(type) != H5T_STRING)
+    fail(name_, name + " is not one text");
+  if (H5Tis_variable_str(type) > 0) {  // as Python writes it: HDF5 makes the room
+    char* text = nullptr;
+    if (H5Aread(attribute, type, &text) < 0 || !text) fail(name_, name + " cannot be read");
+    const std::string copy = text;
+    H5free_memory(text);
+    return copy;
+  }
+  constexpr std::size_t most = 1 << 16;  // a damaged file may claim gigabytes
+  if (H5Tget_size(type) > most) fail(name_, name + " is damaged");
   std::string value(H5Tget_size(type), '\0');
-  if (H5Aread(attribute, type, value.data()) < 0) return std::nullopt;
-  value.resize(std::char_traits<char>::length(value.c_str()));
+  if (H5Aread(attribute, type, value.data()) < 0) fail(name_, name + " cannot be read");
+  value.resize(std::min(value.find('\0'), value.size()));
   return value;
 }
 

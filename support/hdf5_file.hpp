@@ -46,6 +46,8 @@ class Hdf5File {
   std::optional<std::size_t> length(const std::string& path) const;
   /// The whole array, row by row; absent if the file has none of that name.
   std::optional<std::vector<double>> read(const std::string& path) const;
+  /// One value; absent if the file has none of that name. @throws std::runtime_error for another
+  /// kind of thing under that name
   std::optional<double> readAttribute(const std::string& name) const;
   std::optional<std::string> readTextAttribute(const std::string& name) const;
 

@@ -28,6 +28,7 @@ Outcome outcomeOf(const StabilityRun& run) {
   switch (run.verdict) {
     case StabilityVerdict::unstable:
       return Outcome::failed;
+    case StabilityVerdict::notRun:
     case StabilityVerdict::refused:
       return Outcome::skipped;
     default:

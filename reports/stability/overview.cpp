@@ -73,7 +73,7 @@ std::vector<NamedFamily> familiesOf(const StabilityResults& results) {
 
 /// How an engine came through the cases of one family.
 struct FamilyTally {
-  std::size_t stable = 0, judged = 0, refused = 0;
+  std::size_t stable = 0, judged = 0, refused = 0, notRun = 0;
   const StabilityRun* worst = nullptr;
   std::string anchor, refusal;
 };
@@ -87,10 +87,9 @@ FamilyTally tallyOf(const StabilityResults& results, const std::string& engine,
       if (familyOf(variant->measure) != family) continue;
       const StabilityRun* run = runOf(results, engine, *variant);
       if (!run) continue;
-      if (run->verdict == StabilityVerdict::refused) {
-        ++tally.refused;
-        continue;
-      }
+      tally.refused += run->verdict == StabilityVerdict::refused;
+      tally.notRun += run->verdict == StabilityVerdict::notRun;
+      if (!isJudged(run->verdict)) continue;
       ++tally.judged;
       tally.stable += run->verdict == StabilityVerdict::stable;
       if (!tally.worst || isWorse(*run, *tally.worst)) {
@@ -104,11 +103,12 @@ FamilyTally tallyOf(const StabilityResults& results, const std::string& engine,
 OverviewCell cellOf(const FamilyTally& tally) {
   OverviewCell cell{CellState::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
   if (!tally.worst) {
-    if (tally.refused > 0) cell.state = CellState::notApplicable;
+    if (tally.refused > 0 && tally.notRun == 0) cell.state = CellState::notApplicable;
     return cell;
   }
   cell.value = static_cast<double>(tally.stable);
   cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
+  if (tally.notRun > 0) cell.words = fmt::format("{} not run", tally.notRun);
   switch (tally.worst->verdict) {
     case StabilityVerdict::unstable:
       cell.state = CellState::bad;
@@ -128,18 +128,21 @@ std::string whoIsStable(const StabilityResults& results) {
   const char* const same = told ? "the same" : "stable";
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
-    std::size_t stable = 0, degraded = 0, unstable = 0;
+    std::size_t stable = 0, degraded = 0, unstable = 0, notRun = 0;
     for (const StabilityRun& run : results.runs) {
       if (run.engine != engine.name) continue;
       stable += run.verdict == StabilityVerdict::stable;
       degraded += run.verdict == StabilityVerdict::degraded;
       unstable += run.verdict == StabilityVerdict::unstable;
+      notRun += run.verdict == StabilityVerdict::notRun;
     }
     const std::size_t judged = stable + degraded + unstable;
-    said.add(engine.name, judged == 0 ? "nothing could be judged"
-                          : stable == judged
-                              ? fmt::format("{} {}", allOf(judged, "run"), same)
-                              : fmt::format("{} of {} runs {}", stable, judged, same));
+    const std::size_t all = judged + notRun;
+    said.add(engine.name,
+             judged == 0     ? "nothing could be judged"
+             : stable == all ? fmt::format("{} {}", allOf(judged, "run"), same)
+                             : fmt::format("{} of {} runs {}{}", stable, all, same,
+                                           notRun == 0 ? "" : fmt::format(", {} not run", notRun)));
   }
   std::string sentence;
   for (const auto& [words, engines] : said.all())
@@ -190,6 +193,8 @@ std::string nextStep(const StabilityResults& results) {
     if (has(StabilityVerdict::unstable))
       return "Next: see after which step and by how much; what follows from how a scene is told is "
              "the engine's and not the scene's.";
+    if (has(StabilityVerdict::notRun))
+      return "Next: the same command with a larger --budget, for what was not run.";
     if (has(StabilityVerdict::stable))
       return "However these cases were told, no more than rounding came of it.";
   }

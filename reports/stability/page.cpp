@@ -64,7 +64,7 @@ std::string tallyOf(const StabilityResults& results, const std::string& engine,
   for (const HardCase* variant : group.variants)
     if (const StabilityRun* run = runOf(results, engine, *variant)) {
       stable += run->verdict == StabilityVerdict::stable;
-      judged += run->verdict != StabilityVerdict::refused;
+      judged += isJudged(run->verdict);
     }
   return judged > 1 ? fmt::format("{} of {} stable", stable, judged) : std::string();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reports/common/csv_row.hpp"
+#include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
@@ -13,7 +14,7 @@
 namespace crossgrain::reports {
 
 std::string inWords(StabilityVerdict verdict) {
-  return fmt::format("{} {}", styleOf(verdict).mark, nameOf(verdict));
+  return fmt::format("{} {}", styleOf(verdict).mark, spaced(std::string(nameOf(verdict))));
 }
 
 std::vector<HardGroup> hardGroups(const StabilityResults& results) {

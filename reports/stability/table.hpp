@@ -16,7 +16,8 @@ struct VerdictStyle {
   std::string_view mark, cssClass, colour;
 };
 constexpr VerdictStyle styleOf(StabilityVerdict verdict) {
-  constexpr std::array styles = {VerdictStyle{"–", "undecided", "#d5d9dd"},  // refused
+  constexpr std::array styles = {VerdictStyle{"○", "undecided", "#f2f4f5"},  // not run
+                                 VerdictStyle{"–", "undecided", "#d5d9dd"},  // refused
                                  VerdictStyle{"✓", "agree", "#8cc3e0"},
                                  VerdictStyle{"~", "degraded", "#f0d264"},
                                  VerdictStyle{"✗", "disagree", "#d55e00"}};

@@ -25,7 +25,11 @@ Hdf5File opened(const std::filesystem::path& file) {
 SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& setup)
     : name_(file), file_(opened(file)), engine_(file.stem().string()) {
   readScene(setup);
-  if (const auto engine = file_.readTextAttribute("engine")) engine_ = *engine;
+  try {
+    if (const auto engine = file_.readTextAttribute("engine")) engine_ = *engine;
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
   while (file_.holds(snapshotGroup(count_) + "/position")) ++count_;
   if (count_ == 0) fail(fmt::format("there is no {}/position in it", snapshotGroup(0)));
 }

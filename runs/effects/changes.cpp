@@ -22,9 +22,10 @@ struct TestedField {
   std::vector<TestedChange> rings;
 };
 
-/// The two runs' own errors together, where one packing is all there is.
+/// The two runs' own errors together, where one packing is all there is. Both have a place for each
+/// packing.
 std::optional<double> combined(const Numbers& one, const Numbers& other) {
-  for (std::size_t k = 0; k < one.size() && k < other.size(); ++k)
+  for (std::size_t k = 0; k < one.size(); ++k)
     if (one[k] && other[k]) return std::hypot(*one[k], *other[k]);
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "runs/lockstep/rules.hpp"
 #include "support/interrupt.hpp"
@@ -98,10 +99,13 @@ LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
 }
 
 std::vector<LockstepFrame> follow(Engine& engine, double dt,
-                                  const std::vector<std::uint64_t>& steps, ContactReport contacts) {
+                                  const std::vector<std::uint64_t>& steps, ContactReport contacts,
+                                  const std::function<void(std::uint64_t, std::uint64_t)>& before) {
   std::vector<LockstepFrame> frames;
+  std::uint64_t done = 0;
   for (const std::uint64_t step : steps) {
     throwIfInterrupted();
+    if (before) before(std::exchange(done, step), step);
     takeTo(engine, step, dt);
     frames.push_back(frameOf(engine.snapshot(contacts)));
     requireFinite(frames.back());

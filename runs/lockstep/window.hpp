@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -43,9 +44,11 @@ LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
                           const std::vector<std::uint64_t>& steps, bool contacts);
 
 /// One alone, loaded and not yet advanced, up to the last of the steps.
+/// @param before  called before each look, with the steps done and those of the look; may throw
 /// @throws EngineFailure, Interrupted
-std::vector<LockstepFrame> follow(Engine& engine, double dt,
-                                  const std::vector<std::uint64_t>& steps,
-                                  ContactReport contacts = ContactReport::none);
+std::vector<LockstepFrame> follow(
+    Engine& engine, double dt, const std::vector<std::uint64_t>& steps,
+    ContactReport contacts = ContactReport::none,
+    const std::function<void(std::uint64_t, std::uint64_t)>& before = {});
 
 }  // namespace crossgrain::inline runs

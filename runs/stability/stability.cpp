@@ -83,7 +83,7 @@ namespace {
 class Suite {
  public:
   Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command,
-        RunStore& store, SuiteAsks asks)
+        RunStore& store, SuiteAsks asks, double budget = std::numeric_limits<double>::infinity())
       : cases_(cases),
         asks_(asks),
         command_(command),
@@ -92,7 +92,8 @@ class Suite {
         progress_(command.quiet),
         packings_(cases.size()),
         unprepared_(cases.size()),
-        versions_(engines_.size()) {
+        versions_(engines_.size()),
+        budget_(budget, cases.size() * engines_.size(), command.jobs) {
     for (const Case& setup : cases) checkEngineSections(setup);
     for (const EngineEntry& entry : engines_)
       if (entry.missing && !entry.missing().empty())
@@ -207,30 +208,32 @@ class Suite {
     return doOrTakeUp(tasks, store_, progress_, stage, command_.jobs);
   }
 
-  static KeptTask<StabilityRun>::Outcome done(const StabilityTask& task,
-                                              const std::function<void(double)>& progress,
-                                              StabilityRun* /*of*/) {
+  KeptTask<StabilityRun>::Outcome done(const StabilityTask& task,
+                                       const std::function<void(double)>& progress,
+                                       StabilityRun* /*of*/) {
     StabilityRun run = runStability(task, progress);
     const std::string verdict(nameOf(run.verdict));
     const bool finished = run.status != HardRunStatus::failed;
     return {std::move(run), finished, verdict};
   }
 
-  static KeptTask<TransformRows>::Outcome done(const StabilityTask& task,
-                                               const std::function<void(double)>& progress,
-                                               TransformRows* /*of*/) {
-    TransformRows all{runTransforms(task, progress)};
+  KeptTask<TransformRows>::Outcome done(const StabilityTask& task,
+                                        const std::function<void(double)>& progress,
+                                        TransformRows* /*of*/) {
+    TransformRows all{runTransforms(task, budget_.next(), progress)};
     const auto count = [&](auto member, auto value) {
       return std::ranges::count(all.rows, value, member);
     };
     const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
-    const bool finished = count(&StabilityRun::status, HardRunStatus::failed) == 0;
+    const auto late = count(&StabilityRun::status, HardRunStatus::notRun);
+    const bool finished = late + count(&StabilityRun::status, HardRunStatus::failed) == 0;
     return {std::move(all), finished,
-            broken == 0 ? "nothing breaks" : fmt::format("{} break", broken)};
+            fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
+                        late == 0 ? "" : fmt::format(", {} not run", late))};
   }
 
   template <typename Result>
-  KeptTask<Result> taskOf(std::size_t c, std::size_t e) const {
+  KeptTask<Result> taskOf(std::size_t c, std::size_t e) {
     const Case& setup = cases_[c];
     const EngineEntry& entry = engines_[e];
     KeptTask<Result> task;
@@ -248,6 +251,8 @@ class Suite {
     else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
       task.key["held against"] = original.variant;
     task.weight = predicted(setup, entry);
+    // What is over soon leaves its part to the others.
+    if (asks_ == SuiteAsks::transforms) task.priority = -task.weight;
     task.work = [this, &setup, &original, &entry, c,
                  name = task.name](const std::function<void(double)>& progress) {
       return done({&setup, &original, entry, &packings_[c], store_.scratch(name), unprepared_[c]},
@@ -274,15 +279,17 @@ class Suite {
   std::vector<Packing> packings_;        ///< of Couette cases
   std::vector<std::string> unprepared_;  ///< why they have none
   std::vector<std::string> versions_;
+  TimeBudget budget_;
   std::vector<StabilityRun> runs_;  ///< case by case, engine by engine
 };
 
 }  // namespace
 
 StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                               const RunCommand& command, RunStore& store, SuiteAsks asks) {
+                               const RunCommand& command, RunStore& store, SuiteAsks asks,
+                               double budget) {
   const auto started = std::chrono::steady_clock::now();
-  Suite suite(cases, std::move(engines), command, store, asks);
+  Suite suite(cases, std::move(engines), command, store, asks, budget);
   suite.askVersions();
   suite.preparePackings();
   suite.run();

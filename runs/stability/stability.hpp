@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,13 @@ enum class SuiteAsks {
 
 /// Runs every hard case on every engine, each in a worker of its own. Finished runs are kept in the
 /// store at once.
+/// @param budget  of transforms: what would end later than this after the command began is not run
+///                [s]; TimeBudget says how engines and cases share it
 /// @throws BadInput, OutputError, Interrupted
 StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
                                const RunCommand& command, RunStore& store,
-                               SuiteAsks asks = SuiteAsks::limits);
+                               SuiteAsks asks = SuiteAsks::limits,
+                               double budget = std::numeric_limits<double>::infinity());
 
 /// What that would run, for people. Engines are asked for their version; nothing is computed.
 /// @throws BadInput, Interrupted

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,18 +68,19 @@ Farthest apart(const LockstepFrame& one, const LockstepFrame& other, double diam
 /// the same way.
 class Trial {
  public:
-  Trial(const StabilityTask& task, const HardScene& hard)
-      : task_(task), hard_(hard), diameter_(smallestDiameter(hard.scene)) {
+  Trial(const StabilityTask& task, const HardScene& hard, const TimeShare& time)
+      : task_(task), hard_(hard), time_(time), diameter_(smallestDiameter(hard.scene)) {
     const Realised realised = load(hard.scene, {});
     dt_ = realised.dt;
     const double all = std::round(hard.duration / dt_);
     last_ = static_cast<std::uint64_t>(std::clamp(all, 1.0, static_cast<double>(transformSteps)));
     steps_ = looks(last_);
-    original_ = follow(*engine_, dt_, steps_, contacts());
+    original_ = followInTime();
     rounding(epsilonOf(realised));
   }
 
-  /// Runs it and fills the row. @throws UnsupportedScene, EngineFailure, BadInput, Interrupted
+  /// Runs it and fills the row.
+  /// @throws UnsupportedScene, EngineFailure, BadInput, OutOfTime, Interrupted
   void judge(StabilityRun& row, const CaseTransform& transform) {
     if (blind_ == 0) {
       const double limit = limits_.front();
@@ -86,6 +88,7 @@ class Trial {
           "its own rounding may part two runs by {:.2g} d within {} steps: nothing is told apart",
           limit, steps_.front()));
     }
+    time_.require(took_);
     switch (transform.run) {
       case TransformRun::another:
         return compare(row, another(transform.change), 0);
@@ -140,6 +143,21 @@ class Trial {
     }
   }
 
+  /// The run as it is, given up where the next look would come too late: nobody knows yet how slow
+  /// the engine is. @throws OutOfTime
+  std::vector<LockstepFrame> followInTime() {
+    using Clock = std::chrono::steady_clock;
+    const auto began = Clock::now();
+    auto soFar = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
+    std::vector<LockstepFrame> frames =
+        follow(*engine_, dt_, steps_, contacts(), [&](std::uint64_t done, std::uint64_t step) {
+          const auto more = static_cast<double>(step - done);
+          time_.require(done == 0 ? 0.0 : soFar() * more / static_cast<double>(done));
+        });
+    took_ = soFar();
+    return frames;
+  }
+
   /// limits_: what rounding may do, look by look [d].
   void rounding(double epsilon) {
     const double told = epsilon * extentOf(hard_.scene) / diameter_;
@@ -147,6 +165,7 @@ class Trial {
     for (int n = 0; n < transformNudges; ++n) {
       Scene scene = hard_.scene;
       scene.disks = nudged(scene.disks, epsilon, transformSeed + static_cast<std::uint64_t>(n));
+      time_.require(took_);
       load(scene, {});
       const std::vector<LockstepFrame> moved = follow(*engine_, dt_, steps_);
       double most = 0.0;
@@ -242,8 +261,10 @@ class Trial {
 
   const StabilityTask& task_;
   const HardScene& hard_;
-  double diameter_;  ///< d [m]
-  double dt_ = 0.0;  ///< the engine's [s]
+  const TimeShare& time_;
+  double took_ = 0.0;  ///< the run as it is [s]
+  double diameter_;    ///< d [m]
+  double dt_ = 0.0;    ///< the engine's [s]
   std::uint64_t last_ = 0;
   std::unique_ptr<Engine> engine_;
   Capabilities can_;
@@ -270,6 +291,10 @@ void judged(StabilityRun& row, const std::function<void()>& work) {
     work();
   } catch (const Interrupted&) {
     throw;
+  } catch (const OutOfTime& late) {
+    row.status = HardRunStatus::notRun;
+    row.verdict = StabilityVerdict::notRun;
+    row.reason = late.what();
   } catch (const UnsupportedScene& refusal) {
     row.status = HardRunStatus::refused;
     row.verdict = StabilityVerdict::refused;
@@ -307,7 +332,7 @@ std::vector<HardCase> transformRows(const Case& setup) {
   return rows;
 }
 
-std::vector<StabilityRun> runTransforms(const StabilityTask& task,
+std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
                                         const std::function<void(double)>& progress) {
   std::optional<HardScene> hard;
   std::optional<Trial> trial;
@@ -315,7 +340,7 @@ std::vector<StabilityRun> runTransforms(const StabilityTask& task,
   judged(before, [&] {
     if (!task.unprepared.empty()) throw BadInput(task.unprepared);
     hard = plainScene(*task.setup, *task.packing);
-    trial.emplace(task, *hard);
+    trial.emplace(task, *hard, time);
   });
   std::vector<StabilityRun> rows;
   const auto all = caseTransforms(hard ? hard->scene.disks.size() : 0);

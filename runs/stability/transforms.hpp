@@ -6,6 +6,7 @@
 
 #include "results/stability.hpp"
 #include "runs/stability/run.hpp"
+#include "runs/stability/time_share.hpp"
 #include "stability/transform.hpp"
 
 /// Changes of a case after which everything must go as it went: how a scene is told is nobody's
@@ -62,10 +63,11 @@ std::vector<HardCase> transformRows(const Case& setup);
 
 /// One row for each of caseTransforms(): the value is how far the farthest disk is off [d] where
 /// that is most by what rounding may do, the limit is what it may do there. Unstable: beyond that,
-/// or the engine failed; refused: the engine cannot do what the transform takes, with the reason.
+/// or the engine failed; refused: the engine cannot do what the transform takes, with the reason;
+/// not run: what would have ended after its time.
 /// @param task  its case needs no [stability]; `original` is not used
 /// @throws Interrupted
-std::vector<StabilityRun> runTransforms(const StabilityTask& task,
+std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
                                         const std::function<void(double)>& progress);
 
 }  // namespace crossgrain::inline runs

@@ -185,6 +185,32 @@ TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
   EXPECT_EQ(engine->snapshot(ContactReport::accumulated).contacts->size(), 0u);
 }
 
+/// In contact all the time: each sum is of many impulses. While it slides a disk is borne by m g
+/// and held back by µ m g.
+TEST(Box2dImpulse, SumsOfALastingContactAreThoseOfEveryStep) {
+  constexpr double g = 10.0, interval = 0.02;
+  Scene scene;
+  scene.law = rigidLaw(0.0, 0.0, thesis.mu);
+  scene.gravity = {0.0, -g};
+  addDisk(scene, smallRadius, smallMass, Vec2(0, smallRadius), Vec2(1.0, 0.0));
+  WallBody floor;
+  floor.planes = {{{0.0, 0.0}, {0.0, 1.0}}};
+  scene.bodies = {floor};
+  const auto engine = makeBox2dImpulse();
+  engine->load(scene, {});
+  engine->advance(interval);  // it has settled
+  const Vec2 before = engine->snapshot(ContactReport::accumulated).velocity[0];
+  engine->advance(2.0 * interval);
+  const Snapshot after = engine->snapshot(ContactReport::accumulated);
+  ASSERT_EQ(after.contacts->size(), 1u);
+  const double weight = smallMass * g;
+  EXPECT_NEAR(after.contacts->normalForce[0], weight, 0.01 * weight);
+  const double held = smallMass * (after.velocity[0] - before).x() / interval;
+  EXPECT_NEAR(held, -thesis.mu * weight, 0.01 * weight);
+  const Vec2 n = after.contacts->normal[0];
+  EXPECT_NEAR(after.contacts->tangentialForce[0] * perpendicular(n).x(), held, 0.01 * weight);
+}
+
 TEST(Box2dImpulse, RefusesWhatItCannotDo) {
   const auto engine = makeBox2dImpulse();
   Scene scene = onePair(box2dLaw(), approach, 0.5);

@@ -123,4 +123,36 @@ TEST(Packing, BadFilesAreBadInput) {
   EXPECT_THROW(readPacking(file("text.h5"), kinds()), BadInput);
 }
 
+/// A file of one disk with an attribute of that type and number of values.
+void writeWithAttribute(const fs::path& path, const char* name, hid_t type, hsize_t count,
+                        const void* values) {
+  Hdf5File out = Hdf5File::create(path);
+  out.write("radius", std::vector<double>{1.0});
+  out.write("position", std::vector<double>{0.0, 0.0});
+  out.save();
+  const hid_t whole = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t attribute = H5Acreate2(whole, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, values);
+  for (const hid_t id : {attribute, space, whole}) H5Idec_ref(id);
+}
+
+TEST(Packing, AttributesAreOneNumberAndOneText) {
+  const double angles[] = {0.5, 1.0, 2.0, 3.0};
+  writeWithAttribute(file("one.h5"), "wheel_angle", H5T_NATIVE_DOUBLE, 1, angles);
+  EXPECT_EQ(readPacking(file("one.h5"), kinds()).wheelAngle, 0.5);
+  // Room is for one.
+  writeWithAttribute(file("four.h5"), "wheel_angle", H5T_NATIVE_DOUBLE, 4, angles);
+  EXPECT_THROW(readPacking(file("four.h5"), kinds()), BadInput);
+  writeWithAttribute(file("number.h5"), "hash", H5T_NATIVE_DOUBLE, 1, angles);
+  EXPECT_THROW(readPacking(file("number.h5"), kinds()), BadInput);
+
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, H5T_VARIABLE);
+  const char* const hash = "as Python writes it";
+  writeWithAttribute(file("text.h5"), "hash", text, 1, &hash);
+  H5Tclose(text);
+  EXPECT_EQ(readPacking(file("text.h5"), kinds()).hash, hash);
+}
+
 }  // namespace

@@ -1,6 +1,6 @@
 #include "tests/fuzz/damage.hpp"
 
-#include <cstdlib>
+#include <cctype>
 
 namespace crossgrain::test {
 
@@ -37,11 +37,6 @@ std::pair<std::size_t, std::size_t> lineAt(const std::string& text, std::size_t 
 }
 
 }  // namespace
-
-std::uint64_t inputs(std::uint64_t usual) {
-  const char* const given = std::getenv("CROSSGRAIN_FUZZ");
-  return given ? std::strtoull(given, nullptr, 10) : usual;
-}
 
 std::string damagedText(std::string text, Draw& draw) {
   const std::size_t times = 1 + below(draw, 3);

@@ -8,9 +8,6 @@
 
 namespace crossgrain::test {
 
-/// How many inputs a test reads: CROSSGRAIN_FUZZ in the environment, else `usual`.
-std::uint64_t inputs(std::uint64_t usual);
-
 /// A text with a few of its bytes, words, numbers or lines changed, left out or doubled.
 std::string damagedText(std::string text, Draw& draw);
 

@@ -256,8 +256,10 @@ TEST(Calibration, WhatCannotBeReachedIsRefused) {
   const ReducedPair pair{1e-3, 3.0};
   law.tangential = spring;
   EXPECT_THROW(calibrateTangential(law, -1.0, pair), std::invalid_argument);
+  EXPECT_THROW(calibrateTangential(law, 1.0001, pair), std::invalid_argument);
   law.tangential = springDashpot;
   EXPECT_THROW(calibrateTangential(law, 0.0, pair), std::invalid_argument);
+  EXPECT_THROW(calibrateTangential(law, 1.0001, pair), std::invalid_argument);
   law.tangential = TangentialLaw::coulomb;
   EXPECT_THROW(calibrateTangential(law, 0.5, pair), std::invalid_argument);
   law = test::thesisLaw();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reports/report.hpp"
+#include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
 #include "support/files.hpp"
@@ -64,6 +65,50 @@ TEST(StabilityPage, SaysEveryVerdictAndEscapesWhatUsersWrite) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("<b>\"name\"</b>"), std::string::npos);
   EXPECT_TRUE(readFile(folder.path() / "plots/stability_map.svg"));
+}
+
+/// One engine and a case told in two ways: one came out the same, one was not run.
+StabilityResults toldInTime() {
+  StabilityResults results;
+  EngineRow engine;
+  engine.name = "slow";
+  results.engines = {engine};
+  for (const char* variant : {"mirrored", "renumbered"}) {
+    HardCase told;
+    told.name = "cell";
+    told.variant = told.measure = variant;
+    results.cases.push_back(told);
+    StabilityRun run;
+    run.engine = "slow";
+    run.name = "cell";
+    run.variant = run.measure = variant;
+    results.runs.push_back(run);
+  }
+  results.runs[0].verdict = StabilityVerdict::stable;
+  results.runs[0].value = 0.0;
+  results.runs[1].status = HardRunStatus::notRun;
+  results.runs[1].verdict = StabilityVerdict::notRun;
+  results.runs[1].reason = "its part of the budget, 1 s, leaves no time for it";
+  return results;
+}
+
+TEST(StabilityPage, WhatWasNotRunIsNeverAmongWhatHolds) {
+  const StabilityResults results = toldInTime();
+  const Overview overview = stabilityOverview(results);
+  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::good);
+  EXPECT_EQ(overview.rows[0].cells[1].state, CellState::notMeasured);
+  ASSERT_EQ(overview.conclusion.size(), 2u);
+  EXPECT_EQ(overview.conclusion[0], "slow: 1 of 2 runs the same, 1 not run.");
+  EXPECT_EQ(overview.conclusion[1],
+            "Next: the same command with a larger --budget, for what was not run.");
+  EXPECT_NE(stabilityCsv(results).find("slow,cell,not_run,renumbered,,"), std::string::npos);
+  EXPECT_NE(stabilityJunit(results).find("<skipped message=\"its part of the budget, 1 s"),
+            std::string::npos);
+  const TemporaryFolder folder;
+  writeReport(results, folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_NE(page.find("○ not run"), std::string::npos);
+  EXPECT_NE(page.find("1 of 1 cases told otherwise came out the same"), std::string::npos);
 }
 
 }  // namespace

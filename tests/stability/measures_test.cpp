@@ -128,6 +128,8 @@ TEST(StabilityMeasures, MomentumIsThatBeyondGravity) {
   EXPECT_NEAR(at.last("momentum_drift"), 0.25, 1e-12);
   at.run.scene.gravity = {0.25, 0.0};  // M g t = 1
   EXPECT_NEAR(at.last("momentum_drift"), 0.0, 1e-12);
+  at.look(2.0, {0, 0}, {8, 0}, {1.0, 0.0}, {0.0, 0.0});  // Δp = 2 = M g t
+  EXPECT_NEAR(at.last("momentum_drift"), 0.0, 1e-12);
 }
 
 TEST(StabilityMeasures, AngularMomentumIsAboutTheMovingCentre) {
@@ -220,6 +222,13 @@ TEST(StabilityMeasures, RatchetIsPerCycle) {
   EXPECT_NEAR(at.last("ratchet"), 0.1 / 2.0, 1e-12);
   at.run.scene.bodies.clear();
   EXPECT_TRUE(at.curve("ratchet").empty());  // nothing oscillates
+
+  motion.frequency = std::numbers::pi / 2.0;  // a cycle of 4 s: all of four looks after the first
+  at.addPlane(motion);
+  at.run.snapshots.clear();
+  for (const double x : {0.0, 1.0, 2.0, 1.0, 0.3})
+    at.look(static_cast<double>(at.run.snapshots.size()), {x, 0}, {10, 0});
+  EXPECT_NEAR(at.last("ratchet"), 0.3 / 2.0, 1e-12);
 }
 
 TEST(StabilityMeasures, CopiesAreTakenBack) {

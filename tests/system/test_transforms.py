@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pathlib
+import sys
 import unittest
 
 from harness import BAD_INPUT, CASES, COUETTE, FELL_SHORT, HELD, SystemTest
@@ -25,8 +26,25 @@ class Transforms(SystemTest):
         path.write_text(f'name = "{name}"\nsummary = "a test"\ncommand = {json.dumps(words)}\n')
         return path
 
-    def transform(self, engines, *cases, status):
-        done = self.run_program("stability", "--transforms", *cases, "--engines", engines, "--out", self.out)
+    def slow(self):
+        """The right engine, asked through a pipe that keeps every request to advance for a while."""
+        pipe = self.folder / "pipe.py"
+        pipe.write_text(
+            "import os, subprocess, sys, time\n"
+            "requests = os.fdopen(os.dup(3))  # workers read from 3 and answer on 4\n"
+            "own, engines = os.pipe()[::-1]\n"
+            "os.dup2(engines, 3)\n"
+            "subprocess.Popen(sys.argv[1:], pass_fds=(3, 4))\n"
+            "for line in requests:\n"
+            "    if '\"advance\"' in line: time.sleep(0.3)\n"
+            "    os.write(own, line.encode())\n"
+        )
+        path = self.folder / "slow.toml"
+        path.write_text(f'name = "slow"\nsummary = "a test"\ncommand = {json.dumps([sys.executable, str(pipe), str(PLANTED)])}\n')
+        return path
+
+    def transform(self, engines, *cases, status, budget=()):
+        done = self.run_program("stability", "--transforms", *cases, *budget, "--engines", engines, "--out", self.out)
         self.assert_status(done, status)
         with open(self.out / "stability.csv", encoding="utf-8", newline="") as file:
             self.rows = list(csv.DictReader(file))
@@ -99,7 +117,33 @@ class Transforms(SystemTest):
         with open(self.out / "stability.csv", encoding="utf-8", newline="") as file:
             self.assertEqual(first, list(csv.DictReader(file)))
 
+    def test_what_the_budget_has_no_time_for_is_not_run_and_holds_nothing(self):
+        # Some forty looks at a third of a second: the run that the others are held against is given up.
+        done = self.transform(str(self.slow()), SLIDING, status=FELL_SHORT, budget=["--budget=1s"])
+        self.assertEqual(["not_run"] * len(TRANSFORMS), [row["verdict"] for row in self.rows])
+        for row in self.rows:
+            self.assertEqual("", row["value"])
+            self.assertRegex(row["reason"], "its part of the budget, [0-9.e-]+ s, leaves no time for it")
+        self.assertRegex(done.stdout, r"not run +slow +9 runs: its part of the budget")
+        self.assertIn("0 stable, 0 degraded, 0 unstable, 0 refused, 9 not run", done.stdout)
+        self.assertIn("nothing was judged: the budget ended", done.stdout)
+        page = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assertIn("not run", page)
+        self.assertNotIn("no more than rounding came of it", page)
+
+    def test_what_was_not_run_is_run_by_a_command_with_more_time(self):
+        right = str(self.planted("right"))
+        self.transform(right, SLIDING, status=FELL_SHORT, budget=["--budget=0.001s"])
+        self.assertEqual({"not_run"}, {row["verdict"] for row in self.rows})
+        done = self.transform(right, SLIDING, status=HELD, budget=["--budget=1h"])
+        self.assertNotIn("not run", done.stdout)
+        self.assertEqual(["restarted"], self.of("refused", "right"))
+        self.assertEqual(len(TRANSFORMS) - 1, len(self.of("stable", "right")))
+
     def test_bad_input(self):
+        for words, says in ((["--transforms", "--budget=soon"], "must be like 90s"), (["--budget=1m"], "goes with --transforms")):
+            done = self.run_program("stability", *words, SLIDING, "--engines", "grain", "--out", self.out)
+            self.assert_one_line(done, BAD_INPUT, says)
         for words in (["--transforms", "--quick"], ["--transforms", "--long"]):
             done = self.run_program("stability", *words, SLIDING, "--engines", "grain", "--out", self.out)
             self.assert_status(done, BAD_INPUT)

@@ -1,0 +1,33 @@
+"""What is taken for a place where code can be wrong, and what is not."""
+
+import unittest
+
+import mutants
+
+
+class Places(unittest.TestCase):
+    def found(self, source):
+        return [(mutant.operator, mutant.column, mutant.before, mutant.after) for mutant in mutants.mutants_of("a.cpp", source)]
+
+    def test_each_kind_of_operator(self):
+        self.assertEqual([("arithmetic", 2, "+", "-"), ("arithmetic", 6, "*", "/")], self.found("a + b * c;"))
+        self.assertEqual([("comparison", 2, "<", "<="), ("logical", 6, "&&", "||"), ("comparison", 11, "!=", "==")], self.found("a < b && c != d;"))
+        self.assertEqual([("assignment", 4, "+=", "-=")], self.found("sum += x;"))
+        self.assertEqual([("negation", 4, "!", "")], self.found("if (!done) go();"))
+        self.assertEqual([("arithmetic", 12, "*", "/"), ("sign", 7, "-", ""), ("sign", 14, "-", "")], self.found("return -arm * -b;"))
+        self.assertEqual([("constant", 4, "0.5", "1.5"), ("constant", 10, "2", "3")], self.found("f(a[0.5], 2u);"))
+
+    def test_what_is_no_operator(self):
+        for source in ("std::vector<double> a;", "const int* p, *q;", "auto&& x", "// a + b", '"a + b 1"', "#include <a/b.hpp>", "Vec2 x2;", "1e-12",
+                       "'+'", 'R"(a + 1)"', "/* a\n + b */", "p->x()", "++i, --k", "template <int N = 2>"):
+            self.assertEqual([], self.found(source), source)
+
+    def test_only_one_place_of_one_line_changes(self):
+        source = "a + b;\nc + d + e;\nf;"
+        last = mutants.mutants_of("a.cpp", source)[-1]
+        self.assertEqual("a + b;\nc + d - e;\nf;", last.applied(source))
+        self.assertEqual(last.key, mutants.mutants_of("a.cpp", "\n  " + source.split("\n")[1])[-1].key)
+
+
+if __name__ == "__main__":
+    unittest.main()
