@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import pathlib
 import re
 import resource
 import shutil
@@ -12,6 +13,8 @@ import tempfile
 import time
 
 import mutants
+
+not_sources = {".git", "build", "out", "node_modules", "__pycache__"}
 
 # Test programs with the tests of each that are run, soonest done first. Whole runs of cells come last. Benchmarks and tests of
 # the program from outside (tests/system) are left out: minutes each, for whatever mutant.
@@ -59,13 +62,20 @@ class Workshop:
 
     def copy_sources(self):
         """Only what differs: the build goes on where it was."""
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=self.project, check=True, capture_output=True, text=True).stdout
-        for name in filter(None, listed.split("\0")):
-            here, there = self.project / name, self.source / name
-            if not here.is_file() or (there.exists() and there.read_bytes() == here.read_bytes()):
+        for here in self.sources():
+            there = self.source / here.relative_to(self.project)
+            if there.exists() and there.read_bytes() == here.read_bytes():
                 continue
             there.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(here, there)
+
+    def sources(self):
+        """Without what is built, installed or written by runs."""
+        for folder, inside, names in os.walk(self.project):
+            inside[:] = sorted(name for name in inside if name not in not_sources)
+            for name in names:
+                if (pathlib.Path(folder) / name).is_file():
+                    yield pathlib.Path(folder) / name
 
     def configure(self):
         include = self.project / "tests/mutation/one_by_one.cmake"
