@@ -129,12 +129,7 @@ std::vector<Contact> Core<Real>::impactContacts() const {
                     impact.tangential / dt_,
                     0.0,
                     impact.slid};
-    if (contact.j < contact.i) {
-      std::swap(contact.i, contact.j);
-      contact.nx = -contact.nx;
-      contact.ny = -contact.ny;
-    }
-    contacts.push_back(contact);
+    contacts.push_back(fromLower(contact));
   }
   return contacts;
 }

@@ -118,12 +118,7 @@ std::vector<Contact> Core<Real>::softContacts() const {
     contact.i = numberAt_[static_cast<std::size_t>(contact.i)];
     if (static_cast<std::size_t>(contact.j) < moving_)
       contact.j = numberAt_[static_cast<std::size_t>(contact.j)];
-    if (contact.j < contact.i) {
-      std::swap(contact.i, contact.j);
-      contact.nx = -contact.nx;
-      contact.ny = -contact.ny;
-    }
-    contacts.push_back(contact);
+    contacts.push_back(fromLower(contact));
   });
   return contacts;
 }

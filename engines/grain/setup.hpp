@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engines/grain/bottom.hpp"
@@ -51,5 +52,14 @@ struct Contact {
   double spring;  ///< ξ after the evaluation [m]
   bool sliding;
 };
+
+/// The same with i < j: the force acts on the lower number.
+inline Contact fromLower(Contact contact) {
+  if (contact.i < contact.j) return contact;
+  std::swap(contact.i, contact.j);
+  contact.nx = -contact.nx;
+  contact.ny = -contact.ny;
+  return contact;
+}
 
 }  // namespace grain
