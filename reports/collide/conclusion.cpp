@@ -103,7 +103,7 @@ Names shortIn(const CollisionCurve& curve) {
   return words;
 }
 
-/// "tension cut (yade and liggghts) and dashpot outside (yade)"
+/// "tension cut (two engines) and dashpot outside (one of them)"
 std::string told(const Causes& causes) {
   Names words;
   for (const Cause& cause : causes | std::views::take(mostCauses))
