@@ -98,11 +98,11 @@ json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene
     if (found.dt) row["dt_s"] = *found.dt;
     if (!timed) return row;
     const BriefTiming timing = briefTiming(*engine, entry, setup, scene);
-    row["dt_s"] = timing.dt;
+    row["dt_s"] = timing.realised.dt;
     row["step_s"] = timing.secondsPerStep;
     row["timed_steps"] = timing.steps;
     row["memory_bytes"] = timing.memory ? json(*timing.memory) : json(nullptr);
-    row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.dt);
+    row["run_s"] = timing.secondsPerStep * stepsOf(setup, timing.realised.dt);
   } catch (const UnsupportedScene& refusal) {
     row["can"] = false;
     row["reason"] = refusal.what();

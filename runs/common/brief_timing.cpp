@@ -9,13 +9,14 @@ BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& se
   constexpr double enough = 0.1;  // s of steps
   constexpr int warmUp = 5, most = 2000;
   BriefTiming timing;
-  timing.dt = loadScene(engine, entry, setup, scene).dt;
-  engine.advance(warmUp * timing.dt);
+  timing.realised = loadScene(engine, entry, setup, scene);
+  const double dt = timing.realised.dt;
+  engine.advance(warmUp * dt);
   const double before = engine.stats().wallSeconds;
   double spent = 0.0;
   for (int more = 5; timing.steps < most && spent < enough; more *= 2) {
     timing.steps += more;
-    engine.advance((warmUp + timing.steps) * timing.dt);
+    engine.advance((warmUp + timing.steps) * dt);
     spent = engine.stats().wallSeconds - before;
   }
   timing.secondsPerStep = spent / timing.steps;

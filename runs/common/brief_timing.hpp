@@ -9,7 +9,7 @@ namespace crossgrain::inline runs {
 
 /// What a step of an engine takes, from a brief look.
 struct BriefTiming {
-  double dt = 0.0;                    ///< the engine's own [s]
+  Realised realised;                  ///< its scene, with the engine's own time step
   double secondsPerStep = 0.0;        ///< wall time [s]
   int steps = 0;                      ///< that were timed
   std::optional<std::size_t> memory;  ///< most that its worker held so far [bytes]

@@ -13,6 +13,7 @@
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "results/couette_fields.hpp"
+#include "runs/common/brief_timing.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -142,17 +143,15 @@ void Campaign::preparePackings(int count) {
 }
 
 void Campaign::timeEngines() {
-  constexpr int steps = 40;
   const double end = flowDuration(setup_);
   const Scene scene = flowScene(setup_, packings_.front(), dt_);
   forEachEngine([&](CampaignEngine& own) {
-    const LoadedEngine loaded =
-        loadEngine(own.entry, setup_, scene, store_.scratch("time-" + own.entry.name));
-    const double dt = loaded.realised.dt;
-    loaded.engine->advance(steps * dt);
-    own.can = loaded.can;
-    own.realised = loaded.realised;
-    own.predicted = loaded.engine->stats().wallSeconds / steps * end / dt;
+    const auto engine =
+        startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
+    const BriefTiming timing = briefTiming(*engine, own.entry, setup_, scene);
+    own.can = engine->capabilities();
+    own.realised = timing.realised;
+    own.predicted = timing.secondsPerStep * end / timing.realised.dt;
   });
 }
 
@@ -246,6 +245,17 @@ double Campaign::secondsOfPreparing(int count) const {
     missing += !expectedPacking(setup_, k, dt_).there;
   return missing * std::accumulate(preparedIn_.begin(), preparedIn_.end(), 0.0) /
          static_cast<double>(preparedIn_.size());
+}
+
+double Campaign::secondsOf(const std::vector<PlannedRuns>& lists) const {
+  double all = 0.0, longest = 0.0;
+  for (const PlannedRuns& list : lists)
+    for (const auto& task : tasksOf(list)) {
+      if (store_.find(task.name, task.key)) continue;
+      all += task.weight;
+      longest = std::max(longest, task.weight);
+    }
+  return std::max(all / std::max(command_.jobs, 1), longest);
 }
 
 void Campaign::add(std::vector<CouetteRun> runs) {

@@ -85,6 +85,8 @@ class Campaign {
   double elapsed() const;  ///< since the campaign was made [s]
   /// Seconds of one core that preparing up to so many packings still takes, by those so far.
   double secondsOfPreparing(int count) const;
+  /// Seconds until those of them that are not finished would be, by the brief timing of each engine.
+  double secondsOf(const std::vector<PlannedRuns>& lists) const;
 
   /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
   void lookForPackings();

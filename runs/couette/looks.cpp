@@ -78,8 +78,10 @@ class Sequence {
       changed = changedOf(responding.front(), cases);
     }
     const int packings = plan_.packings.front();
-    std::vector<CouetteRun> runs = campaign_.runSome(
-        {{whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}}, "running engines");
+    const std::vector<PlannedRuns> all = {
+        {whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}};
+    sayWhetherBeyondBudget(campaign_.secondsOf(all));
+    std::vector<CouetteRun> runs = campaign_.runSome(all, "running engines");
     const auto firstChanged = runs.end() - static_cast<std::ptrdiff_t>(cases.size()) * packings;
     std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
     runs.erase(firstChanged, runs.end());
@@ -93,6 +95,16 @@ class Sequence {
     if (!themselves.empty() && packings > 1)
       campaign_.add(
           campaign_.runSome({{themselves, {1, packings}}}, "running what no mirror carries"));
+  }
+
+  /// Without the first look there is no answer at all, so it is taken even so: who cannot wait is
+  /// to know at once.
+  void sayWhetherBeyondBudget(double seconds) {
+    if (const double end = campaign_.elapsed() + seconds; end > findings_.looks.budget)
+      campaign_.progress().say(fmt::format(
+          "the first look, at {} packings, is likely to end after {:.2g} s, by a timing of some "
+          "steps: beyond the budget of {:g} s, to which only further looks are held",
+          plan_.packings.front(), end, findings_.looks.budget));
   }
 
   static std::vector<Variant> changedOf(std::size_t e, const std::vector<ChangedCase>& cases) {

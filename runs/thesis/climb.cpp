@@ -165,7 +165,7 @@ void Climb::timeStepsOf(ClimbingEngine& own) {
         startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup.run.timeout);
     const BriefTiming timing =
         briefTiming(*engine, own.entry, setup, couetteScene(setup, packing, dt));
-    own.perStep = besidesSteps * timing.secondsPerStep * (dt / timing.dt) /
+    own.perStep = besidesSteps * timing.secondsPerStep * (dt / timing.realised.dt) /
                   static_cast<double>(packing.disks.size());
   } catch (const std::runtime_error& failure) {
     throwIfInterrupted();
