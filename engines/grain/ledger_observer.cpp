@@ -2,6 +2,7 @@
 
 #include "engines/grain/contact_force.hpp"
 #include "engines/grain/core.hpp"
+#include "engines/grain/reorder.hpp"
 
 namespace grain {
 
@@ -69,14 +70,12 @@ void LedgerObserver<Real>::beforeMotion() {
 
 template <class Real>
 void LedgerObserver<Real>::renumber(std::span<const std::int32_t> order,
-                                    std::span<const std::int32_t> newPlace) {
-  const auto follow = [&](auto& array) {
-    const auto before = array;
-    for (std::size_t place = 0; place < array.size(); ++place)
-      array[place] = before[static_cast<std::size_t>(order[place])];
-  };
-  follow(plateBefore_);
-  follow(plateAccounts_);
+                                    std::span<const std::int32_t> newPlace,
+                                    std::vector<std::byte>& scratch) {
+  if (!plateAccounts_.empty()) {
+    reorder(plateBefore_, order, scratch);
+    reorder(plateAccounts_, order, scratch);
+  }
   sums_.renumber(newPlace);
 }
 

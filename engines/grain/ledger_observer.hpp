@@ -32,8 +32,9 @@ class LedgerObserver {
   /// Before the motion kernel stretches the plate's springs.
   void beforeMotion();
   void afterForces();
-  /// Places change. @param order  the old place of each new one
-  void renumber(std::span<const std::int32_t> order, std::span<const std::int32_t> newPlace);
+  /// Places change. @param order  the old place of each new one; scratch: as of reorder()
+  void renumber(std::span<const std::int32_t> order, std::span<const std::int32_t> newPlace,
+                std::vector<std::byte>& scratch);
 
   const EnergyLedger& ledger() const { return sums_.ledger; }
 

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "engines/grain/core.hpp"
+#include "engines/grain/reorder.hpp"
 
 namespace grain {
 namespace {
@@ -173,18 +173,6 @@ void Core<Real>::addFromHigherParts(std::size_t part) {
   }
 }
 
-/// The first elements of the array by their order: array[k] becomes what was array[order[k]].
-template <class Array>
-void reorder(Array& array, std::span<const std::int32_t> order, std::vector<std::byte>& scratch) {
-  using Element = typename Array::value_type;
-  if (order.empty()) return;
-  scratch.resize(order.size() * sizeof(Element));
-  std::memcpy(scratch.data(), array.data(), scratch.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    std::memcpy(&array[k], &scratch[static_cast<std::size_t>(order[k]) * sizeof(Element)],
-                sizeof(Element));
-}
-
 /// Gives disks numbers anew by their place in space, so that neighbours are near in memory.
 template <class Real>
 void Core<Real>::renumber() {
@@ -206,7 +194,7 @@ void Core<Real>::renumber() {
     placeOf_[static_cast<std::size_t>(numberAt_[place])] = static_cast<std::int32_t>(place);
   localise();
   guarded([&] { lists_.renumber(newPlace_, places(), travel(), team_); });
-  if (ledger_) ledger_->renumber(order, newPlace_);
+  if (ledger_) ledger_->renumber(order, newPlace_, scratch_);
   findReachedWallDisks();
   rememberChoice();
 }
