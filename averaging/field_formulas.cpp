@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace crossgrain::averaging::formulas {
+namespace crossgrain::inline averaging::formulas {
 
 using enum Moment;
 
@@ -92,4 +92,4 @@ Linear azimuthalVelocity(const BinView& bin) {
   return bin[velocityP] / bin[volume];
 }
 
-}  // namespace crossgrain::averaging::formulas
+}  // namespace crossgrain::inline averaging::formulas

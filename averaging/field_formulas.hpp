@@ -3,7 +3,7 @@
 #include "averaging/fields.hpp"
 
 /// The formulas of the thesis that take more than one line of the table of fields.
-namespace crossgrain::averaging::formulas {
+namespace crossgrain::inline averaging::formulas {
 
 // Tensors of one bin [N/m², but for fabric: 1]
 LinearTensor stress(const BinView& bin);        ///< with the wall disks' part
@@ -39,4 +39,4 @@ std::pair<Linear, Linear> curvature(const BinView& bin);
 
 Linear azimuthalVelocity(const BinView& bin);
 
-}  // namespace crossgrain::averaging::formulas
+}  // namespace crossgrain::inline averaging::formulas

@@ -41,13 +41,13 @@ constexpr std::pair<std::string_view, std::string_view> contents[] = {{"hello", 
 json parseAnswer(const std::string& line) {
   std::vector<std::set<std::string>> keys;  // of each object that is being read
   const auto hold = [&](int depth, json::parse_event_t event, json& parsed) {
-    using enum json::parse_event_t;
+    using Event = json::parse_event_t;
     if (depth > deepestAnswer)
       throw std::runtime_error(
           fmt::format("has more than {} objects and lists in each other", deepestAnswer));
-    if (event == object_start) keys.emplace_back();
-    if (event == object_end && !keys.empty()) keys.pop_back();
-    if (event == key && !keys.back().insert(parsed.get<std::string>()).second)
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end && !keys.empty()) keys.pop_back();
+    if (event == Event::key && !keys.back().insert(parsed.get<std::string>()).second)
       throw std::runtime_error(fmt::format("has the key '{}' twice in one object",
                                            asOneLine(parsed.get<std::string>(), 60)));
     return true;

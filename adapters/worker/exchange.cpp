@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* mark =
+constexpr const char* recordingKey =
     "crossgrain_recording";  // first key of the head: the protocol's version
 
 }  // namespace
@@ -32,7 +32,7 @@ std::string keptContent(const std::filesystem::path& file) {
 
 ExchangeWriter::ExchangeWriter(const std::filesystem::path& file, json head)
     : file_(file), out_(file, std::ios::binary | std::ios::trunc) {
-  head[mark] = protocolVersion;
+  head[recordingKey] = protocolVersion;
   put(head.dump(), {}, {});
 }
 
@@ -67,11 +67,11 @@ ExchangeReader::ExchangeReader(const std::filesystem::path& file) : file_(file) 
   } catch (const BadInput&) {
     // Said below.
   }
-  if (!head_.contains(mark))
+  if (!head_.contains(recordingKey))
     throw BadInput(fmt::format("{}: is no recording of `crossgrain record`", file.string()));
-  if (head_[mark] != protocolVersion)
+  if (head_[recordingKey] != protocolVersion)
     throw BadInput(fmt::format("{}: was recorded in protocol {}, this program speaks {}",
-                               file.string(), head_[mark].dump(), protocolVersion));
+                               file.string(), head_[recordingKey].dump(), protocolVersion));
 }
 
 std::optional<Exchange> ExchangeReader::next() {

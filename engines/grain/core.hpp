@@ -109,7 +109,8 @@ class Core {
   void forDiskArrays(Visit&& visit);
   enum class Which { moving, all };
   void placeWalls(Which which);
-  void placeWallDisk(std::size_t wall, std::size_t k);
+  template <class Members>
+  void placeWallDisks(std::size_t w, const Members& members);
 
   // Views for the kernels.
   ContactView<Real> contactView();

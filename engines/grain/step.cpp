@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -63,8 +64,7 @@ void Core<Real>::moveWalls() {
   for (PlacedPlane& placed : placedPlanes_)
     if (walls_[placed.wall].moves()) placed.plane = walls_[placed.wall].plane(placed.member);
   for (std::size_t w = 0; w < walls_.size(); ++w)
-    if (walls_[w].moves())
-      for (const std::int32_t k : reached_[w]) placeWallDisk(w, static_cast<std::size_t>(k));
+    if (walls_[w].moves() && !walls_[w].stoodStill()) placeWallDisks(w, reached_[w]);
 }
 
 template <class Real>
@@ -224,25 +224,31 @@ void Core<Real>::localise() {
   placeWalls(Which::all);
 }
 
+/// @param members  indices of disks of the wall
 template <class Real>
-void Core<Real>::placeWallDisk(std::size_t w, std::size_t k) {
-  const WallPoint point = walls_[w].disk(k);
-  const std::size_t i = wallBegin_[w] + k;
-  const Vec<Real> origin = origin_.empty() ? Vec<Real>{} : origin_[i];
-  position_[i] = {static_cast<Real>(point.x - static_cast<double>(origin.x)),
-                  static_cast<Real>(point.y - static_cast<double>(origin.y))};
+template <class Members>
+void Core<Real>::placeWallDisks(std::size_t w, const Members& members) {
+  const WallPose pose = walls_[w].pose();  // a copy, which nothing that is stored here can change
+  const std::vector<WallOffset>& offsets = walls_[w].offsets();
   Array<Vec<Real>>& velocity = seenVelocity_.empty() ? velocity_ : seenVelocity_;
-  velocity[i] = {static_cast<Real>(point.vx), static_cast<Real>(point.vy)};
-  if (!law_.rotation) return;
   Array<Real>& spin = seenVelocity_.empty() ? spin_ : seenSpin_;
-  spin[i] = static_cast<Real>(walls_[w].state().spin);
+  for (const auto member : members) {
+    const auto k = static_cast<std::size_t>(member);
+    const std::size_t i = wallBegin_[w] + k;
+    const WallPoint point = pose.at(offsets[k]);
+    const Vec<Real> origin = origin_.empty() ? Vec<Real>{} : origin_[i];
+    position_[i] = {static_cast<Real>(point.x - static_cast<double>(origin.x)),
+                    static_cast<Real>(point.y - static_cast<double>(origin.y))};
+    velocity[i] = {static_cast<Real>(point.vx), static_cast<Real>(point.vy)};
+    if (law_.rotation) spin[i] = static_cast<Real>(pose.now.spin);
+  }
 }
 
 template <class Real>
 void Core<Real>::placeWalls(Which which) {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (which == Which::all || walls_[w].moves())
-      for (std::size_t k = 0; k < walls_[w].diskCount(); ++k) placeWallDisk(w, k);
+      placeWallDisks(w, std::views::iota(std::size_t{0}, walls_[w].diskCount()));
 }
 
 /// A wall's disks that no disk can touch before the lists are made anew need not be moved.

@@ -17,28 +17,27 @@ MovingWall::MovingWall(Wall wall) : wall_(std::move(wall)), start_(wall_.motion(
 }
 
 double MovingWall::moveTo(double t) {
-  const WallState before = std::exchange(now_, wall_.motion(t));
-  radial_ = now_.radialShift != 0.0 || now_.radialVelocity != 0.0;
-  cos_ = std::cos(now_.angle);
-  sin_ = std::sin(now_.angle);
-  const double arm = reach_ + std::max(std::abs(before.radialShift), std::abs(now_.radialShift));
-  return std::hypot(now_.x - before.x, now_.y - before.y) +
-         std::abs(now_.angle - before.angle) * arm +
-         std::abs(now_.radialShift - before.radialShift);
+  const WallState before = pose_.now;
+  const WallState now = wall_.motion(t);
+  stoodStill_ = now == before;
+  pose_ = {now, std::cos(now.angle), std::sin(now.angle),
+           now.radialShift != 0.0 || now.radialVelocity != 0.0};
+  const double arm = reach_ + std::max(std::abs(before.radialShift), std::abs(now.radialShift));
+  return std::hypot(now.x - before.x, now.y - before.y) + std::abs(now.angle - before.angle) * arm +
+         std::abs(now.radialShift - before.radialShift);
 }
 
 Plane MovingWall::plane(std::size_t k) const {
   const Plane& at0 = wall_.planes[k];
-  const double dx = at0.x - start_.x;
-  const double dy = at0.y - start_.y;
-  return {now_.x + cos_ * dx - sin_ * dy, now_.y + sin_ * dx + cos_ * dy,
-          cos_ * at0.nx - sin_ * at0.ny, sin_ * at0.nx + cos_ * at0.ny};
+  const WallPoint point = pose_.at({at0.x - start_.x, at0.y - start_.y, 0.0});
+  return {point.x, point.y, pose_.cosine * at0.nx - pose_.sine * at0.ny,
+          pose_.sine * at0.nx + pose_.cosine * at0.ny};
 }
 
 double MovingWall::speed() const {
-  return std::hypot(now_.vx, now_.vy) +
-         std::abs(now_.spin) * (reach_ + std::abs(now_.radialShift)) +
-         std::abs(now_.radialVelocity);
+  const WallState& now = pose_.now;
+  return std::hypot(now.vx, now.vy) + std::abs(now.spin) * (reach_ + std::abs(now.radialShift)) +
+         std::abs(now.radialVelocity);
 }
 
 }  // namespace grain

@@ -17,6 +17,8 @@ struct WallState {
   double vx = 0.0, vy = 0.0;
   double spin = 0.0;
   double radialVelocity = 0.0;
+
+  bool operator==(const WallState&) const = default;
 };
 
 /// A straight wall through (x, y); (nx, ny) is its unit normal into the free side.
@@ -43,6 +45,31 @@ struct WallPoint {
   double x, y, vx, vy;
 };
 
+/// From a wall's centre to a member at t = 0, and how far that is [m].
+struct WallOffset {
+  double x, y, distance;
+};
+
+/// A wall at one instant: where its members are.
+struct WallPose {
+  WallState now;
+  double cosine = 1.0, sine = 0.0;  ///< of the angle
+  bool radial = false;              ///< members are shifted along their offsets, or move along them
+
+  WallPoint at(const WallOffset& offset) const {
+    const double x = cosine * offset.x - sine * offset.y;
+    const double y = sine * offset.x + cosine * offset.y;
+    if (!radial || offset.distance == 0.0)
+      return {now.x + x, now.y + y, now.vx - now.spin * y, now.vy + now.spin * x};
+    const double scale = 1.0 + now.radialShift / offset.distance;
+    const double rx = scale * x;
+    const double ry = scale * y;
+    const double outwards = now.radialVelocity / (offset.distance * scale);
+    return {now.x + rx, now.y + ry, now.vx - now.spin * ry + outwards * rx,
+            now.vy + now.spin * rx + outwards * ry};
+  }
+};
+
 /// A wall under way.
 class MovingWall {
  public:
@@ -50,38 +77,25 @@ class MovingWall {
 
   /// @returns an upper bound of any disk's displacement [m]
   double moveTo(double t);
-  const WallState& state() const { return now_; }
+  /// Whether the last moveTo() changed nothing.
+  bool stoodStill() const { return stoodStill_; }
+  const WallPose& pose() const { return pose_; }
+  const WallState& state() const { return pose_.now; }
   std::size_t diskCount() const { return wall_.diskX.size(); }
   const std::vector<double>& radii() const { return wall_.diskRadius; }
   bool moves() const { return wall_.moves; }
-  WallPoint disk(std::size_t k) const {
-    const auto [dx, dy, distance] = offsets_[k];
-    const double x = cos_ * dx - sin_ * dy;
-    const double y = sin_ * dx + cos_ * dy;
-    if (!radial_ || distance == 0.0)
-      return {now_.x + x, now_.y + y, now_.vx - now_.spin * y, now_.vy + now_.spin * x};
-    const double scale = 1.0 + now_.radialShift / distance;
-    const double rx = scale * x;
-    const double ry = scale * y;
-    const double radial = now_.radialVelocity / (distance * scale);
-    return {now_.x + rx, now_.y + ry, now_.vx - now_.spin * ry + radial * rx,
-            now_.vy + now_.spin * rx + radial * ry};
-  }
+  const std::vector<WallOffset>& offsets() const { return offsets_; }  ///< of the disks
+  WallPoint disk(std::size_t k) const { return pose_.at(offsets_[k]); }
   Plane plane(std::size_t k) const;
   /// No member is faster than this now [m/s].
   double speed() const;
 
  private:
-  /// From the wall's centre to a disk at t = 0, and how far that is [m].
-  struct Offset {
-    double x, y, distance;
-  };
-
   Wall wall_;
-  WallState start_, now_;
-  std::vector<Offset> offsets_;  ///< of the disks
-  bool radial_ = false;          ///< disks are shifted along their offsets, or move along them
-  double cos_ = 1.0, sin_ = 0.0;
+  WallState start_;
+  WallPose pose_;
+  std::vector<WallOffset> offsets_;
+  bool stoodStill_ = false;
   double reach_ = 0.0;  ///< of the farthest disk from the centre [m]
 };
 
