@@ -109,8 +109,8 @@ class Core {
   void forDiskArrays(Visit&& visit);
   enum class Which { moving, all };
   void placeWalls(Which which);
-  template <class Members>
-  void placeWallDisks(std::size_t w, const Members& members);
+  template <class Member>
+  void placeWallDisks(std::size_t w, std::size_t count, Member&& member);
 
   // Views for the kernels.
   ContactView<Real> contactView();

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ranges>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -64,7 +64,10 @@ void Core<Real>::moveWalls() {
   for (PlacedPlane& placed : placedPlanes_)
     if (walls_[placed.wall].moves()) placed.plane = walls_[placed.wall].plane(placed.member);
   for (std::size_t w = 0; w < walls_.size(); ++w)
-    if (walls_[w].moves() && !walls_[w].stoodStill()) placeWallDisks(w, reached_[w]);
+    if (walls_[w].moves() && !walls_[w].stoodStill())
+      placeWallDisks(w, reached_[w].size(), [&reached = reached_[w]](std::size_t n) {
+        return static_cast<std::size_t>(reached[n]);
+      });
 }
 
 template <class Real>
@@ -224,16 +227,16 @@ void Core<Real>::localise() {
   placeWalls(Which::all);
 }
 
-/// @param members  indices of disks of the wall
+/// @param member  of 0 … count − 1: which disk of the wall
 template <class Real>
-template <class Members>
-void Core<Real>::placeWallDisks(std::size_t w, const Members& members) {
+template <class Member>
+void Core<Real>::placeWallDisks(std::size_t w, std::size_t count, Member&& member) {
   const WallPose pose = walls_[w].pose();  // a copy, which nothing that is stored here can change
   const std::vector<WallOffset>& offsets = walls_[w].offsets();
   Array<Vec<Real>>& velocity = seenVelocity_.empty() ? velocity_ : seenVelocity_;
   Array<Real>& spin = seenVelocity_.empty() ? spin_ : seenSpin_;
-  for (const auto member : members) {
-    const auto k = static_cast<std::size_t>(member);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t k = member(n);
     const std::size_t i = wallBegin_[w] + k;
     const WallPoint point = pose.at(offsets[k]);
     const Vec<Real> origin = origin_.empty() ? Vec<Real>{} : origin_[i];
@@ -248,7 +251,7 @@ template <class Real>
 void Core<Real>::placeWalls(Which which) {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     if (which == Which::all || walls_[w].moves())
-      placeWallDisks(w, std::views::iota(std::size_t{0}, walls_[w].diskCount()));
+      placeWallDisks(w, walls_[w].diskCount(), std::identity());
 }
 
 /// A wall's disks that no disk can touch before the lists are made anew need not be moved.
