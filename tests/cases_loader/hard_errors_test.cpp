@@ -1,4 +1,6 @@
 // [assembly] and [stability]: what is read, and one line for everything that is wrong.
+#include <numbers>
+
 #include "bad_cases.hpp"
 
 namespace crossgrain::test {
@@ -31,6 +33,15 @@ TEST_F(LoaderErrors, SoundAssembliesAreSound) {
   EXPECT_EQ(c.stability->degraded, 0.2);
 }
 
+TEST_F(LoaderErrors, DisksOfAGridByDensity) {
+  std::ofstream("case.toml") << assembly(
+      12, "density = 4.0\njitter = 0.25\ngrid = { columns = 2, rows = 2, spacing = [2, 3] }");
+  const DiskGroup group = loadCase("case.toml").front().assembly.disks.at(0);
+  EXPECT_DOUBLE_EQ(group.mass, 4.0 * std::numbers::pi * group.radius * group.radius);
+  EXPECT_EQ(group.jitter, 0.25);
+  EXPECT_EQ(group.places, (std::vector<Vec2>{{0, 0}, {2, 0}, {0, 3}, {2, 3}}));  // diameters
+}
+
 TEST_F(LoaderErrors, OfAssemblies) {
   expectMessages({
       {assembly(11, "radus = 0.5"),
@@ -51,6 +62,17 @@ TEST_F(LoaderErrors, OfAssemblies) {
        "case.toml:13:1: assembly.walls[0].normal is missing: a plane has both"},
       {assembly(12, "mass = 1.0\n[[assembly.walls]]\nbox = [0, 0, 0, 1]"),
        "case.toml:14:7: assembly.walls[0].box: must be [left, bottom, right, top] in m"},
+      {assembly(12, "mass = 1.0\n[[assembly.walls]]\nbox = [0, 1, 1, 1]"),
+       "case.toml:14:7: assembly.walls[0].box: must be [left, bottom, right, top] in m"},
+      {assembly(8, "duration = 0.0"), "case.toml:8:12: assembly.duration = 0.0: must be > 0 s"},
+      {assembly(8, "steps = 0.0"), "case.toml:8:9: assembly.steps = 0.0: must be > 0"},
+      {assembly(12, "mass = 1.0\ngrid = { columns = 2, rows = 2, spacing = [1, 2, 3] }"),
+       "case.toml:13:43: assembly.disks[0].grid.spacing: must be one number or [columns, rows] in "
+       "diameters"},
+      {assembly(12, "mass = 1.0\n[preparation]\npackings = 10000"),
+       "case.toml:13:1: [preparation]: is of no use without [average]"},
+      {assembly(12, "mass = 1.0\n[preparation]\npackings = 10001"),
+       "case.toml:14:12: preparation.packings = 10001: must be in [1, 10000]"},
       {assembly(12, "mass = 1.0\n[cell]\nomega = 1.0"),
        "case.toml:13:1: [cell]: has no part in an assembly case"},
   });

@@ -65,6 +65,23 @@ TEST(TimeStep, OfACollisionIsOnePerSweep) {
   EXPECT_EQ(timeStep(c), steps[0]);
 }
 
+TEST(TimeStep, OfHertzsLawIsAFractionOfTheFastestImpact) {
+  Case c;
+  c.kind = CaseKind::collision;
+  c.law = thesisLaw();
+  c.law.normal = NormalLaw::hertz;
+  c.law.kn = 1e6;
+  c.law.gn = 0.0;
+  c.collision.mass[0] = c.collision.mass[1] = smallMass;
+  c.collision.radius[0] = c.collision.radius[1] = smallRadius;
+  c.collision.psi = {0.0};
+  c.collision.vn = {0.1, 3.2};
+  // t ∝ v^(−1/5) (Johnson 1985, Eq. 11.24): 32^(1/5) = 2
+  const auto [shortest, longest] = impactTimes(c);
+  EXPECT_NEAR(longest, 2.0 * shortest, 1e-9 * longest);
+  EXPECT_DOUBLE_EQ(timeStep(c), shortest / 50.0);  // as many steps as a case takes unasked
+}
+
 TEST(Nearest, CountsInsertionsDeletionsReplacementsAndSwaps) {
   EXPECT_EQ(editDistance("kitten", "sitting"), 3u);  // the textbook pair
   EXPECT_EQ(editDistance("", "abc"), 3u);

@@ -92,17 +92,23 @@ def mutants_of(file, source):
 
 
 def drawn(project, seed):
-    """All mutants of all folders, a folder after the other and in each in an order that the seed draws."""
-    queues = []
-    for patterns in folders.values():
+    """All mutants of each folder, in an order that the seed draws."""
+    queues = {}
+    for folder, patterns in folders.items():
         files = sorted(path for pattern in patterns for path in project.glob(pattern))
-        of_folder = [mutant for path in files for mutant in mutants_of(str(path.relative_to(project)), path.read_text())]
-        random.Random(seed).shuffle(of_folder)
-        queues.append(of_folder)
-    for turn in range(max(map(len, queues))):
-        for queue in queues:
-            if turn < len(queue):
-                yield queue[turn]
+        queues[folder] = [mutant for path in files for mutant in mutants_of(str(path.relative_to(project)), path.read_text())]
+        random.Random(seed).shuffle(queues[folder])
+    return queues
+
+
+def in_turns(queues, judged):
+    """The next mutant of the folder of which fewest are judged, asked anew for each."""
+    left = {folder: list(queue) for folder, queue in queues.items() if queue}
+    while left:
+        folder = min(left, key=lambda folder: judged[folder])
+        yield left[folder].pop(0)
+        if not left[folder]:
+            del left[folder]
 
 
 def folder_of(file):

@@ -1,8 +1,10 @@
 """What is taken for a place where code can be wrong, and what is not."""
 
+import collections
 import unittest
 
 import mutants
+import published
 
 
 class Places(unittest.TestCase):
@@ -27,6 +29,33 @@ class Places(unittest.TestCase):
         last = mutants.mutants_of("a.cpp", source)[-1]
         self.assertEqual("a + b;\nc + d - e;\nf;", last.applied(source))
         self.assertEqual(last.key, mutants.mutants_of("a.cpp", "\n  " + source.split("\n")[1])[-1].key)
+
+    def test_next_is_the_folder_of_which_fewest_are_judged(self):
+        judged = collections.Counter(a=2)
+        order = []
+        for mutant in mutants.in_turns({"a": [1, 2], "b": [3, 4, 5, 6], "c": []}, judged):
+            order.append(mutant)
+            judged["a" if mutant < 3 else "b"] += mutant != 4  # which does not compile
+        self.assertEqual([3, 4, 5, 1, 6, 2], order)
+
+
+class TakenUp(unittest.TestCase):
+    source = "f();\n  a = b + c + d;\nx * y;"
+
+    def place(self, **row):
+        found = published.taken_up({"file": "a.cpp", "line": "7", **row}, self.source)
+        return found and (found.line, found.column)
+
+    def test_a_line_that_has_moved_is_known_by_its_text(self):
+        self.assertEqual((3, 2), self.place(code="x * y;", change="* → /"))
+        self.assertIsNone(self.place(code="x * z;", change="* → /"))
+        self.assertIsNone(self.place(code="x * y;", change="/ → *"))
+
+    def test_of_several_operators_the_column_in_the_code_tells(self):
+        self.assertIsNone(self.place(code="a = b + c + d;", change="+ → -"))
+        self.assertEqual((2, 8), self.place(code="a = b + c + d;", change="+ → -", column="7"))
+        self.assertEqual((2, 12), self.place(code="a = b + c + d;", change="+ → -", column="11"))
+        self.assertIsNone(self.place(code="a = b + c + d;", change="+ → -", column="8"))
 
 
 if __name__ == "__main__":

@@ -52,6 +52,19 @@ TEST(CostGrowth, APerturbationHasTheSizeAskedForAndIsAlwaysTheSame) {
   EXPECT_EQ(one.disks.position, other.disks.position);
 }
 
+TEST(CostGrowth, APerturbationHasNoDirection) {
+  Scene scene;
+  scene.disks.position.assign(400, Vec2::Zero());
+  const Scene moved = perturbed(scene, 1.0);
+  int above = 0, right = 0;
+  for (const Vec2& position : moved.disks.position) {
+    above += position.y() > 0.0;
+    right += position.x() > 0.0;
+  }
+  EXPECT_NEAR(above, 200, 40);  // ± 10 each
+  EXPECT_NEAR(right, 200, 40);
+}
+
 /// A packing that needs no preparation: disks on a lattice between the walls, each moving.
 class LatticeInTheCell : public testing::Test {
  protected:

@@ -165,25 +165,30 @@ TEST(StabilityMeasures, RestBeginsWhereTheCaseSays) {
   EXPECT_EQ(at.last("time_to_rest"), 4.0);
 }
 
-TEST(StabilityMeasures, PileAngleIsThatOfTheTriangle) {
+/// A filled triangle with base angles of 45°, then one pressed to half its height: atan ½.
+void expectPileAngle(const Vec2& gravity) {
   Series at;
-  at.run.scene.gravity = {0.0, -10.0};
+  at.run.scene.gravity = gravity;
   Disks& disks = at.run.scene.disks;
   disks = {};
-  at.run.snapshots.clear();
-  // A filled triangle with base angles of 45°, then one pressed to half its height: atan ½.
+  const Vec2 up = -gravity.normalized(), along = perpendicular(up);
   Snapshot steep, flat;
   for (int row = 0; row < 100; ++row)
     for (int k = -(100 - row); k <= 100 - row; ++k) {
       disks.radius.push_back(0.5);
       disks.mass.push_back(1.0);
-      steep.position.emplace_back(k, row);
-      flat.position.emplace_back(k, 0.5 * row);
+      steep.position.push_back(k * along + row * up);
+      flat.position.push_back(k * along + 0.5 * row * up);
     }
   flat.positionTime = 1.0;
   at.run.snapshots = {steep, flat};
   const double change = 45.0 - std::atan(0.5) * 180.0 / std::numbers::pi;
   EXPECT_NEAR(at.last("pile_angle_change"), change, 0.2);  // rows are not a continuum
+}
+
+TEST(StabilityMeasures, PileAngleIsThatOfTheTriangle) {
+  expectPileAngle({0.0, -10.0});
+  expectPileAngle({-0.5, 0.0});  // weak, and sideways: so lies the pile
 }
 
 TEST(StabilityMeasures, GoingThroughIsToldFromBouncing) {
