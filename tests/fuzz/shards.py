@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 
+HERE = pathlib.Path(__file__).resolve().parent
 # Inputs of a shard: about half a minute in a build with sanitizers. Of recordings a shard reads a tenth as many.
 kinds = {
     "cases": ("inputs", "FuzzedInput.CasesLoadOrAreRefusedInOneLine", 10000),
@@ -26,7 +27,9 @@ kinds = {
 def read_shard(program, test, first, count, folder):
     """@returns what was said if it failed. The folder has the last input that was written then."""
     environment = os.environ | {"CROSSGRAIN_FUZZ_FROM": str(first), "CROSSGRAIN_FUZZ": str(count), "TMPDIR": str(folder),
-                                "ASAN_OPTIONS": "allocator_may_return_null=1:detect_leaks=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
+                                "ASAN_OPTIONS": f"allocator_may_return_null=1:detect_leaks=1:suppressions={HERE / 'asan_suppressions.txt'}",
+                                "LSAN_OPTIONS": f"suppressions={HERE / 'lsan_suppressions.txt'}:print_suppressions=0",
+                                "UBSAN_OPTIONS": "print_stacktrace=1"}
     folder.mkdir(parents=True)
     try:
         done = subprocess.run([program, f"--gtest_filter={test}", "--gtest_brief=1"], env=environment, capture_output=True, text=True,
