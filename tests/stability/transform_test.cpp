@@ -67,6 +67,61 @@ TEST(Transform, InOtherUnitsNumbersAreOthers) {
   EXPECT_EQ(scene.dt, 2.0);
 }
 
+TEST(Transform, InOtherUnitsWallsMoveAsFast) {
+  Scene scene = small();
+  WallBody& wall = scene.bodies.front();
+  wall.diskPosition = {{1.0, 3.0}};
+  wall.diskRadius = {0.5};
+  wall.motion.amplitude = {1.0, 0.5};
+  wall.motion.frequency = 6.0;
+  wall.motion.radialVelocity = 10.0;
+  wall.motion.radialEnd = 7.0;
+  const WallBody told = inUnits(scene, {.length = 2.0, .mass = 3.0, .time = 4.0}).bodies.front();
+  EXPECT_EQ(told.centre, Vec2(14.0, 0.0));
+  EXPECT_EQ(told.diskPosition.front(), Vec2(2.0, 6.0));
+  EXPECT_EQ(told.diskRadius.front(), 1.0);
+  EXPECT_EQ(told.planes.front().point, Vec2(14.0, 2.0));
+  EXPECT_EQ(told.planes.front().normal, Vec2(1.0, 0.0));
+  EXPECT_EQ(told.motion.velocity, Vec2(0.0, 1.0));  // · 2/4
+  EXPECT_EQ(told.motion.angularVelocity, 0.75);     // / 4
+  EXPECT_EQ(told.motion.amplitude, Vec2(2.0, 1.0));
+  EXPECT_EQ(told.motion.frequency, 1.5);
+  EXPECT_EQ(told.motion.radialVelocity, 5.0);
+  EXPECT_EQ(told.motion.radialEnd, 28.0);
+}
+
+TEST(Transform, InOtherUnitsALawIsAsStiff) {
+  Scene scene = small();
+  scene.law.normal = NormalLaw::linear;
+  scene.law.kn = scene.law.kt = 16.0;
+  scene.law.gn = 8.0;
+  scene.law.gt = 4.0;
+  scene.bottom = BottomPlate{0.01, 32.0, 8.0, 0.1, 9.0, true};
+  const Units units{.length = 2.0, .mass = 3.0, .time = 4.0};
+  const Scene linear = inUnits(scene, units);
+  EXPECT_EQ(linear.law.kn, 3.0);  // · 3/4²
+  EXPECT_EQ(linear.law.kt, 3.0);
+  EXPECT_EQ(linear.law.gn, 6.0);  // · 3/4
+  EXPECT_EQ(linear.law.gt, 3.0);
+  EXPECT_EQ(linear.bottom->kb, 6.0);
+  EXPECT_EQ(linear.bottom->gb, 6.0);
+  EXPECT_EQ(linear.bottom->gravity, 1.125);
+  scene.law.normal = NormalLaw::hertz;
+  scene.law.damper = Damper::viscoelastic;
+  const ContactLaw hertz = inUnits(scene.law, units);
+  EXPECT_EQ(hertz.kn, 1.5);  // · 3/(2 · 4²)
+  EXPECT_EQ(hertz.kt, 1.5);
+  EXPECT_EQ(hertz.gn, 32.0);  // · 4
+  scene.law.normal = NormalLaw::polynomial;
+  scene.law.damper = Damper::critical;
+  scene.law.kn3 = 64.0;
+  const ContactLaw polynomial = inUnits(scene.law, units);
+  EXPECT_EQ(polynomial.kn, 1.5);
+  EXPECT_EQ(polynomial.kn3, 3.0);  // · 3/(2² · 4²)
+  EXPECT_EQ(polynomial.kt, 3.0);
+  EXPECT_EQ(polynomial.gn, 8.0);
+}
+
 TEST(Transform, WhatComesOutIsTakenBack) {
   Transform by = mirrored;
   by.units = {.length = 2.0, .time = 4.0};
