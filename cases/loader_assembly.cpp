@@ -113,7 +113,7 @@ DiskGroup readDisks(Reader in) {
   in.finish();
   if (in.has("mass") && in.has("density")) in.fail("density", "and mass: give one of them");
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
-  if (in.has("density")) group.mass = density * std::numbers::pi * group.radius * group.radius;
+  if (in.has("density")) group.mass = massOf(in, density, group.radius, 1.0);
   return group;
 }
 

@@ -7,6 +7,14 @@
 #include "cases/volume_fraction.hpp"
 
 namespace crossgrain::inline cases {
+
+double massOf(const Reader& in, double density, double radius, double height) {
+  const double mass = density * std::numbers::pi * radius * radius * height;
+  if (!std::isnormal(mass))
+    in.fail("density", fmt::format("makes disks of radius {} m weigh {} kg", radius, mass));
+  return mass;
+}
+
 namespace {
 
 /// small_mass and large_mass, or a density of which disks of the cell's height are made.
@@ -22,11 +30,8 @@ void readMasses(Reader& in, const Cell& cell, Particles& particles) {
     in.take(mass);
     if (in.has(mass)) in.fail("density", fmt::format("and {}: give one of them", mass));
   }
-  const auto massOf = [&](double radius) {
-    return density * std::numbers::pi * radius * radius * cell.height;
-  };
-  particles.smallMass = massOf(particles.smallRadius);
-  particles.largeMass = massOf(particles.largeRadius);
+  particles.smallMass = massOf(in, density, particles.smallRadius, cell.height);
+  particles.largeMass = massOf(in, density, particles.largeRadius, cell.height);
 }
 
 /// Which part of the disks are large, by number; given by number or by mass.

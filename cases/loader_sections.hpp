@@ -15,6 +15,10 @@ namespace crossgrain::inline cases {
 // One function per section of a case file: reads every key, then checks what the section can tell
 // alone. All throw BadInput.
 
+/// Of a disk that is made of the section's density: [kg/m³] and its height [m], or [kg/m²] and 1.
+/// @throws BadInput where that is nothing, or more than there are numbers
+double massOf(const Reader& in, double density, double radius, double height);
+
 /// One number for both bodies, or two.
 void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range);
 

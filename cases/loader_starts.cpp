@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <numbers>
 
 #include "cases/loader_sections.hpp"
 #include "cases/packing.hpp"
@@ -47,7 +46,7 @@ void readStart(Reader& in, Assembly& assembly) {
       if (density == 0.0)
         throw BadInput(
             fmt::format("{}: tells no masses, and [assembly.start] no density", file.string()));
-      return density * std::numbers::pi * radius * radius;
+      return massOf(in, density, radius, 1.0);
     };
     Start start = readStart(file, {mass, assembly.inertiaFactor});
     if (starts.disks.empty()) {

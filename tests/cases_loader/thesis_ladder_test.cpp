@@ -42,7 +42,7 @@ TEST(ThesisCases, AllLoadAreNamedAsTheirFilesAndBeginWhenTheRingHasClosed) {
     EXPECT_EQ(cases.front().preparation.rotations, 0.0) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 17 + 1 + 15 + 7 + 7);  // packings, base, rates, twenty rotations, readings
+  EXPECT_EQ(count, 17 + 1 + 15 + 8 + 7);  // packings, base, rates, twenty rotations, readings
 }
 
 TEST(ThesisCases, PackingsAreThoseOfTheTable) {
