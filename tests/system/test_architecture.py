@@ -49,7 +49,7 @@ def types_of(path):
     """(namespace, name) of each type that a file defines outside of nameless namespaces."""
     inside = []
     for line in path.read_text(encoding="utf-8").splitlines():
-        if opened := re.match(r"namespace ?([\w:]*(?: \w+)?) ?\{$", line):
+        if opened := re.match(r"namespace ?([\w:]*(?: [\w:]+)?) ?\{$", line):
             inside.append(opened[1])
         elif line.startswith("}  // namespace"):
             inside.pop()
