@@ -65,7 +65,7 @@ TEST_F(LoaderErrors, OfAssemblies) {
       {assembly(12, "mass = 1.0\n[[assembly.walls]]\nbox = [0, 1, 1, 1]"),
        "case.toml:14:7: assembly.walls[0].box: must be [left, bottom, right, top] in m"},
       {assembly(12, "density = 1e308"),
-       "case.toml:12:11: assembly.disks[0].density = 1e308: makes disks of radius 1 m weigh inf "
+       "case.toml:12:11: assembly.disks[0].density = 1e+308: makes disks of radius 0.5 m weigh inf "
        "kg"},
       {assembly(8, "duration = 0.0"), "case.toml:8:12: assembly.duration = 0.0: must be > 0 s"},
       {assembly(8, "steps = 0.0"), "case.toml:8:9: assembly.steps = 0.0: must be > 0"},
