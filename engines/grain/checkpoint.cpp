@@ -123,6 +123,7 @@ void Core<Real>::restore(std::istream& in) {
   LedgerObserver<Real>::forState(
       *ledger_, [&](auto& sums) { read(in, sums); },
       [&](auto& all) { readAny(in, all, mostPairs); }, [&](auto& all) { readSame(in, all); });
+  ledger_->placesRestored();
 }
 
 }  // namespace grain

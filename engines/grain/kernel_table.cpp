@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engines/grain/contact_kernel.hpp"
+#include "engines/grain/ledger_kernel.hpp"
 #include "engines/grain/motion_kernel.hpp"
 #include "engines/grain/plane_kernel.hpp"
 
@@ -50,15 +51,18 @@ constexpr std::size_t meaningful(std::size_t index) {
   return indexOf(e);
 }
 
-template <class Real, std::size_t... C, std::size_t... M>
-Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>) {
+template <class Real, std::size_t... C, std::size_t... M, std::size_t... D>
+Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>,
+                    std::index_sequence<D...>) {
   return {GRAIN_TEXT(GRAIN_SET),
           {contactKernelAt<Real, C>()...},
           &contactKernel<GeneralLaw<Real>, Real>,
           {&motionKernel<Real, meaningful(M)>...},
           {&kickKernel<Real, false>, &kickKernel<Real, true>},
           {planeKernelAt<Real, C>()...},
-          &planeKernel<GeneralLaw<Real>, Real>};
+          &planeKernel<GeneralLaw<Real>, Real>,
+          {&ledgerDiskKernel<Real, D>...},
+          &ledgerPairKernel<Real>};
 }
 
 }  // namespace
@@ -66,7 +70,8 @@ Kernels<Real> table(std::index_sequence<C...>, std::index_sequence<M...>) {
 template <class Real>
 Kernels<Real> GRAIN_SET() {
   return table<Real>(std::make_index_sequence<contactVariants>(),
-                     std::make_index_sequence<motionVariants>());
+                     std::make_index_sequence<motionVariants>(),
+                     std::make_index_sequence<ledgerDiskVariants>());
 }
 
 template Kernels<double> GRAIN_SET<double>();

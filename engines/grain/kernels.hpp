@@ -6,6 +6,7 @@
 
 #include "engines/grain/bottom.hpp"
 #include "engines/grain/law_types.hpp"
+#include "engines/grain/ledger_views.hpp"
 
 namespace grain {
 
@@ -139,6 +140,8 @@ struct Kernels {
   KickKernel<Real> kick[2];                   ///< without and with rotation
   PlaneKernel<Real> planes[contactVariants];  ///< likewise
   PlaneKernel<Real> generalPlanes;
+  LedgerDiskKernel<Real> ledgerDisks[ledgerDiskVariants];
+  LedgerPairKernel<Real> ledgerPairs;
 };
 
 /// The fastest set that this processor runs, or the one that GRAIN_INSTRUCTIONS names; all give the

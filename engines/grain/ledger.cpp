@@ -34,16 +34,19 @@ GRAIN_INLINE void LedgerSums::add(double EnergyLedger::*term, const TwoParts& po
   pending_.*term += sign * power.opening * scheme_.time.opening;
 }
 
-GRAIN_INLINE void LedgerSums::spring(SpringAccount now, const TwoParts& power) {
+GRAIN_INLINE void LedgerSums::settleSpring(const TwoParts& power) {
+  SpringAccount& now = next_.back();
   while (place_ < springs_.size() && pairOf(springs_[place_]) < pairOf(now))
     release(springs_[place_++]);
-  SpringAccount before;
-  before.modulus = now.modulus;  // of a contact that has only begun
-  if (place_ < springs_.size() && pairOf(springs_[place_]) == pairOf(now))
-    before = springs_[place_++];
-  settle(before, now, power.closing * scheme_.time.closing, &EnergyLedger::lostSliding);
   now.openingWork = power.opening * scheme_.time.opening;
-  next_.push_back(now);
+  const double closingWork = power.closing * scheme_.time.closing;
+  if (place_ < springs_.size() && pairOf(springs_[place_]) == pairOf(now)) {
+    settle(springs_[place_++], now, closingWork, &EnergyLedger::lostSliding);
+  } else {  // of a contact that has only begun
+    SpringAccount before;
+    before.modulus = now.modulus;
+    settle(before, now, closingWork, &EnergyLedger::lostSliding);
+  }
 }
 
 void LedgerSums::endSprings() {

@@ -80,8 +80,10 @@ class LedgerSums {
   void lose(double EnergyLedger::*term, const TwoParts& power) { add(term, power, -1.0); }
   /// Powers [W] that a convention gives the disks.
   void gain(const TwoParts& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
-  /// One spring, in ascending (i, j). @param power  of the spring on the disks [W]
-  void spring(SpringAccount now, const TwoParts& power);
+  /// One spring, in ascending (i, j): its account to be filled in, then what it did.
+  /// @param power  of the spring on the disks [W]
+  SpringAccount& nextSpring() { return next_.emplace_back(); }
+  void settleSpring(const TwoParts& power);
   /// After the last spring: those of contacts that are no more.
   void endSprings();
   /// Moving disks, the first ones, have other places. @param newPlace  old → new

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engines/grain/ledger.hpp"
-#include "engines/grain/real.hpp"
+#include "engines/grain/ledger_views.hpp"
+#include "engines/grain/pair_list.hpp"
 #include "engines/grain/setup.hpp"
 
 namespace grain {
@@ -32,6 +34,8 @@ class LedgerObserver {
   /// Before the motion kernel stretches the plate's springs.
   void beforeMotion();
   void afterForces();
+  /// After a checkpoint is restored.
+  void placesRestored() { takeMasses(); }
   /// Places change. @param order  the old place of each new one; scratch: as of reorder()
   void renumber(std::span<const std::int32_t> order, std::span<const std::int32_t> newPlace,
                 std::vector<std::byte>& scratch);
@@ -47,15 +51,32 @@ class LedgerObserver {
   }
 
  private:
+  /// By place, of the moving disks.
+  struct Motions {
+    std::vector<Vec<double>> velocity;
+    std::vector<double> spin;  ///< empty where disks do not rotate
+
+    BodyMotion of(std::size_t place) const {
+      return {velocity[place].x, velocity[place].y, spin.empty() ? 0.0 : spin[place]};
+    }
+    DiskMotions view() { return {velocity.data(), spin.data()}; }
+  };
+
   void account(double time);
+  void lookAtDisks(double time);
+  void accountPairs();
+  void gatherPairs();
+  void flushPairs();
   void accountContact(const Contact& contact);
+  void accountTouch(const Contact& contact, const Touch& touch, const BodyMotion* wall);
   void accountSpring(const Contact& contact, const Touch& touch, double stiffness);
-  void accountDisk(std::size_t place, double time);
+  void accountDisks();
   void accountPlate(std::size_t place);
+  void takeMasses();
   Touch touchOf(const Contact& contact, const BodyMotion* wall) const;
-  BodyMotion carried(std::size_t place, double time) const;
   BodyMotion seen(std::size_t place) const;
-  BodyMotion wallMotion(const Contact& contact) const;
+  BodyMotion diskMotion(std::size_t wallDisk) const;
+  BodyMotion planeMotion(const Contact& contact) const;
 
   const Core<Real>& core_;
   LedgerSums sums_;
@@ -63,10 +84,19 @@ class LedgerObserver {
   Vec<double> middle_{};  ///< where potentials are 0 [m]
   bool plateSpin_;
   // By place, of the moving disks.
-  std::vector<BodyMotion> closing_, opening_;  ///< half way through the two parts' kicks
-  std::vector<BodyMotion> seen_;               ///< as the law saw them
-  std::vector<Vec<Real>> plateBefore_;         ///< springs before the last evaluation [m]
+  std::vector<double> mass_, inertia_;
+  Motions closing_, opening_;           ///< half way through the two parts' kicks
+  std::vector<double> kinetic_;         ///< [J]
+  std::vector<Vec<Real>> plateBefore_;  ///< springs before the last evaluation [m]
+  std::vector<double> plateSlides_, plateSquare_;
+  std::vector<PlatePower> plateClosing_, plateOpening_;
   std::vector<SpringAccount> plateAccounts_;
+  // The pairs at hand, and where they are from.
+  LedgerPairs<Real> pairs_;
+  std::size_t pairCount_ = 0;
+  std::array<const PairList<Real>*, LedgerPairs<Real>::size> pairList_{};
+  std::array<std::size_t, LedgerPairs<Real>::size> pairPlace_{};
+  std::array<BodyMotion, LedgerPairs<Real>::size> pairWall_{};
 };
 
 }  // namespace grain

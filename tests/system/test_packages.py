@@ -171,6 +171,10 @@ class Packages(unittest.TestCase):
         self.assertEqual(set(), absent, "programs that are called and not installed")
         self.assert_in_packages_txt(paths)
 
+    def test_scripts_that_are_called_by_name_can_be(self):
+        for name in ("run", "test", "setup", ".ci/run"):
+            self.assertTrue(os.access(ROOT / name, os.X_OK), f"./{name} has no run bit")
+
 
 if __name__ == "__main__":
     unittest.main()

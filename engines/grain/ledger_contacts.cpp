@@ -1,0 +1,261 @@
+#include "engines/grain/contact_force.hpp"
+#include "engines/grain/core.hpp"
+
+// What the ledger sees of contacts: pairs of disks in blocks, by the kernels; planes and the
+// impulses of rigid disks one by one.
+
+namespace grain {
+
+/// One contact as the ledger reads it.
+struct Touch {
+  double nx = 0.0, ny = 0.0;
+  double leverI = 0.0, leverJ = 0.0;  ///< of the force
+  double armI = 0.0, armJ = 0.0;      ///< of the spins in v_t
+  TwoParts normal, tangential;        ///< relative velocities half way through the kicks
+  TwoParts slip;          ///< v_t of the law then; the force does its work on tangential
+  double seenSlip = 0.0;  ///< v_t that the law saw
+
+  double along(const BodyMotion& i, const BodyMotion& j) const {
+    return (i.vx - j.vx) * nx + (i.vy - j.vy) * ny;
+  }
+  double across(const BodyMotion& i, const BodyMotion& j) const {
+    return (i.vy - j.vy) * nx - (i.vx - j.vx) * ny - (leverI * i.spin + leverJ * j.spin);
+  }
+  double slipOf(const BodyMotion& i, const BodyMotion& j) const {
+    return (i.vy - j.vy) * nx - (i.vx - j.vx) * ny - (armI * i.spin + armJ * j.spin);
+  }
+};
+
+namespace {
+
+TwoParts times(double force, const TwoParts& velocity) {
+  return {force * velocity.closing, force * velocity.opening};
+}
+
+}  // namespace
+
+/// As the law saw it.
+template <class Real>
+GRAIN_INLINE BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
+  const bool predicted = !core_.seenVelocity_.empty();
+  const Vec<Real> velocity = predicted ? core_.seenVelocity_[place] : core_.velocity_[place];
+  BodyMotion motion{static_cast<double>(velocity.x), static_cast<double>(velocity.y), 0.0};
+  if (core_.law_.rotation)
+    motion.spin = static_cast<double>(predicted ? core_.seenSpin_[place] : core_.spin_[place]);
+  return motion;
+}
+
+/// Planes are few: their contacts are taken one by one, in their turn.
+template <class Real>
+void LedgerObserver<Real>::accountPairs() {
+  core_.forPairsByPlace(
+      [&](const PairList<Real>& list, std::size_t k) {
+        pairList_[pairCount_] = &list;
+        pairPlace_[pairCount_] = k;
+        if (++pairCount_ == LedgerPairs<Real>::size) flushPairs();
+      },
+      [&](std::size_t plane, std::size_t place) {
+        const auto contact = core_.touching(plane, place);
+        if (!contact) return;
+        flushPairs();
+        accountContact(*contact);
+      });
+  flushPairs();
+}
+
+template <class Real>
+void LedgerObserver<Real>::gatherPairs() {
+  LedgerPairs<Real>& b = pairs_;
+  // Copies that no store into the block can change.
+  const auto* const position = core_.position_.data();
+  const auto* const radius = core_.radius_.data();
+  const bool predicted = !core_.seenVelocity_.empty(), rotation = core_.law_.rotation;
+  const auto* const seen = predicted ? core_.seenVelocity_.data() : core_.velocity_.data();
+  const auto* const seenSpin = predicted ? core_.seenSpin_.data() : core_.spin_.data();
+  const DiskMotions closing = closing_.view(), opening = opening_.view();
+  const std::size_t moving = core_.moving_, count = pairCount_;
+  for (std::size_t p = 0; p < count; ++p) {
+    const PairList<Real>& list = *pairList_[p];
+    const std::size_t k = pairPlace_[p];
+    const auto i = static_cast<std::size_t>(list.i[k]), j = static_cast<std::size_t>(list.j[k]);
+    b.distance[p] = position[i] - position[j];
+    if (!list.shift.empty()) b.distance[p] += list.shift[k];
+    b.radiusI[p] = radius[i];
+    b.radiusJ[p] = radius[j];
+    const double seenX = seen[i].x, seenY = seen[i].y;
+    b.closingI[p] = rotation ? closing.spin[i] : 0.0;
+    b.openingI[p] = rotation ? opening.spin[i] : 0.0;
+    b.seenI[p] = rotation ? static_cast<double>(seenSpin[i]) : 0.0;
+    if (j < moving) {
+      b.closing[p] = closing.velocity[i] - closing.velocity[j];
+      b.opening[p] = opening.velocity[i] - opening.velocity[j];
+      b.seen[p].x = seenX - static_cast<double>(seen[j].x);
+      b.seen[p].y = seenY - static_cast<double>(seen[j].y);
+      b.closingJ[p] = rotation ? closing.spin[j] : 0.0;
+      b.openingJ[p] = rotation ? opening.spin[j] : 0.0;
+      b.seenJ[p] = rotation ? static_cast<double>(seenSpin[j]) : 0.0;
+    } else {
+      const BodyMotion wall = diskMotion(j);
+      pairWall_[p] = wall;
+      const Vec<double> velocity{wall.vx, wall.vy};
+      b.closing[p] = closing.velocity[i] - velocity;
+      b.opening[p] = opening.velocity[i] - velocity;
+      b.seen[p] = Vec<double>{seenX, seenY} - velocity;
+      b.closingJ[p] = b.openingJ[p] = b.seenJ[p] = wall.spin;
+    }
+  }
+}
+
+template <class Real>
+void LedgerObserver<Real>::flushPairs() {
+  LedgerPairs<Real>& b = pairs_;
+  gatherPairs();
+  core_.kernels_.ledgerPairs(core_.law_.lever, core_.law_.velocityLever, b, pairCount_);
+  for (std::size_t p = 0; p < pairCount_; ++p) {
+    if (b.touches[p] == Real(0)) continue;
+    const PairList<Real>& list = *pairList_[p];
+    const std::size_t k = pairPlace_[p];
+    const Contact contact{list.i[k],
+                          list.j[k],
+                          static_cast<double>(b.nx[p]),
+                          static_cast<double>(b.ny[p]),
+                          static_cast<double>(b.overlap[p]),
+                          static_cast<double>(list.normal[k]),
+                          static_cast<double>(list.tangential[k]),
+                          list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
+                          list.sliding[k] != Real(0)};
+    Touch touch;
+    touch.nx = contact.nx;
+    touch.ny = contact.ny;
+    touch.leverI = b.leverI[p];
+    touch.leverJ = b.leverJ[p];
+    touch.normal = {b.normalClosing[p], b.normalOpening[p]};
+    touch.tangential = {b.acrossClosing[p], b.acrossOpening[p]};
+    touch.slip = {b.slipClosing[p], b.slipOpening[p]};
+    touch.seenSlip = b.seenSlip[p];
+    const bool atWall = static_cast<std::size_t>(contact.j) >= core_.moving_;
+    accountTouch(contact, touch, atWall ? &pairWall_[p] : nullptr);
+  }
+  pairCount_ = 0;
+}
+
+/// Of a wall's disk; the spin is that which friction sees.
+template <class Real>
+BodyMotion LedgerObserver<Real>::diskMotion(std::size_t wallDisk) const {
+  const WallPoint point = core_.wallDisk(wallDisk);
+  return {point.vx, point.vy,
+          core_.law_.rotation ? core_.walls_[core_.wallOf(wallDisk)].state().spin : 0.0};
+}
+
+/// Of the point of a plane that a contact touches.
+template <class Real>
+BodyMotion LedgerObserver<Real>::planeMotion(const Contact& contact) const {
+  const auto j = static_cast<std::size_t>(contact.j);
+  const WallState& wall = core_.walls_[core_.placedPlanes_[j - core_.diskCount()].wall].state();
+  const auto i = static_cast<std::size_t>(contact.i);
+  const auto own = static_cast<double>(core_.radius_[i]);
+  const double reach = planePoint(core_.law_, own, own - contact.overlap);
+  const auto number = static_cast<std::size_t>(core_.numberAt_[i]);
+  const double armX = core_.x(number) - reach * contact.nx - wall.x;
+  const double armY = core_.y(number) - reach * contact.ny - wall.y;
+  return {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0};
+}
+
+/// @param wall  the motion of its point that is touched; null: j moves as well
+template <class Real>
+GRAIN_INLINE Touch LedgerObserver<Real>::touchOf(const Contact& contact,
+                                                 const BodyMotion* wall) const {
+  const auto i = static_cast<std::size_t>(contact.i);
+  const auto j = static_cast<std::size_t>(contact.j);
+  const auto own = static_cast<double>(core_.radius_[i]);
+  Touch touch;
+  touch.nx = contact.nx;
+  touch.ny = contact.ny;
+  if (core_.law_.rotation && j < core_.diskCount()) {
+    const auto other = static_cast<double>(core_.radius_[j]);
+    touch.leverI = armOf(core_.law_.lever, own, other, contact.overlap);
+    touch.leverJ = armOf(core_.law_.lever, other, own, contact.overlap);
+    touch.armI = armOf(core_.law_.velocityLever, own, other, contact.overlap);
+    touch.armJ = armOf(core_.law_.velocityLever, other, own, contact.overlap);
+  } else if (core_.law_.rotation) {
+    const double height = own - contact.overlap;
+    touch.leverI = planeArmOf(core_.law_.lever, core_.law_.planeLever, own, height);
+    touch.armI = planeArmOf(core_.law_.velocityLever, core_.law_.planeLever, own, height);
+  }
+  const auto parts = [&](auto&& of) {
+    return TwoParts{of(closing_.of(i), wall != nullptr ? *wall : closing_.of(j)),
+                    of(opening_.of(i), wall != nullptr ? *wall : opening_.of(j))};
+  };
+  touch.normal = parts([&](const auto& a, const auto& b) { return touch.along(a, b); });
+  touch.tangential = parts([&](const auto& a, const auto& b) { return touch.across(a, b); });
+  touch.slip = parts([&](const auto& a, const auto& b) { return touch.slipOf(a, b); });
+  touch.seenSlip = touch.slipOf(seen(i), wall != nullptr ? *wall : seen(j));
+  return touch;
+}
+
+/// One that is not among the pairs at hand.
+template <class Real>
+void LedgerObserver<Real>::accountContact(const Contact& contact) {
+  const auto j = static_cast<std::size_t>(contact.j);
+  if (j < core_.moving_) return accountTouch(contact, touchOf(contact, nullptr), nullptr);
+  const BodyMotion wall = j < core_.diskCount() ? diskMotion(j) : planeMotion(contact);
+  accountTouch(contact, touchOf(contact, &wall), &wall);
+}
+
+/// @param wall  the motion of its point that is touched; null: j moves as well
+template <class Real>
+void LedgerObserver<Real>::accountTouch(const Contact& contact, const Touch& touch,
+                                        const BodyMotion* wall) {
+  ContactMotion<Real> motion{};
+  motion.overlap = static_cast<Real>(contact.overlap);
+  motion.radius =
+      core_.pairRadius(static_cast<std::size_t>(contact.i), static_cast<std::size_t>(contact.j));
+  const auto elastic = static_cast<double>(elasticForce(core_.law_, motion));
+  sums_.ledger.elasticNormal += static_cast<double>(storedEnergy(core_.law_, motion, Real(0)));
+  sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - elastic, touch.normal));
+  if (wall != nullptr) {
+    const BodyMotion still{};
+    const double power = -(contact.normalForce * touch.along(still, *wall) +
+                           contact.tangentialForce * touch.across(still, *wall));
+    sums_.workOfWall({power, power});
+  }
+  if (core_.law_.tangential == Tangential::none) return;
+  // Where v_t has another arm than f_t, the force does work on a velocity that the law does not
+  // see.
+  sums_.gain({contact.tangentialForce * (touch.tangential.closing - touch.slip.closing),
+              contact.tangentialForce * (touch.tangential.opening - touch.slip.opening)});
+  if (core_.lists_.springs()) {
+    accountSpring(contact, touch, static_cast<double>(tangentialStiffness(core_.law_, motion)));
+  } else {
+    sums_.lose(contact.sliding ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
+               times(contact.tangentialForce, touch.slip));
+  }
+}
+
+/// ξ is kept as the next evaluation will begin with it; what carries the force of this one is ξ
+/// without the part of v_t dt that was added since.
+template <class Real>
+GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& touch,
+                                                      double stiffness) {
+  const bool remembersForce = core_.law_.history == History::force;
+  double part = 0.0;  // of v_t dt
+  if (core_.law_.stretch == Stretch::after && !contact.sliding) part = 1.0;
+  if (core_.law_.stretch == Stretch::midpoint) part = 0.5;
+  const double unit = remembersForce ? 1.0 : stiffness;
+  const double stretch = contact.spring - part * static_cast<double>(core_.law_.dt) *
+                                              touch.seenSlip * (remembersForce ? stiffness : 1.0);
+  SpringAccount& account = sums_.nextSpring();
+  account.i = contact.i;
+  account.j = contact.j;
+  account.sliding = contact.sliding;
+  account.modulus = !remembersForce ? stiffness : stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+  account.square = stretch * stretch;
+  account.energy = 0.5 * account.modulus * account.square;
+  sums_.ledger.elasticTangential += account.energy;
+  sums_.settleSpring(times(-unit * stretch, touch.slip));
+  const bool slid = contact.sliding && !core_.law_.resetSpringOnly;
+  sums_.lose(slid ? &EnergyLedger::lostSliding : &EnergyLedger::lostTangentialDamping,
+             times(contact.tangentialForce + unit * stretch, touch.slip));
+}
+
+}  // namespace grain
