@@ -31,7 +31,7 @@ int listEngines(const CommandLine& line) {
   for (const EngineEntry& entry : engineRegistry()) {
     json row = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
     try {
-      row["capabilities"] = toJson(startEngine(entry, scratch.path, 60.0)->capabilities());
+      row["capabilities"] = toJson(startNew(entry, scratch.path, 60.0)->capabilities());
     } catch (const std::exception& missing) {
       row["missing"] = missing.what();
     }

@@ -29,6 +29,9 @@ class ArrayWriter {
   /// @throws std::runtime_error naming the file
   nlohmann::json write(const std::filesystem::path& file) const;
 
+  /// What the file would hold.
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
  private:
   void append(const std::string& name, const char* type, std::size_t count,
               std::span<const std::byte> bytes);

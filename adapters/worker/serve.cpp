@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -109,6 +110,7 @@ int serve(Engine& engine) {
     } catch (const std::exception& error) {
       reply = refusal("failed", error);
     }
+    std::fflush(stdout);  // what it printed is in the log of this run, and not of the next
     // What an engine throws need not be UTF-8.
     if (!writeLine(reply.dump(-1, ' ', false, json::error_handler_t::replace)) || last) break;
   }

@@ -4,6 +4,7 @@
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
+#include "adapters/worker/moved_log.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/busy_time.hpp"
 
@@ -71,14 +72,39 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
 }
 
 WorkerEngine::~WorkerEngine() {
-  if (!process_) return;
+  dismiss();
+  if (process_) process_->waitForExit(1s);
+}
+
+void WorkerEngine::dismiss() {
+  if (!process_ || dismissed_) return;
+  dismissed_ = true;
   try {
     process_->sendLine(R"({"request":"quit"})", ChildProcess::Clock::now() + 100ms);
   } catch (const std::exception&) {
-    // It is ended below whether or not it listens.
+    // It is ended whether or not it listens.
   }
   process_->closeInput();
-  process_->waitForExit(1s);
+}
+
+bool WorkerEngine::isReady() const {
+  return process_ && process_->isAlive() && process_->unasked().empty();
+}
+
+void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) {
+  shape_ = {};
+  time_ = 0.0;
+  goodTime_.reset();
+  scratch_ = std::filesystem::absolute(scratch);
+  timeout_ = timeout;
+  const std::filesystem::path log = scratch_ / (name_ + ".log");
+  try {
+    std::filesystem::create_directories(scratch_);
+    moveLog(log_, log);
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  log_ = log;
 }
 
 Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {

@@ -127,6 +127,7 @@ int serve(Engine&& engine) {
     } catch (const std::exception& error) {
       reply = {{"ok", false}, {"kind", "failed"}, {"what", error.what()}};
     }
+    std::fflush(stdout);  // what it printed is in the log of this run, and not of the next
     const std::string text = reply.dump() + "\n";
     std::fwrite(text.data(), 1, text.size(), replies);
     std::fflush(replies);

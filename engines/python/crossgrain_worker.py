@@ -11,6 +11,7 @@ Dictionaries are the protocol's JSON objects; arrays go under the protocol's nam
 
 import json
 import os
+import sys
 
 import numpy as np
 
@@ -91,6 +92,7 @@ def serve(engine, answer=answer, descriptors=(3, 4)):
                 reply = {"ok": False, "kind": "failed", "what": str(failure)}
             except Exception as error:
                 reply = {"ok": False, "kind": "failed", "what": one_line(error)}
+            sys.stdout.flush()  # what it printed is in the log of this run, and not of the next
             replies.write(json.dumps(reply) + "\n")
             replies.flush()
             if request["request"] == "quit":
