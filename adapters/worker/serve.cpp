@@ -63,7 +63,9 @@ std::filesystem::path fileOf(const json& request) {
 json answer(Engine& engine, const json& request) {
   const auto what = request.at("request").get<std::string>();
   if (what == "hello")
-    return {{"protocol", protocolVersion}, {"capabilities", toJson(engine.capabilities())}};
+    return {{"protocol", protocolVersion},
+            {"capabilities", toJson(engine.capabilities())},
+            {"writes_over", true}};
   if (what == "load") {
     const ArrayReader arrays(fileOf(request), request.at("arrays"));
     return {{"realised", toJson(engine.load(sceneFromJson(request.at("scene"), arrays),
@@ -74,7 +76,7 @@ json answer(Engine& engine, const json& request) {
     ArrayWriter arrays;
     json reply = {{"snapshot",
                    toJson(engine.snapshot(contactReportFromJson(request.at("contacts"))), arrays)}};
-    reply["arrays"] = arrays.write(fileOf(request));
+    reply["arrays"] = arrays.writeOver(fileOf(request));
     return reply;
   }
   if (what == "stats") return {{"stats", toJson(engine.stats())}};

@@ -14,20 +14,26 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-/// An array file that goes when it has been read.
-class ScratchFile {
+/// Disks, wall disks and planes of a scene whose array file is kept: of larger ones it is long, and
+/// spoiling it takes longer than making a new one.
+constexpr std::size_t mostBodiesOfKept = 10'000;
+
+std::size_t bodiesIn(const Scene& scene) {
+  std::size_t bodies = scene.disks.size();
+  for (const WallBody& body : scene.bodies) bodies += body.diskRadius.size() + body.planes.size();
+  return bodies;
+}
+
+/// Says that the exchange is over, however it ends.
+class Exchanging {
  public:
-  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  explicit Exchanging(ExchangeFile& file) : file_(file) {}
+  ~Exchanging() { file_.done(); }
+  Exchanging(const Exchanging&) = delete;
+  Exchanging& operator=(const Exchanging&) = delete;
 
  private:
-  std::filesystem::path path_;
+  ExchangeFile& file_;
 };
 
 }  // namespace
@@ -53,7 +59,8 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
       log_(scratch_ / (name_ + ".log")),
       timeout_(timeout),
       memory_(call.memory),
-      listener_(std::move(listener)) {
+      listener_(std::move(listener)),
+      exchangeFile_(std::make_unique<ExchangeFile>(scratch_ / name_)) {
   try {
     std::filesystem::create_directories(scratch_);
     process_ = std::make_unique<ChildProcess>(call, log_);
@@ -66,6 +73,7 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
     if (spoken != protocolVersion)
       throw std::runtime_error(
           fmt::format("it speaks protocol {}, this program speaks {}", spoken, protocolVersion));
+    writesOver_ = reply.value("writes_over", false);
     return capabilitiesFromJson(reply.at("capabilities"));
   });
   if (!call.stamp.empty()) capabilities_.version += fmt::format(" ({})", call.stamp);
@@ -105,20 +113,22 @@ void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) 
     fail(error.what());
   }
   log_ = log;
+  exchangeFile_ = std::make_unique<ExchangeFile>(scratch_ / name_);
 }
 
 Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   shape_ = scene;
   time_ = 0.0;
   goodTime_.reset();
-  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
+  // Of a recording each exchange has its own, as one is kept that grew longer before.
+  keepsFile_ = writesOver_ && !listener_ && bodiesIn(scene) <= mostBodiesOfKept;
+  const Exchanging exchanging(*exchangeFile_);
   ArrayWriter arrays;
-  json request = {{"request", "load"},
-                  {"scene", toJson(scene, arrays)},
-                  {"settings", toJson(settings)},
-                  {"file", file.path().string()}};
+  json request = {
+      {"request", "load"}, {"scene", toJson(scene, arrays)}, {"settings", toJson(settings)}};
   try {
-    request["arrays"] = arrays.write(file.path());
+    request["file"] = exchangeFile_->next(keepsFile_).string();
+    request["arrays"] = exchangeFile_->write(arrays);
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -142,13 +152,16 @@ double WorkerEngine::advance(double t) {
 }
 
 Snapshot WorkerEngine::snapshot(ContactReport contacts) {
-  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
-  const json reply =
-      ask({{"request", "snapshot"}, {"contacts", toJson(contacts)}, {"file", file.path().string()}},
-          "snapshot");
+  const Exchanging exchanging(*exchangeFile_);
+  json request = {{"request", "snapshot"}, {"contacts", toJson(contacts)}};
+  try {
+    request["file"] = exchangeFile_->next(keepsFile_).string();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  const json reply = ask(request, "snapshot");
   Snapshot snapshot = understand("snapshot", [&] {
-    return snapshotFromJson(reply.at("snapshot"), ArrayReader(file.path(), reply.at("arrays")),
-                            shape_);
+    return snapshotFromJson(reply.at("snapshot"), exchangeFile_->read(reply.at("arrays")), shape_);
   });
   goodTime_ = snapshot.positionTime;
   return snapshot;

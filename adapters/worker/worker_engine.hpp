@@ -10,6 +10,7 @@
 
 #include "adapters/engine.hpp"
 #include "adapters/worker/exchange.hpp"
+#include "adapters/worker/exchange_file.hpp"
 #include "adapters/worker/process.hpp"
 
 namespace crossgrain {
@@ -81,7 +82,9 @@ class WorkerEngine final : public Engine {
   Scene shape_;  ///< the loaded scene: what snapshots are checked against
   double time_ = 0.0;
   std::optional<double> goodTime_;  ///< of the last snapshot of this scene
-  unsigned files_ = 0;
+  std::unique_ptr<ExchangeFile> exchangeFile_;
+  bool writesOver_ = false;  ///< the worker writes over what an array file holds
+  bool keepsFile_ = false;   ///< of this scene
   bool dismissed_ = false;
 };
 

@@ -40,7 +40,8 @@ def read_arrays(path, entries):
 def write_arrays(path, arrays):
     """Writes an array file. Returns the list that describes it."""
     entries = []
-    with open(path, "wb") as file:
+    # Over what is there, and not cut off first: the harness names one file again and again.
+    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT, 0o666), "wb") as file:
         for name, (kind, values) in arrays.items():
             values = np.asarray(values, TYPES[kind])
             file.write(bytes(-file.tell() % 8))
@@ -54,7 +55,7 @@ def write_arrays(path, arrays):
 def answer(engine, request):
     what = request["request"]
     if what == "hello":
-        return {"protocol": PROTOCOL, "capabilities": engine.capabilities()}
+        return {"protocol": PROTOCOL, "capabilities": engine.capabilities(), "writes_over": True}
     if what == "load":
         arrays = read_arrays(request["file"], request["arrays"])
         return {"realised": engine.load(request["scene"], arrays, request["settings"])}
