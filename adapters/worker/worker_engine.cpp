@@ -182,16 +182,14 @@ void WorkerEngine::restore(const std::filesystem::path& file) {
 
 json WorkerEngine::ask(const json& request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
-  const json reply = exchange(request, what);
-  return understand(what, [&]() -> json {
-    if (reply.at("ok").get<bool>()) {
-      requireAnswerTo(request.at("request"), reply);
-      return reply;
-    }
+  json reply = exchange(request, what);
+  understand(what, [&] {
+    if (reply.at("ok").get<bool>()) return requireAnswerTo(request.at("request"), reply);
     const std::string reason = asOneLine(reply.at("what"), longestReason);
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
     throw EngineFailure(failure(reason));
   });
+  return reply;
 }
 
 json WorkerEngine::exchange(const json& request, const std::string& what) const {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -211,15 +210,16 @@ TEST_F(Pool, OutlivesTheThreadThatStartedIt) {
 
 TEST(PoolEnd, LeavesNoChild) {
   const fs::path scratch = fs::path(::testing::TempDir()) / "crossgrain-pool-end";
+  pid_t pid = -1;
   {
     WorkerPool pool;
     const WorkerPool::Kind kind{"toy",
                                 {{fs::read_symlink("/proc/self/exe").string(), "--worker", ""}}};
-    PooledEngine(pool, kind, scratch, 20.0).capabilities();
-    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), 0) << "one waits";
+    pid = PooledEngine(pool, kind, scratch, 20.0).pid();
+    EXPECT_EQ(::kill(pid, 0), 0) << "it waits";
   }
-  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
-  EXPECT_EQ(errno, ECHILD);
+  EXPECT_EQ(::kill(pid, 0), -1);
+  EXPECT_EQ(errno, ESRCH) << "it has ended and was reaped";
   fs::remove_all(scratch);
 }
 
