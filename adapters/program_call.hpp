@@ -20,6 +20,8 @@ struct ProgramCall {
   /// Of the program as it is now: becomes part of its version, so that runs of another are not
   /// taken up. Empty: its version says enough.
   std::string stamp;
+
+  bool operator==(const ProgramCall&) const = default;
 };
 
 }  // namespace crossgrain

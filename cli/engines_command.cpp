@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "adapters/worker/json.hpp"
 #include "cases/preparation.hpp"
 #include "cli/option_groups.hpp"
 #include "runs/common/engine_access.hpp"
 #include "support/scratch_folder.hpp"
+#include "support/task_pool.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -27,16 +31,24 @@ std::string supportMark(Support support) {
 
 int listEngines(const CommandLine& line) {
   const ScratchFolder scratch;
-  json list = json::array();
-  for (const EngineEntry& entry : engineRegistry()) {
-    json row = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
-    try {
-      row["capabilities"] = toJson(startEngine(entry, scratch.path, 60.0)->capabilities());
-    } catch (const std::exception& missing) {
-      row["missing"] = missing.what();
-    }
-    list.push_back(row);
-  }
+  const auto& registry = engineRegistry();
+  std::vector<json> rows(registry.size());
+  // Each is asked what it can do, side by side: some take seconds to start.
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    tasks.push_back(
+        {1.0, [&, e] {
+           const EngineEntry& entry = registry[e];
+           rows[e] = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
+           try {
+             const auto engine = startNew(entry, scratch.path, 60.0);
+             rows[e]["capabilities"] = toJson(engine->capabilities());
+           } catch (const std::exception& missing) {
+             rows[e]["missing"] = missing.what();
+           }
+         }});
+  runTasks(tasks, static_cast<int>(std::max(2U, std::thread::hardware_concurrency())));
+  const json list(rows);
   if (line.json) {
     fmt::print("{}\n", list.dump(2));
     return exitHeld;

@@ -11,8 +11,7 @@ struct Task {
   std::function<void()> work;  ///< what it throws ends the whole pool once running tasks are done
 };
 
-/// Runs all tasks on `jobs` threads, longest first. Workers started by a task die with its thread,
-/// so a task must not leave any behind.
+/// Runs all tasks on `jobs` threads, longest first.
 /// @throws Interrupted once all threads have ended, if the user interrupted; else the first thing
 ///         that a task threw
 void runTasks(const std::vector<Task>& tasks, int jobs);

@@ -54,28 +54,47 @@ void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
   add(name, flat(values));
 }
 
+void writeBytes(int descriptor, std::span<const std::byte> bytes,
+                const std::filesystem::path& file) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t put =
+        ::pwrite(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0)
+      throw std::system_error(put < 0 ? errno : EIO, std::generic_category(),
+                              fmt::format("cannot write {}", file.string()));
+    done += static_cast<std::size_t>(put);
+  }
+}
+
 // A worker knows where the next file will be and may have put something there: opening a pipe would
 // wait for ever, following a link would write what it points to.
 nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
   ::unlink(file.c_str());
-  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  std::size_t done = 0;
-  while (out.get() >= 0 && done < bytes_.size()) {
-    const ssize_t put = ::write(out.get(), bytes_.data() + done, bytes_.size() - done);
-    if (put < 0 && errno != EINTR) break;
-    if (put > 0) done += static_cast<std::size_t>(put);
-  }
-  const int error = errno;
-  if (out.get() < 0 || done < bytes_.size())
-    throw std::system_error(error ? error : EIO, std::generic_category(),
+  return writeTo(file, O_EXCL);
+}
+
+nlohmann::json ArrayWriter::writeOver(const std::filesystem::path& file) const {
+  return writeTo(file, 0);
+}
+
+nlohmann::json ArrayWriter::writeTo(const std::filesystem::path& file, int flags) const {
+  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666));
+  if (out.get() < 0)
+    throw std::system_error(errno, std::generic_category(),
                             fmt::format("cannot write {}", file.string()));
+  writeBytes(out.get(), bytes_, file);
   return list_;
 }
 
 ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json& list)
-    : file_(file.filename().string()), in_(file) {
+    : ArrayReader(RegularFile(file), file.filename().string(), list) {}
+
+ArrayReader::ArrayReader(RegularFile in, std::string file, const nlohmann::json& list)
+    : file_(std::move(file)), in_(std::move(in)) {
   if (in_.state() == RegularFile::State::missing)
-    throw std::runtime_error(fmt::format("there is no array file {}", file.string()));
+    throw std::runtime_error(fmt::format("there is no array file {}", file_));
   if (in_.state() == RegularFile::State::special)
     throw std::runtime_error(fmt::format("{} is not a regular file", file_));
   const std::size_t length = in_.size();

@@ -29,13 +29,26 @@ class ArrayWriter {
   /// @throws std::runtime_error naming the file
   nlohmann::json write(const std::filesystem::path& file) const;
 
+  /// Writes into the file from its start on, over what is there; makes it if there is none.
+  /// @returns, @throws likewise
+  nlohmann::json writeOver(const std::filesystem::path& file) const;
+
+  /// What the file would hold, and the list that describes it.
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+  const nlohmann::json& list() const { return list_; }
+
  private:
   void append(const std::string& name, const char* type, std::size_t count,
               std::span<const std::byte> bytes);
+  nlohmann::json writeTo(const std::filesystem::path& file, int flags) const;
 
   nlohmann::json list_ = nlohmann::json::array();
   std::vector<std::byte> bytes_;
 };
+
+/// Writes at a descriptor's beginning. @throws std::system_error naming the file
+void writeBytes(int descriptor, std::span<const std::byte> bytes,
+                const std::filesystem::path& file);
 
 /// Reads an array file; nothing in it is trusted. Every failure is a std::runtime_error that names
 /// the file, the array and what was expected. Memory is taken for the arrays that are asked for
@@ -44,6 +57,8 @@ class ArrayReader {
  public:
   /// Checks the list against the length of the file, which must be a regular one.
   ArrayReader(const std::filesystem::path& file, const nlohmann::json& list);
+  /// The same of a file that is open. @param file  its name, for messages
+  ArrayReader(RegularFile in, std::string file, const nlohmann::json& list);
 
   bool has(const std::string& name) const { return arrays_.contains(name); }
 

@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "adapters/worker/descriptor.hpp"
+#include "adapters/worker/launcher.hpp"
 #include "adapters/worker/stray_processes.hpp"
 
 namespace crossgrain {
@@ -144,16 +145,22 @@ ChildProcess::ChildProcess(const ProgramCall& call, const std::filesystem::path&
   if (::pipe2(failure, O_CLOEXEC) != 0) systemFailure("pipe", errno);
   Descriptor failureOurs(failure[0]), failureTheirs(failure[1]);
   ::unlink(log.c_str());  // an earlier worker may have put a pipe or a link there
-  Descriptor logFile(::open(log.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  // Appending: what is cut off while it runs stays cut off (WorkerEngine::moveTo).
+  Descriptor logFile(::open(log.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (logFile.get() < 0) systemFailure(log.string(), errno);
   Descriptor nothing(::open("/dev/null", O_RDONLY | O_CLOEXEC));
   if (nothing.get() < 0) systemFailure("/dev/null", errno);
 
   const ChildSide side{requestTheirs.get(), replyTheirs.get(),   logFile.get(), nothing.get(),
                        failureTheirs.get(), call.folder.c_str(), call.memory,   ::getpid()};
-  pid_ = ::fork();
-  if (pid_ < 0) systemFailure("fork", errno);
-  if (pid_ == 0) becomeChild(side, arguments.data(), environment.data());
+  int failed = 0;  // errno is the forking thread's own
+  pid_ = inTheLastingThread([&] {
+    const pid_t child = ::fork();
+    if (child == 0) becomeChild(side, arguments.data(), environment.data());
+    if (child < 0) failed = errno;
+    return child;
+  });
+  if (pid_ < 0) systemFailure("fork", failed);
   ::setpgid(pid_, pid_);  // here too: whichever comes first
 
   failureTheirs.reset();
@@ -225,6 +232,13 @@ std::string ChildProcess::unasked() {
 void ChildProcess::closeInput() {
   if (in_ >= 0) ::close(in_);
   in_ = -1;
+}
+
+bool ChildProcess::isAlive() const {
+  siginfo_t info{};
+  return pid_ > 0 &&
+         ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == 0;
 }
 
 bool ChildProcess::waitForExit(std::chrono::milliseconds patience) {

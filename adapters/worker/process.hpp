@@ -38,9 +38,8 @@ inline constexpr std::uint64_t longestFile = std::uint64_t{4} << 30;
 ///
 /// It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and the whole
 /// group is killed when this object goes, and so are children that have left it, as far as they are
-/// found (stray_processes.hpp). It does not outlive its parent either: the kernel kills
-/// it when the **thread** that made this object ends (Linux' PR_SET_PDEATHSIG), so that thread must
-/// live for as long as the child is wanted.
+/// found (stray_processes.hpp). It does not outlive this process either: the kernel kills it
+/// (Linux' PR_SET_PDEATHSIG; launcher.hpp). Any thread may make it, and another end it.
 ///
 ///   ChildProcess ── sendLine ── receiveLine ── … ── closeInput ── waitForExit ── ~ChildProcess
 class ChildProcess {
@@ -65,6 +64,9 @@ class ChildProcess {
 
   /// The line that the child has said, or begun, and nobody has received; empty: none.
   std::string unasked();
+
+  /// It has not ended yet.
+  bool isAlive() const;
 
   /// The child's descriptor 3 comes to its end.
   void closeInput();

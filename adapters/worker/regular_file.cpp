@@ -10,7 +10,9 @@ namespace crossgrain {
 
 // O_NONBLOCK: opening a pipe would wait for who writes to it.
 RegularFile::RegularFile(const std::filesystem::path& file)
-    : in_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    : RegularFile(Descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC))) {}
+
+RegularFile::RegularFile(Descriptor in) : in_(std::move(in)) {
   if (in_.get() < 0) return;
   struct stat status {};
   const bool regular = ::fstat(in_.get(), &status) == 0 && S_ISREG(status.st_mode);

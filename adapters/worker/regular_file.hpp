@@ -15,6 +15,8 @@ class RegularFile {
   enum class State { open, missing, special };
 
   explicit RegularFile(const std::filesystem::path& file);
+  /// One that is open already.
+  explicit RegularFile(Descriptor in);
 
   State state() const { return state_; }
   std::size_t size() const { return size_; }  ///< [bytes] when it was opened; 0 unless open

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -62,7 +63,9 @@ std::filesystem::path fileOf(const json& request) {
 json answer(Engine& engine, const json& request) {
   const auto what = request.at("request").get<std::string>();
   if (what == "hello")
-    return {{"protocol", protocolVersion}, {"capabilities", toJson(engine.capabilities())}};
+    return {{"protocol", protocolVersion},
+            {"capabilities", toJson(engine.capabilities())},
+            {"writes_over", true}};
   if (what == "load") {
     const ArrayReader arrays(fileOf(request), request.at("arrays"));
     return {{"realised", toJson(engine.load(sceneFromJson(request.at("scene"), arrays),
@@ -73,7 +76,7 @@ json answer(Engine& engine, const json& request) {
     ArrayWriter arrays;
     json reply = {{"snapshot",
                    toJson(engine.snapshot(contactReportFromJson(request.at("contacts"))), arrays)}};
-    reply["arrays"] = arrays.write(fileOf(request));
+    reply["arrays"] = arrays.writeOver(fileOf(request));
     return reply;
   }
   if (what == "stats") return {{"stats", toJson(engine.stats())}};
@@ -109,6 +112,7 @@ int serve(Engine& engine) {
     } catch (const std::exception& error) {
       reply = refusal("failed", error);
     }
+    std::fflush(stdout);  // what it printed is in the log of this run, and not of the next
     // What an engine throws need not be UTF-8.
     if (!writeLine(reply.dump(-1, ' ', false, json::error_handler_t::replace)) || last) break;
   }

@@ -4,6 +4,7 @@
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
+#include "adapters/worker/moved_log.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/busy_time.hpp"
 
@@ -13,20 +14,26 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-/// An array file that goes when it has been read.
-class ScratchFile {
+/// Disks, wall disks and planes of a scene whose array file is kept: of larger ones it is long, and
+/// spoiling it takes longer than making a new one.
+constexpr std::size_t mostBodiesOfKept = 10'000;
+
+std::size_t bodiesIn(const Scene& scene) {
+  std::size_t bodies = scene.disks.size();
+  for (const WallBody& body : scene.bodies) bodies += body.diskRadius.size() + body.planes.size();
+  return bodies;
+}
+
+/// Says that the exchange is over, however it ends.
+class Exchanging {
  public:
-  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  explicit Exchanging(ExchangeFile& file) : file_(file) {}
+  ~Exchanging() { file_.done(); }
+  Exchanging(const Exchanging&) = delete;
+  Exchanging& operator=(const Exchanging&) = delete;
 
  private:
-  std::filesystem::path path_;
+  ExchangeFile& file_;
 };
 
 }  // namespace
@@ -52,7 +59,8 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
       log_(scratch_ / (name_ + ".log")),
       timeout_(timeout),
       memory_(call.memory),
-      listener_(std::move(listener)) {
+      listener_(std::move(listener)),
+      exchangeFile_(std::make_unique<ExchangeFile>(scratch_ / name_)) {
   try {
     std::filesystem::create_directories(scratch_);
     process_ = std::make_unique<ChildProcess>(call, log_);
@@ -65,34 +73,62 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
     if (spoken != protocolVersion)
       throw std::runtime_error(
           fmt::format("it speaks protocol {}, this program speaks {}", spoken, protocolVersion));
+    writesOver_ = reply.value("writes_over", false);
     return capabilitiesFromJson(reply.at("capabilities"));
   });
   if (!call.stamp.empty()) capabilities_.version += fmt::format(" ({})", call.stamp);
 }
 
 WorkerEngine::~WorkerEngine() {
-  if (!process_) return;
+  dismiss();
+  if (process_) process_->waitForExit(1s);
+}
+
+void WorkerEngine::dismiss() {
+  if (!process_ || dismissed_) return;
+  dismissed_ = true;
   try {
     process_->sendLine(R"({"request":"quit"})", ChildProcess::Clock::now() + 100ms);
   } catch (const std::exception&) {
-    // It is ended below whether or not it listens.
+    // It is ended whether or not it listens.
   }
   process_->closeInput();
-  process_->waitForExit(1s);
+}
+
+bool WorkerEngine::isReady() const {
+  return process_ && process_->isAlive() && process_->unasked().empty();
+}
+
+void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) {
+  shape_ = {};
+  time_ = 0.0;
+  goodTime_.reset();
+  scratch_ = std::filesystem::absolute(scratch);
+  timeout_ = timeout;
+  const std::filesystem::path log = scratch_ / (name_ + ".log");
+  try {
+    std::filesystem::create_directories(scratch_);
+    moveLog(log_, log);
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  log_ = log;
+  exchangeFile_ = std::make_unique<ExchangeFile>(scratch_ / name_);
 }
 
 Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   shape_ = scene;
   time_ = 0.0;
   goodTime_.reset();
-  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
+  // Of a recording each exchange has its own, as one is kept that grew longer before.
+  keepsFile_ = writesOver_ && !listener_ && bodiesIn(scene) <= mostBodiesOfKept;
+  const Exchanging exchanging(*exchangeFile_);
   ArrayWriter arrays;
-  json request = {{"request", "load"},
-                  {"scene", toJson(scene, arrays)},
-                  {"settings", toJson(settings)},
-                  {"file", file.path().string()}};
+  json request = {
+      {"request", "load"}, {"scene", toJson(scene, arrays)}, {"settings", toJson(settings)}};
   try {
-    request["arrays"] = arrays.write(file.path());
+    request["file"] = exchangeFile_->next(keepsFile_).string();
+    request["arrays"] = exchangeFile_->write(arrays);
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -116,13 +152,16 @@ double WorkerEngine::advance(double t) {
 }
 
 Snapshot WorkerEngine::snapshot(ContactReport contacts) {
-  const ScratchFile file(scratch_ / fmt::format("{}-{}.bin", name_, ++files_));
-  const json reply =
-      ask({{"request", "snapshot"}, {"contacts", toJson(contacts)}, {"file", file.path().string()}},
-          "snapshot");
+  const Exchanging exchanging(*exchangeFile_);
+  json request = {{"request", "snapshot"}, {"contacts", toJson(contacts)}};
+  try {
+    request["file"] = exchangeFile_->next(keepsFile_).string();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  const json reply = ask(request, "snapshot");
   Snapshot snapshot = understand("snapshot", [&] {
-    return snapshotFromJson(reply.at("snapshot"), ArrayReader(file.path(), reply.at("arrays")),
-                            shape_);
+    return snapshotFromJson(reply.at("snapshot"), exchangeFile_->read(reply.at("arrays")), shape_);
   });
   goodTime_ = snapshot.positionTime;
   return snapshot;
@@ -143,16 +182,14 @@ void WorkerEngine::restore(const std::filesystem::path& file) {
 
 json WorkerEngine::ask(const json& request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
-  const json reply = exchange(request, what);
-  return understand(what, [&]() -> json {
-    if (reply.at("ok").get<bool>()) {
-      requireAnswerTo(request.at("request"), reply);
-      return reply;
-    }
+  json reply = exchange(request, what);
+  understand(what, [&] {
+    if (reply.at("ok").get<bool>()) return requireAnswerTo(request.at("request"), reply);
     const std::string reason = asOneLine(reply.at("what"), longestReason);
     if (reply.at("kind") == "unsupported") throw UnsupportedScene(reason);
     throw EngineFailure(failure(reason));
   });
+  return reply;
 }
 
 json WorkerEngine::exchange(const json& request, const std::string& what) const {

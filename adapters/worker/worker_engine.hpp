@@ -10,6 +10,7 @@
 
 #include "adapters/engine.hpp"
 #include "adapters/worker/exchange.hpp"
+#include "adapters/worker/exchange_file.hpp"
 #include "adapters/worker/process.hpp"
 
 namespace crossgrain {
@@ -20,8 +21,6 @@ namespace crossgrain {
 /// a NaN — is an EngineFailure of one line that names the engine, the scene and the time. The
 /// process is then gone and every later call throws the same line. A refusal or a failure that the
 /// worker itself reports leaves it alive.
-///
-/// The worker dies with the thread that made this object: see ChildProcess.
 class WorkerEngine final : public Engine {
  public:
   /// Starts the worker and asks what it can do.
@@ -41,6 +40,17 @@ class WorkerEngine final : public Engine {
   Stats stats() const override;
   void checkpoint(const std::filesystem::path& file) override;
   void restore(const std::filesystem::path& file) override;
+
+  /// It is there, and has said nothing that nobody asked for.
+  bool isReady() const;
+
+  /// From now on it works for another run: with that run's folder and patience, and a log that
+  /// begins anew; what it has said so far stays in the folder that it leaves.
+  /// @throws EngineFailure if the log cannot move along
+  void moveTo(const std::filesystem::path& scratch, double timeout);
+
+  /// Tells it to end, and does not wait for that. Nothing can be asked of it any more.
+  void dismiss();
 
   /// Of the worker, which is also its process group; −1 once it has gone.
   pid_t pid() const { return process_ ? process_->pid() : -1; }
@@ -72,7 +82,10 @@ class WorkerEngine final : public Engine {
   Scene shape_;  ///< the loaded scene: what snapshots are checked against
   double time_ = 0.0;
   std::optional<double> goodTime_;  ///< of the last snapshot of this scene
-  unsigned files_ = 0;
+  std::unique_ptr<ExchangeFile> exchangeFile_;
+  bool writesOver_ = false;  ///< the worker writes over what an array file holds
+  bool keepsFile_ = false;   ///< of this scene
+  bool dismissed_ = false;
 };
 
 }  // namespace crossgrain

@@ -49,7 +49,11 @@ inline Arrays readArrays(const std::string& path, const Json& entries) {
 /// A file of arrays that is being written.
 class ArrayFile {
  public:
-  explicit ArrayFile(const std::string& path) : file_(path, std::ios::binary) {}
+  /// Over what is there, and not cut off first: the harness names one file again and again.
+  explicit ArrayFile(const std::string& path)
+      : file_(path, std::ios::binary | std::ios::in | std::ios::out) {
+    if (!file_) file_.open(path, std::ios::binary | std::ios::out);
+  }
 
   void add(const std::string& name, const std::vector<double>& values) { put(name, "f64", values); }
   void add(const std::string& name, const std::vector<std::int32_t>& values) {
@@ -80,7 +84,7 @@ class ArrayFile {
     offset_ += bytes;
   }
 
-  std::ofstream file_;
+  std::fstream file_;
   std::size_t offset_ = 0;
   Json entries_ = Json::array();
 };
@@ -88,7 +92,8 @@ class ArrayFile {
 template <typename Engine>
 Json answer(Engine& engine, const Json& request) {
   const std::string what = request.at("request");
-  if (what == "hello") return {{"protocol", 1}, {"capabilities", engine.capabilities()}};
+  if (what == "hello")
+    return {{"protocol", 1}, {"capabilities", engine.capabilities()}, {"writes_over", true}};
   if (what == "load") {
     const Arrays arrays = readArrays(request.at("file"), request.at("arrays"));
     return {{"realised", engine.load(request.at("scene"), arrays, request.at("settings"))}};
@@ -127,6 +132,7 @@ int serve(Engine&& engine) {
     } catch (const std::exception& error) {
       reply = {{"ok", false}, {"kind", "failed"}, {"what", error.what()}};
     }
+    std::fflush(stdout);  // what it printed is in the log of this run, and not of the next
     const std::string text = reply.dump() + "\n";
     std::fwrite(text.data(), 1, text.size(), replies);
     std::fflush(replies);

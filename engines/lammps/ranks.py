@@ -5,6 +5,7 @@ import ctypes
 import json
 import os
 import re
+import select
 import selectors
 import shutil
 import signal
@@ -115,6 +116,13 @@ class Ranks:
                 )
             self.connections[told["rank"]] = connection, stream
 
+    def are_there(self, count):
+        """So many of them, and none has ended since it was asked last."""
+        if self.failure or count != len(self.connections) or self.process.poll() is not None:
+            return False
+        ended, _, _ = select.select([connection for connection, _ in self.connections.values()], [], [], 0)
+        return not ended
+
     def ask_all(self, requests):
         """@param requests  one for each rank. @returns their replies, by rank: all are ok, or it is one that is not"""
         if self.failure:
@@ -186,10 +194,12 @@ class Front:
 
     def answer(self, request):
         what = request["request"]
-        if what == "load" or what == "quit":
+        # Starting ranks takes a second: those of the scene before load the next one.
+        count = count_of(request["settings"]) if what == "load" else 0
+        if what == "quit" or what == "load" and not (self.ranks and self.ranks.are_there(count)):
             self.end_ranks()
-        if what == "load" and (count := count_of(request["settings"])) > 1:
-            self.ranks = Ranks(count)
+        if count > 1:
+            self.ranks = self.ranks or Ranks(count)
             return self.load(request)
         if self.ranks is None:
             return crossgrain_worker.answer(self.engine, request)
@@ -197,7 +207,8 @@ class Front:
 
     def end_ranks(self):
         if self.ranks and not self.ranks.failure:
-            self.ranks.ask_all([{"request": "quit"}] * len(self.ranks.connections))
+            if self.ranks.are_there(len(self.ranks.connections)):
+                self.ranks.ask_all([{"request": "quit"}] * len(self.ranks.connections))
             self.ranks.end()
         self.ranks = None
 

@@ -38,13 +38,16 @@ function writeArrays(path, arrays) {
     entries.push({name, type, count: array.length, offset: offset + padding});
     offset += padding + array.byteLength;
   }
-  fs.writeFileSync(path, Buffer.concat(pieces));
+  // Over what is there, and not cut off first: the harness names one file again and again.
+  const file = fs.openSync(path, fs.constants.O_WRONLY | fs.constants.O_CREAT);
+  fs.writeFileSync(file, Buffer.concat(pieces));
+  fs.closeSync(file);
   return entries;
 }
 
 function answer(engine, request) {
   switch (request.request) {
-    case 'hello': return {protocol: PROTOCOL, capabilities: engine.capabilities()};
+    case 'hello': return {protocol: PROTOCOL, capabilities: engine.capabilities(), writes_over: true};
     case 'load': return {realised: engine.load(request.scene, readArrays(request.file, request.arrays), request.settings)};
     case 'advance': return {time: engine.advance(request.time)};
     case 'snapshot': {

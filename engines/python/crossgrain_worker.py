@@ -11,6 +11,7 @@ Dictionaries are the protocol's JSON objects; arrays go under the protocol's nam
 
 import json
 import os
+import sys
 
 import numpy as np
 
@@ -39,7 +40,8 @@ def read_arrays(path, entries):
 def write_arrays(path, arrays):
     """Writes an array file. Returns the list that describes it."""
     entries = []
-    with open(path, "wb") as file:
+    # Over what is there, and not cut off first: the harness names one file again and again.
+    with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT, 0o666), "wb") as file:
         for name, (kind, values) in arrays.items():
             values = np.asarray(values, TYPES[kind])
             file.write(bytes(-file.tell() % 8))
@@ -53,7 +55,7 @@ def write_arrays(path, arrays):
 def answer(engine, request):
     what = request["request"]
     if what == "hello":
-        return {"protocol": PROTOCOL, "capabilities": engine.capabilities()}
+        return {"protocol": PROTOCOL, "capabilities": engine.capabilities(), "writes_over": True}
     if what == "load":
         arrays = read_arrays(request["file"], request["arrays"])
         return {"realised": engine.load(request["scene"], arrays, request["settings"])}
@@ -91,6 +93,7 @@ def serve(engine, answer=answer, descriptors=(3, 4)):
                 reply = {"ok": False, "kind": "failed", "what": str(failure)}
             except Exception as error:
                 reply = {"ok": False, "kind": "failed", "what": one_line(error)}
+            sys.stdout.flush()  # what it printed is in the log of this run, and not of the next
             replies.write(json.dumps(reply) + "\n")
             replies.flush()
             if request["request"] == "quit":

@@ -89,7 +89,7 @@ json suitability(const EngineEntry& entry, const Case& setup, const Scene& scene
       {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
       {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
   try {
-    const auto engine = startEngine(entry, scratch, setup.run.timeout);
+    const auto engine = startNew(entry, scratch, setup.run.timeout);
     const Capabilities can = engine->capabilities();
     checkSuitable(can, entry, setup, scene);
     const Suitability found = suitabilityOf(*engine, entry, setup, scene);
@@ -166,8 +166,8 @@ json predictionOf(const Case& setup, const Asked& asked, const json& engines,
     });
     const double step = known != engines.end()
                             ? (*known)["step_s"].get<double>()
-                            : briefTiming(*startEngine(inHouse, scratch, setup.run.timeout),
-                                          inHouse, setup, asked.scene)
+                            : briefTiming(*startNew(inHouse, scratch, setup.run.timeout), inHouse,
+                                          setup, asked.scene)
                                   .secondsPerStep;
     preparing = packings * step * preparationSteps(setup);
   }

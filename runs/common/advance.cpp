@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runs/common/engine_access.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
@@ -15,9 +16,11 @@ void advanceInPieces(Engine& engine, const Realised& realised, double from, doub
     throwIfInterrupted();
     const double next = std::min(to, now + piece);
     const double reached = engine.advance(next);
-    if (!(std::abs(reached - next) <= realised.dt))
+    if (!(std::abs(reached - next) <= realised.dt)) {
+      distrust(engine);
       throw EngineFailure(fmt::format("{}: asked for t = {:g} s it stopped at {:g} s",
                                       realised.engine, next, reached));
+    }
     now = next;
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "adapters/audit.hpp"
+#include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -21,9 +22,11 @@ double AuditedEngine::advance(double t) {
 
 Snapshot AuditedEngine::snapshot(ContactReport contacts) {
   Snapshot seen = engine_->snapshot(contacts);
-  if (const std::string why = whyUnsound(seen, basis_, reached_); !why.empty())
+  if (const std::string why = whyUnsound(seen, basis_, reached_); !why.empty()) {
+    distrust(*engine_);
     throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}", name_,
                                     scene_.name, reached_.value_or(seen.positionTime), why));
+  }
   return seen;
 }
 

@@ -25,6 +25,8 @@ class AuditedEngine final : public Engine {
   void checkpoint(const std::filesystem::path& file) override { engine_->checkpoint(file); }
   void restore(const std::filesystem::path& file) override;
 
+  Engine& inner() { return *engine_; }
+
  private:
   std::string name_;
   std::unique_ptr<Engine> engine_;

@@ -33,6 +33,7 @@ Stats AuditedLooks::stats(double reached) const {
 }
 
 void AuditedLooks::fail(double time, const std::string& why) const {
+  distrust(engine_);
   throw EngineFailure(
       fmt::format("{}, {} at t = {:g} s: {}", realised_.engine, setup_.name, time, why));
 }

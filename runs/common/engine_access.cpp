@@ -9,7 +9,7 @@
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "adapters/suitability.hpp"
-#include "adapters/worker/worker_engine.hpp"
+#include "adapters/worker/pooled_engine.hpp"
 #include "cases/stable_step.hpp"
 #include "runs/common/audited_engine.hpp"
 #include "runs/common/engine_step.hpp"
@@ -101,20 +101,40 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
   return engines;
 }
 
-std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
-                                    double timeout, ExchangeListener listener) {
+namespace {
+
+/// @throws BadInput if it is not installed
+WorkerPool::Kind workerOf(const EngineEntry& entry) {
   if (entry.missing)
     if (const std::string why = entry.missing(); !why.empty())
       throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
-  const ProgramCall call = entry.command
-                               ? entry.command()
-                               : std::vector<std::string>{ownProgram(), "__serve", entry.name};
-  return std::make_unique<WorkerEngine>(entry.name, call, scratch, timeout, std::move(listener));
+  return {entry.name, entry.command
+                          ? entry.command()
+                          : std::vector<std::string>{ownProgram(), "__serve", entry.name}};
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                    double timeout) {
+  return std::make_unique<PooledEngine>(workerPool(), workerOf(entry), scratch, timeout);
+}
+
+std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                 double timeout, ExchangeListener listener) {
+  const WorkerPool::Kind kind = workerOf(entry);
+  return std::make_unique<WorkerEngine>(kind.name, kind.call, scratch, timeout,
+                                        std::move(listener));
 }
 
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout) {
   return std::make_unique<AuditedEngine>(entry.name, startEngine(entry, scratch, timeout));
+}
+
+void distrust(Engine& engine) {
+  if (auto* const pooled = dynamic_cast<PooledEngine*>(&engine)) pooled->distrust();
+  if (auto* const audited = dynamic_cast<AuditedEngine*>(&engine)) distrust(audited->inner());
 }
 
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/exchange.hpp"
+#include "adapters/worker/worker_pool.hpp"
 #include "cases/case.hpp"
+#include "runs/common/progress.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -36,14 +41,32 @@ std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::st
 /// This program's path, which serves engines as workers, too.
 std::string ownProgram();
 
-/// Starts the engine's worker. @throws EngineFailure, BadInput if it is not installed
-/// @param listener  is told every request and answer
+/// A worker of the engine, for one run: one that another run has done with, or a new one
+/// (adapters/worker/pooled_engine.hpp). @throws EngineFailure, BadInput if it is not installed
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
-                                    double timeout, ExchangeListener listener = {});
+                                    double timeout);
 
-/// The same, every snapshot of it audited (audited_engine.hpp).
+/// A new process that is nobody else's, where the process itself is looked at: what it is asked
+/// first, how long it takes to start, the memory that it holds, what it does after another one's
+/// end. @throws likewise
+/// @param listener  is told every request and answer
+std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                 double timeout, ExchangeListener listener = {});
+
+/// startEngine(), every snapshot of it audited (audited_engine.hpp).
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout);
+
+/// What the engine showed cannot be: its worker is not to be another run's.
+void distrust(Engine& engine);
+
+/// Tells of those engines that get a new process for each run, since they were not seen to start
+/// afresh with a second load.
+void sayWhatIsAlwaysNew(std::ranges::input_range auto&& engines, Progress& progress) {
+  for (const EngineEntry& entry : engines)
+    if (const std::string why = workerPool().whyAlwaysNew(entry.name); !why.empty())
+      progress.say(fmt::format("{}: {}; each of its runs gets a new process", entry.name, why));
+}
 
 /// The settings of one engine in a case, its time step by the rule of engine_step.hpp. @throws
 /// BadInput for one that the engine does not have, or of another type or choice, naming the nearest
@@ -66,7 +89,7 @@ struct LoadedEngine {
   Capabilities can;
 };
 
-/// Starts an engine and has it load the scene as far as the case lets it differ.
+/// Has an engine of startEngine() load the scene as far as the case lets it differ.
 /// @throws UnsupportedScene, EngineFailure, BadInput
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch);

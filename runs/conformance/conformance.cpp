@@ -99,7 +99,7 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
   row.part = "lockstep";
   row.name = "FollowsItsMirror";
   row.what = "it does step by step what the in-house engine does with the conventions declared";
-  const auto engine = startEngine(entry, scratch / "lockstep", setup.run.timeout);
+  const auto engine = startNew(entry, scratch / "lockstep", setup.run.timeout);
   if (const std::string why = whyNoMirror(entry, engine->capabilities(), setup); !why.empty()) {
     row.outcome = ConformanceOutcome::skipped;
     row.detail = why;
@@ -193,7 +193,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   results.head = headOf(kindConformance, Case{}, task.commandLine);
   results.head.setup.name = entry.name;
   results.engine = {entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
-  const Capabilities can = startEngine(entry, scratch.path / "hello", 60.0)->capabilities();
+  const Capabilities can = startNew(entry, scratch.path / "hello", 60.0)->capabilities();
   results.engine.version = can.version;
   settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
 

@@ -25,7 +25,7 @@ class Workers {
   }
   void end() { shared_.reset(); }
   std::unique_ptr<Engine> start(const EngineEntry& of) {
-    return startEngine(of, scratch_ / fmt::format("{}-{}", of.name, ++count_), timeout);
+    return startNew(of, scratch_ / fmt::format("{}-{}", of.name, ++count_), timeout);
   }
 
  private:

@@ -26,7 +26,7 @@ double secondsSince(Clock::time_point start) {
 Engine& Workers::of(std::size_t engine) {
   auto& worker = running_[engine];
   const EngineEntry& entry = campaign_.engines()[engine];
-  if (!worker) worker = startEngine(entry, campaign_.store().scratch(entry.name), timeout_);
+  if (!worker) worker = startNew(entry, campaign_.store().scratch(entry.name), timeout_);
   return *worker;
 }
 

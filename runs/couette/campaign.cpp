@@ -153,6 +153,7 @@ void Campaign::timeEngines() {
     own.realised = timing.realised;
     own.predicted = timing.secondsPerStep * end / timing.realised.dt;
   });
+  sayWhatIsAlwaysNew(engines(), progress_);
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {

@@ -73,9 +73,11 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
       throwIfInterrupted();
       const double next = std::min(t, now + piece);
       reached = engine.advance(next);
-      if (!(std::abs(*reached - next) <= loaded.realised.dt))
+      if (!(std::abs(*reached - next) <= loaded.realised.dt)) {
+        distrust(engine);
         throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
                                         task.entry.name, setup.name, next, *reached));
+      }
       now = next;
       unfinished.keepIfDue(engine, now);
     }

@@ -183,10 +183,12 @@ class EffectCampaign {
     const auto scratch =
         campaign_.store().scratch(fmt::format("time-{}-{}", entry.name, planned.without()));
     TimedVariant timed;
-    timed.engine = startEngine(entry, scratch, setup.run.timeout);
-    timed.load = [this, &entry, &setup, engine = timed.engine.get()] {
+    timed.start = [&entry, &setup, scratch] {
+      return startEngine(entry, scratch, setup.run.timeout);
+    };
+    timed.load = [this, &entry, &setup](Engine& engine) {
       const Scene scene = couetteScene(setup, campaign_.packings().front(), campaign_.dt());
-      return loadScene(*engine, entry, setup, scene).dt;
+      return loadScene(engine, entry, setup, scene).dt;
     };
     return timed;
   }

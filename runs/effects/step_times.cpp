@@ -27,15 +27,16 @@ void unlessFailed(StepTimes& times, Work&& work) {
 
 /// About how long a step takes [s]: of the last of stretches that double until one takes `target`,
 /// for the first steps may be slow.
-double roughStep(TimedVariant& variant, double target) {
+double roughStep(const TimedVariant& variant, double target) {
   constexpr std::uint64_t most = 1 << 20;
-  const double dt = variant.load();
+  const auto engine = variant.start();
+  const double dt = variant.load(*engine);
   std::uint64_t steps = 0, stretch = 16;
   for (;; stretch *= 2) {
     steps += stretch;
-    const double before = variant.engine->stats().wallSeconds;
-    variant.engine->advance(static_cast<double>(steps) * dt);
-    const double took = variant.engine->stats().wallSeconds - before;
+    const double before = engine->stats().wallSeconds;
+    engine->advance(static_cast<double>(steps) * dt);
+    const double took = engine->stats().wallSeconds - before;
     if (took >= target || stretch >= most) return took / static_cast<double>(stretch);
   }
 }
@@ -48,13 +49,14 @@ double timeBetween(const Stats& before, const Stats& after) {
   return cpu > 0.0 ? std::min(wall, cpu) : wall;
 }
 
-void timeOnce(TimedVariant& variant, std::uint64_t steps, StepTimes& times) {
-  const double dt = variant.load();
+void timeOnce(const TimedVariant& variant, std::uint64_t steps, StepTimes& times) {
+  const auto engine = variant.start();
+  const double dt = variant.load(*engine);
   const std::uint64_t warmUp = steps / 2;
-  variant.engine->advance(static_cast<double>(warmUp) * dt);
-  const Stats before = variant.engine->stats();
-  variant.engine->advance(static_cast<double>(warmUp + steps) * dt);
-  const Stats after = variant.engine->stats();
+  engine->advance(static_cast<double>(warmUp) * dt);
+  const Stats before = engine->stats();
+  engine->advance(static_cast<double>(warmUp + steps) * dt);
+  const Stats after = engine->stats();
   const auto done = static_cast<double>(after.steps - before.steps);
   times.seconds.push_back(timeBetween(before, after) / done);
   if (after.contactEvaluations > before.contactEvaluations)
@@ -64,7 +66,7 @@ void timeOnce(TimedVariant& variant, std::uint64_t steps, StepTimes& times) {
 
 }  // namespace
 
-std::vector<StepTimes> timeSteps(std::vector<TimedVariant>& variants, const TimingPlan& plan,
+std::vector<StepTimes> timeSteps(const std::vector<TimedVariant>& variants, const TimingPlan& plan,
                                  const std::function<void(double)>& progress) {
   std::vector<StepTimes> times(variants.size());
   double most = 1.0;

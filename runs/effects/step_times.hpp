@@ -13,8 +13,8 @@ namespace crossgrain::inline runs {
 
 /// One scene whose steps are timed.
 struct TimedVariant {
-  std::unique_ptr<Engine> engine;
-  std::function<double()> load;  ///< has the engine load the scene afresh, returns its dt [s]
+  std::function<std::unique_ptr<Engine>()> start;  ///< the engine, for one turn
+  std::function<double(Engine&)> load;  ///< has it load the scene afresh, returns its dt [s]
 };
 
 /// What a step of one variant takes.
@@ -30,7 +30,7 @@ struct StepTimes {
 /// timed), as many steps in all variants. One that fails has its reason, the others go on.
 /// @param progress  called with the fraction done
 /// @throws Interrupted
-std::vector<StepTimes> timeSteps(std::vector<TimedVariant>& variants, const TimingPlan& plan,
+std::vector<StepTimes> timeSteps(const std::vector<TimedVariant>& variants, const TimingPlan& plan,
                                  const std::function<void(double)>& progress);
 
 /// A time per step over another's: of the shortest rounds, since what disturbs a round

@@ -62,7 +62,7 @@ Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::files
   Recorded recorded;
   try {
     const auto engine =
-        startEngine(entry, scratch.path, setup.run.timeout, [&](const Exchange& exchange) {
+        startNew(entry, scratch.path, setup.run.timeout, [&](const Exchange& exchange) {
           writer.write(exchange);
           ++recorded.exchanges;
         });

@@ -92,9 +92,9 @@ Replayed replayRun(const std::filesystem::path& recording, const EngineEntry& en
       if (first) {
         if (then->answer.is_object())
           result.recordedVersion = textOf(then->answer.value("capabilities", json()), "version");
-        engine = startEngine(entry, scratch.path,
-                             timeout.is_number() ? timeout.get<double>() : usualTimeout,
-                             [&](const Exchange& heard) { now = heard; });
+        engine = startNew(entry, scratch.path,
+                          timeout.is_number() ? timeout.get<double>() : usualTimeout,
+                          [&](const Exchange& heard) { now = heard; });
         result.version = engine->capabilities().version;
       } else {
         ask(*engine, *then, scratch.path);

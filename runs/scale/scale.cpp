@@ -62,8 +62,7 @@ class ScaleStudy {
     std::vector<bool> shares;
     for (const EngineEntry& entry : engines_) {
       throwIfInterrupted();
-      const auto engine =
-          startEngine(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
+      const auto engine = startNew(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
       const Capabilities can = engine->capabilities();
       settingsFor(base_, entry.name, can);  // throws for one that it does not have
       versions_.push_back(can.version);

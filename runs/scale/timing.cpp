@@ -34,9 +34,9 @@ void timeSteps(ScalePoint& point, const EngineEntry& entry, const std::string& s
                const Scene& scene, const std::filesystem::path& scratch) {
   scaled.run.timeout = std::max(scaled.run.timeout, patience(point));
   if (!sharing.empty()) scaled.engines[entry.name][sharing] = static_cast<double>(point.workers);
-  const LoadedEngine loaded = loadEngine(entry, scaled, scene, scratch);
-  Engine& engine = *loaded.engine;
-  const Realised& realised = loaded.realised;
+  const auto worker = startNew(entry, scratch, scaled.run.timeout);
+  Engine& engine = *worker;
+  const Realised realised = loadScene(engine, entry, scaled, scene);
 
   const std::uint64_t warmUp = warmUpSteps(point.steps), end = warmUp + point.steps;
   advanceSteps(engine, realised, 0, warmUp);

@@ -7,6 +7,7 @@
 
 #include "results/stability_fields.hpp"
 #include "runs/common/advance.hpp"
+#include "runs/common/audited_engine.hpp"
 #include "runs/common/picture.hpp"
 #include "runs/stability/recorder.hpp"
 #include "runs/stability/step_limit_run.hpp"
@@ -136,7 +137,8 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   advanceInPieces(engine, realised, middle, hard.duration);
   const Snapshot whole = engine.snapshot(ContactReport::none);
 
-  const auto second = startAudited(task.entry, task.scratch / "second", task.setup->run.timeout);
+  const auto second = std::make_unique<AuditedEngine>(
+      task.entry.name, startNew(task.entry, task.scratch / "second", task.setup->run.timeout));
   const Realised again = loadScene(*second, task.entry, *task.setup, hard.scene);
   second->restore(file);
   advanceInPieces(*second, again, middle, hard.duration);

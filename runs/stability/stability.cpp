@@ -101,16 +101,23 @@ class Suite {
   }
 
   void askVersions() {
-    for (std::size_t e = 0; e < engines_.size(); ++e) {
-      throwIfInterrupted();
-      try {
-        versions_[e] = startEngine(engines_[e], store_.scratch("ask-" + engines_[e].name), 60.0)
-                           ->capabilities()
-                           .version;
-      } catch (const EngineFailure& failure) {
-        progress_.say(failure.what());  // its runs will tell, one by one
-      }
-    }
+    std::vector<std::string> failures(engines_.size());
+    std::vector<Task> tasks;
+    for (std::size_t e = 0; e < engines_.size(); ++e)
+      tasks.push_back({1.0, [this, e, &failures] {
+                         const EngineEntry& entry = engines_[e];
+                         try {
+                           versions_[e] =
+                               startEngine(entry, store_.scratch("ask-" + entry.name), 60.0)
+                                   ->capabilities()
+                                   .version;
+                         } catch (const EngineFailure& failure) {
+                           failures[e] = failure.what();  // its runs will tell, one by one
+                         }
+                       }});
+    runTasks(tasks, command_.jobs);
+    for (const std::string& failure : failures)
+      if (!failure.empty()) progress_.say(failure);
     store_.begin();
   }
 
@@ -158,12 +165,12 @@ class Suite {
   }
 
   void run() {
-    if (asks_ == SuiteAsks::limits) {
+    if (asks_ == SuiteAsks::limits)
       runs_ = doAll<StabilityRun>("hard cases");
-      return;
-    }
-    for (TransformRows& all : doAll<TransformRows>("transforms"))
-      std::ranges::move(all.rows, std::back_inserter(runs_));
+    else
+      for (TransformRows& all : doAll<TransformRows>("transforms"))
+        std::ranges::move(all.rows, std::back_inserter(runs_));
+    sayWhatIsAlwaysNew(engines_, progress_);
   }
 
   StabilityResults results() const {

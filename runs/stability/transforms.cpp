@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "results/stability_fields.hpp"
+#include "runs/common/audited_engine.hpp"
 #include "runs/lockstep/separation.hpp"
 #include "runs/lockstep/window.hpp"
 #include "runs/stability/recorder.hpp"
@@ -111,10 +112,6 @@ class Trial {
     return steps;
   }
 
-  std::unique_ptr<Engine> start(const char* name) const {
-    return startAudited(task_.entry, task_.scratch / name, task_.setup->run.timeout);
-  }
-
   ContactReport contacts() const {
     return can_.instantContacts ? ContactReport::instant : ContactReport::none;
   }
@@ -129,7 +126,8 @@ class Trial {
 
   /// A worker that failed before is not asked again.
   Realised load(const Scene& scene, const Units& units) {
-    if (!engine_) engine_ = start("worker");
+    if (!engine_)
+      engine_ = startAudited(task_.entry, task_.scratch / "worker", task_.setup->run.timeout);
     return loadInto(*engine_, scene, units);
   }
 
@@ -209,7 +207,9 @@ class Trial {
       load(hard_.scene, {});
       engine_->advance(static_cast<double>(steps_[middle]) * dt_);
       engine_->checkpoint(file);
-      const auto second = start("second");
+      const auto second = std::make_unique<AuditedEngine>(
+          task_.entry.name,
+          startNew(task_.entry, task_.scratch / "second", task_.setup->run.timeout));
       loadInto(*second, hard_.scene, {});
       second->restore(file);
       return follow(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},

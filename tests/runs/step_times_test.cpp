@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace {
@@ -12,8 +13,7 @@ using namespace crossgrain;
 /// load, and has so many contacts. `noise` is added to the steps of one load after the other.
 class MadeUpClock final : public Engine {
  public:
-  MadeUpClock(double step, std::uint64_t contacts, std::vector<double> noise = {0.0})
-      : step_(step), contacts_(contacts), noise_(std::move(noise)) {}
+  MadeUpClock(double step, std::uint64_t contacts) : step_(step), contacts_(contacts) {}
 
   Capabilities capabilities() const override { return {}; }
   Realised load(const Scene&, const Settings&) override {
@@ -24,9 +24,9 @@ class MadeUpClock final : public Engine {
   double advance(double t) override {
     if (loads > failsAfter) throw EngineFailure("made up, at t = 3 s: broke down");
     constexpr std::uint64_t dear = 5;
-    const double noise = noise_[static_cast<std::size_t>(loads) % noise_.size()];
+    const double late = noise[static_cast<std::size_t>(loads) % noise.size()];
     for (const auto wanted = static_cast<std::uint64_t>(std::llround(t)); stats_.steps < wanted;) {
-      stats_.wallSeconds += stats_.steps < dear ? 20.0 * step_ : step_ + noise;
+      stats_.wallSeconds += stats_.steps < dear ? 20.0 * step_ : step_ + late;
       stats_.contactEvaluations += contacts_;
       ++stats_.steps;
     }
@@ -40,37 +40,53 @@ class MadeUpClock final : public Engine {
   }
 
   int loads = 0, failsAfter = 1000;
-  double shareOfCore = 1.0;  ///< CPU time over wall time
+  double shareOfCore = 1.0;           ///< CPU time over wall time
+  std::vector<double> noise = {0.0};  ///< of its steps, one load after the other [s]
 
  private:
   double step_;
   std::uint64_t contacts_;
-  std::vector<double> noise_;
   Stats stats_;
 };
 
-TimedVariant variantOf(std::unique_ptr<MadeUpClock> clock) {
-  TimedVariant variant;
-  variant.load = [engine = clock.get()] {
-    engine->load({}, {});
-    return 1.0;  // dt
-  };
-  variant.engine = std::move(clock);
-  return variant;
+/// What a variant is handed for a turn; the clock itself goes on.
+class Turn final : public Engine {
+ public:
+  explicit Turn(MadeUpClock& clock) : clock_(clock) {}
+  Capabilities capabilities() const override { return clock_.capabilities(); }
+  Realised load(const Scene& scene, const Settings& settings) override {
+    return clock_.load(scene, settings);
+  }
+  double advance(double t) override { return clock_.advance(t); }
+  Snapshot snapshot(ContactReport report) override { return clock_.snapshot(report); }
+  Stats stats() const override { return clock_.stats(); }
+
+ private:
+  MadeUpClock& clock_;
+};
+
+/// @param clock  outlives it
+TimedVariant variantOf(MadeUpClock& clock) {
+  return {[&clock] { return std::make_unique<Turn>(clock); },
+          [](Engine& engine) {
+            engine.load({}, {});
+            return 1.0;  // dt
+          }};
 }
 
-std::vector<TimedVariant> wholeAndWithout(double step, double without) {
-  std::vector<TimedVariant> variants;
-  variants.push_back(variantOf(std::make_unique<MadeUpClock>(step, 40)));
-  variants.push_back(variantOf(std::make_unique<MadeUpClock>(without, 0)));
-  return variants;
-}
+struct WholeAndWithout {
+  WholeAndWithout(double step, double without) : clocks{{{step, 40}, {without, 0}}} {}
 
-const std::function<void(double)> ignored = [](double) {};
+  std::vector<StepTimes> times(const TimingPlan& plan) {
+    return timeSteps({variantOf(clocks[0]), variantOf(clocks[1])}, plan, [](double) {});
+  }
+
+  std::array<MadeUpClock, 2> clocks;
+};
 
 TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
-  auto variants = wholeAndWithout(4e-4, 3e-4);
-  const auto times = timeSteps(variants, {0.2, 5}, ignored);
+  WholeAndWithout variants(4e-4, 3e-4);
+  const auto times = variants.times({0.2, 5});
   ASSERT_EQ(times[0].seconds.size(), 5u);
   for (const double seconds : times[0].seconds) EXPECT_NEAR(seconds, 4e-4, 1e-12);
   const auto ratio = timeRatio(times[1], times[0]);
@@ -80,37 +96,34 @@ TEST(StepTimes, TellTheCostOfAStepAfterTheWarmUp) {
 }
 
 TEST(StepTimes, LeaveOutWhatOtherProgramsHadOfTheCore) {
-  auto variants = wholeAndWithout(4e-4, 3e-4);
-  static_cast<MadeUpClock&>(*variants[0].engine).shareOfCore =
-      0.5;  // half as much CPU time as wall
-  static_cast<MadeUpClock&>(*variants[1].engine).shareOfCore = 1.9;  // two threads
-  const auto times = timeSteps(variants, {0.2, 2}, ignored);
+  WholeAndWithout variants(4e-4, 3e-4);
+  variants.clocks[0].shareOfCore = 0.5;  // half as much CPU time as wall
+  variants.clocks[1].shareOfCore = 1.9;  // two threads
+  const auto times = variants.times({0.2, 2});
   EXPECT_NEAR(*shortestStep(times[0]), 2e-4, 1e-12);
   EXPECT_NEAR(*shortestStep(times[1]), 3e-4, 1e-12);
 }
 
 TEST(StepTimes, CountContactsWhereTheEngineDoes) {
-  auto variants = wholeAndWithout(4e-4, 3e-4);
-  const auto times = timeSteps(variants, {0.2, 2}, ignored);
+  WholeAndWithout variants(4e-4, 3e-4);
+  const auto times = variants.times({0.2, 2});
   EXPECT_DOUBLE_EQ(*times[0].contacts, 40.0);
   EXPECT_FALSE(times[1].contacts);
 }
 
 TEST(StepTimes, StepAsOftenInAllLegsAndLongEnoughInTheFastest) {
-  auto variants = wholeAndWithout(4e-4, 1e-4);
-  timeSteps(variants, {0.2, 1}, ignored);
-  const Stats slow = variants[0].engine->stats(), fast = variants[1].engine->stats();
+  WholeAndWithout variants(4e-4, 1e-4);
+  variants.times({0.2, 1});
+  const Stats slow = variants.clocks[0].stats(), fast = variants.clocks[1].stats();
   EXPECT_EQ(slow.steps, fast.steps);
   EXPECT_GE(fast.wallSeconds, 0.2);
 }
 
 TEST(StepTimes, TakeTheShortestRoundAndTheSpreadOfAll) {
-  std::vector<TimedVariant> variants;
-  variants.push_back(variantOf(std::make_unique<MadeUpClock>(1e-4, 1)));
+  WholeAndWithout variants(1e-4, 1e-4);
   // Load 0 is there for the estimate; each round is one more load.
-  variants.push_back(
-      variantOf(std::make_unique<MadeUpClock>(1e-4, 1, std::vector{3e-5, 0.0, 2e-5, 1e-5})));
-  const auto times = timeSteps(variants, {0.2, 4}, ignored);
+  variants.clocks[1].noise = {3e-5, 0.0, 2e-5, 1e-5};
+  const auto times = variants.times({0.2, 4});
   const auto ratio = timeRatio(times[1], times[0]);
   EXPECT_NEAR(ratio->value, 1.0, 1e-9);
   // Ratios 1.0, 1.1, 1.2, 1.3 in some order: sd = √(0.05/3), over √4.
@@ -118,9 +131,9 @@ TEST(StepTimes, TakeTheShortestRoundAndTheSpreadOfAll) {
 }
 
 TEST(StepTimes, AVariantThatBreaksDownLeavesTheOthers) {
-  auto variants = wholeAndWithout(4e-4, 3e-4);
-  static_cast<MadeUpClock&>(*variants[1].engine).failsAfter = 2;
-  const auto times = timeSteps(variants, {0.2, 3}, ignored);
+  WholeAndWithout variants(4e-4, 3e-4);
+  variants.clocks[1].failsAfter = 2;
+  const auto times = variants.times({0.2, 3});
   EXPECT_EQ(times[0].seconds.size(), 3u);
   EXPECT_EQ(times[1].failure, "made up, at t = 3 s: broke down");
   EXPECT_TRUE(times[1].seconds.empty());

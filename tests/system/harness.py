@@ -108,10 +108,14 @@ class Running:
     def worker_at_work(self, engine, cpu_seconds=0.15, stage="running engines"):
         """Waits until the runs have begun and a worker of that engine has computed for a while."""
         wait_for(lambda: stage in self.stderr(), PATIENCE, "the runs to begin")
-        found = []
+        before, found = {}, []
 
         def computing():
-            found[:] = [pid for pid in self.workers(engine) if cpu_time(pid) >= cpu_seconds]
+            # Workers go from run to run: what one has used before the runs began tells nothing.
+            now = {pid: cpu_time(pid) for pid in self.workers(engine)}
+            for pid, seconds in now.items():
+                before.setdefault(pid, seconds)
+            found[:] = [pid for pid, seconds in now.items() if seconds - before[pid] >= cpu_seconds]
             return found
 
         wait_for(computing, PATIENCE, f"a worker of {engine}")

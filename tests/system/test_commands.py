@@ -1,6 +1,7 @@
 """Commands that run nothing: engines, check, report, and the help of all."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -57,6 +58,29 @@ class Help(SystemTest):
         done = self.run_program("--version")
         self.assert_status(done, HELD)
         self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+\n$")
+
+
+class Starts(SystemTest):
+    """An engine is not started where nobody asks for it: YADE alone takes seconds."""
+
+    def started(self, *arguments):
+        """Whether a program called yade was."""
+        programs, mark = self.folder / "bin", self.folder / "started"
+        programs.mkdir(exist_ok=True)
+        mark.unlink(missing_ok=True)
+        fake = programs / "yade"
+        fake.write_text(f"#!/bin/sh\ntouch {mark}\n", encoding="utf-8")
+        fake.chmod(0o755)
+        self.run_program(*arguments, env={"PATH": f"{programs}:{os.environ['PATH']}"})
+        return mark.exists()
+
+    def test_nobody_starts_what_is_not_asked_for(self):
+        quick = settings(preparation__packings=1, averaging__rotations=0.01, averaging__settle_rotations=0.001)
+        self.assertTrue(self.started("check", COUETTE, "--engines", "yade"))
+        for engines in ("grain", "grain,box2d-penalty"):
+            for command in (("check", COUETTE), ("compare", COUETTE, *quick, "--fresh", "--out", self.out)):
+                with self.subTest(engines=engines, command=command[0]):
+                    self.assertFalse(self.started(*command, "--engines", engines))
 
 
 class Engines(SystemTest):

@@ -19,6 +19,7 @@ from harness import (
     PATIENCE,
     SystemTest,
     command_line,
+    cpu_time,
     marked_processes,
     recorded_exchanges,
     wait_for,
@@ -168,6 +169,9 @@ class Ranks(SystemTest):
     def ranks_of(self, running):
         return [pid for pid in running.processes() if any("rank.py" in word for word in command_line(pid)[:2])]
 
+    def seconds_of_ranks(self, running):
+        return sum(cpu_time(pid) for pid in self.ranks_of(running))
+
     def test_a_killed_rank_is_one_error_and_what_was_finished_stays(self):
         arguments = (
             "compare", COUETTE, "--engines", "lammps", "--out", self.out, "--quick", "--set=run.mirrors=false",
@@ -175,7 +179,8 @@ class Ranks(SystemTest):
         )  # fmt: skip
         running = self.start(*arguments)
         wait_for(lambda: "[1/2] lammps packing 0: " in running.stderr(), PATIENCE, "the first run")
-        wait_for(lambda: len(self.ranks_of(running)) == 2, PATIENCE, "ranks of the second")
+        before = self.seconds_of_ranks(running)
+        wait_for(lambda: self.seconds_of_ranks(running) > before + 0.2, PATIENCE, "ranks at work on the second")
         os.kill(self.ranks_of(running)[-1], signal.SIGKILL)
         done = running.end()
         self.assert_one_error(done, ENGINE_FAILED, "lammps", "rank ", "signal 9", "and with it all ranks")

@@ -15,16 +15,23 @@
 namespace crossgrain::test {
 namespace {
 
+/// Says that it writes over what a file holds.
+bool writesOver(const std::string& mischief) {
+  return mischief == "forgets" || mischief == "replaces";
+}
+
 nlohmann::json arraysOf(const std::string& mischief, const std::string& file) {
   if (mischief == "pipe" && ::mkfifo(file.c_str(), 0600) != 0) std::abort();
   if (mischief == "device") std::filesystem::create_symlink("/dev/zero", file);
   if (mischief == "short") std::ofstream(file) << "8 bytes.";
-  if (mischief == "many") {
+  if (mischief == "many" || mischief == "cuts" || writesOver(mischief)) {
     ToyEngine toy;
     toy.load(toyScene(), {});
     ArrayWriter arrays;
     toJson(toy.snapshot(ContactReport::instant), arrays);
+    if (mischief == "forgets") return arrays.list();
     nlohmann::json list = arrays.write(file);
+    if (mischief != "many") return list;
     std::filesystem::resize_file(file, std::uintmax_t{3} << 30);
     for (nlohmann::json& each : list)
       if (each.at("name") == "contacts.i") each["count"] = 500'000'000;
@@ -43,7 +50,8 @@ nlohmann::json snapshotOf() {
 }  // namespace
 
 bool liesAboutFiles(const std::string& mischief) {
-  return mischief == "short" || mischief == "many" || mischief == "pipe" || mischief == "device";
+  return mischief == "short" || mischief == "many" || mischief == "pipe" || mischief == "device" ||
+         mischief == "cuts" || writesOver(mischief);
 }
 
 void say(const std::string& text) {
@@ -65,6 +73,7 @@ int lyingWorker(const std::string& mischief) {
     nlohmann::json reply = {{"ok", true},
                             {"protocol", protocolVersion},
                             {"capabilities", toJson(ToyEngine().capabilities())},
+                            {"writes_over", writesOver(mischief)},
                             {"realised", toJson(realised)}};
     if (request.at("request") == "snapshot") {
       reply["snapshot"] = snapshotOf();

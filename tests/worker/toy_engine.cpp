@@ -38,6 +38,8 @@ Realised ToyEngine::load(const Scene& scene, const Settings& settings) {
     throw UnsupportedScene(reason ? *reason : "has no such thing");
   }
   if (settings.contains("throw")) throw std::runtime_error("could not allocate");
+  ++loads_;
+  if (mischief_ == "once" && loads_ > 1) std::exit(5);
   scene_ = scene;
   steps_ = 0;
   Realised realised;
@@ -125,6 +127,8 @@ Snapshot ToyEngine::snapshot(ContactReport contacts) {
   if (mischief_ == "nan") snapshot.velocity[1].x() = std::numeric_limits<double>::quiet_NaN();
   if (mischief_ == "few") snapshot.position.pop_back();
   if (mischief_ == "ids") snapshot.contacts->j[0] = 99;
+  if (mischief_ == "leftover" && loads_ > 1) snapshot.contacts->tangentialForce[0] += 1e-12;
+  if (mischief_ == "lonely" && snapshot.contacts) snapshot.contacts = Contacts{};
   return snapshot;
 }
 

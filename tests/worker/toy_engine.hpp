@@ -22,6 +22,7 @@ class ToyEngine final : public Engine {
   std::string mischief_;
   Scene scene_;
   std::uint64_t steps_ = 0;
+  int loads_ = 0;
 };
 
 /// Two disks, two wall bodies, one of them with a plane, numbers that no decimal prints shortly.

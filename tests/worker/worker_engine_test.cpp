@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "adapters/worker/answer.hpp"
@@ -46,6 +47,13 @@ class Worker : public ::testing::Test {
     return "no failure";
   }
 
+  std::set<std::string> filesLeft() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(scratch_))
+      names.insert(entry.path().filename());
+    return names;
+  }
+
   /// What becomes of advance() to 0.5 s.
   std::string advanceFailure(const std::string& mischief, double timeout = 20.0) {
     const auto engine = start(mischief, timeout);
@@ -64,7 +72,7 @@ class Worker : public ::testing::Test {
 };
 
 TEST_F(Worker, RunsAsTheEngineItselfDoesBitForBit) {
-  const auto worker = start("");
+  auto worker = start("");
   test::ToyEngine direct;
   EXPECT_EQ(worker->capabilities().version, direct.capabilities().version);
   for (int run = 0; run < 2; ++run) {
@@ -82,8 +90,24 @@ TEST_F(Worker, RunsAsTheEngineItselfDoesBitForBit) {
     }
     EXPECT_EQ(worker->stats().steps, direct.stats().steps);
   }
-  const auto left = std::filesystem::directory_iterator(scratch_);
-  EXPECT_EQ(std::distance(begin(left), end(left)), 1) << "only the log stays in the scratch folder";
+  EXPECT_EQ(filesLeft(), (std::set<std::string>{"toy.bin", "toy.log"}));
+  worker.reset();
+  EXPECT_EQ(filesLeft(), std::set<std::string>{"toy.log"});
+}
+
+TEST_F(Worker, HasANewFileForEachExchangeUnlessItWritesOver) {
+  const auto worker = start("cuts");
+  worker->load(test::toyScene(), {});
+  EXPECT_EQ(worker->snapshot(ContactReport::instant).position.size(), 2u);
+  EXPECT_EQ(worker->snapshot(ContactReport::none).position.size(), 2u);
+  EXPECT_EQ(filesLeft(), std::set<std::string>{"toy.log"});
+}
+
+TEST_F(Worker, IsNotTakenAtWhatItWroteBefore) {
+  const std::string stale = " is unusable: toy.bin: position[0] is -nan";
+  EXPECT_EQ(snapshotFailure("forgets"), "toy, toy at t = 0 s: its answer to snapshot" + stale);
+  // Its own file under that name: ours is another.
+  EXPECT_EQ(snapshotFailure("replaces"), "toy, toy at t = 0 s: its answer to snapshot" + stale);
 }
 
 TEST_F(Worker, PassesRefusalsOnAndLivesOn) {
@@ -128,10 +152,10 @@ TEST_F(Worker, IsDistrusted) {
             "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is too short: "
             "position needs 4 × 8 bytes from byte 0, the file has 8 bytes");
   EXPECT_EQ(snapshotFailure("nan"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin: velocity[2] is "
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy.bin: velocity[2] is "
             "nan");
   EXPECT_EQ(snapshotFailure("few"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin: position is 2 × "
+            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy.bin: position is 2 × "
             "f64, expected 4 × f64");
   EXPECT_EQ(snapshotFailure("ids"),
             "toy, toy at t = 0 s: its answer to snapshot is unusable: contact 0 is of 0 and 99, "
@@ -190,10 +214,14 @@ TEST_F(Worker, HoldsNobodyWithWhatItPutsInTheScratchFolder) {
   const auto engine = start("exit");
   const auto victim = scratch_ / "victim";
   std::ofstream(victim) << "mine";
+  ASSERT_EQ(::mkfifo((scratch_ / "toy.bin").c_str(), 0600), 0);
+  engine->load(test::toyScene(), {});
+  EXPECT_TRUE(std::filesystem::is_regular_file(scratch_ / "toy.bin"));
+  const auto cutter = start("cuts");
   ASSERT_EQ(::mkfifo((scratch_ / "toy-1.bin").c_str(), 0600), 0);
-  engine->load(test::toyScene(), {});
+  cutter->load(test::toyScene(), {});
   std::filesystem::create_symlink(victim, scratch_ / "toy-2.bin");
-  engine->load(test::toyScene(), {});
+  cutter->load(test::toyScene(), {});
   EXPECT_EQ(std::filesystem::file_size(victim), 4u);
   const auto log = scratch_ / "toy.log";
   std::filesystem::remove(log);
