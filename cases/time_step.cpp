@@ -69,8 +69,8 @@ ImpactTimes impactTimes(const Case& c) {
   std::vector<double> speeds;
   for (const CollisionStart& start : collisionStarts(c)) speeds.push_back(start.vn);
   const auto [slowest, fastest] = std::ranges::minmax(speeds);
-  const double ends[2] = {time(slowest), time(fastest)};
-  return {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+  const auto [shortest, longest] = std::minmax({time(slowest), time(fastest)});
+  return {shortest, longest};
 }
 
 std::vector<double> collisionTimeSteps(const Case& c) {

@@ -66,6 +66,14 @@ bool isOneValue(hid_t attribute) {
   return H5Sget_simple_extent_npoints(space) == 1;
 }
 
+/// Whether values are of a size that numbers have: HDF5 makes and fills room for one of the size
+/// that a damaged file claims, which may be gigabytes.
+bool isOfNumbers(const Handle& type) {
+  constexpr std::size_t most = sizeof(long double);
+  const H5T_class_t is = H5Tget_class(type);
+  return (is == H5T_FLOAT || is == H5T_INTEGER || is == H5T_ENUM) && H5Tget_size(type) <= most;
+}
+
 std::unique_lock<std::mutex> lockLibrary() {
   std::unique_lock lock(libraryMutex);
   // At the end of the program the library would try once more to write what a full disk did not
@@ -191,9 +199,14 @@ std::optional<std::size_t> Hdf5File::length(const std::string& path) const {
   if (!holds(path)) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
   const Handle space(H5Dget_space(set));
-  constexpr hssize_t most = 100'000'000;  // a damaged file may claim any size
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count < 0 || count > most) fail(name_, path + " is damaged");
+  // A damaged file may claim any size, and room is taken before anything is read. Packed are at
+  // most 1032 bytes into one, by zlib.
+  constexpr hsize_t most = 100'000'000, packed = 1032;
+  hsize_t fileSize = 0;
+  if (count < 0 || H5Fget_filesize(file_, &fileSize) < 0 ||
+      static_cast<hsize_t>(count) > std::min(most, packed * fileSize))
+    fail(name_, path + " is damaged");
   return static_cast<std::size_t>(count);
 }
 
@@ -201,6 +214,7 @@ std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const
   const auto count = length(path);
   if (!count) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  if (!isOfNumbers(Handle(H5Dget_type(set)))) fail(name_, path + " does not hold numbers");
   std::vector<double> values(*count);
   if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(name_, path + " cannot be read");
@@ -211,7 +225,8 @@ std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
   if (H5Aexists(file_, name.c_str()) <= 0) return std::nullopt;
   const Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT));
   double value = 0.0;
-  if (!isOneValue(attribute) || H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+  if (!isOneValue(attribute) || !isOfNumbers(Handle(H5Aget_type(attribute))) ||
+      H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
     fail(name_, name + " is not one number");
   return value;
 }

@@ -9,7 +9,7 @@ namespace crossgrain::inline runs {
 namespace {
 
 /// What rounding leaves between times that were typed in [rotations].
-constexpr double sliver = 1e-6;
+constexpr double sliverBetweenTimes = 1e-6;
 
 double ringWidth(const LegRun& at, std::size_t rings) {
   return (at.leg->cell.outerRadius - at.leg->cell.innerRadius) / static_cast<double>(rings);
@@ -164,7 +164,7 @@ std::optional<Measured> fitOf(const LegRun& at, std::string_view name) {
 std::optional<double> averagedOf(const LegRun& at, std::optional<double> ThesisSpan::*quantity) {
   double sum = 0.0, length = 0.0;
   for (const ThesisSpan& span : at.run->history) {
-    if (span.from < at.leg->settleRotations - sliver || !(span.*quantity)) continue;
+    if (span.from < at.leg->settleRotations - sliverBetweenTimes || !(span.*quantity)) continue;
     sum += (span.to - span.from) * *(span.*quantity);
     length += span.to - span.from;
   }

@@ -137,6 +137,36 @@ void writeWithAttribute(const fs::path& path, const char* name, hid_t type, hsiz
   for (const hid_t id : {attribute, space, whole}) H5Idec_ref(id);
 }
 
+/// A file with a dataset of that type and size that nobody has written to.
+void writeClaim(const fs::path& path, const char* name, hid_t type, hsize_t count) {
+  Hdf5File::create(path).save();
+  const hid_t whole = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t set = H5Dcreate2(whole, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  for (const hid_t id : {set, space, whole}) H5Idec_ref(id);
+}
+
+/// HDF5 would take room for all of it first.
+TEST(Packing, WhatAFileHasNoRoomForIsDamage) {
+  writeClaim(file("claims.h5"), "radius", H5T_NATIVE_DOUBLE, 50'000'000);
+  const Hdf5File claims = Hdf5File::open(file("claims.h5"));
+  EXPECT_THROW(claims.length("radius"), std::runtime_error);
+}
+
+TEST(Packing, NumbersAreOfTheSizeOfNumbers) {
+  const hid_t longText = H5Tcopy(H5T_C_S1), opaque = H5Tcreate(H5T_OPAQUE, 1'000'000'000);
+  H5Tset_size(longText, 1'000'000'000);
+  for (const hid_t type : {longText, opaque}) {
+    writeClaim(file("long.h5"), "radius", type, 1);
+    const Hdf5File claims = Hdf5File::open(file("long.h5"));
+    EXPECT_EQ(claims.length("radius"), 1u);
+    EXPECT_THROW(claims.read("radius"), std::runtime_error);
+  }
+  writeClaim(file("integers.h5"), "radius", H5T_NATIVE_INT8, 2);
+  EXPECT_EQ(Hdf5File::open(file("integers.h5")).read("radius"), (std::vector<double>{0.0, 0.0}));
+  for (const hid_t type : {longText, opaque}) H5Idec_ref(type);
+}
+
 TEST(Packing, AttributesAreOneNumberAndOneText) {
   const double angles[] = {0.5, 1.0, 2.0, 3.0};
   writeWithAttribute(file("one.h5"), "wheel_angle", H5T_NATIVE_DOUBLE, 1, angles);

@@ -8,6 +8,7 @@ So many programs that only count run for each core meanwhile, at the tests' own 
 import argparse
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -20,6 +21,8 @@ def main():
     parser.add_argument("--times", type=int, default=10, help="programs for each core")
     parser.add_argument("ctest", nargs="*", metavar="-- ARGUMENT", help="of ctest")
     options = parser.parse_args()
+    # Whoever ends this ends the counting, too.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     count = options.times * len(os.sched_getaffinity(0))
     others = [subprocess.Popen([sys.executable, "-c", COUNTING]) for _ in range(count)]
     try:

@@ -371,14 +371,14 @@ CompareResults compareResults(int packings, int disks) {
          {"b", b},
          {"kind", "peer"},
          {"packings", packings},
-         {"differ", impulses && packings > 2 ? Json({2}) : Json::array()}});
+         {"differ", impulses && packings > 2 ? Json::array({2}) : Json::array()}});
   }
   for (const auto& [name, bias, dt] : engines) {
     Json row = name == "grain" ? steadiness("outer_pressure", "drifts", -0.4, 0.08)
                                : steadiness("outer_pressure", "no drift seen", 0.05, 0.1);
     row["engine"] = name;
     row["packings"] = packings;
-    row["drifting"] = Json({0});
+    row["drifting"] = Json::array({0});
     results["steadiness"].push_back(row);
   }
   const bool decided = packings >= 4;

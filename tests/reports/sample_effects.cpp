@@ -85,7 +85,7 @@ EffectsResults effectsResults(int packings) {
   results["rings"] = {
       {"r", {0.034, 0.041, 0.049}}, {"r_tilde", {0.5, 1.5, 2.5}}, {"width", 0.0075}};
   results["timing"] = {{"rounds", 5}, {"seconds", 0.2}};
-  results["engines"] = {engine("grain", "the in-house engine")};
+  results["engines"] = Json::array({engine("grain", "the in-house engine")});
   results["switches"] = {{{"effect", "friction"}, {"what", "No <tangential> force."}},
                          {{"effect", "bottom_friction"}, {"what", "No plate."}},
                          {{"effect", "tension_cut"}, {"what", "No tension."}}};

@@ -8,7 +8,7 @@ namespace crossgrain::sample {
 
 void keepSnapshots(const CompareResults& results, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "snapshots");
-  const double inner = results.cell.innerRadius, omega = results.cell.omega;
+  const double innerRadius = results.cell.innerRadius, omega = results.cell.omega;
   for (const CouetteRun& run : results.runs) {
     if (!run.picture) continue;
     const ScenePicture& scene = *run.picture;
@@ -21,7 +21,7 @@ void keepSnapshots(const CompareResults& results, const std::filesystem::path& f
       std::vector<double> place, velocity, wall;
       for (std::size_t i = 0; i < scene.x.size(); ++i) {
         const double r = std::hypot(scene.x[i], scene.y[i]);
-        const double turn = omega * std::exp(-(r - inner) / results.cell.diameter);
+        const double turn = omega * std::exp(-(r - innerRadius) / results.cell.diameter);
         const double angle = std::atan2(scene.y[i], scene.x[i]) + turn * t;
         place.insert(place.end(), {r * std::cos(angle), r * std::sin(angle)});
         velocity.insert(velocity.end(), {-turn * r * std::sin(angle), turn * r * std::cos(angle)});

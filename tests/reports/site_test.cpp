@@ -166,7 +166,8 @@ TEST(History, IsOfSeveralVersionsOnly) {
   EXPECT_EQ(historiesOf(reports).size(), 1u);
   // What one report alone has did not change.
   reports[0].digest.overview.reset();
-  for (const HistoryRow& row : historiesOf(reports)[0].rows) EXPECT_EQ(changeOf(row), "");
+  const auto histories = historiesOf(reports);
+  for (const HistoryRow& row : histories.at(0).rows) EXPECT_EQ(changeOf(row), "");
 }
 
 TEST(History, HasTheMeansOfEndpoints) {

@@ -52,6 +52,17 @@ TEST(CouetteRegime, IsReadFromTheSeries) {
   EXPECT_FALSE(unknown.reason.empty());
 }
 
+TEST(CouetteRegime, OfTwoSamplesIsOfTheTimeBetweenThem) {
+  // The rim passes a disk in 2·0.0037/(1·0.03) = 0.247 s, two samples: of 0 and 0.3 the mean is not
+  // blocked. Each by itself, one of two would be.
+  RunSeries series;
+  series["t_s"] = {1.0, 1.125};
+  series["shear_share"] = {0.0, 0.3};
+  EXPECT_EQ(couetteRegime(quick(), {}, series).blockedFraction, 0.0);
+  series["t_s"] = {1.0, 1.25};  // a disk passes from one sample to the next
+  EXPECT_EQ(couetteRegime(quick(), {}, series).blockedFraction, 0.5);
+}
+
 TEST(CouetteSteadiness, SaysItOfEachSeriesThatIsThere) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;

@@ -2,7 +2,8 @@
 
 Each case is run for a short time (its first variant; of a cell packing 0) and all arrays that the engine answers, positions, velocities, spins,
 walls and contacts of ten looks, go into one digest. It covers scene, packing and engine, on a processor held to instructions that every x86-64
-machine has (same_bits.py); grain's own AVX2 and AVX-512 must give the same. Left out, each with the reason, is what LEFT_OUT says.
+machine has (same_bits.py); grain's own AVX2 and AVX-512 must give the same, and so does a build by another compiler (tests/README.md).
+Left out, each with the reason, is what LEFT_OUT says.
 
 What changes bits on purpose says so in CHANGELOG.md and renews the file:
     CROSSGRAIN=build/release/cli/crossgrain python3 case_digests.py   (in this folder)

@@ -48,10 +48,6 @@ namespace {
 using nlohmann::json;
 using test::Message;
 
-test::InputRange messages() {
-  return test::inputs(10'000);
-}
-
 /// A file in memory: a million of them are to be written.
 class MemoryFile {
  public:
@@ -121,7 +117,7 @@ TEST_F(Hostile, AnswersAreAValueOrOneLine) {
   largest = 0;
   std::uint64_t taken = 0, refused = 0;
   std::chrono::duration<double> slowest{0.0};
-  const test::InputRange all = messages();
+  const test::InputRange all = test::inputs(10'000);
   for (std::uint64_t k = all.from; k < all.to; ++k) {
     const Message message = hostileMessage(answers, k);
     const auto begin = std::chrono::steady_clock::now();
@@ -151,8 +147,8 @@ TEST_F(Hostile, AnswersAreAValueOrOneLine) {
 TEST_F(Hostile, RecordingsAreExchangesOrBadInput) {
   const std::vector<Message> answers = test::trueAnswers();
   largest = 0;
-  const test::InputRange all = messages();
-  for (std::uint64_t k = all.from; k < all.from + all.size() / 10; ++k) {
+  const test::InputRange all = test::inputs(1000);
+  for (std::uint64_t k = all.from; k < all.to; ++k) {
     const Message message = hostileMessage(answers, k);
     file_.write(fmt::format(R"({{"crossgrain_recording":1}})"
                             "\n"
