@@ -14,6 +14,7 @@
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/hdf5_trial.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -164,6 +165,7 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup, std::s
 
 Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {
   try {
+    tryReading(file, [&] { readPackingFile(file, defaults); });
     return readPackingFile(file, defaults);
   } catch (const BadInput&) {
     throw;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <hdf5.h>
+#include <sys/types.h>
 
 #include <filesystem>
 #include <mutex>
@@ -63,5 +64,8 @@ class Hdf5File {
   std::filesystem::path name_;
   Place place_;
 };
+
+/// fork(), while no other thread is within HDF5: the new process may use it.
+pid_t forkWithLibrary();
 
 }  // namespace crossgrain::inline support

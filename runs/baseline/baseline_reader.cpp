@@ -9,6 +9,7 @@
 #include "runs/lockstep/rules.hpp"
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/hdf5_trial.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
@@ -175,9 +176,7 @@ Baseline readAll(const Hdf5File& in) {
   return baseline;
 }
 
-}  // namespace
-
-Baseline readBaseline(const std::filesystem::path& file) {
+Baseline readBaselineFile(const std::filesystem::path& file) {
   const auto bad = [&](const std::string& what) {
     return BadInput(fmt::format("{}: {}", file.string(), what));
   };
@@ -196,6 +195,17 @@ Baseline readBaseline(const std::filesystem::path& file) {
   } catch (const std::exception& error) {  // what HDF5 makes of another file
     throw BadInput(error.what() + std::string(makesOne));
   }
+}
+
+}  // namespace
+
+Baseline readBaseline(const std::filesystem::path& file) {
+  try {
+    tryReading(file, [&] { readBaselineFile(file); });
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
+  return readBaselineFile(file);
 }
 
 }  // namespace crossgrain::inline runs

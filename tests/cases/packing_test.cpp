@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <new>
 #include <random>
 
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/hdf5_trial.hpp"
 #include "support/random.hpp"
 
 namespace {
@@ -165,6 +169,25 @@ TEST(Packing, NumbersAreOfTheSizeOfNumbers) {
   writeClaim(file("integers.h5"), "radius", H5T_NATIVE_INT8, 2);
   EXPECT_EQ(Hdf5File::open(file("integers.h5")).read("radius"), (std::vector<double>{0.0, 0.0}));
   for (const hid_t type : {longText, opaque}) H5Idec_ref(type);
+}
+
+/// As HDF5 does with some damaged files (tests/fuzz/corpus/packings).
+TEST(Trial, OfWhatCrashesOrWantsAllMemoryIsOneLine) {
+  const auto said = [](const std::function<void()>& read) {
+    try {
+      tryReading("file.h5", read);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const char* lost = "file.h5: is damaged: HDF5 does not get to the end of it";
+  EXPECT_EQ(said([] { std::abort(); }), lost);
+  EXPECT_EQ(said([] { throw std::bad_alloc(); }), lost);
+  EXPECT_EQ(said([] { throw std::runtime_error("file.h5: too short"); }), "file.h5: too short");
+  int changed = 0;
+  EXPECT_EQ(said([&] { changed = 1; }), "");
+  EXPECT_EQ(changed, 0);  // it was another process
 }
 
 TEST(Packing, AttributesAreOneNumberAndOneText) {

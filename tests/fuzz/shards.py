@@ -16,7 +16,7 @@ import time
 # Inputs of a shard: some ten seconds of CPU time in a build with sanitizers.
 kinds = {
     "cases": ("inputs", "FuzzedInput.CasesLoadOrAreRefusedInOneLine", 10000),
-    "packings": ("inputs", "FuzzedInput.PackingsAreSoundOrRefusedInOneLine", 10000),
+    "packings": ("inputs", "FuzzedInput.PackingsAreSoundOrRefusedInOneLine", 1000),
     "starts": ("inputs", "FuzzedInput.StartsAreSoundOrRefusedInOneLine", 10000),
     "results": ("inputs", "FuzzedInput.ResultsAreReadOrRefusedInOneLine", 10000),
     "answers": ("messages", "Hostile.AnswersAreAValueOrOneLine", 20000),
