@@ -134,7 +134,7 @@ TEST(StateTables, HaveARunAPairAndASeriesALine) {
   Json results = flowing(2);
   set(results, "ours", 1, "blocked");
   results["regimes"] = {{{"a", "ours"}, {"b", "hard"}, {"packings", 2}, {"differ", {1}}}};
-  results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.4, 0.08)};
+  results["steadiness"] = Json::array({drift("ours", "outer_pressure", "drifts", -0.4, 0.08)});
   Json view;
   const CompareResults compared = compareFromJson(results);
   addStates(view, compared, engineRuns(compared));
@@ -149,8 +149,9 @@ TEST(StateTables, HaveARunAPairAndASeriesALine) {
 
 TEST(StateTables, CsvNamesTheRotationsOfEveryRow) {
   Json results = flowing(1);
-  results["runs"][0]["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
-  results["steadiness"] = {drift("ours", "outer_pressure", "drifts", -0.5, 0.25)};
+  results["runs"][0]["steadiness"] =
+      Json::array({drift("ours", "outer_pressure", "drifts", -0.5, 0.25)});
+  results["steadiness"] = Json::array({drift("ours", "outer_pressure", "drifts", -0.5, 0.25)});
   const std::string regimes = regimesCsv(compareFromJson(results));
   EXPECT_EQ(regimes.substr(0, regimes.find('\n')),
             "engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,"
