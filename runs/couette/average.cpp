@@ -15,6 +15,7 @@ namespace crossgrain::inline runs {
 
 CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& file,
                                 const std::string& commandLine) {
+  requireReadable(file, setup);
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
   requireSound(reader, setup);

@@ -136,6 +136,7 @@ std::vector<RevMeeting> meetingsOf(const Curves& curves) {
 
 RevResults revStudy(const Case& setup, const std::filesystem::path& file,
                     const std::string& commandLine, bool quiet) {
+  requireReadable(file, setup);
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
   requireSound(reader, setup);

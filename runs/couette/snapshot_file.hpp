@@ -38,6 +38,11 @@ class SnapshotFile {
   std::vector<KeptSnapshot> kept_;
 };
 
+/// All of such a file can be read: HDF5 itself does not get over every damaged one
+/// (support/hdf5_trial.hpp). To be asked before a file of anybody's is opened.
+/// @throws BadInput as SnapshotReader, or that the file is damaged
+void requireReadable(const std::filesystem::path& file, const Case& setup);
+
 /// Reads such a file, of a run or of any other source, one snapshot at a time.
 class SnapshotReader {
  public:

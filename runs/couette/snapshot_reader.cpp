@@ -8,6 +8,7 @@
 #include "results/snapshot_layout.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "support/bad_input.hpp"
+#include "support/hdf5_trial.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
@@ -21,6 +22,17 @@ Hdf5File opened(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+void requireReadable(const std::filesystem::path& file, const Case& setup) {
+  try {
+    tryReading(file, [&] {
+      const SnapshotReader reader(file, setup);
+      for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
+    });
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
+}
 
 SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& setup)
     : name_(file), file_(opened(file)), engine_(file.stem().string()) {

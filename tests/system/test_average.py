@@ -112,6 +112,15 @@ class Average(SystemTest):
             done = self.average(snapshots=self.folder / what, out=self.folder / "x")
             self.assert_one_error(done, BAD_INPUT, what, "cannot be read as an HDF5 file")
 
+    def test_damaged_files(self):
+        """Some of them crash HDF5, or have it go round for ever."""
+        files = sorted(CASES.parent.glob("tests/fuzz/corpus/packings/*.h5"))
+        self.assertGreater(len(files), 10)
+        for file in files:
+            with self.subTest(file.name):
+                done = self.average(snapshots=file, out=self.folder / "x")
+                self.assert_one_error(done, BAD_INPUT, file.name)
+
 
 if __name__ == "__main__":
     unittest.main()
