@@ -93,7 +93,7 @@ TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
     places.push_back(folder.path() / fs::path(name).parent_path() / "fuzzed.toml");
   }
   Reading reading;
-  const test::InputRange all = test::inputs(3000);
+  const test::InputRange all = test::inputs(10'000);
   for (std::uint64_t k = all.from; k < all.to && !HasFailure(); ++k) {
     test::Draw draw(k);
     const std::size_t which = k % corpus.size();
@@ -184,7 +184,7 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   const std::string whole = contentOf(file);
   const std::size_t before = mostMemory();
   readDamaged(
-      file, 2000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
+      file, 10'000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },
       [&] { return readPacking(file, defaults()).disks; });
   // A handle left open would keep its file's content, damaged file by damaged file.
   EXPECT_EQ(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
@@ -211,7 +211,7 @@ TEST(FuzzedInput, StartsAreSoundOrRefusedInOneLine) {
       "0.0, 0.0, 0.1, 0.1, 0.0, 2.0, 1.0, 0.005, 0\n\n0.3, 0.0, 0.1, 0, 0, 0, 1e-3, 5e-6, 0\n"
       "0.6, 0.1, 0.15, 0, 0, 0, 1, 0.01, 1\n";
   readDamaged(
-      file, 2000, [&](test::Draw& draw) { return test::damagedText(whole, draw); },
+      file, 10'000, [&](test::Draw& draw) { return test::damagedText(whole, draw); },
       [&] { return readStart(file, defaults()).disks; });
 }
 
@@ -232,7 +232,7 @@ TEST(FuzzedInput, ResultsAreReadOrRefusedInOneLine) {
       toText(toJson(scaleFromJson(document)));
   };
   Reading reading;
-  const test::InputRange all = test::inputs(2000);
+  const test::InputRange all = test::inputs(10'000);
   for (std::uint64_t k = all.from; k < all.to && !HasFailure(); ++k) {
     test::Draw draw(k);
     const nlohmann::json damaged = test::damagedJson(corpus[k % std::size(corpus)], draw);

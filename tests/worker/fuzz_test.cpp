@@ -147,7 +147,7 @@ TEST_F(Hostile, AnswersAreAValueOrOneLine) {
 TEST_F(Hostile, RecordingsAreExchangesOrBadInput) {
   const std::vector<Message> answers = test::trueAnswers();
   largest = 0;
-  const test::InputRange all = test::inputs(1000);
+  const test::InputRange all = test::inputs(10'000);
   for (std::uint64_t k = all.from; k < all.to; ++k) {
     const Message message = hostileMessage(answers, k);
     file_.write(fmt::format(R"({{"crossgrain_recording":1}})"
