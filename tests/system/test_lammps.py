@@ -175,7 +175,7 @@ class Ranks(SystemTest):
     def test_a_killed_rank_is_one_error_and_what_was_finished_stays(self):
         arguments = (
             "compare", COUETTE, "--engines", "lammps", "--out", self.out, "--quick", "--set=run.mirrors=false",
-            "--set=preparation.packings=2", "--jobs=1", TWO,
+            "--set=preparation.packings=2", "--set=averaging.settle_rotations=0.05", "--set=averaging.rotations=0.15", "--jobs=1", TWO,
         )  # fmt: skip
         running = self.start(*arguments)
         wait_for(lambda: "[1/2] lammps packing 0: " in running.stderr(), PATIENCE, "the first run")
