@@ -75,7 +75,7 @@ void Core<Real>::save(std::ostream& out) const {
   writeAll(out, lists_.stretched());
   writeAll(out, recorded_ ? contacts() : std::vector<Contact>());
   write(out, recorded_);
-  write(out, ledger_.has_value());
+  write(out, ledger_ != nullptr);
   if (!ledger_) return;
   const auto list = [&](const auto& all) { writeAll(out, all); };
   LedgerObserver<Real>::forState(
@@ -117,7 +117,7 @@ void Core<Real>::restore(std::istream& in) {
   if (recorded_) known_ = std::move(contacts);
   bool hasLedger = false;
   read(in, hasLedger);
-  require(hasLedger == ledger_.has_value(),
+  require(hasLedger == (ledger_ != nullptr),
           hasLedger ? "of a setup with a ledger" : "of a setup without a ledger");
   if (!ledger_) return;
   LedgerObserver<Real>::forState(

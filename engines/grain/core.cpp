@@ -92,7 +92,7 @@ Core<Real>::Core(Setup setup)
 
   buildWalls(std::move(setup.walls));
   allocate(setup.disks, effects);
-  if (setup.ledger) ledger_.emplace(*this, setup);
+  if (setup.ledger) ledger_ = std::make_unique<LedgerObserver<Real>>(*this, setup);
   start();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -192,7 +193,7 @@ class Core {
   std::vector<Impact> impacts_;  ///< of the last step
   mutable std::optional<std::vector<Contact>> known_;
 
-  std::optional<LedgerObserver<Real>> ledger_;
+  std::unique_ptr<LedgerObserver<Real>> ledger_;  ///< with room of its own, if there is one
 };
 
 template <class Real>

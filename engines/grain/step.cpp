@@ -28,7 +28,7 @@ void Core<Real>::step(bool record) {
   moveWalls();
   if (steps_ % renumberingInterval == 0) renumber();
   if (outdated_) updateNeighbours();
-  addForces(record || ledger_.has_value());
+  addForces(record || ledger_ != nullptr);
   if (ledger_) ledger_->afterForces();
   if (integrator_ == Integrator::velocityVerlet) kick(static_cast<Real>(0.5 * dt_));
 }

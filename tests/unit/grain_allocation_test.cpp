@@ -5,6 +5,7 @@
 #include <new>
 #include <tuple>
 
+#include "engines/grain/ledger_views.hpp"
 #include "tests/unit/grain_packed.hpp"
 
 // What the engine allocates: once started nothing, and nothing for effects that a scene does not
@@ -176,6 +177,14 @@ TEST_P(AbsentEffects, ScenesWithoutAPlateHoldNoSpringsOfIt) {
   setup.bottom = test::thesisBottom<Bottom>(2e-3);
   // Springs along x and y, and the mass that it carries.
   EXPECT_GE(bytesHeld(setup), without + 3 * real() * setup.disks.size());
+}
+
+TEST_P(AbsentEffects, ScenesWithoutALedgerHoldNoneOfIt) {
+  auto setup = scene();
+  const std::size_t without = bytesHeld(setup);
+  setup.ledger = true;
+  // Velocities of two times, kinetic energies and masses of each disk; room for pairs at hand.
+  EXPECT_GE(bytesHeld(setup), without + 7 * 8 * setup.disks.size() + sizeof(LedgerPairs<float>));
 }
 
 }  // namespace
