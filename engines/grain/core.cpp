@@ -200,15 +200,8 @@ Places Core<Real>::places() {
 
 template <class Real>
 ContactView<Real> Core<Real>::contactView() {
-  const bool predicted = !seenVelocity_.empty();
-  return {position_.data(),
-          predicted ? seenVelocity_.data() : velocity_.data(),
-          predicted ? seenSpin_.data() : spin_.data(),
-          radius_.data(),
-          inverseMass_.data(),
-          inverseInertia_.data(),
-          force_.data(),
-          torque_.data()};
+  return {position_.data(),    velocitySeen().data(),  spinSeen().data(), radius_.data(),
+          inverseMass_.data(), inverseInertia_.data(), force_.data(),     torque_.data()};
 }
 
 template <class Real>

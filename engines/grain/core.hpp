@@ -114,6 +114,11 @@ class Core {
   void placeWallDisks(std::size_t w, std::size_t count, Member&& member);
 
   // Views for the kernels.
+  /// As the law sees them: predicted, where they are.
+  const Array<Vec<Real>>& velocitySeen() const {
+    return seenVelocity_.empty() ? velocity_ : seenVelocity_;
+  }
+  const Array<Real>& spinSeen() const { return seenVelocity_.empty() ? spin_ : seenSpin_; }
   ContactView<Real> contactView();
   MotionView<Real> motionView();
   PlaneView<Real> planeView(PlacedPlane& placed, bool record);

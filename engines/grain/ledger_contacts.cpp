@@ -37,11 +37,9 @@ TwoParts times(double force, const TwoParts& velocity) {
 /// As the law saw it.
 template <class Real>
 GRAIN_INLINE BodyMotion LedgerObserver<Real>::seen(std::size_t place) const {
-  const bool predicted = !core_.seenVelocity_.empty();
-  const Vec<Real> velocity = predicted ? core_.seenVelocity_[place] : core_.velocity_[place];
+  const Vec<Real> velocity = core_.velocitySeen()[place];
   BodyMotion motion{static_cast<double>(velocity.x), static_cast<double>(velocity.y), 0.0};
-  if (core_.law_.rotation)
-    motion.spin = static_cast<double>(predicted ? core_.seenSpin_[place] : core_.spin_[place]);
+  if (core_.law_.rotation) motion.spin = static_cast<double>(core_.spinSeen()[place]);
   return motion;
 }
 
@@ -69,9 +67,9 @@ void LedgerObserver<Real>::gatherPairs() {
   // Copies that no store into the block can change.
   const auto* const position = core_.position_.data();
   const auto* const radius = core_.radius_.data();
-  const bool predicted = !core_.seenVelocity_.empty(), rotation = core_.law_.rotation;
-  const auto* const seen = predicted ? core_.seenVelocity_.data() : core_.velocity_.data();
-  const auto* const seenSpin = predicted ? core_.seenSpin_.data() : core_.spin_.data();
+  const bool rotation = core_.law_.rotation;
+  const auto* const seen = core_.velocitySeen().data();
+  const auto* const seenSpin = core_.spinSeen().data();
   const DiskMotions closing = closing_.view(), opening = opening_.view();
   const std::size_t moving = core_.moving_, count = pairCount_;
   for (std::size_t p = 0; p < count; ++p) {

@@ -103,7 +103,6 @@ void LedgerObserver<Real>::account(double time) {
 template <class Real>
 void LedgerObserver<Real>::lookAtDisks(double time) {
   const LedgerSums::Scheme& scheme = sums_.scheme();
-  const bool predicted = !core_.seenVelocity_.empty();
   const LedgerDisks<Real> disks{core_.velocity_.data(),
                                 core_.force_.data(),
                                 core_.spin_.data(),
@@ -121,8 +120,8 @@ void LedgerObserver<Real>::lookAtDisks(double time) {
                                 core_.motionConstants_.plate,
                                 core_.weighed_.data(),
                                 core_.radius_.data(),
-                                predicted ? core_.seenVelocity_.data() : core_.velocity_.data(),
-                                predicted ? core_.seenSpin_.data() : core_.spin_.data(),
+                                core_.velocitySeen().data(),
+                                core_.spinSeen().data(),
                                 plateBefore_.data(),
                                 plateSlides_.data(),
                                 plateSquare_.data(),
