@@ -144,6 +144,7 @@ void contactsSayWhereTheyAre(Exam& it) {
   if (it.contactReport() == ContactReport::none) it.skip(said("shows no contacts"));
   const Scene scene = allKindsOfContact(it.law(), false);
   it.load(scene);
+  it.examined(it.can.instantContacts ? instantContacts : accumulatedContacts);
   const std::vector<Snapshot> seen = it.watch(2.0 * Encounter::end);
   const Film film(scene, seen);
   const Tolerance length = {it.byPrecision(1e-12, 1e-6, "").absolute * smallRadius, 0.0,
@@ -205,6 +206,7 @@ void forcesPointWhereTheySay(Exam& it) {
 
 void slidingFlagsMarkTheBound(Exam& it) {
   if (!it.can.slidingFlags) it.skip(said("has no sliding flags"));
+  it.examined(slidingFlags);
   ContactLaw cut = fullLaw();
   cut.conventions.tension = Tension::cut;  // where it can: then every convention's bound is µ f_n
   Encounter pair = crookedEncounter();

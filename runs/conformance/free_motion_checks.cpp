@@ -24,6 +24,7 @@ void fliesStraight(Exam& it) {
             "the way flown [m]");
   it.expect(close(after.velocity[0], scene.disks.velocity[0], rounding), "the velocity [m/s]");
   it.expect(close(spinsOf(scene, after)[0], 5.0, rounding), "the spin [rad/s]");
+  it.examined(precisionNamed(it.can.precisions.front()));
   if (after.contacts) {
     it.equal(after.contacts->size(), 0u, "contacts of a disk alone");
   }
@@ -33,6 +34,7 @@ void fallsFreely(Exam& it) {
   Scene scene = oneDisk(it.law());
   scene.gravity = {1.5, -9.81};
   it.load(scene);
+  it.examined(toString(Effect::gravity));
   const Snapshot after = it.at(flight);
   const double t = after.positionTime;
   const Vec2 expected =
@@ -64,6 +66,7 @@ void bottomPlateBrakesADisk(Exam& it) {
     scene.disks.spin[0] = 30.0;
     scene.bottom = roughPlate(spin);
     it.load(scene);
+    it.examined(toString(spin ? Effect::bottomSpinFriction : Effect::bottomFriction));
     const double end = 0.02;
     const Snapshot after = it.at(end);
     const double lost = scene.bottom->mu * scene.bottom->gravity * after.velocityTime;
