@@ -246,8 +246,12 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   if (!task.only) {
     const std::vector<std::string> declared = conformance::declaredBy(can);
     results.declared = declared.size();
-    std::ranges::copy_if(declared, std::back_inserter(results.notExamined),
-                         [&](const std::string& one) { return !suite.examined.contains(one); });
+    for (const std::string& one : declared) {
+      if (suite.examined.contains(one)) continue;
+      const auto why = suite.refused.find(one);
+      results.notExamined.push_back(
+          why == suite.refused.end() ? one : fmt::format("{} ({})", one, why->second));
+    }
   }
   for (const ConformanceRow& row : results.rows)
     if (row.outcome == ConformanceOutcome::brokeDown && results.engine.reason.empty()) {

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -121,6 +122,11 @@ class Exam {
     examined(option + " = " + value);
   }
   const std::set<std::string>& examined() const { return examined_; }
+  /// Why it could not be asked for.
+  void refusedToo(const std::string& capability, const std::string& why) {
+    refused_.try_emplace(capability, why);
+  }
+  const std::map<std::string, std::string>& refusedToo() const { return refused_; }
 
   /// What explains the faults found, sign and size; the first counts. Empty: nothing that was tried
   /// does.
@@ -135,6 +141,7 @@ class Exam {
   const Start& start_;
   std::vector<std::string> faults_;
   std::set<std::string> examined_;
+  std::map<std::string, std::string> refused_;
   std::optional<std::string> cause_;
 };
 

@@ -36,7 +36,7 @@ class Workers {
 };
 
 void judge(const Check& check, const EngineEntry& entry, Workers& workers, ConformanceRow& row,
-           std::set<std::string>& examined) {
+           Examination& result) {
   const Exam::Start start = [&](const EngineEntry& of) { return workers.start(of); };
   Exam exam(workers.shared(), entry, start);
   try {
@@ -55,7 +55,8 @@ void judge(const Check& check, const EngineEntry& entry, Workers& workers, Confo
   }
   row.faults = exam.faults().size();
   if (row.outcome != ConformanceOutcome::brokeDown)
-    examined.insert(exam.examined().begin(), exam.examined().end());
+    result.examined.insert(exam.examined().begin(), exam.examined().end());
+  result.refused.insert(exam.refusedToo().begin(), exam.refusedToo().end());
   if (exam.faults().empty()) return;
   if (row.outcome != ConformanceOutcome::brokeDown) {
     row.outcome = ConformanceOutcome::failed;
@@ -88,7 +89,7 @@ Examination examine(const EngineEntry& entry, const std::vector<Check>& checks,
       continue;
     }
     const auto began = Clock::now();
-    judge(check, entry, workers, row, result.examined);
+    judge(check, entry, workers, row, result);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     breakdowns += row.outcome == ConformanceOutcome::brokeDown;
     // It may have died of it; the next check is to have a sound one.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace crossgrain::conformance {
 
 struct Examination {
   std::vector<ConformanceRow> rows;
-  std::set<std::string> examined;  ///< of what it declares (declared.hpp)
+  std::set<std::string> examined;              ///< of what it declares (declared.hpp)
+  std::map<std::string, std::string> refused;  ///< of the rest, why it could not be asked for
 };
 
 /// Runs checks on one engine through its real worker, one row each. A worker that broke down is

@@ -61,6 +61,11 @@ Snapshot withoutWallDisks(const Snapshot& now) {
   return all;
 }
 
+Scene wholeOf(const Meeting& meeting) {
+  return collisionScene(setupOf(meeting), meeting.starts,
+                        emptyScene(meeting.law, meeting.steps).dt);
+}
+
 void move(Scene& scene, const Vec2& by) {
   for (Vec2& x : scene.disks.position) x += by;
   for (WallBody& body : scene.bodies) {
@@ -83,6 +88,19 @@ std::optional<CollisionEnd> oracle(const ContactLaw& law, const CollidingPair& p
 }
 
 using Ends = std::vector<std::optional<CollisionEnd>>;
+
+/// @param whole  wholeOf(meeting), which the engine has loaded
+Ends endsOf(Engine& engine, const Meeting& meeting, const Scene& whole, double t) {
+  engine.advance(t);
+  Snapshot after = engine.snapshot(ContactReport::none);
+  for (auto* each : {&after.position, &after.wallPosition})
+    for (Vec2& x : *each) x -= meeting.place;
+  if (meeting.partner == Partner::wallDisk) after = withoutWallDisks(after);
+  Ends ends;
+  for (std::size_t k = 0; k < meeting.starts.size(); ++k)
+    ends.push_back(collisionEnd(whole, after, k, meeting.starts[k]));
+  return ends;
+}
 
 Ends oracleEnds(const ContactLaw& law, const CollidingPair& pair,
                 const std::vector<CollisionStart>& starts) {
@@ -313,12 +331,9 @@ bool expectEnds(Exam& it, const Meeting& meeting, const Outcome& outcome, const 
 }  // namespace
 
 std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why) {
-  const Case setup = setupOf(meeting);
-  const CollidingPair pair = collidingPair(setup);
-  const double dt = emptyScene(meeting.law, meeting.steps).dt;
-  const Scene whole = collisionScene(setup, meeting.starts, dt);
-  const bool wallDisks = meeting.partner == Partner::wallDisk;
-  Scene scene = wallDisks ? withWallDisks(whole) : whole;
+  const CollidingPair pair = collidingPair(setupOf(meeting));
+  const Scene whole = wholeOf(meeting);
+  Scene scene = meeting.partner == Partner::wallDisk ? withWallDisks(whole) : whole;
   move(scene, meeting.place);
   if (const auto refusal = it.refused(scene)) {
     if (why) *why = *refusal;
@@ -335,21 +350,32 @@ std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why) 
   for (const CollisionStart& start : meeting.starts)
     longest =
         std::max(longest, impactTime(soft, {pair.reducedMass(), pair.reducedRadius(), start.vn}));
-  const double end = meeting.flight * dt + 2.5 * longest + 20.0 * it.realised.dt;
-  Snapshot after = it.at(end);
-  for (auto* each : {&after.position, &after.wallPosition})
-    for (Vec2& x : *each) x -= meeting.place;
-  if (wallDisks) after = withoutWallDisks(after);
-  Outcome outcome{*law, pair, {}};
-  for (std::size_t k = 0; k < meeting.starts.size(); ++k)
-    outcome.ends.push_back(collisionEnd(whole, after, k, meeting.starts[k]));
+  Outcome outcome{
+      *law, pair, {}, meeting.flight * whole.dt + 2.5 * longest + 20.0 * it.realised.dt};
+  outcome.ends = endsOf(it.engine(), meeting, whole, outcome.time);
   return outcome;
 }
 
 bool expectTheOracle(Exam& it, const Meeting& meeting, const Outcome& outcome,
                      const std::string& name) {
-  return expectEnds(it, meeting, outcome, oracleEnds(outcome.law, outcome.pair, meeting.starts),
-                    quantities(friction, firstOrder), name);
+  Ends wanted = oracleEnds(outcome.law, outcome.pair, meeting.starts);
+  // Conventions without a limit of small steps are held against the in-house engine that has them;
+  // that one against nothing.
+  const EngineEntry& own = engineRegistry().front();
+  const bool inHouse = it.entry.name == own.name || !it.entry.mirrors.empty();
+  if (!inHouse && outcome.law.soft() &&
+      !std::ranges::all_of(wanted, [](const auto& end) { return end.has_value(); })) {
+    Scene mirrored = it.scene;
+    mirrored.law = outcome.law;
+    mirrored.dt = it.realised.dt;
+    mirrored.precision = Precision::float64;
+    const auto mirror = own.make();
+    mirror->load(mirrored, {});
+    const Ends theirs = endsOf(*mirror, meeting, wholeOf(meeting), outcome.time);
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      if (!wanted[k]) wanted[k] = theirs[k];
+  }
+  return expectEnds(it, meeting, outcome, wanted, quantities(friction, firstOrder), name);
 }
 
 void expectTheSame(Exam& it, const Meeting& meeting, const Outcome& outcome, const Outcome& wanted,

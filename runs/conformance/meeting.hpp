@@ -29,14 +29,16 @@ struct Outcome {
   ContactLaw law;  ///< that the engine declares, its constants included
   CollidingPair pair;
   std::vector<std::optional<CollisionEnd>> ends;  ///< absent: they did not part
+  double time;                                    ///< when they were looked at [s]
 };
 
 /// Has the engine run it. @returns nothing where the engine refuses it, or declares no law whose
 /// constants anybody knows; @param why  says it then
 std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why = nullptr);
 
-/// A fault for each number that is not the oracle's, and what is most likely wrong then.
-/// @returns whether the oracle knows any of it
+/// A fault for each number that is not the oracle's, and what is most likely wrong then. Where the
+/// law has no limit of small steps the in-house engine with its conventions stands for the oracle.
+/// @returns whether there was any reference
 bool expectTheOracle(Exam& it, const Meeting& meeting, const Outcome& outcome,
                      const std::string& name);
 

@@ -1,4 +1,5 @@
 // What holds here, soon and of two disks holds far away, late and of many.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -15,6 +16,13 @@ bool single(const Exam& it) {
   return !it.can.precisions.empty() && it.can.precisions.front() == Precision::float32;
 }
 
+/// Fractions of a step at which they touch. Single precision does not keep the phase over a long
+/// flight, and what impulses do may hang on it: then any of several will do.
+std::vector<double> phasesOf(const Exam& it) {
+  if (single(it)) return {0.1, 0.3, 0.5, 0.7, 0.9};
+  return {0.5};
+}
+
 /// A disk slips on a plane, on a wall disk and on another disk, wherever the engine has that.
 /// @param change  makes a meeting the other one
 template <typename Change>
@@ -28,13 +36,26 @@ void expectTheSameElsewhere(Exam& it, const ContactLaw& law, double speed, const
     here.partner = partner;
     here.steps = 50.0;
     here.starts = {{3.0, speed}};
-    const auto wanted = meet(it, here, &why);
-    if (!wanted || !wanted->ends.front()) continue;
+    std::vector<Outcome> wanted;
+    for (const double phase : phasesOf(it)) {
+      here.flight = phase;
+      if (const auto one = meet(it, here, &why); one && one->ends.front()) wanted.push_back(*one);
+    }
+    if (wanted.empty()) continue;
     Meeting there = here;
     change(there);
     const auto found = meet(it, there, &why);
     it.require(found.has_value(), said("refuses", when, " what it runs elsewhere: ", why));
-    expectTheSame(it, there, *found, *wanted, psi, when);
+    const auto distance = [&](const Outcome& one) {
+      const auto &is = found->ends.front(), &was = one.ends.front();
+      return is ? std::abs(is->psi - was->psi) : 0.0;
+    };
+    const Outcome& nearest = *std::ranges::min_element(wanted, {}, distance);
+    Tolerance allowed = psi;
+    for (const Outcome& one : wanted)
+      allowed.absolute =
+          std::max(allowed.absolute, std::abs(one.ends.front()->psi - nearest.ends.front()->psi));
+    expectTheSame(it, there, *found, nearest, allowed, when);
     ++count;
   }
   if (count == 0) it.skip(why.empty() ? "none of these collisions ends" : why);
