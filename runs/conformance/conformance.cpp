@@ -18,7 +18,6 @@
 #include "runs/common/engine_access.hpp"
 #include "runs/common/head.hpp"
 #include "runs/common/progress.hpp"
-#include "runs/conformance/declared.hpp"
 #include "runs/conformance/examination.hpp"
 #include "runs/lockstep/comparison.hpp"
 #include "runs/lockstep/identify.hpp"
@@ -244,9 +243,8 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     throw BadInput(fmt::format("-k '{}': no check has that in its name", *task.only));
   results.cause = causesOf(results.rows);
   if (!task.only) {
-    const std::vector<std::string> declared = conformance::declaredBy(can);
-    results.declared = declared.size();
-    for (const std::string& one : declared) {
+    results.declared = suite.declared.size();
+    for (const std::string& one : suite.declared) {
       if (suite.examined.contains(one)) continue;
       const auto why = suite.refused.find(one);
       results.notExamined.push_back(

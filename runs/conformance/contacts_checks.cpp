@@ -298,7 +298,7 @@ void contactForcesAreThoseThatAct(Exam& it) {
 
 /// Means over the time since the last look, times that, are what changed the momentum of a disk.
 void accumulatedContactsAreImpulses(Exam& it) {
-  if (!it.can.accumulatedContacts) it.skip("shows no accumulated contacts");
+  it.needs(accumulatedContacts);
   const Scene scene = encounterScene(crookedEncounter(), it.law(), steps);
   it.load(scene);
   it.examined(accumulatedContacts);
@@ -327,7 +327,7 @@ void accumulatedContactsAreImpulses(Exam& it) {
 
 /// A closed account: what no term of the ledger accounts for is of the order of the scheme.
 void energyLedgerIsClosed(Exam& it) {
-  if (!it.can.energyLedger) it.skip("keeps no energy ledger");
+  it.needs(energyLedger);
   double left[2] = {};
   for (const int k : {0, 1}) {
     Scene scene = encounterScene(crookedEncounter(), it.law(), k == 0 ? 100.0 : 400.0);

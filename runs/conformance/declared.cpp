@@ -23,6 +23,10 @@ std::string precisionNamed(Precision precision) {
   return "precision " + toString(precision);
 }
 
+std::string undeclared(const std::string& capability) {
+  return "declares no " + capability;
+}
+
 namespace {
 
 /// Whether the option, at that value, has a bearing on any law that the engine declares.

@@ -28,6 +28,9 @@ std::string wallMotion(Motion::Kind kind);          ///< "walls: rotating"
 std::string settingNamed(const std::string& name);  ///< "setting skin, other than its default"
 std::string precisionNamed(Precision precision);    ///< "precision float"
 
+/// Why nothing is asked of what is none of it: "declares no checkpoints".
+std::string undeclared(const std::string& capability);
+
 /// All of it: effects, each value of each law option, planes and walls with each motion, what it
 /// shows, precisions, settings; and what no engine may lack, several sizes, many disks, places far
 /// off and late times. What limits do not exclude is declared.

@@ -77,6 +77,9 @@ class Exam {
 
   [[noreturn]] void skip(std::string reason) const { throw Skipped{std::move(reason)}; }
 
+  /// A skip unless the engine declares it (declared.hpp). @throws Skipped
+  void needs(const std::string& capability) const;
+
   /// A fault unless it holds. @param otherwise  what is wrong then
   void expect(bool holds, const std::string& otherwise);
   /// @param what  was compared

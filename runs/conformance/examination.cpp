@@ -72,8 +72,8 @@ Examination examine(const EngineEntry& entry, const std::vector<Check>& checks,
                     const std::function<void(const std::string&, double)>& progress) {
   using Clock = std::chrono::steady_clock;
   Workers workers(entry, scratch);
-  workers.shared();
   Examination result;
+  result.declared = declaredBy(workers.shared().capabilities());
   std::vector<ConformanceRow>& rows = result.rows;
   int breakdowns = 0;
   for (const Check& check : checks) {

@@ -15,7 +15,8 @@ namespace crossgrain::conformance {
 
 struct Examination {
   std::vector<ConformanceRow> rows;
-  std::set<std::string> examined;              ///< of what it declares (declared.hpp)
+  std::vector<std::string> declared;           ///< declaredBy()
+  std::set<std::string> examined;              ///< of that
   std::map<std::string, std::string> refused;  ///< of the rest, why it could not be asked for
 };
 

@@ -164,6 +164,7 @@ void wallDisksFollowTheOracle(Exam& it) {
 }
 
 void planesFollowTheOracle(Exam& it) {
+  it.needs(planes);
   Meeting plane;
   plane.partner = Partner::plane;
   plane.starts = allWays;
@@ -174,6 +175,7 @@ void planesFollowTheOracle(Exam& it) {
 
 /// What is relative is the same whether a plane moves along itself, towards the disk or away.
 void movingPlanesFollowTheOracle(Exam& it) {
+  it.needs(planeMotion(Motion::Kind::translating));
   bool any = false;
   for (const std::string& normal : valuesOf(it.can, it.law(), "normal"))
     for (const Vec2& velocity : {Vec2(0.0, 1.5), Vec2(0.5, 0.0), Vec2(-0.5, 0.0)}) {

@@ -178,7 +178,7 @@ std::optional<std::string> expectTakenUp(Exam& it, const Scene& scene, double mi
 }
 
 void checkpointsGoOnToTheBit(Exam& it) {
-  if (!it.can.checkpoints) it.skip("declares no checkpoints");
+  it.needs(checkpoints);
   it.examined(checkpoints);
   // Without planes only the heap; whoever refuses that is asked nothing.
   expectTakenUp(it, landingScene(it.law(), 50.0), inContact, Encounter::end);

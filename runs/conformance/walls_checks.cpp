@@ -140,6 +140,7 @@ void turningPlanePushes(Exam& it) {
 }
 
 void oscillatingPlanePushes(Exam& it) {
+  it.needs(planeMotion(Motion::Kind::oscillating));
   Scene scene = emptyScene(it.law(), 200.0);
   scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
   scene.bodies[0].motion = motionOf(Motion::Kind::oscillating);
