@@ -1,5 +1,5 @@
-// Two bodies meet once, under every law that the engine declares: held against the oracle, and its
-// conventions against the in-house engine that has them.
+// Two bodies meet once, under every law that the engine declares: compared with the oracle, and its
+// conventions with the in-house engine that has them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -271,8 +271,7 @@ void conventionsAreThoseDeclared(Exam& it) {
   if (it.entry.name == own.name || !it.entry.mirrors.empty())
     it.skip("it is the in-house engine, and would be compared with itself");
   const auto inHouse = own.make();
-  const Capabilities canDo = inHouse->capabilities();
-  bool planesToo = !it.refused(conventionsScene(it.law(), true));
+  const bool planesToo = !it.refused(conventionsScene(it.law(), true));
   int count = 0;
   for (const LawOption& option : lawOptions()) {
     const std::string name(option.name);

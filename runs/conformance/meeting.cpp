@@ -359,8 +359,8 @@ std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why) 
 bool expectTheOracle(Exam& it, const Meeting& meeting, const Outcome& outcome,
                      const std::string& name) {
   Ends wanted = oracleEnds(outcome.law, outcome.pair, meeting.starts);
-  // Conventions without a limit of small steps are held against the in-house engine that has them;
-  // that one against nothing.
+  // Conventions without a limit of small steps are compared with the in-house engine that has
+  // them; that one with nothing.
   const EngineEntry& own = engineRegistry().front();
   const bool inHouse = it.entry.name == own.name || !it.entry.mirrors.empty();
   if (!inHouse && outcome.law.soft() &&
