@@ -114,7 +114,7 @@ class Engines(SystemTest):
             ["dpkg-query", "-W", "-f", "${Version}", "libbox2d-dev"],
             capture_output=True, encoding="utf-8", check=True,
         ).stdout.partition("-")[0]  # fmt: skip
-        readme = (CASES.parent / "README.md").read_text(encoding="utf-8")
+        readme = (CASES.parent / "docs" / "engines.md").read_text(encoding="utf-8")
         for engine in json.loads(self.run_program("engines", "--json").stdout):
             if engine["name"] not in ("box2d-impulse", "box2d-penalty"):
                 continue
