@@ -137,6 +137,22 @@ void distrust(Engine& engine) {
   if (auto* const audited = dynamic_cast<AuditedEngine*>(&engine)) distrust(audited->inner());
 }
 
+namespace {
+
+bool isWithin(const SettingSpec& spec, double number) {
+  return std::isfinite(number) && spec.least <= number && number <= spec.most &&
+         (!spec.whole || number == std::floor(number));
+}
+
+std::string rangeOf(const SettingSpec& spec) {
+  const std::string kind = spec.whole ? "a whole number " : "";
+  if (std::isfinite(spec.most))
+    return fmt::format("{}from {:g} to {:g}", kind, spec.least, spec.most);
+  return fmt::format("{}>= {:g}", kind, spec.least);
+}
+
+}  // namespace
+
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
   Settings settings = settingsSaid(setup, engine);
   const auto section = setup.engines.find(engine);
@@ -154,8 +170,8 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
     if (value.index() != spec->defaultValue.index())
       throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
                                  typeName(spec->defaultValue), typeName(value)));
-    if (const auto* number = std::get_if<double>(&value); number && !(*number >= 0.0))
-      throw BadInput(fmt::format("{} {} = {:g} must be >= 0", where, name, *number));
+    if (const auto* number = std::get_if<double>(&value); number && !isWithin(*spec, *number))
+      throw BadInput(fmt::format("{} {} = {:g} must be {}", where, name, *number, rangeOf(*spec)));
     if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
       if (std::ranges::find(spec->choices, *text) == spec->choices.end())
         throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
