@@ -9,6 +9,7 @@
 
 #include "averaging/fields.hpp"
 #include "cases/assembly_scene.hpp"
+#include "cases/case_keys.hpp"
 #include "cases/cautions.hpp"
 #include "cases/cell_estimates.hpp"
 #include "cases/collision_scene.hpp"
@@ -70,9 +71,9 @@ void requireStableStep(const Case& setup, const Disks& disks) {
   if (!hasFlow(setup)) return;
   std::optional<double> lightest;  // the disks of an assembly are all in its case
   if (setup.kind == CaseKind::couette) lightest = std::ranges::min(disks.mass) / 2.0;
-  const std::string why = whyUnstableStep(
-      setup, timeStep(setup), setup.run.dt ? "run.dt" : "run.steps_per_contact", lightest);
-  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
+  const std::string why = whyUnstableStep(setup, timeStep(setup), key, lightest);
+  if (!why.empty()) throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
 }
 
 double stepsOf(const Case& setup, double dt) {

@@ -130,6 +130,29 @@ TEST_F(LoaderErrors, WhatIsNoFileIsSaidAndTheNearestNamed) {
             "cases/quik.toml) (did you mean cases/quick.toml?)");
 }
 
+TEST_F(LoaderErrors, AnUnreadableFileIsNotSuggestedForItself) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads everything";
+  write("cases/quick.toml", soundCase);
+  ASSERT_EQ(::chmod("cases/quick.toml", 0), 0);
+  EXPECT_EQ(messageOf("cases/quick.toml").find("did you mean"), std::string::npos);
+}
+
+/// A copy of a shipped case names what it extends by its place among the program's own cases.
+TEST_F(LoaderErrors, ACopyElsewhereMayExtendAShippedCase) {
+  write("mine.toml", "[case]\nextends = \"nu-0.804.toml\"\n");
+  EXPECT_EQ(messageOf("mine.toml"),
+            "mine.toml:2:11: case.extends = \"nu-0.804.toml\": no such file (looked for "
+            "nu-0.804.toml) (did you mean cases/couette/nu-0.804.toml?)");
+  write("mine.toml", "[case]\nextends = \"../laws/thesis.toml\"\n");
+  EXPECT_TRUE(messageOf("mine.toml").ends_with("(did you mean cases/laws/thesis.toml?)"));
+  write("mine.toml", "[case]\nextends = \"cases/couette/nu-0.804.toml\"\n[law]\nmu = 0.3\n");
+  EXPECT_EQ(messageOf("mine.toml"), "");
+  EXPECT_EQ(loadCase("mine.toml").front().law.mu, 0.3);
+  // What lies beside the file goes before it.
+  write("cases/couette/nu-0.804.toml", soundCase);
+  EXPECT_EQ(loadCase("mine.toml").front().particles.small, 210);
+}
+
 TEST_F(LoaderErrors, NothingOfAFileOutsideTheCasesFolderIsQuoted) {
   const std::string secret = "hunter2-s3cr3t";
   write("mine/top.toml", "[case]\nextends = \"../theirs/it.toml\"\n");
