@@ -65,11 +65,11 @@ Asked askedOf(const Case& setup) {
   return couetteAsked(setup);
 }
 
-/// Beyond 2/ω, as the commands refuse it; hard cases may go there.
+/// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
 void requireStableStep(const Case& setup, const Disks& disks) {
   if (!hasFlow(setup)) return;
-  std::optional<double> lightest;  // the disks of an assembly are all in its case
-  if (setup.kind == CaseKind::couette) lightest = std::ranges::min(disks.mass) / 2.0;
+  std::optional<LightestPair> lightest;  // the disks of an assembly are all in its case
+  if (setup.kind == CaseKind::couette) lightest = lightestPair(disks, true);
   const std::string why = whyUnstableStep(
       setup, timeStep(setup), setup.run.dt ? "run.dt" : "run.steps_per_contact", lightest);
   if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
