@@ -229,7 +229,7 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
 
   readHeader(header, c);
   refuseSections(root, c.kind);
-  readLaw(law, c.law);
+  readLaw(law, c.law, c.kind == CaseKind::collision);
   readRun(run, c.run);
   readEngines(engines, c.engines);
   if (root.has("stability")) readStability(stability, c.stability.emplace());

@@ -198,14 +198,16 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   }
 }
 
-/// An engine's own time step, if it runs soft laws with it.
+/// An engine's own time step, if it runs soft laws with it. @param law  as it runs it
 void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                  const Settings& settings) {
+                  const ContactLaw& law, const Settings& settings) {
   const auto step = settings.find("dt");
   if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
   const auto normal = can.lawOptions.find("normal");
   if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
-  const std::string why = whyUnstableStep(setup, std::get<double>(step->second),
+  Case own = setup;
+  own.law = law;
+  const std::string why = whyUnstableStep(own, std::get<double>(step->second),
                                           fmt::format("[engines.{}] dt", entry.name));
   if (!why.empty())
     throw BadInput(
@@ -216,8 +218,9 @@ void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case&
 
 void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
-  checkOwnStep(can, entry, setup, settingsFor(setup, entry.name, can));
-  namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+  const Adapted adapted =
+      namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+  checkOwnStep(can, entry, setup, adapted.scene.law, settingsFor(setup, entry.name, can));
 }
 
 Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,

@@ -71,6 +71,8 @@ TEST(Labels, KnownFieldsHaveSymbolsAndOthersAreEscaped) {
   EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ<sub>rφ</sub>");
   EXPECT_EQ(fieldLabel("my_<field>"), "my &lt;field&gt;");
   EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");
+  EXPECT_EQ(mathHtml("spring_dashpot-cut, Ψ_i, 2R_i, ΩR_i"),
+            "spring_dashpot-cut, Ψ<sub>i</sub>, 2R<sub>i</sub>, ΩR<sub>i</sub>");
   EXPECT_EQ(mathHtml("σ_φr·2πr²h"), "σ<sub>φr</sub>·2πr²h");
 }
 
