@@ -1,6 +1,7 @@
 #include "cli/calibrate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "adapters/law_options.hpp"
 #include "cases/loader.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
@@ -245,6 +247,8 @@ int fromCase(const CommandLine& line, const Request& request) {
     if (setup.law.normal == NormalLaw::rigid)
       throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",
                                  file.string()));
+  if (const auto keys = keysWithoutUse(cases.front(), "calibrate"); !keys.empty())
+    fmt::print("# not used: {}\n", fmt::join(keys, ", "));
   for (const Case& setup : cases) {
     if (cases.size() > 1) fmt::print("# variant {}\n", setup.variant);
     printLaw(setup.law, file.filename().string());
