@@ -32,7 +32,10 @@ std::size_t startsToKeep(const std::optional<double>& given, bool quick) {
 
 std::vector<Case> casesToKeep(const CommandLine& line) {
   const std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
-  if (cases.front().kind == CaseKind::collision) return cases;
+  if (cases.front().kind == CaseKind::collision) {
+    reportKeysWithoutUse(cases.front(), "baseline", stdout);
+    return cases;
+  }
   return {onlyCase(line, "baseline")};
 }
 

@@ -1,6 +1,7 @@
 #include "cli/calibrate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
@@ -253,6 +255,8 @@ int fromCase(const CommandLine& line, const Request& request) {
                                  file.string()));
   // All that may fail comes before what is printed.
   std::vector<std::vector<CollisionEnd>> impacts;
+  if (const auto keys = keysWithoutUse(cases.front(), "calibrate"); !keys.empty())
+    fmt::print("# not used: {}\n", fmt::join(keys, ", "));
   for (const Case& setup : cases) {
     impacts.emplace_back();
     if (setup.law.stiffens())

@@ -109,8 +109,9 @@ void printChecked(const json& checked) {
       lasting(prediction["preparing_s"].get<double>()), prediction["timed_on"].get<std::string>());
 }
 
-/// Engines that were not asked for and could not be.
+/// Engines that "all" leaves out, since they are not installed.
 void printMissing(const std::vector<std::string>& named) {
+  if (std::ranges::find(named, "all") == named.end()) return;
   for (const EngineEntry& entry : engineRegistry())
     if (entry.missing && !entry.missing().empty() && !isNamed(named, entry))
       fmt::print("  {:<16} not available: {}\n", entry.name, entry.missing());
@@ -122,6 +123,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     fmt::print("{}", resolvedFile(cases));
     return exitHeld;
   }
+  reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
   const ScratchFolder scratch;
   // Its lines would stand beside the one of a mistake where they are not redrawn.
   Progress progress(line.json || options.untimed || ::isatty(STDERR_FILENO) == 0);

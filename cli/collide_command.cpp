@@ -68,6 +68,7 @@ int collide(const CommandLine& line, bool strict) {
       isFolder ? collisionsOf(input, line.overrides) : loadCase(input, line.overrides);
   if (variants.front().kind != CaseKind::collision) refuseKind(variants.front(), input, "collide");
   if (line.only) variants = selectedCases(variants, *line.only);
+  reportKeysWithoutUse(variants, "collide", line.json ? stderr : stdout);
   return collideCases(variants, isFolder ? std::optional(input) : std::nullopt, line, strict);
 }
 

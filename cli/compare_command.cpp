@@ -42,16 +42,17 @@ void tell(const CompareResults& results, const std::vector<EndpointRow>& rows,
   for (const CarriedEngine& own : results.endpoints.carried)
     fmt::print("{}\n", reports::sentenceOf(own));
   for (const EndpointRow& row : rows)
-    if (row.a == results.engines.front().name)
+    if (row.a == results.engines.front().name && !results.nothingJudged)
       fmt::print("{:<16} {:<26} {}\n", row.b, row.endpoint, reports::answerInWords(row));
   for (const AlarmRow& alarm : results.endpoints.alarms)
     fmt::print("ALARM: {}\n", reports::sentenceOf(alarm));
   if (const LooksFindings& looks = results.endpoints.looks; looks.taken > 0)
     fmt::print("{}\n", reports::sentenceOf(looks));
-  fmt::print("{} agree, {} borderline, {} disagree, {} undecided; {} of {} runs failed\n",
-             count(Answer::noDifference) + count(Answer::smallDifference),
-             count(Answer::borderline), count(Answer::disagree), count(Answer::undecided), failed,
-             results.runs.size());
+  if (!results.nothingJudged)
+    fmt::print("{} agree, {} borderline, {} disagree, {} undecided; ",
+               count(Answer::noDifference) + count(Answer::smallDifference),
+               count(Answer::borderline), count(Answer::disagree), count(Answer::undecided));
+  fmt::print("{} of {} runs failed\n", failed, results.runs.size());
 }
 
 int compare(const CommandLine& line, bool strict, const std::optional<std::string>& budget) {
@@ -79,6 +80,7 @@ int compare(const CommandLine& line, bool strict, const std::optional<std::strin
   }
   for (const CouetteRun& run : results.runs)
     if (run.status == RunStatus::failed) printFailure(run.reason);
+  const bool refused = printRefusals(line, results.engines);
   int judged = exitHeld;
   if (const auto& nothing = results.nothingJudged)
     judged = nothingWasJudged(line, nothing->reason, nothing->byRequest || line.quick, strict);
@@ -89,7 +91,7 @@ int compare(const CommandLine& line, bool strict, const std::optional<std::strin
                                              &LockstepRow::verdict) > 0;
   const bool alarmed =
       std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
-  const bool open = any(Answer::undecided) || any(Answer::borderline);
+  const bool open = any(Answer::undecided) || any(Answer::borderline) || refused;
   if (differs || alarmed || any(Answer::disagree) || (strict && open)) return exitFellShort;
   return judged;
 }
@@ -108,7 +110,8 @@ Action declareCompare(CLI::App& app, CommandLine& line) {
           "(default: looks.budget of the case)",
           "TIME");
   addFlag(app, "--strict", own->strict,
-          "undecided and borderline verdicts count as falling short, and so does nothing judged");
+          "undecided and borderline verdicts, engines that cannot run the case and nothing judged "
+          "count as failed");
   return [&line, own] {
     return resumably(line.run, [&] { return compare(line, own->strict, own->budget); });
   };

@@ -22,12 +22,7 @@ namespace crossgrain::inline cli {
 namespace {
 
 /// Every kind of error and some knobs, in seconds.
-const std::vector<std::string> quickOverrides = {
-    "preparation.packings=2",
-    "preparation.rotations=0.1",
-    "averaging.settle_rotations=0.02",
-    "averaging.rotations=0.05",
-    "averaging.snapshots_per_rotation=400",
+const std::vector<std::string> quickCosts = {
     "cost.timed=0.002",
     "cost.psi_count=9",
     "cost.collision_steps=[50, 10, 1.2]",
@@ -47,7 +42,10 @@ const std::vector<std::string> quickOverrides = {
 
 Case costCase(const CommandLine& line) {
   std::vector<std::string> overrides;
-  if (line.quick) overrides = quickOverrides;
+  if (line.quick) {
+    overrides = quickOverrides(loadCase(line.inputs.front(), line.overrides).front(), 0.05);
+    overrides.insert(overrides.end(), quickCosts.begin(), quickCosts.end());
+  }
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(line.inputs.front(), overrides).front();
 }
@@ -86,6 +84,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
     if (!line.run.quiet) printTimeSpent();
   }
+  printRefusals(line, results.engines);
   for (const std::string& reason : results.engineFailures)
     fmt::print(stderr, "crossgrain: {}\n", BadInput(reason).what());
   return results.engineFailures.empty() ? exitHeld : exitEngineFailed;

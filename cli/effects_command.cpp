@@ -52,6 +52,7 @@ int effects(const CommandLine& line) {
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
     if (!line.run.quiet) printTimeSpent();
   }
+  printRefusals(line, results.engines);
   int status = exitHeld;
   for (const EffectVariant& variant : results.variants) {
     if (variant.status != EngineStatus::failed) continue;

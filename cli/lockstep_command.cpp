@@ -56,6 +56,7 @@ int lockstep(const CommandLine& line, const std::optional<double>& given) {
     printOverview(reports::lockstepOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
+  printRefusals(line, results.engines);
   return statusOf(line, results);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "reports/common/numbers.hpp"
@@ -17,6 +18,18 @@ const std::chrono::steady_clock::time_point programBegan = std::chrono::steady_c
 
 void printFailure(const std::string& reason) {
   fmt::print(stderr, "crossgrain: {}\n", reason);
+}
+
+bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engines) {
+  bool any = false;
+  for (const EngineRow& engine : engines) {
+    if (engine.status != EngineStatus::refused ||
+        std::ranges::find(line.run.engines, engine.name) == line.run.engines.end())
+      continue;
+    printFailure(engine.reason);
+    any = true;
+  }
+  return any;
 }
 
 int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview) {

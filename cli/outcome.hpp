@@ -5,12 +5,17 @@
 #include "cases/case.hpp"
 #include "cli/command.hpp"
 #include "results/couette_frame.hpp"
+#include "results/engine_row.hpp"
 #include "results/overview.hpp"
 
 namespace crossgrain::inline cli {
 
 /// One line on standard error for a run that failed.
 void printFailure(const std::string& reason);
+
+/// One line on standard error for each engine named that cannot run the case: the others ran.
+/// @returns whether there is any
+bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engines);
 
 /// What the commands that only average print. @returns an ExitStatus
 int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview);

@@ -68,10 +68,13 @@ int plan(const CommandLine& line, const PlanOptions& options) {
     secondsOf(*options.budget);  // throws for what is none
     request.others.push_back("--budget=" + *options.budget);
   }
+  bool reported = false;
   const JobPlan jobs = planJobs(request, [&](const std::vector<std::string>& overrides) {
     CommandLine one = line;
     one.overrides = overrides;
-    const Case setup = onlyFlow(one, "compare");
+    const Case setup = onlyFlow(one, "plan");
+    if (!reported) reportKeysWithoutUse(setup, "plan", stderr);
+    reported = true;
     checkEngineSections(setup);
     return setup;
   });

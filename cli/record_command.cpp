@@ -5,6 +5,7 @@
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "runs/common/engine_access.hpp"
@@ -38,6 +39,10 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
   if (line.only) cases = selectedCases(cases, *line.only);
   const Case& setup = cases.front();
+  if (cases.size() > 1)
+    fmt::print("{}: variant {} is recorded, one of {}; -k names another\n", setup.file.string(),
+               setup.variant, cases.size());
+  reportKeysWithoutUse(setup, "record", stdout);
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   const Recorded recorded = recordRun(engines.front(), setup, file, options);
   fmt::print("{}: {} requests and answers of {} {}, to t = {:g} s of {}\n", out, recorded.exchanges,

@@ -5,7 +5,9 @@
 #include <optional>
 #include <thread>
 
+#include "cases/case_keys.hpp"
 #include "cases/scaled_cell.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
@@ -57,6 +59,9 @@ ScalePlan planOf(const ScaleOptions& options, bool quick) {
 
 int scale(const CommandLine& line, const ScalePlan& plan) {
   const Case cell = scaleCase(line.overrides);
+  for (const std::string& key : keysWithoutUse(cell, "scale"))
+    if (const std::string where = whereSaid(cell, key); where.starts_with("--set "))
+      throw BadInput(fmt::format("{}: scale does not use {}", where, key));
   RunStore store(line.run, "scale", soleCase(cell));
   if (line.run.dryRun) return told(scalePlan(plan, line.overrides, line.run, store));
   const ScaleResults results = measureScale(plan, line.overrides, line.run, store);

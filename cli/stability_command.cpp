@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cases/case_files.hpp"
+#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
@@ -54,6 +55,7 @@ int stability(const CommandLine& line, SuitePart part, SuiteAsks asks, double bu
   std::vector<Case> cases = asks == SuiteAsks::transforms ? casesToTransform(inputs, line.overrides)
                                                           : hardCases(inputs, line.overrides, part);
   if (line.only) cases = selectedCases(cases, *line.only);
+  reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
   RunStore store(line.run, "stability", keysOfEach(cases));
   const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
   if (line.run.dryRun) return told(stabilityPlan(cases, engines, line.run, store, asks));

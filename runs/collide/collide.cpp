@@ -52,15 +52,29 @@ std::vector<EngineEntry> enginesForAny(const std::vector<Case>& variants,
   return engines;
 }
 
-/// An engine that can run no variant at all was asked for in vain.
-void throwIfAllRefused(const EngineSweeps& engine, std::size_t cases) {
+/// Why an engine can run no variant at all; empty where it can run any.
+std::string whyAllRefused(const EngineSweeps& engine, std::size_t cases) {
   std::string reason;
   for (std::size_t k = 0; k < cases; ++k)
     for (const CollisionCurve& curve : *engine.curves(k)) {
-      if (curve.status != SweepStatus::refused) return;
+      if (curve.status != SweepStatus::refused) return {};
       reason = curve.reason;
     }
-  throw UnsupportedScene(reason);
+  return reason;
+}
+
+/// Engines that were named and can run no variant at all were asked for in vain, all of them.
+/// @throws UnsupportedScene
+void requireAnyRun(const std::vector<EngineSweeps>& engines, const std::vector<std::string>& named,
+                   std::size_t cases) {
+  std::string refusal;
+  for (const EngineSweeps& engine : engines) {
+    if (!isNamed(named, engine.entry())) continue;
+    const std::string why = whyAllRefused(engine, cases);
+    if (why.empty()) return;
+    if (refusal.empty()) refusal = why;
+  }
+  if (!refusal.empty()) throw UnsupportedScene(refusal);
 }
 
 std::vector<std::string> effectNames(const CollisionCase& sweep) {
@@ -105,6 +119,10 @@ EngineRow rowOf(const EngineSweeps& engine, std::size_t cases) {
   const EngineEntry& entry = engine.entry();
   EngineRow row{entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
   // Refusing some variants is no failure; the curves say which.
+  if (const std::string why = whyAllRefused(engine, cases); !why.empty()) {
+    row.status = EngineStatus::refused;
+    row.reason = why;
+  }
   for (std::size_t k = 0; k < cases; ++k)
     for (const CollisionCurve& curve : *engine.curves(k)) {
       if (curve.status == SweepStatus::failed) {
@@ -190,8 +208,7 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
                      }});
   }
   runTasks(tasks, command.jobs);
-  for (const EngineSweeps& engine : engines)
-    if (isNamed(command.engines, engine.entry())) throwIfAllRefused(engine, sweeps.size());
+  requireAnyRun(engines, command.engines, sweeps.size());
 
   CollideResults results;
   results.head = headOf(kindCollide, variants.front(), command.commandLine);

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
@@ -27,7 +28,7 @@ namespace {
 void requireStable(const Case& setup, double dt, std::optional<LightestPair> lightest = {}) {
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   if (const std::string why = whyUnstableStep(setup, dt, key, lightest); !why.empty())
-    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+    throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
 }
 
 double stepOf(const Case& setup) {
@@ -53,7 +54,7 @@ Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<Eng
 void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
   struct Ending {
     std::exception_ptr thrown;  ///< what the user is to resolve
-    std::string failure;
+    std::string failure;        ///< of it, or of an engine named that refuses
   };
   std::vector<Ending> endings(engines_.size());
   std::vector<Task> tasks;
@@ -65,11 +66,8 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
                        try {
                          work(own);
                        } catch (const UnsupportedScene& refusal) {
-                         // "all" means all that can.
-                         if (isNamed(command_.engines, own.entry))
-                           endings[e].thrown = std::current_exception();
-                         else
-                           own.refusal = refusal.what();
+                         own.refusal = refusal.what();
+                         if (isNamed(command_.engines, own.entry)) endings[e].failure = own.refusal;
                        } catch (const EngineFailure& failure) {
                          endings[e].failure = failure.what();  // its runs will tell, one by one
                        } catch (const BadInput&) {
@@ -77,10 +75,20 @@ void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
                        }
                      }});
   runTasks(tasks, command_.jobs);
-  for (const Ending& ending : endings) {
-    if (!ending.failure.empty()) progress_.say(ending.failure);
+  for (const Ending& ending : endings)
     if (ending.thrown) std::rethrow_exception(ending.thrown);
-  }
+  const auto takesPart = [](const CampaignEngine& own) { return own.refusal.empty(); };
+  const auto wanted = [&](const CampaignEngine& own) {
+    return own.entry.mirrors.empty() || isNamed(command_.engines, own.entry);
+  };
+  const auto inVain = std::ranges::find_if(engines_, wanted);
+  if (inVain != engines_.end() && std::ranges::none_of(engines_, [&](const auto& own) {
+        return wanted(own) && takesPart(own);
+      }))
+    throw UnsupportedScene(inVain->refusal);
+  for (const Ending& ending : endings)
+    if (!ending.failure.empty()) progress_.say(ending.failure);
+  std::ranges::stable_partition(engines_, takesPart);
 }
 
 void Campaign::askEngines() {

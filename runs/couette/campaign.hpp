@@ -61,8 +61,9 @@ class Campaign {
   Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
            RunStore& store);
 
-  /// Asks every engine, before anything is computed, whether it can run the case.
-  /// @throws UnsupportedScene of an engine named that cannot
+  /// Asks every engine, before anything is computed, whether it can run the case. One that cannot
+  /// is refused for itself; the first that can is the first of engines() and so the reference.
+  /// @throws UnsupportedScene where none of those that are no mirrors can, or none of those named
   void askEngines();
   /// With the first of them, the campaign begins: its folder is its own. @throws BadInput
   void preparePackings() { preparePackings(packingCount()); }
@@ -85,7 +86,8 @@ class Campaign {
   double elapsed() const;  ///< since the campaign was made [s]
   /// Seconds of one core that preparing up to so many packings still takes, by those so far.
   double secondsOfPreparing(int count) const;
-  /// Seconds until those of them that are not finished would be, by the brief timing of each engine.
+  /// Seconds until those of them that are not finished would be, by the brief timing of each
+  /// engine.
   double secondsOf(const std::vector<PlannedRuns>& lists) const;
 
   /// Of a dry run, in place of preparePackings() and timeEngines(): which packings they would be.
@@ -118,8 +120,9 @@ class Campaign {
   CaseKeys keyOf(std::size_t engine, int packing, const std::string& part) const;
 
  private:
-  /// Asks engines that have not refused, side by side, each for itself; failures are told in the
-  /// order of engines. @throws UnsupportedScene of an engine named, BadInput; the first engine's
+  /// Asks engines that have not refused, side by side, each for itself; refusals and failures are
+  /// reported in the order of engines. @throws UnsupportedScene as askEngines(), BadInput; the
+  /// first engine's
   void forEachEngine(const std::function<void(CampaignEngine&)>& work);
   std::vector<KeptTask<CouetteRun>> tasksOf(const PlannedRuns& list) const;
   KeptTask<CouetteRun>::Outcome runOne(const Variant& variant, int packing,

@@ -38,11 +38,26 @@ bool hasMirror(const EngineEntry& entry) {
   return entry.mirrors.empty() && entry.name != engineRegistry().front().name;
 }
 
+/// What nothing is left to be compared with is not run.
+/// @throws UnsupportedScene of an engine named that cannot run the case, where fewer than two can
+void requireTwo(const Campaign& campaign, const std::vector<std::string>& named) {
+  std::size_t able = 0;
+  std::string refusal;
+  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
+    const EngineEntry entry = campaign.engines()[e];
+    const bool asked = isNamed(named, entry);
+    able += (asked || entry.mirrors.empty()) && campaign.refusal(e).empty();
+    if (asked && refusal.empty()) refusal = campaign.refusal(e);
+  }
+  if (able < 2 && !refusal.empty()) throw UnsupportedScene(refusal);
+}
+
 }  // namespace
 
 std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& store) {
   Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
   campaign.askEngines();
+  requireTwo(campaign, command.engines);
   campaign.lookForPackings();
   return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), store, command);
 }
@@ -51,6 +66,7 @@ CompareResults compareEngines(const Case& setup, const RunCommand& command, RunS
                               std::size_t starts, double budget) {
   Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
   campaign.askEngines();
+  requireTwo(campaign, command.engines);
   campaign.preparePackings();
   LockstepFindings lockstep;
   if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);

@@ -62,11 +62,18 @@ class ScaleStudy {
     std::vector<bool> shares;
     for (const EngineEntry& entry : engines_) {
       throwIfInterrupted();
-      const auto engine = startNew(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
-      const Capabilities can = engine->capabilities();
-      settingsFor(base_, entry.name, can);  // throws for one that it does not have
-      versions_.push_back(can.version);
-      sharing_.push_back({entry.name, sharingOf(can)});
+      versions_.emplace_back();
+      failures_.emplace_back();
+      sharing_.push_back({entry.name, {}});
+      try {
+        const auto engine = startNew(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
+        const Capabilities can = engine->capabilities();
+        settingsFor(base_, entry.name, can);  // throws for one that it does not have
+        versions_.back() = can.version;
+        sharing_.back().workers = sharingOf(can);
+      } catch (const EngineFailure& failure) {
+        failures_.back() = failure.what();  // of its own points; the others are timed
+      }
       shares.push_back(!sharing_.back().workers.empty());
     }
     for (const PlannedTiming& planned : plannedPoints(plan_, shares)) {
@@ -75,6 +82,10 @@ class ScaleStudy {
       point.disks = planned.disks;
       point.workers = planned.workers;
       point.steps = plan_.steps.value_or(stepsFor(planned.disks));
+      if (const std::string& why = failures_[planned.engine]; !why.empty()) {
+        point.status = EngineStatus::failed;
+        point.reason = why;
+      }
       if (points_.empty() || points_.back().disks != point.disks)
         cells_.push_back(cellOf(scaledCase(point.disks, overrides_)));
       planned_.push_back(planned);
@@ -90,7 +101,10 @@ class ScaleStudy {
       weights.push_back(static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6);
     progress_.begin("timing steps", weights);
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (taken_[k]) progress_.finish(k, labelOf(k) + ": finished in an earlier run");
+      if (taken_[k])
+        progress_.finish(k, labelOf(k) + ": finished in an earlier run");
+      else if (points_[k].status == EngineStatus::failed)
+        progress_.finish(k, labelOf(k) + ": " + outcomeOf(points_[k]));
     for (std::size_t from = 0, to = 0; from < points_.size(); from = to) {
       while (to < points_.size() && points_[to].disks == points_[from].disks) ++to;
       measureSize(from, to);
@@ -155,7 +169,7 @@ class ScaleStudy {
   /// Points from … to, which have one size.
   void measureSize(std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k)
-      if (!taken_[k]) refuseWithoutMemory(k);
+      if (!taken_[k] && points_[k].status == EngineStatus::ran) refuseWithoutMemory(k);
     const auto isOpen = [&](std::size_t k) {
       return !taken_[k] && points_[k].status == EngineStatus::ran;
     };
@@ -245,6 +259,7 @@ class ScaleStudy {
   std::vector<EngineEntry> engines_;
   Progress progress_;
   std::vector<std::string> versions_;  ///< of the engines
+  std::vector<std::string> failures_;  ///< likewise: why one did not even answer; empty: it did
   std::vector<ScaleSharing> sharing_;  ///< likewise
   std::vector<PlannedTiming> planned_;
   std::vector<ScalePoint> points_;  ///< of `planned_`, in its order

@@ -290,7 +290,7 @@ TEST_F(LoaderErrors, WhatAnOverrideBreaksIsBlamedOnIt) {
   EXPECT_TRUE(of.starts_with("--set cell.outer_radius=0.02: ")) << of;
   // What is wrong without it is the file's own.
   write("case.toml", line(20, "small_radius = -0.0037"));
-  EXPECT_EQ(messageOf("case.toml", {"law.normal=hertz"}).find("case.toml:20:16:"), 0u);
+  EXPECT_EQ(messageOf("case.toml", {"law.mu=0.3"}).find("case.toml:20:16:"), 0u);
 }
 
 TEST_F(LoaderErrors, OverridesNameThemselves) {

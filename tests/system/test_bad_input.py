@@ -1,6 +1,8 @@
 """What the user gave cannot be used: status 2 and one line that says where and what."""
 
+import json
 import os
+import re
 import unittest
 
 from harness import BAD_INPUT, CASES, COLLISION, COUETTE, HARD_SPHERE, FELL_SHORT, HELD, SystemTest, settings
@@ -351,6 +353,197 @@ class TimeSteps(SystemTest):
         self.assertRegex(done.stdout, r"caution: run.dt = 4e-05 s is that of .*nu-0.804.toml")
 
 
+TWO_DISKS = """[case]
+kind = "collision"
+[law]
+kn = 352.1
+gn = 0.19
+mu = 0.44
+kt = 267.1
+gt = 0.15
+tangential = "spring_dashpot"
+[run]
+may_differ = ["damping_velocity", "integrator", "rounding"]
+[collision]
+psi = [0.3, 1.0, 4.0]
+vn = 0.01
+radius = 0.0037
+mass = 0.275e-3
+[collision.margins]
+psi_f = { absolute = 0.02, why = "a test" }
+"""
+
+
+class KeysWithoutUse(SystemTest):
+    """Nothing that a case says is ignored in silence: a key does something, or the command says that it does not."""
+
+    #: Of each section that a command can do without, or a key in it, the commands that use it.
+    EXPECTED = {
+        "preparation.packings": "compare lockstep effects cost",
+        "preparation": "compare lockstep effects cost stability",
+        "averaging.rings": "compare effects cost",
+        "averaging.method": "compare effects cost",
+        "averaging.snapshots_per_rotation": "compare effects cost",
+        "averaging.confidence": "compare effects cost",
+        "averaging.settle_rotations": "compare lockstep effects cost stability",
+        "averaging.rotations": "compare lockstep effects cost stability",
+        "averaging.margins": "compare effects",
+        "averaging.endpoints": "compare",
+        "looks": "compare",
+        "cost": "cost",
+        "run.mirrors": "compare",
+        "run.keep_snapshots": "compare effects cost",
+        "run.energy_ledger": "compare effects cost stability",
+    }
+
+    def said(self, done):
+        """What the command says that it does not use."""
+        found = re.search(r"(?:does not use|not used:) (.*)", done.stdout)
+        return found.group(1).split(", ") if found else []
+
+    def test_of_a_cell_every_key_is_used_or_named(self):
+        every = self.write(
+            "every.toml",
+            f'[case]\nextends = "{COUETTE}"\n[run]\nmirrors = false\nkeep_snapshots = 3\nenergy_ledger = true\n'
+            "[cost]\nrepeats = 3\n[averaging]\nmethod = \"slicing\"\n[engines.mine]\nblur = 1\n",
+        )
+        for command in ("compare", "lockstep", "effects", "cost", "stability"):
+            transforms = ["--transforms"] if command == "stability" else []
+            done = self.run_program(
+                command, every, "--engines", "grain", "--out", self.out, "--dry-run", "--quiet", *transforms
+            )
+            self.assert_status(done, HELD)
+            said = self.said(done)
+            for key, users in self.EXPECTED.items():
+                with self.subTest(command=command, key=key):
+                    unused = key in said or key.split(".")[0] in said
+                    self.assertEqual(command not in users.split(), unused, done.stdout)
+            self.assertIn("engines.mine", " ".join(said), "settings of an engine that is not here")
+
+    def test_every_key_that_exists_is_known_here(self):
+        """A new key of a section that some commands do without is to be placed above."""
+        listed = json.loads(self.run_program("list", "keys", "--json").stdout)
+        paths = {f"{each['section']}.{each['key']}" for each in listed}
+        for section in ("averaging", "run"):
+            shared = {"dt", "steps_per_contact", "handover", "may_differ", "precision", "timeout", "line_width"}
+            for path in sorted(path for path in paths if path.startswith(section + ".")):
+                known = any(path == key or path.startswith(key + ".") for key in self.EXPECTED)
+                self.assertTrue(known or path.split(".")[1] in shared, path)
+
+    CHANGES = {
+        "law.mu": "0.3",
+        "collision.psi": "[0.5, 1.0, 4.0]",
+        "collision.vn": "0.02",
+        "collision.radius": "0.004",
+        "collision.mass": "3e-4",
+        "collision.inertia_factor": "0.4",
+        "collision.steps_per_contact": "80",
+        "collision.start_phase": "0.2",
+        "collision.counter_spin": "1.0",
+        "collision.margins.psi_f.absolute": "0.03",
+        "run.mirrors": "false",
+        "run.precision": '"float"',
+        "run.keep_snapshots": "3",
+    }
+
+    def by_deed(self, command, result, apart=()):
+        """A key that changes what comes out is used, one that does not is named."""
+        case = self.write("two.toml", TWO_DISKS)
+        before, _ = result(case)
+        for key, value in self.CHANGES.items():
+            if key in apart:
+                continue
+            with self.subTest(command=command, key=key):
+                after, done = result(case, f"--set={key}={value}")
+                said = self.said(done)
+                unused = any(key == each or key.startswith(each + ".") for each in said)
+                self.assertEqual(before != after, not unused, done.stdout)
+
+    def test_calibrate_by_deed(self):
+        def result(*arguments):
+            done = self.run_program("calibrate", *arguments)
+            self.assert_status(done, HELD)
+            return [line for line in done.stdout.splitlines() if "not used" not in line], done
+
+        # Nothing of a linear contact hangs on the radii; Hertz' law uses them.
+        self.by_deed("calibrate", result, apart=["collision.radius"])
+
+    def test_collide_by_deed(self):
+        apart = {"head", "case", "command", "started", "elapsed_s", "machine", "stats", "wall_s", "cpu_s", "toml"}
+
+        def plain(node):
+            if isinstance(node, dict):
+                return {key: plain(value) for key, value in node.items() if key not in apart}
+            return [plain(each) for each in node] if isinstance(node, list) else node
+
+        def result(*arguments):
+            done = self.run_program(
+                "collide", *arguments, "--engines", "grain,box2d-penalty", "--out", self.out, "--quiet", "--fresh"
+            )
+            self.assert_status(done, HELD, FELL_SHORT)
+            return plain(self.results()), done
+
+        self.by_deed("collide", result)
+
+    def test_of_several_variants_record_names_its_own(self):
+        done = self.run_program("record", COLLISION, "--engines", "grain", "--out", self.folder / "run.rec")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"variant \S+ is recorded, one of 8")
+
+    def test_others_refuse_variants(self):
+        several = self.write(
+            "several.toml", f'[case]\nextends = "{COUETTE}"\n[[variants]]\nname = "a"\n[[variants]]\nname = "b"\n'
+        )
+        for command in ("compare", "lockstep", "effects", "cost"):
+            done = self.run_program(command, several, "--engines", "grain", "--out", self.out, "--quiet")
+            self.assert_one_line(done, BAD_INPUT, f"{command} takes a case without variants")
+        for command in ("identify", "baseline"):
+            out = ["--out", self.out] if command == "baseline" else []
+            done = self.run_program(command, several, "--engines", "yade", *out, "--quiet")
+            self.assert_one_line(done, BAD_INPUT, f"{command} takes a case without variants")
+
+
+class Hints(SystemTest):
+    """What was meant is said, and what is not the question is not."""
+
+    def test_an_engine_of_this_program_is_no_command(self):
+        done = self.run_program("check", COUETTE, "--engine", "grain")
+        self.assert_one_line(done, BAD_INPUT, "did you mean --engines grain?")
+
+    def test_check_of_one_engine_lists_no_others(self):
+        with_path = {"PATH": "/nowhere"}
+        one = self.run_program("check", COUETTE, "--engines", "grain", "--no-timing", env=with_path)
+        self.assert_status(one, HELD)
+        self.assertNotIn("not available", one.stdout)
+        every = self.run_program("check", COUETTE, "--no-timing", env=with_path)
+        self.assertIn("not available", every.stdout)
+
+    def test_quick_makes_nothing_longer(self):
+        done = self.run_program(
+            "compare", COUETTE, "--engines", "grain,box2d-penalty", "--out", self.out, "--quick", "--dry-run",
+            "--set=run.mirrors=false", "--set=preparation.packings=1",
+        )  # fmt: skip
+        self.assertIn("1 packings", done.stdout)
+        one = self.write("one.toml", f'[case]\nextends = "{COUETTE}"\n[preparation]\npackings = 1\n')
+        done = self.run_program(
+            "compare", one, "--engines", "grain,box2d-penalty", "--out", self.out, "--quick", "--dry-run"
+        )
+        self.assertIn("1 packings", done.stdout)
+
+    def test_one_engine_is_neither_undecided_nor_decided(self):
+        done = self.run_program(
+            "compare", COUETTE, "--engines", "box2d-penalty", "--out", self.out, "--quick", "--quiet"
+        )
+        self.assert_status(done, HELD)
+        self.assertIn("nothing was judged: one engine has nothing", done.stdout)
+        overview = self.results()["overview"]
+        states = {cell["state"] for row in overview["rows"] for cell in row["cells"]}
+        for contradiction in ("undecided", "every endpoint"):
+            self.assertNotIn(contradiction, done.stdout)
+            self.assertNotIn(contradiction, " ".join(overview["conclusion"]))
+        self.assertNotIn("undecided", states)
+
+
 class Unsupported(SystemTest):
     """A scene that an engine cannot do, and the case does not let it differ."""
 
@@ -384,6 +577,42 @@ class Unsupported(SystemTest):
             done, BAD_INPUT, "box2d-penalty", "hard-sphere.toml", "normal = linear, not rigid",
             'list "normal"', "under [run] may_differ",
         )  # fmt: skip
+
+    def test_what_one_engine_lacks_is_its_own_affair(self):
+        """It is refused for itself, the others run; the first that can is the reference."""
+        allowed = ["damping_velocity", "integrator", "bottom_friction", "bottom_spin_friction", "rounding"]
+        asked = settings(run__may_differ=allowed + ["tangential_restitution"])
+        for engines, strict, status in (
+            ("grain,box2d-impulse,box2d-penalty", [], HELD),  # --quick: nothing is judged, by request
+            ("box2d-impulse,grain,box2d-penalty", ["--strict"], FELL_SHORT),
+        ):
+            with self.subTest(engines):
+                done = self.compare("--quiet", *asked, *strict, engines=engines)
+                self.assert_one_line(done, status, "box2d-impulse cannot run", "quick.toml")
+                results = self.results()
+                engines_of = {row["name"]: row["status"] for row in results["engines"]}
+                self.assertEqual(
+                    {"grain": "ran", "box2d-penalty": "ran", "box2d-impulse": "refused"}, engines_of
+                )
+                self.assertEqual({"grain"}, {row["a"] for row in results["endpoints"]["rows"]})
+        self.assertIn("box2d-impulse was named first", " ".join(results["notes"]))
+        for command in ("lockstep", "effects"):
+            done = self.run_program(
+                command, COUETTE, "--engines", "box2d-impulse,box2d-penalty", "--quick", *asked,
+                "--out", self.folder / command, "--dry-run", "--quiet",
+            )  # fmt: skip
+            self.assert_status(done, HELD)
+            self.assertRegex(done.stdout, r"box2d-impulse +cannot: box2d-impulse cannot run")
+            self.assertRegex(done.stdout, r"box2d-penalty +\d+ ")
+
+    def test_lacking_law_of_one_in_collide(self):
+        done = self.run_program(
+            "collide", HARD_SPHERE, "--engines", "grain,box2d-penalty", "--out", self.out, "--quiet"
+        )
+        self.assert_status(done, HELD)
+        self.assertEqual(
+            ["ran", "refused"], [row["status"] for row in self.results()["engines"]]
+        )
 
     def test_lacking_law_in_compare(self):
         done = self.compare(
