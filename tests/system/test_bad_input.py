@@ -321,7 +321,7 @@ class Files(SystemTest):
 
 
 class TimeSteps(SystemTest):
-    """Beyond 2/ω of two small disks, 1.25 ms."""
+    """Beyond what the normal spring and dashpot of two small disks bear, 0.57 ms."""
 
     def test_is_refused_by_check_and_by_what_runs_it(self):
         for command in ("check", "compare", "effects"):
@@ -330,7 +330,7 @@ class TimeSteps(SystemTest):
                 done = self.run_program(
                     command, COUETTE, "--engines", "grain", *out, "--set=run.dt=1"
                 )
-                self.assert_one_line(done, BAD_INPUT, "run.dt = 1 s is beyond 2/ω = 0.00125 s")
+                self.assert_one_line(done, BAD_INPUT, "run.dt = 1 s is beyond 0.000572 s")
 
     def test_of_one_engine(self):
         done = self.run_program(
