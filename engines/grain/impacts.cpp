@@ -192,9 +192,7 @@ bool holdAll(const ImpactLaw& law, std::span<ImpactBody> bodies, std::span<const
       largest = std::max(largest, correct(law, impacts[k], holds[k], bodies));
     if (!(largest > still)) return true;
     for (std::size_t k = impacts.size(); k-- > 0;) correct(law, impacts[k], holds[k], bodies);
-    // Sliding contacts are no minimum of anything: where that keeps the steps from ending, sweeps
-    // do.
-    if (round < mostRounds / 4) accelerate(law, bodies, impacts, holds, added);
+    accelerate(law, bodies, impacts, holds, added);
   }
   return false;
 }

@@ -66,12 +66,14 @@ struct Impact {
 /// velocity that already holds the kick, as sequential impulses often do, gains g dt of speed at
 /// every bounce.
 ///
-/// The second problem is solved for all contacts at once, by projected Gauss–Seidel sweeps as the
-/// preconditioner of a nonlinear conjugate gradient (Silcowitz-Hansen, Niebe and Erleben 2010):
-/// plain sweeps would take as many rounds as a heavy disk on a light one has times its mass.
+/// The second problem is solved for all contacts at once: by conjugate gradients for the impulses
+/// that no bound holds, with a projected Gauss–Seidel sweep there and back as the preconditioner
+/// (after Silcowitz-Hansen, Niebe and Erleben 2010). Sweeps alone would take as many rounds as a
+/// heavy disk on a light one has times its mass.
 ///
 /// A disk between walls that close in has no velocities that let it part from both: after 1000
-/// rounds the rest is left to the next step.
+/// rounds the rest is left to the next step. So it is, now and then, of a heap with friction that
+/// still rattles.
 ///
 /// @returns whether nothing approaches any more. Bodies have their kicks then.
 bool solveImpacts(const ImpactLaw& law, std::span<ImpactBody> bodies, std::span<Impact> impacts);

@@ -267,12 +267,13 @@ TEST(GrainImpulse, AnElasticBallRisesToTheSameHeightForEver) {
 double errorOfABouncingBall(double dt) {
   constexpr double e = 0.9, g = 9.81, end = 0.5;
   Simulation simulation(ball(e, dt));
-  double largest = 0.0, from = 0.0, speed = 0.5;
+  double largest = 0.0, from = 0.0, thrown = 0.5;
   for (std::uint64_t step = 1; static_cast<double>(step) * dt < end; ++step) {
     simulation.advance(1);
     const double t = static_cast<double>(step) * dt;
-    for (; t > from + 2.0 * speed / g; speed *= e) from += 2.0 * speed / g;
-    const double exact = test::smallRadius + speed * (t - from) - 0.5 * g * (t - from) * (t - from);
+    for (; t > from + 2.0 * thrown / g; thrown *= e) from += 2.0 * thrown / g;
+    const double exact =
+        test::smallRadius + thrown * (t - from) - 0.5 * g * (t - from) * (t - from);
     largest = std::max(largest, std::abs(simulation.x(0) - exact));
   }
   return largest;
@@ -305,7 +306,7 @@ TEST(GrainImpulse, AHeapComesToRest) {
       const double energy = 24.0 * test::smallMass * 9.81 * 0.02;
       simulation.advance(8000);
       EXPECT_LT(simulation.kineticEnergy(), 1e-8 * energy) << restitution << " " << friction;
-      EXPECT_LT(simulation.unfinishedImpacts(), 80u) << restitution << " " << friction;
+      if (friction == 0.0) EXPECT_EQ(simulation.unfinishedImpacts(), 0u) << restitution;
     }
 }
 
