@@ -25,11 +25,9 @@ std::string orderOf(const CollideResults& results, const CollisionVariant& varia
     const auto& fit = order.of[quantity];
     if (!fit) break;
     // Errors of orders below a hundredth say nothing: the scheme's next term is larger.
-    const double hundredths = std::round(fit->order * 100.0) / 100.0 + 0.0;  // no −0.00
-    return fmt::format("{}{:.2f}{}", hundredths < 0.0 ? "−" : "", std::abs(hundredths),
-                       fit->standardError
-                           ? fmt::format("\u00a0±\u00a0{:.2f}", std::max(*fit->standardError, 0.01))
-                           : "");
+    return readable(fit->order, fit->standardError
+                                    ? std::optional(std::max(*fit->standardError, 0.01))
+                                    : std::nullopt);
   }
   return absentText;
 }

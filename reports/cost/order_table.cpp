@@ -15,8 +15,7 @@ namespace crossgrain::reports {
 namespace {
 
 std::string orderText(const OrderFit& fit) {
-  return fit.order ? fmt::format("{:.2f} ± {:.2f}", *fit.order, fit.halfWidth.value_or(0.0))
-                   : absentText;
+  return readable(fit.order, fit.halfWidth);
 }
 
 /// An engine with its integrator, unless that is its own.

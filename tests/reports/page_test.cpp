@@ -251,7 +251,7 @@ TEST(CollidePage, ScoresHeldAndFellShort) {
                   "<td class=\"change disagree\"><b>✗ 2 of 2</b><small>Ψ<sub>f</sub> 1.5 × its "
                   "limit</small></td>"));
   EXPECT_TRUE(has(collided().page, "<b>✗ failed</b><small>worker hung &lt;120 s&gt;</small>"));
-  EXPECT_TRUE(has(collided().page, "Ψ<sub>f</sub> 0.0024, order 2.00\u00a0±\u00a00.01"));
+  EXPECT_TRUE(has(collided().page, "Ψ<sub>f</sub> 0.0024, order 2.003\u00a0±\u00a00.012"));
 }
 
 /// What engines simulate is held against the effects of the variant that they ran.

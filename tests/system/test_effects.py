@@ -124,9 +124,14 @@ class Refusals(EffectsTest):
             self.assertEqual(("refused", why, ""), (row["status"], row["reason"], row["change"]))
         self.assertEqual("ran", self.legs()["box2d-impulse", "friction"]["status"])
 
-    def test_an_engine_named_must_be_able_to_run_the_case(self):
-        done = self.effects(*settings(run__may_differ=["rounding"]), engines="grain,box2d-impulse")
-        self.assert_one_error(done, BAD_INPUT, "box2d-impulse", "may_differ")
+    def test_an_engine_that_cannot_run_the_case_is_refused_for_itself(self):
+        lacking = settings(run__may_differ=["rounding"])
+        done = self.effects("--quiet", *lacking, engines="grain,box2d-impulse")
+        self.assert_one_error(done, HELD, "box2d-impulse cannot run", "may_differ")
+        engines = {row["name"]: row["status"] for row in self.results()["engines"]}
+        self.assertEqual({"grain": "ran", "box2d-impulse": "refused"}, engines)
+        alone = self.effects("--fresh", *lacking, engines="box2d-impulse")
+        self.assert_one_error(alone, BAD_INPUT, "box2d-impulse", "may_differ")
 
 
 class BadInput(EffectsTest):
