@@ -30,4 +30,8 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup, std::optional<doub
 std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
                             std::optional<double> lightest = {});
 
+/// "the time step of … is beyond what a disk with six contacts bears, 2/(√6 ω) = …": as many as a
+/// triangular lattice has; empty if it is not.
+std::string whyRiskyStep(const Case& setup, double dt);
+
 }  // namespace crossgrain::inline cases

@@ -46,10 +46,13 @@ Json answerCell(const EndpointRow* row) {
   if (row->lost > 0)
     more += fmt::format("{}{} lost", more.empty() ? "" : "; ",
                         counted(static_cast<std::size_t>(row->lost), "packing"));
+  if (!row->reason.empty()) more += (more.empty() ? "" : ": ") + row->reason;
   return {{"verdict", mark.style},
           {"symbol", mark.symbol},
           {"word", wordOf(row->answer)},
-          {"detail", distanceInWords(*row)},
+          {"detail", row->kind == PairKind::closedForm
+                         ? valueInWords(*row) + ", " + distanceInWords(*row)
+                         : distanceInWords(*row)},
           {"more", more}};
 }
 
@@ -93,7 +96,7 @@ Json pairRows(const Endpoints& endpoints, bool peers) {
   Json rows = Json::array();
   std::vector<std::pair<std::string, std::string>> seen;
   for (const EndpointRow& row : endpoints) {
-    if ((row.kind == PairKind::peer) != peers) continue;
+    if ((row.kind == PairKind::peer) != peers || row.kind == PairKind::closedForm) continue;
     const std::pair pair(row.a, row.b);
     if (std::ranges::find(seen, pair) != seen.end()) continue;
     seen.push_back(pair);
@@ -151,6 +154,10 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   view["peerColumns"] = peers;
   view["endpoints"] = endpointRows(endpoints, reference, peers, !results.region);
   view["hasAgreement"] = !endpoints.empty();
+  const auto judged = closedFormEngines(endpoints);
+  view["hasClosedForms"] = !judged.empty();
+  view["closedFormColumns"] = judged;
+  view["closedForms"] = endpointRows(endpoints, closedFormName, judged, false);
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
     view["endpointColumns"].push_back(mathHtml(endpointSymbol(name, !results.region)));
