@@ -25,7 +25,7 @@ struct AllDisks {
 
 std::optional<DeepStart> deepInPlane(const Scene& scene,
                                      const std::function<double(double, double)>& limit) {
-  std::size_t number = 0;
+  std::size_t id = scene.disks.size() + scene.wallDiskCount();
   for (const WallBody& body : scene.bodies)
     for (const Plane& plane : body.planes) {
       for (std::size_t i = 0; i < scene.disks.size(); ++i) {
@@ -33,10 +33,9 @@ std::optional<DeepStart> deepInPlane(const Scene& scene,
         const double overlap =
             radius - (scene.disks.position[i] - plane.point).dot(plane.normal.normalized());
         if (overlap > limit(radius, radius))
-          return DeepStart{nameOfId(scene, i), fmt::format("plane {}", number),
-                           scene.disks.position[i], overlap, false};
+          return DeepStart{i, id, scene.disks.position[i], overlap, false};
       }
-      ++number;
+      ++id;
     }
   return std::nullopt;
 }
@@ -61,7 +60,7 @@ std::optional<DeepStart> deepStart(const Scene& scene,
     const double distance = (all.position[i] - all.position[j]).norm();
     const double overlap = all.radius[i] + all.radius[j] - distance;
     if (distance == 0.0 || overlap > limit(all.radius[i], all.radius[j]))
-      first = {nameOfId(scene, i), nameOfId(scene, j), all.position[i], overlap, distance == 0.0};
+      first = {i, j, all.position[i], overlap, distance == 0.0};
   });
   if (first) return first;
   return deepInPlane(scene, limit);
@@ -72,7 +71,8 @@ std::string whyNoStart(const Scene& scene) {
     return fmt::format("the position of {} is not finite", nameOfId(scene, *lost));
   const auto deep = deepStart(scene, [](double a, double b) { return std::min(a, b); });
   if (!deep) return {};
-  const std::string who = fmt::format("{} and {}", deep->first, deep->second);
+  const std::string who =
+      fmt::format("{} and {}", nameOfId(scene, deep->i), nameOfId(scene, deep->j));
   const std::string where = fmt::format("({:g}, {:g}) m", deep->place.x(), deep->place.y());
   if (deep->sameCentre) return fmt::format("{} have the same centre, {}", who, where);
   return fmt::format(

@@ -10,9 +10,9 @@ namespace crossgrain {
 
 /// A disk, and what it overlaps at the start: another, a wall disk or a plane.
 struct DeepStart {
-  std::string first, second;  ///< "disk 3", "wall disk 17", "plane 0": each counted from 0
-  Vec2 place;                 ///< centre of the first [m]
-  double overlap;             ///< [m]
+  std::size_t i, j;  ///< ids, as nameOfId() takes them
+  Vec2 place;        ///< centre of the first [m]
+  double overlap;    ///< [m]
   bool sameCentre;
 };
 

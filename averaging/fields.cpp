@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "averaging/field_formulas.hpp"
+#include "averaging/rings.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -135,6 +136,21 @@ std::vector<FieldSpec> makeTable() {
   };
 }
 
+/// Whether f(2m) = 2 f(m), on moments with nothing special about them; ratios have f(2m) = f(m).
+bool growsWithContent(const FieldSpec& field) {
+  const Rings rings(1.0, 4.0, 3, 1.0, 1.0);
+  const auto valueAt = [&](double scale) {
+    std::vector<Moments> moments(rings.slots());
+    for (std::size_t slot = 0; slot < moments.size(); ++slot)
+      for (std::size_t q = 0; q < momentCount; ++q)
+        moments[slot][q] =
+            scale * (1.0 + std::fmod(static_cast<double>(slot * momentCount + q) * 0.618, 1.0));
+    return field.formula(BinView(rings, moments, rings.slot(1), {1.0, 1.0})).value;
+  };
+  const double once = valueAt(1.0);
+  return std::abs(valueAt(2.0) - 2.0 * once) < 1e-9 * std::abs(once);
+}
+
 bool measuresFilling(const FieldSpec& field) {
   return field.name == "volume_fraction" || field.name == "density";
 }
@@ -142,7 +158,11 @@ bool measuresFilling(const FieldSpec& field) {
 }  // namespace
 
 std::span<const FieldSpec> fieldTable() {
-  static const std::vector<FieldSpec> table = makeTable();
+  static const std::vector<FieldSpec> table = [] {
+    std::vector<FieldSpec> fields = makeTable();
+    for (FieldSpec& field : fields) field.perVolume = growsWithContent(field);
+    return fields;
+  }();
   return table;
 }
 

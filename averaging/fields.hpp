@@ -72,6 +72,10 @@ struct FieldSpec {
   std::string_view definition;
   Needs needs;
   Linear (*formula)(const BinView&);
+  /// Grows with what a bin holds (twice the moments, twice the field: a stress) and vanishes with
+  /// it, so that a mean over bins weighs it with their volumes; else it is one of the content (a
+  /// velocity), which weighs Σ w V, and has no value in an empty bin. Worked out from the formula.
+  bool perVolume = false;
 };
 
 /// All fields of rings, in the order of profiles.csv.

@@ -41,8 +41,9 @@ struct StartFiles {
   /// Of each component, added to all velocities, other ones in each packing: so one file makes
   /// several packings [m/s].
   double velocityRms = 0.0;
-  std::vector<Vec2> fixedPosition = {};  ///< of disks that stand still, alike in all files [m]
-  std::vector<double> fixedRadius = {};  ///< [m]
+  std::vector<Vec2> fixedPosition = {};      ///< of disks that stand still, alike in all files [m]
+  std::vector<double> fixedRadius = {};      ///< [m]
+  std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
 };
 
 /// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls

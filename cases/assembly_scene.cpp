@@ -134,12 +134,32 @@ Scene assemblyScene(const Case& setup, Disks disks, double wallTime, double dt) 
   return scene;
 }
 
-void checkAssemblyStart(const Case& setup, const Scene& scene) {
+namespace {
+
+Particles limitsOf(const Case& setup, const Scene& scene) {
   Particles limits;
   limits.smallRadius = std::ranges::min(scene.disks.radius);
   limits.maxOverlap = setup.assembly.maxOverlap;
   limits.maxOverlapKey = "assembly.max_overlap";
-  checkStart(scene, limits, setup.file.string());
+  return limits;
+}
+
+}  // namespace
+
+void checkAssemblyStart(const Case& setup, const Scene& scene) {
+  checkStart(scene, limitsOf(setup, scene), setup.file.string());
+}
+
+void checkStartFiles(const Case& setup) {
+  const StartFiles& starts = setup.assembly.starts;
+  for (std::size_t k = 0; k < starts.files.size(); ++k) {
+    const Scene scene = assemblyScene(setup, assemblyDisks(setup, static_cast<int>(k)), 0.0, 1.0);
+    std::vector<int> lines = starts.lines[k];
+    if (!lines.empty())  // fixed disks are the last body of the walls
+      lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(scene.disks.size()),
+                   scene.wallDiskCount() - starts.fixedRadius.size(), 0);
+    checkStart(scene, limitsOf(setup, scene), starts.files[k].string(), nullptr, lines);
+  }
 }
 
 Scene assemblyScene(const Case& setup) {

@@ -19,6 +19,10 @@ Scene assemblyScene(const Case& setup);
 /// @throws BadInput for a start that no engine can be blamed for: see checkStart()
 void checkAssemblyStart(const Case& setup, const Scene& scene);
 
+/// All files of its start likewise, before anything runs; each by its name and line.
+/// @throws BadInput
+void checkStartFiles(const Case& setup);
+
 /// How long an assembly is watched [s].
 double assemblyDuration(const Case& setup);
 

@@ -21,14 +21,7 @@ void cautionsOfStep(const Case& setup, Lines& lines) {
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   if (const std::string why = whyUnstableStep(setup, dt, key); !why.empty())
     return lines.push_back(why);
-  const auto limit = pairStepLimit(setup);
-  if (!limit) return;
-  // Six contacts, as in a triangular lattice, are the most that disks of one size have.
-  if (dt >= limit->dt / std::sqrt(6.0))
-    return lines.push_back(fmt::format(
-        "the time step of {:.3g} s is beyond what a disk with six contacts bears, 1/√6 of what one "
-        "does = {:.3g} s",
-        dt, limit->dt / std::sqrt(6.0)));
+  if (const std::string why = whyRiskyStep(setup, dt); !why.empty()) return lines.push_back(why);
   constexpr double fewSteps = 20.0;  // t_c/50 is usual
   const auto time = pairContactTime(setup);
   if (time && *time / dt < fewSteps)
@@ -63,10 +56,18 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
   if (setup.averaging.endpoints.empty())
     lines.push_back(fmt::format("no {}: compare will judge nothing",
                                 setup.average ? "[[endpoints]]" : "[averaging.endpoints]"));
-  if (packings < fewest)
+  if (packings < fewest && !hasClosedForms(setup))
     lines.push_back(fmt::format("{} packing{}{}: compare judges nothing with fewer than {}",
                                 packings, packings == 1 ? "" : "s",
                                 packingsAreFiles(setup) ? " (a file is one)" : "", fewest));
+}
+
+/// Grains are not as large as people; numbers in mm are.
+void cautionsOfLengths(const Case& setup, Lines& lines) {
+  constexpr double large = 1.0;      // of a disk's diameter [m]
+  if (setup.particles.file) return;  // nobody knows yet
+  if (const double d = flowDiameter(setup); d >= large)
+    lines.push_back(fmt::format("the smallest disks are {:g} m across: are lengths in mm?", d));
 }
 
 /// Impulses need no resolved contact, but disks must not jump.
@@ -95,6 +96,7 @@ Lines cautions(const Case& setup, double volumeFraction) {
     return lines;
   }
   cautionsOfStep(setup, lines);
+  cautionsOfLengths(setup, lines);
   if (setup.average) cautionsOfVerdicts(setup, lines);
   if (setup.kind == CaseKind::assembly) return lines;
   cautionsOfFilling(setup, volumeFraction, lines);

@@ -94,31 +94,58 @@ void checkInCell(const Disks& disks, const Cell& cell, const std::string& where)
   for (std::size_t i = 0; i < disks.size(); ++i) {
     const double r = disks.position[i].norm();
     if (r <= cell.innerRadius || r >= cell.outerRadius)
-      throw BadInput(
-          fmt::format("{}: disk {} at r = {:.4g} m is not between the walls at {:g} m and "
-                      "{:g} m",
-                      where, i, r, cell.innerRadius, cell.outerRadius));
+      throw BadInput(fmt::format(
+          "{}: disk {} at r = {:.4g} m is not between the walls at {:g} m and "
+          "{:g} m{}",
+          where, i, r, cell.innerRadius, cell.outerRadius,
+          1e-3 * r > cell.innerRadius && 1e-3 * r < cell.outerRadius ? "; are lengths in mm?"
+                                                                     : ""));
   }
+}
+
+/// Whether numbers in mm stand where m are meant: an overlap is gross, nearly all of both radii or
+/// more, and there is none where radii, or all lengths of the disks, are a thousandth.
+std::string unitHint(const Scene& scene, const DeepStart& deep, double limit) {
+  const Disks& disks = scene.disks;
+  const double other = deep.j < disks.size() ? disks.radius[deep.j] : disks.radius[deep.i];
+  constexpr double gross = 0.97;  // of touching radii in mm it is 0.999
+  if (deep.overlap < gross * (disks.radius[deep.i] + other)) return {};
+  constexpr double milli = 1e-3;
+  Scene scaled = scene;
+  const auto sound = [&] {
+    return !deepStart(scaled, [=](double, double) { return milli * limit; });
+  };
+  for (double& a : scaled.disks.radius) a *= milli;
+  if (sound()) return "; are radii in mm?";
+  for (Vec2& x : scaled.disks.position) x *= milli;
+  return sound() ? "; are the disks' lengths in mm?" : "";
 }
 
 }  // namespace
 
 void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
-                const Cell* cell) {
+                const Cell* cell, std::span<const int> lines) {
   if (const auto lost = firstNotFinite(scene))
     throw BadInput(fmt::format("{}: the position of disk {} is not finite", where, *lost));
   if (cell) checkInCell(scene.disks, *cell, where);
   const double limit = particles.maxOverlap * particles.smallRadius;
   const auto deep = deepStart(scene, [=](double, double) { return limit; });
   if (!deep) return;
-  if (deep->sameCentre)
-    throw BadInput(
-        fmt::format("{}: {} and {} have the same centre", where, deep->first, deep->second));
+  const auto lineOf = [&](std::size_t id) { return id < lines.size() ? lines[id] : 0; };
+  const auto nameOf = [&](std::size_t id) {
+    const int line = lineOf(id);
+    return nameOfId(scene, id) + (line > 0 ? fmt::format(" (line {})", line) : "");
+  };
+  // The later of the two lines is the one to go to.
+  const int line = std::max(lineOf(deep->i), lineOf(deep->j));
+  const std::string place = line > 0 ? fmt::format("{}:{}", where, line) : where;
+  const std::string who = fmt::format("{} and {}", nameOf(deep->i), nameOf(deep->j));
+  if (deep->sameCentre) throw BadInput(fmt::format("{}: {} have the same centre", place, who));
   throw BadInput(fmt::format(
-      "{}: {} and {} overlap by {:.3g} m at the start, more than {} = {:g} of the small radius "
-      "allows ({:.3g} m)",
-      where, deep->first, deep->second, deep->overlap, particles.maxOverlapKey,
-      particles.maxOverlap, limit));
+      "{}: {} overlap by {:.3g} m at the start, more than {} = {:g} of the small radius allows "
+      "({:.3g} m){}",
+      place, who, deep->overlap, particles.maxOverlapKey, particles.maxOverlap, limit,
+      unitHint(scene, *deep, limit)));
 }
 
 }  // namespace crossgrain::inline cases

@@ -40,8 +40,10 @@ Disks spreadDisks(const Case& setup);
 /// A start that an engine cannot be blamed for: no two disks overlap by more than
 /// max_overlap · small radius, no two centres coincide, all are finite.
 /// Where `cell` is given, they also lie between its walls.
+/// @param lines  of the file `where` that disks and wall disks were read from, by id; 0 or missing:
+///               nobody knows
 /// @throws BadInput naming the disks
 void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
-                const Cell* cell = nullptr);
+                const Cell* cell = nullptr, std::span<const int> lines = {});
 
 }  // namespace crossgrain::inline cases

@@ -16,13 +16,12 @@ struct EndpointSpec {
   std::string_view symbol;      ///< marks as in reports/common/labels.hpp
   std::string_view unit;        ///< "-": a number
   std::string_view definition;  ///< in words
-  /// Engines are compared by their ratio, on logarithms, and the margin is relative: of what is
-  /// positive in every run and spreads over packings by factors. Else by the difference.
+  /// Engines are compared by their ratio, on logarithms, and the margin is relative: of what has
+  /// one sign in every run and spreads over packings by factors. Else by the difference.
   bool byRatio;
 };
 
-/// Of a Couette cell, in the order of reports. Means over the cell are weighted with the rings'
-/// areas.
+/// Of a Couette cell, in the order of reports. Means over the cell: see Reduction.
 std::span<const EndpointSpec> endpointTable();
 
 /// @throws std::invalid_argument if there is no endpoint of that name

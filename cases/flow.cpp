@@ -94,7 +94,12 @@ bool packingsAreFiles(const Case& setup) {
   return setup.particles.file || (!starts.files.empty() && starts.velocityRms == 0.0);
 }
 
+bool hasClosedForms(const Case& setup) {
+  return setup.average && setup.average->hasClosedForms();
+}
+
 int flowPackings(const Case& setup) {
+  if (hasClosedForms(setup)) return closedFormRuns;
   if (!packingsAreFiles(setup)) return setup.preparation.packings;
   return isAssembly(setup) ? static_cast<int>(setup.assembly.starts.files.size()) : 1;
 }

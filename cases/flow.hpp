@@ -36,6 +36,13 @@ double flowDiameter(const Case& setup);
 /// Whether packings are files of the user's own, of which nothing is prepared.
 bool packingsAreFiles(const Case& setup);
 
+/// How often a start with closed forms is run: a run that does not come back the same is not
+/// judged.
+inline constexpr int closedFormRuns = 2;
+
+/// Whether its endpoints have expected values by closed forms, on which one start is enough.
+bool hasClosedForms(const Case& setup);
+
 /// As many as a campaign begins with; a file is one, however many a case would prepare or make.
 int flowPackings(const Case& setup);
 

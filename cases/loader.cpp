@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_print.hpp"
@@ -166,8 +167,10 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   readAssembly(assembly, c.assembly);
   readPackings(preparation, c);
   readLooks(looks, c.looks);
+  std::vector<Reader> endpoints;
+  if (root.has("average")) endpoints = root.sections("endpoints");
   if (root.has("average"))
-    readAverage(average, root.sections("endpoints"), c);
+    readAverage(average, endpoints, preparation, c);
   else
     for (const char* const section : {"endpoints", "preparation", "looks"})
       if (root.has(section)) root.fail(section, "is of no use without [average]");
@@ -177,7 +180,8 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
     assembly.fail("contact_times", "this law has no contact time: give duration or steps");
   // An overdamped contact has no t_c, but it is a scene.
   if (!c.run.dt || c.assembly.contactTimes) checkDamping(law, c);
-  if (c.average) checkAveragedTime(average, c);
+  if (c.average) checkAveragedTime(average, endpoints, c);
+  checkStartFiles(c);
 }
 
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {

@@ -46,10 +46,11 @@ void readAssembly(Reader& in, Assembly& assembly);
 void readStart(Reader& in, Assembly& assembly);
 /// [preparation] of an assembly: how many packings, and their seed.
 void readPackings(Reader& in, Case& c);
-/// [average] and [[endpoints]]. @param c  whose [assembly] and [preparation] have been read
-void readAverage(Reader& in, std::vector<Reader> endpoints, Case& c);
+/// [average] and [[endpoints]].
+/// @param c  whose [assembly] and [preparation], which is `preparation`, have been read
+void readAverage(Reader& in, std::vector<Reader>& endpoints, const Reader& preparation, Case& c);
 /// @param c  whose step is known
-void checkAveragedTime(const Reader& in, const Case& c);
+void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c);
 void readStability(Reader& in, Stability& stability);
 void readCost(Reader& in, Cost& cost);
 /// Settings of one engine: booleans, numbers, texts.

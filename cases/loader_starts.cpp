@@ -57,6 +57,9 @@ void readStart(Reader& in, Assembly& assembly) {
       throw BadInput(fmt::format("{}: its fixed disks are not those of {}", file.string(),
                                  starts.files.front().string()));
     starts.disks.push_back(std::move(start.disks));
+    starts.lines.push_back(std::move(start.lines));
+    starts.lines.back().insert(starts.lines.back().end(), start.fixedLines.begin(),
+                               start.fixedLines.end());
   }
   requireDifferent(starts);
   if (!starts.fixedRadius.empty()) assembly.walls.push_back(fixedWall(starts));

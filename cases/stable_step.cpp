@@ -149,4 +149,13 @@ std::string whyUnstableStep(const Case& setup, double dt, const std::string& key
       key, dt, limit->dt, limit->term, parts, limit->stiffness, limit->damping, limit->mass);
 }
 
+std::string whyRiskyStep(const Case& setup, double dt) {
+  const auto limit = pairStepLimit(setup);
+  if (!limit || dt < limit->dt / std::sqrt(6.0)) return {};
+  return fmt::format(
+      "the time step of {:.3g} s is beyond what a disk with six contacts bears, 1/√6 of what one "
+      "does = {:.3g} s",
+      dt, limit->dt / std::sqrt(6.0));
+}
+
 }  // namespace crossgrain::inline cases

@@ -52,4 +52,8 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
 std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
                             std::optional<LightestPair> lightest = {});
 
+/// "the time step of … is beyond what a disk with six contacts bears, 1/√6 of what one does": as
+/// many as a triangular lattice has; empty if it is not.
+std::string whyRiskyStep(const Case& setup, double dt);
+
 }  // namespace crossgrain::inline cases

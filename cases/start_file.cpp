@@ -110,10 +110,12 @@ class StartReader {
     if (stands == 1.0) {
       start_.fixedPosition.push_back(position);
       start_.fixedRadius.push_back(*values[radius]);
+      start_.fixedLines.push_back(line_);
       return;
     }
     Disks& disks = start_.disks;
     const double a = *values[radius], m = values[mass] ? *values[mass] : defaults_.mass(a);
+    start_.lines.push_back(line_);
     disks.position.push_back(position);
     disks.radius.push_back(a);
     disks.velocity.emplace_back(values[vx].value_or(0.0), values[vy].value_or(0.0));

@@ -11,8 +11,9 @@ namespace crossgrain::inline cases {
 /// The disks of a file of the user's own; those that do not move are walls.
 struct Start {
   Disks disks;
-  std::vector<Vec2> fixedPosition;  ///< [m]
-  std::vector<double> fixedRadius;  ///< [m]
+  std::vector<Vec2> fixedPosition;               ///< [m]
+  std::vector<double> fixedRadius;               ///< [m]
+  std::vector<int> lines = {}, fixedLines = {};  ///< of the file, of each; of HDF5 none
 };
 
 /// CSV where the name ends in ".csv", else HDF5 (packing.hpp has its datasets; nothing is fixed).

@@ -23,10 +23,12 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-/// Only the verdicts between engines that the user named decide the exit status.
+/// Only the verdicts on engines that the user named decide the exit status.
 std::vector<EndpointRow> peerRows(const CompareResults& results) {
   std::vector<EndpointRow> rows = results.endpoints.rows;
-  std::erase_if(rows, [](const EndpointRow& row) { return row.kind != PairKind::peer; });
+  std::erase_if(rows, [](const EndpointRow& row) {
+    return row.kind != PairKind::peer && row.kind != PairKind::closedForm;
+  });
   return rows;
 }
 
@@ -42,7 +44,8 @@ void tell(const CompareResults& results, const std::vector<EndpointRow>& rows,
   for (const CarriedEngine& own : results.endpoints.carried)
     fmt::print("{}\n", reports::sentenceOf(own));
   for (const EndpointRow& row : rows)
-    if (row.a == results.engines.front().name && !results.nothingJudged)
+    if (row.kind == PairKind::closedForm ||
+        (row.a == results.engines.front().name && !results.nothingJudged))
       fmt::print("{:<16} {:<26} {}\n", row.b, row.endpoint, reports::answerInWords(row));
   for (const AlarmRow& alarm : results.endpoints.alarms)
     fmt::print("ALARM: {}\n", reports::sentenceOf(alarm));

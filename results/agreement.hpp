@@ -17,11 +17,15 @@ enum class PairKind {
   peer,                  ///< both were named
   mirrorModel,           ///< the reference and a mirror of a peer
   mirrorImplementation,  ///< a mirror and its peer
-  effect                 ///< an engine and itself without an effect
+  effect,                ///< an engine and itself without an effect
+  closedForm             ///< an expected value of the case (EndpointRow::reference) and an engine
 };
 constexpr auto namesOf(PairKind) {
-  return std::array<std::string_view, 4>{"peer", "mirror_model", "mirror_implementation", "effect"};
+  return std::array<std::string_view, 5>{"peer", "mirror_model", "mirror_implementation", "effect",
+                                         "closed_form"};
 }
+/// `a` of such a pair.
+inline constexpr const char* closedFormName = "closed-form";
 
 /// On which scale a ring was tested: of values, or of their ratios.
 enum class TestScale { linear, logarithmic };

@@ -19,14 +19,15 @@ struct EndpointRow {
   bool marginRelative = false;  ///< then engines are compared by their ratio
   std::string marginWhy;
   Answer answer = Answer::undecided;
-  std::optional<double> reference;              ///< mean over the packings of a [unit]
+  std::optional<double> reference;  ///< mean over the packings of a, or the expected value [unit]
   std::optional<double> difference, low, high;  ///< b − a, with the interval of the verdict [unit]
   /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
   /// wider by it.
   std::optional<double> distance, distanceLow, distanceHigh;
-  std::optional<int> look;         ///< that gave the answer, or the last, from 1
-  int packings = 0;                ///< that both have
-  int lost = 0;                    ///< that one has no value on, of those looked at
+  std::optional<int> look;  ///< that gave the answer, or the last, from 1
+  int packings = 0;         ///< that both have
+  int lost = 0;             ///< that one of both has no value on, of those looked at
+  std::string reason;  ///< why a run has none, or the margin does not apply; empty: as it should be
   std::optional<int> needs;        ///< undecided: packings that decide with 90 % chance,
   std::optional<int> needsAtMost;  ///< and at most so many; absent: no telling
   std::string carrierA, carrierB;  ///< the mirror whose runs stand for a, for b; empty: its own

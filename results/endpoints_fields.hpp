@@ -25,6 +25,7 @@ void fields(auto& io, EndpointRow& row) {
   io("look", row.look);
   io("packings", row.packings);
   io("lost", row.lost);
+  io.when(!row.reason.empty(), "reason", row.reason);
   io.present("needs", row.needs);
   io.present("needs_at_most", row.needsAtMost);
   io.when(!row.carrierA.empty(), "carrier_a", row.carrierA);

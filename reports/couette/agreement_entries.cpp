@@ -54,6 +54,12 @@ std::vector<const EndpointRow*> rowsOf(const Endpoints& endpoints, const std::st
   return rows;
 }
 
+std::vector<std::string> closedFormEngines(const Endpoints& endpoints) {
+  Endpoints rows = endpoints;
+  std::erase_if(rows, [](const EndpointRow& row) { return row.kind != PairKind::closedForm; });
+  return differentOnes(rows, &EndpointRow::b);
+}
+
 std::vector<std::string> peersOf(const Endpoints& endpoints,
                                  const std::vector<EngineRuns>& engines) {
   std::vector<std::string> peers;

@@ -25,6 +25,9 @@ const EndpointRow* rowOf(const Endpoints& endpoints, const std::string& a, const
 std::vector<const EndpointRow*> rowsOf(const Endpoints& endpoints, const std::string& a,
                                        const std::string& b);
 
+/// Engines that are compared with the case's expected values, in the order of the results.
+std::vector<std::string> closedFormEngines(const Endpoints& endpoints);
+
 /// Engines that are compared with the reference in their own name.
 std::vector<std::string> peersOf(const Endpoints& endpoints,
                                  const std::vector<EngineRuns>& engines);

@@ -44,13 +44,16 @@ Json answerCell(const CompareResults& results, const EndpointRow* row) {
   if (row->lost > 0)
     more += fmt::format("{}{} lost", more.empty() ? "" : "; ",
                         counted(static_cast<std::size_t>(row->lost), "packing"));
+  if (!row->reason.empty()) more += (more.empty() ? "" : ": ") + row->reason;
   std::string word = wordOf(row->answer);
   if (cell.state == CellState::modelDifference) word += " by the declared law";
   if (cell.state == CellState::notMeasured) word = "not judged";
   return {{"verdict", look.cssClass},
           {"symbol", look.mark},
           {"word", std::move(word)},
-          {"detail", distanceInWords(*row)},
+          {"detail", row->kind == PairKind::closedForm
+                         ? valueInWords(*row) + ", " + distanceInWords(*row)
+                         : distanceInWords(*row)},
           {"more", more}};
 }
 
@@ -97,7 +100,7 @@ Json pairRows(const CompareResults& results, bool peers) {
   Json rows = Json::array();
   std::vector<std::pair<std::string, std::string>> seen;
   for (const EndpointRow& row : results.endpoints.rows) {
-    if ((row.kind == PairKind::peer) != peers) continue;
+    if ((row.kind == PairKind::peer) != peers || row.kind == PairKind::closedForm) continue;
     const std::pair pair(row.a, row.b);
     if (std::ranges::find(seen, pair) != seen.end()) continue;
     seen.push_back(pair);
@@ -155,6 +158,10 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   view["peerColumns"] = peers;
   view["endpoints"] = endpointRows(results, reference, peers);
   view["hasAgreement"] = !endpoints.empty();
+  const auto judged = closedFormEngines(endpoints);
+  view["hasClosedForms"] = !judged.empty();
+  view["closedFormColumns"] = judged;
+  view["closedForms"] = endpointRows(results, closedFormName, judged);
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
     view["endpointColumns"].push_back(mathHtml(endpointSymbol(name, !results.region)));

@@ -52,16 +52,26 @@ std::string relationOf(const std::vector<const EndpointRow*>& rows) {
   return listed(parts);
 }
 
-/// Who agrees with the reference on what.
-std::string whoAgrees(const CompareResults& results, const Engines& engines) {
+std::string agreementWith(const CompareResults& results, const std::string& a, const char* called,
+                          const Names& names) {
   SaidOf said;
-  for (const std::string& peer : peersOf(results.endpoints.rows, engines))
-    said.add(peer, relationOf(rowsOf(results.endpoints.rows, engines.front().name, peer)));
-  if (said.empty()) return "No two engines could be compared.";
+  for (const std::string& name : names)
+    said.add(name, relationOf(rowsOf(results.endpoints.rows, a, name)));
   Names parts;
   for (const auto& [relation, peers] : said.all())
     parts.push_back(fmt::format("{} {}", listed(peers), relation));
-  return fmt::format("Against {}: {}.", engines.front().name, fmt::join(parts, "; "));
+  return fmt::format("Against {}: {}.", called, fmt::join(parts, "; "));
+}
+
+/// Who agrees with the closed forms, where the case has them, else with the reference, on what.
+std::string whoAgrees(const CompareResults& results, const Engines& engines) {
+  const Endpoints& rows = results.endpoints.rows;
+  if (const Names judged = closedFormEngines(rows); !judged.empty())
+    return agreementWith(results, closedFormName, "the closed forms", judged);
+  const Names peers = peersOf(rows, engines);
+  if (peers.empty()) return "No two engines could be compared.";
+  const std::string& reference = engines.front().name;
+  return agreementWith(results, reference, reference.c_str(), peers);
 }
 
 /// "normal" and "tangential" are laws; the others say what they are.
@@ -159,10 +169,17 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
     return fmt::format("Next: see the alarm on {}: {}.", alarm.b, alarm.what);
   const auto has = [&](Answer answer) {
     return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
-      return row.kind == PairKind::peer && row.answer == answer;
+      return (row.kind == PairKind::peer || row.kind == PairKind::closedForm) &&
+             row.answer == answer;
     });
   };
-  if (peersOf(results.endpoints.rows, engines).empty())
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.answer == Answer::undecided && !row.reason.empty() &&
+        (row.packings == 0 || row.kind == PairKind::closedForm))
+      return fmt::format("Next: {} has no value to judge: {}.", endpointWords(row.endpoint),
+                         row.reason);
+  if (closedFormEngines(results.endpoints.rows).empty() &&
+      peersOf(results.endpoints.rows, engines).empty())
     return "Next: name two engines that run this scene.";
   if (const EndpointRow* const next = nextToDecide(results)) {
     const LooksFindings& looks = results.endpoints.looks;

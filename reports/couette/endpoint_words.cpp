@@ -72,6 +72,15 @@ std::string needsInWords(const EndpointRow& row) {
   return fmt::format("{} to {} packings decide with 90 % chance", *row.needs, *row.needsAtMost);
 }
 
+std::string valueInWords(const EndpointRow& row) {
+  const std::string unit = row.unit == "-" ? "" : " " + row.unit;
+  const auto expected = finite(row.reference), difference = finite(row.difference);
+  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+  return fmt::format("{} for {}{}",
+                     expected && difference ? number(*expected + *difference) : absentText,
+                     expected ? number(*expected) : absentText, unit);
+}
+
 std::string carrierInWords(const EndpointRow& row) {
   std::vector<std::string> mirrors;
   for (const std::string& mirror : {row.carrierA, row.carrierB})
@@ -82,9 +91,12 @@ std::string carrierInWords(const EndpointRow& row) {
 
 std::string answerInWords(const EndpointRow& row) {
   std::string words = wordOf(row.answer);
+  if (row.kind == PairKind::closedForm)
+    words += fmt::format(" with the closed form ({})", valueInWords(row));
   if (const std::string distance = distanceInWords(row); !distance.empty())
     words += ": " + distance;
   if (row.lost > 0) words += fmt::format(", {} lost", counted(std::size_t(row.lost), "packing"));
+  if (!row.reason.empty()) words += fmt::format(" ({})", row.reason);
   for (const std::string& more : {carrierInWords(row), needsInWords(row)})
     if (!more.empty()) words += "; " + more;
   return words;

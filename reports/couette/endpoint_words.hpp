@@ -24,6 +24,9 @@ std::string distanceInWords(const EndpointRow& row);
 /// "24 to 60 packings decide with 90 % chance"; empty where nobody knows, or nothing is left.
 std::string needsInWords(const EndpointRow& row);
 
+/// "0.0688 for 0.069 m": an engine's value beside the closed form's.
+std::string valueInWords(const EndpointRow& row);
+
 /// "by grain-as-x, B = 0.002 margins"; empty: by its own runs.
 std::string carrierInWords(const EndpointRow& row);
 

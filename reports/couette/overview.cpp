@@ -78,9 +78,15 @@ const CarriedEngine* carriedBy(const CompareResults& results, const std::string&
 
 OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) {
   const std::string& reference = results.engines.front().name;
+  const Endpoints& rows = results.endpoints.rows;
+  if (const auto own = rowsOf(rows, closedFormName, engine.name); !own.empty()) {
+    const EndpointRow* worst = gravestOf(own);
+    OverviewCell cell = endpointCell(*worst, isModelDifference(results, engine));
+    cell.words += " by the closed form";
+    return cell;
+  }
   if (engine.name == reference)
     return {CellState::notApplicable, {}, "margins", {}, "the reference", {}};
-  const Endpoints& rows = results.endpoints.rows;
   if (const CarriedEngine* carried = carriedBy(results, engine.name)) {
     const EndpointRow* worst = gravestOf(rowsOf(rows, reference, carried->engine));
     OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
@@ -216,13 +222,15 @@ Overview compareOverview(const CompareResults& results) {
   Overview overview;
   if (results.engines.empty()) return overview;
   const std::string& reference = results.engines.front().name;
+  const bool closed = !closedFormEngines(results.endpoints.rows).empty();
   overview.columns = {
       {"own law",
        "Is the engine the law that it declares? Side by side with its mirror, step by "
        "step; the change of a constant that would part the mirror from itself as far.",
        results.lockstep ? "lockstep" : ""},
-      {"averages against " + reference,
-       "The endpoint that says most, as its distance from the reference in margins.",
+      {closed ? "closed forms" : "averages against " + reference,
+       closed ? "The endpoint farthest from its expected value, in margins."
+              : "The endpoint that says most, as its distance from the reference in margins.",
        results.endpoints.rows.empty() ? "" : "agreement"},
       {"CPU time per\u00a0s", "CPU time for a simulated second.", "engines"},
       {"packings lost", "Packings that the engine did not finish.", "packings"}};

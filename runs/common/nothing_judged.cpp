@@ -4,10 +4,18 @@
 
 #include <algorithm>
 
+#include "cases/flow.hpp"
+
 namespace crossgrain::inline runs {
 
 std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const EndpointRow> rows,
                                            std::size_t named) {
+  const auto judged = [](const EndpointRow& row) {
+    return row.kind == PairKind::closedForm && row.answer != Answer::undecided;
+  };
+  if (std::ranges::any_of(rows, judged)) return std::nullopt;
+  if (hasClosedForms(setup))
+    return NothingJudged{"no engine has a value that comes back when its one start is run again"};
   if (named < 2) return NothingJudged{"one engine has nothing to be held against", true};
   if (setup.averaging.endpoints.empty())
     return NothingJudged{setup.average ? "the case has no [[endpoints]]"

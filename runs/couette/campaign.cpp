@@ -39,6 +39,12 @@ double stepOf(const Case& setup) {
   return dt;
 }
 
+/// A step that is too large ends a run in any way, and no engine names it.
+std::string stepHint(const Case& setup, double dt) {
+  const std::string why = whyRiskyStep(setup, dt);
+  return why.empty() ? why : "; " + why;
+}
+
 }  // namespace
 
 Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
@@ -136,7 +142,7 @@ void Campaign::preparePackings(int count) {
            } catch (const Interrupted&) {
              throw;
            } catch (const std::exception& error) {
-             failures[at] = error.what();
+             failures[at] = error.what() + stepHint(setup_, setup_.preparation.dt.value_or(dt_));
            }
          }});
   }
@@ -220,8 +226,9 @@ KeptTask<CouetteRun>::Outcome Campaign::runOne(const Variant& variant, int packi
   } catch (const std::exception& error) {
     run.without = variant.without;
     run.status = RunStatus::failed;
-    run.reason = fmt::format("packing {}: {}", packing, error.what());
-    return {run, false, fmt::format("failed: {}", error.what())};
+    const std::string why = error.what() + stepHint(*variant.setup, dt_);
+    run.reason = fmt::format("packing {}: {}", packing, why);
+    return {run, false, "failed: " + why};
   }
 }
 

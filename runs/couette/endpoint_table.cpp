@@ -1,5 +1,7 @@
 #include "runs/couette/endpoint_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,33 +23,65 @@ struct TestedEndpoint {
   EndpointSpec endpoint;
   const Margin* margin;
   PairedSample sample;
+  double sign = 1.0;       ///< of the values whose ratio is tested
   double reference = 0.0;  ///< mean over packings of a [unit]
   std::optional<double> bound;
+  std::string reason;  ///< EndpointRow::reason
 };
 
 double testMargin(const EndpointSpec& endpoint, const Margin& margin) {
   return endpoint.byRatio ? std::log1p(margin.value) : margin.value;
 }
 
-/// Those that can be tested: what is not positive has no ratio, and its packing counts as lost.
-Numbers testable(const EndpointSpec& endpoint, Numbers values) {
+/// Of the values of a reference, for a margin that is a share of |reference|: +1 or −1; 0 where
+/// both occur or none, as a share of what may be 0 is no margin.
+double signOf(const Numbers& values) {
+  double sign = 0.0;
+  for (const auto& value : values) {
+    if (!value || *value == 0.0 || !std::isfinite(*value)) continue;
+    const double own = *value > 0.0 ? 1.0 : -1.0;
+    if (sign == -own) return 0.0;
+    sign = own;
+  }
+  return sign;
+}
+
+/// Those that can be tested: what is 0 or of another sign has no ratio, and its packing counts as
+/// lost.
+Numbers testable(const EndpointSpec& endpoint, Numbers values, double sign) {
   for (auto& value : values)
-    if (value && (!std::isfinite(*value) || (endpoint.byRatio && *value <= 0.0))) value.reset();
+    if (value && (!std::isfinite(*value) || (endpoint.byRatio && !(sign * *value > 0.0))))
+      value.reset();
   return values;
 }
 
-/// On the scale of the test.
-Numbers onScale(const EndpointSpec& endpoint, Numbers values) {
-  values = testable(endpoint, std::move(values));
+/// On the scale of the test, which rises with the value whatever its sign.
+Numbers onScale(const EndpointSpec& endpoint, Numbers values, double sign) {
+  values = testable(endpoint, std::move(values), sign);
   if (endpoint.byRatio)
     for (auto& value : values)
-      if (value) value = std::log(*value);
+      if (value) value = sign * std::log(sign * *value);
   return values;
 }
 
 /// A difference on the scale of the test as the one that it makes in the endpoint's unit.
 double inUnit(const TestedEndpoint& tested, double value) {
-  return tested.endpoint.byRatio ? tested.reference * std::expm1(value) : value;
+  return tested.endpoint.byRatio ? tested.reference * std::expm1(tested.sign * value) : value;
+}
+
+/// Why some of the values cannot be tested by their ratio; empty: all can.
+std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
+                       const Numbers& other) {
+  if (!endpoint.byRatio) return {};
+  const double sign = signOf(reference);
+  const auto has = [](const auto& value) { return value.has_value(); };
+  const auto fails = [sign](const auto& value) { return value && !(sign * *value > 0.0); };
+  if (sign == 0.0 && std::ranges::any_of(reference, has))
+    return "a relative margin is a share of the reference's value, which is 0 or of both signs "
+           "here: give absolute";
+  if (std::ranges::any_of(reference, fails) || std::ranges::any_of(other, fails))
+    return "values that are 0 or of another sign than the reference's have no ratio to it";
+  return {};
 }
 
 /// B in margins: the largest over the constants tried. Absent without a response.
@@ -67,9 +101,15 @@ bool isCarried(const EndpointPair& pair) {
 TestedEndpoint tested(const Case& setup, const EndpointSpec& endpoint, const Numbers& reference,
                       const Numbers& other) {
   const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
-  TestedEndpoint own{
-      endpoint, &margin, endpointSample(endpoint, margin, reference, other), 0.0, {}};
-  if (const auto mean = ensembleMean(testable(endpoint, reference))) own.reference = mean->mean;
+  TestedEndpoint own{endpoint,
+                     &margin,
+                     endpointSample(endpoint, margin, reference, other),
+                     signOf(reference),
+                     0.0,
+                     {},
+                     whyNoRatio(endpoint, reference, other)};
+  if (const auto mean = ensembleMean(testable(endpoint, reference, own.sign)))
+    own.reference = mean->mean;
   return own;
 }
 
@@ -83,6 +123,8 @@ std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const CouetteR
     TestedEndpoint tested =
         runs::tested(setup, endpoint, endpointByPacking(endpoint, setup, ours, packings),
                      endpointByPacking(endpoint, setup, theirs, packings));
+    for (const Runs& engine : {ours, theirs})
+      if (tested.reason.empty()) tested.reason = whyWithout(endpoint, setup, engine);
     if (isCarried(pair)) {
       tested.bound = boundOf(endpoint.name, pair.equivalent, responses);
       // Nothing is known of the true difference: no verdict can stand on these runs.
@@ -94,20 +136,30 @@ std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const CouetteR
   return family;
 }
 
-EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
-                  const std::optional<LookAnswer>& found) {
+/// All but what was found.
+EndpointRow emptyRow(const std::string& a, const std::string& b, PairKind kind,
+                     const EndpointSpec& endpoint, const Margin& margin) {
   EndpointRow row;
-  row.a = pair.a;
-  row.b = pair.b;
-  row.kind = pair.kind;
-  row.endpoint = tested.endpoint.name;
-  row.unit = tested.endpoint.unit;
-  row.margin = tested.margin->value;
-  row.marginRelative = tested.endpoint.byRatio;
-  row.marginWhy = tested.margin->why;
+  row.a = a;
+  row.b = b;
+  row.kind = kind;
+  row.endpoint = endpoint.name;
+  row.unit = endpoint.unit;
+  row.margin = margin.value;
+  row.marginRelative = endpoint.byRatio;
+  row.marginWhy = margin.why;
+  return row;
+}
+
+/// @param looked  packings
+EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
+                  const std::optional<LookAnswer>& found, int looked) {
+  EndpointRow row = emptyRow(pair.a, pair.b, pair.kind, tested.endpoint, *tested.margin);
+  row.reason = tested.reason;
   if (pair.runsOfA != pair.a) row.carrierA = pair.runsOfA;
   if (pair.runsOfB != pair.b) row.carrierB = pair.runsOfB;
   row.bound = tested.bound;
+  if (!found) row.lost = looked;  // neither has anything
   if (!found) return row;
   row.answer = found->answer;
   row.look = static_cast<int>(found->look) + 1;
@@ -185,8 +237,10 @@ void judge(const EndpointPair& pair, const std::vector<TestedEndpoint>& family,
   std::vector<PairedSample> samples;
   for (const TestedEndpoint& tested : family) samples.push_back(tested.sample);
   const auto found = answersAfterLooks(samples, plan, available);
+  const std::size_t looks = looksTaken(plan, available);
+  const int looked = looks > 0 ? plan.packings[looks - 1] : 0;
   for (std::size_t k = 0; k < family.size(); ++k)
-    judged.push_back({rowOf(pair, family[k], found[k]), family[k], found[k]});
+    judged.push_back({rowOf(pair, family[k], found[k], looked), family[k], found[k]});
 }
 
 std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPlan& plan) {
@@ -196,7 +250,69 @@ std::vector<EndpointRow> rowsOf(std::vector<JudgedEndpoint> judged, const LookPl
   return rows;
 }
 
+/// An endpoint of an engine whose start was run again.
+struct RepeatedValue {
+  std::optional<double> value;
+  int without = 0;     ///< runs that have none
+  std::string reason;  ///< why there is no value that can be judged
+};
+
+RepeatedValue repeatedValue(const EndpointSpec& endpoint, const Case& setup,
+                            std::span<const CouetteRun> runs, const std::string& engine) {
+  const Runs own = finishedRuns(runs, engine);
+  const Numbers values = endpointByPacking(endpoint, setup, own, closedFormRuns);
+  RepeatedValue found;
+  for (const auto& value : values)
+    if (!value)
+      ++found.without;
+    else if (found.value && *found.value != *value)
+      found.reason =
+          fmt::format("{} of one start run twice gives {} and {}", engine, *found.value, *value);
+    else
+      found.value = value;
+  if (found.without > 0) found.reason = whyWithout(endpoint, setup, own);
+  if (found.without > 0 && found.reason.empty())
+    found.reason =
+        fmt::format("{} of {} runs of {} have no value", found.without, closedFormRuns, engine);
+  if (!found.reason.empty()) found.value.reset();
+  return found;
+}
+
+void answerExactly(EndpointRow& row, const RepeatedValue& a, const RepeatedValue& b) {
+  row.packings = closedFormRuns - std::max(a.without, b.without);
+  row.lost = closedFormRuns - row.packings;
+  row.reason = a.reason.empty() ? b.reason : a.reason;
+  row.reference = a.value;
+  if (!a.value || !b.value) return;
+  row.difference = *b.value - *a.value;
+  row.distance = *row.difference / row.margin;
+  row.answer = !(std::abs(*row.distance) <= 1.0) ? Answer::disagree
+               : *row.difference == 0.0          ? Answer::noDifference
+                                                 : Answer::smallDifference;
+}
+
 }  // namespace
+
+std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const CouetteRun> runs,
+                                        const std::vector<std::string>& engines,
+                                        const std::vector<EndpointPair>& pairs) {
+  std::vector<EndpointRow> rows;
+  for (const OwnEndpoint& own : setup.average->endpoints) {
+    const EndpointSpec endpoint = endpointSpec(setup, own.name);
+    const Margin& margin = setup.averaging.endpoints.at(own.name);
+    const auto add = [&](const std::string& a, const std::string& b, PairKind kind,
+                         const RepeatedValue& first) {
+      rows.push_back(emptyRow(a, b, kind, endpoint, margin));
+      answerExactly(rows.back(), first, repeatedValue(endpoint, setup, runs, b));
+    };
+    for (const std::string& engine : engines)
+      add(closedFormName, engine, PairKind::closedForm, {own.expected, 0, {}});
+    for (const EndpointPair& pair : pairs)
+      if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b).empty())
+        add(pair.a, pair.b, pair.kind, repeatedValue(endpoint, setup, runs, pair.a));
+  }
+  return rows;
+}
 
 LookPlan looksOf(const Case& setup) {
   const int first = flowPackings(setup);
@@ -207,8 +323,9 @@ LookPlan looksOf(const Case& setup) {
 
 PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
                             Numbers other) {
-  return {onScale(endpoint, std::move(reference)),
-          onScale(endpoint, std::move(other)),
+  const double sign = signOf(reference);
+  return {onScale(endpoint, std::move(reference), sign),
+          onScale(endpoint, std::move(other), sign),
           testMargin(endpoint, margin),
           0.0,
           {}};
@@ -273,8 +390,9 @@ std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
     const EndpointSpec endpoint = endpointSpec(setup, name);
     CanaryNumber number{name, {}, {}, {}};
-    const Numbers pair = onScale(
-        endpoint, {endpointOf(endpoint, setup, mirror), endpointOf(endpoint, setup, engine)});
+    const Numbers own = {endpointOf(endpoint, setup, mirror)};
+    const Numbers pair =
+        onScale(endpoint, {own.front(), endpointOf(endpoint, setup, engine)}, signOf(own));
     if (pair[0] && pair[1])
       number.difference = (*pair[1] - *pair[0]) / testMargin(endpoint, allowed);
     const Pooled chaos = chaosOf(name, responses);

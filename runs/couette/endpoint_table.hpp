@@ -35,6 +35,13 @@ std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const Couette
                                       int available,
                                       const std::vector<EndpointResponse>& responses);
 
+/// Answers on endpoints with expected values, of runs of one start: each of these engines against
+/// the closed form, and pair by pair. Numbers that come back the same when the start is run again
+/// have no scatter: within the margin they agree, else they disagree. Others are undecided.
+std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const CouetteRun> runs,
+                                        const std::vector<std::string>& engines,
+                                        const std::vector<EndpointPair>& pairs);
+
 /// Values of one endpoint of two engines, in the order in which they were added.
 struct EndpointValues {
   std::string endpoint;  ///< that the case has a margin for
@@ -48,7 +55,7 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
                                       const LookPlan& plan);
 
 /// Two engines' values as they are put to the test: by difference, or by the logarithm of the
-/// ratio. @param margin  the case's
+/// ratio, for which all values of the reference need one sign. @param margin  the case's
 PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
                             Numbers other);
 

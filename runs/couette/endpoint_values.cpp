@@ -1,9 +1,13 @@
 #include "runs/couette/endpoint_values.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "averaging/fields.hpp"
 #include "runs/couette/flow_averages.hpp"
 #include "runs/couette/own_endpoints.hpp"
 
@@ -63,6 +67,13 @@ Value spinAtWheel(const Case& setup, const CouetteRun& run) {
   return inRing(setup, run, "spin", 0);
 }
 
+const OwnEndpoint* ownEndpoint(const Case& setup, std::string_view name) {
+  if (!setup.average) return nullptr;
+  const auto& endpoints = setup.average->endpoints;
+  const auto found = std::ranges::find(endpoints, name, &OwnEndpoint::name);
+  return found == endpoints.end() ? nullptr : &*found;
+}
+
 struct Formula {
   std::string_view endpoint;
   Value (*of)(const Case& setup, const CouetteRun& run);
@@ -80,37 +91,56 @@ constexpr std::array<Formula, 9> formulas = {{{"pressure", pressure},
 
 }  // namespace
 
-std::optional<double> cellMean(const Case& setup, const CouetteRun& run, std::string_view field) {
-  const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
-  if (!profile) return {};
-  const auto bins = binsOf(setup);
-  double sum = 0.0, area = 0.0;
-  std::size_t k = 0;  // profiles leave the overflow out
-  for (std::size_t slot = 0; slot < bins->slots() && k < profile->mean.size(); ++slot) {
-    if (bins->isOverflow(slot)) continue;
-    const auto& mean = profile->mean[k++];
-    if (!mean) continue;
-    const double own = bins->volume(slot);
-    sum += own * *mean;
-    area += own;
+WeightedBins weightedBins(const Case& setup, const CouetteRun& run, std::string_view field) {
+  const std::string& method = setup.averaging.methods.front();
+  const Profile* profile = profileOf(run.profiles, method, field);
+  const Profile* filling = profileOf(run.profiles, method, "volume_fraction");
+  if (!profile || !filling) return {};
+  const bool perVolume = fieldSpec(field).perVolume;
+  const bool any = std::ranges::any_of(profile->mean, [](const Value& x) { return x.has_value(); });
+  WeightedBins bins{profile->mean, {}};
+  const auto places = binsOf(setup);
+  // Profiles leave the overflow out.
+  for (std::size_t slot = 0; slot < places->slots(); ++slot) {
+    const std::size_t k = bins.weight.size();
+    if (places->isOverflow(slot) || k == bins.value.size()) continue;
+    const double filled = k < filling->mean.size() ? filling->mean[k].value_or(0.0) : 0.0;
+    bins.weight.push_back(places->volume(slot) * (perVolume ? 1.0 : filled));
+    if (perVolume && any && filled == 0.0) bins.value[k] = bins.value[k].value_or(0.0);
   }
-  return area > 0.0 ? Value(sum / area) : Value{};
+  return bins;
+}
+
+std::optional<double> cellMean(const Case& setup, const CouetteRun& run, std::string_view field) {
+  const auto [value, weight] = weightedBins(setup, run, field);
+  double sum = 0.0, whole = 0.0;
+  for (std::size_t k = 0; k < weight.size(); ++k) {
+    if (!value[k]) continue;
+    sum += weight[k] * *value[k];
+    whole += weight[k];
+  }
+  return whole > 0.0 ? Value(sum / whole) : Value{};
 }
 
 std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
                                  const CouetteRun& run) {
-  if (setup.average)
-    for (const OwnEndpoint& own : setup.average->endpoints)
-      if (own.name == endpoint.name) {
-        const Value value = ownEndpointOf(own, setup, run);
-        return value && std::isfinite(*value) ? value : Value{};
-      }
+  const auto finite = [](const Value& value) {
+    return value && std::isfinite(*value) ? value : Value{};
+  };
+  if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name))
+    return finite(ownEndpointOf(*own, setup, run).value);
   for (const Formula& formula : formulas)
-    if (formula.endpoint == endpoint.name) {
-      const Value value = formula.of(setup, run);
-      return value && std::isfinite(*value) ? value : Value{};
-    }
+    if (formula.endpoint == endpoint.name) return finite(formula.of(setup, run));
   throw std::logic_error("no formula of endpoint " + std::string(endpoint.name));
+}
+
+std::string whyWithout(const EndpointSpec& endpoint, const Case& setup, const Runs& runs) {
+  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
+  if (own)
+    for (const CouetteRun* run : runs)
+      if (const OwnValue found = ownEndpointOf(*own, setup, *run); !found.why.empty())
+        return fmt::format("{}, packing {}: {}", run->engine, run->packing, found.why);
+  return {};
 }
 
 Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cases/case.hpp"
 #include "cases/endpoints.hpp"
@@ -15,11 +16,24 @@ namespace crossgrain::inline runs {
 std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
                                  const CouetteRun& run);
 
+/// Of the first of these runs that has no value and of which more can be said than that there was
+/// nothing to measure: "yade, packing 3: no mean_x in 120 of 200 snapshots".
+std::string whyWithout(const EndpointSpec& endpoint, const Case& setup, const Runs& runs);
+
 /// Of one engine's finished runs, by packing index.
 Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
                           std::size_t packings);
 
-/// Area mean over the rings that have the field [its unit].
+/// A field bin by bin, as means and slopes over bins take it. What is per volume weighs the bin's
+/// volume and is 0 where a bin is empty; what is of the content weighs that, Σ w V = ν V: so a bin
+/// that holds next to nothing counts as one that holds nothing, and rounding decides nothing.
+struct WeightedBins {
+  Numbers value;               ///< [its unit]
+  std::vector<double> weight;  ///< as long [m³]
+};
+WeightedBins weightedBins(const Case& setup, const CouetteRun& run, std::string_view field);
+
+/// Mean of them over the cell, Σ weight · value / Σ weight [its unit].
 std::optional<double> cellMean(const Case& setup, const CouetteRun& run, std::string_view field);
 
 }  // namespace crossgrain::inline runs

@@ -52,6 +52,7 @@ class Sequence {
 
   EndpointFindings run() {
     firstLook();
+    if (hasClosedForms(setup_)) return closedForms();
     LooksFindings& looks = findings_.looks;
     while (looks.ended.empty()) {
       ++looks.taken;
@@ -64,6 +65,21 @@ class Sequence {
   }
 
  private:
+  /// Of one start: a further look would see the same again.
+  EndpointFindings closedForms() {
+    std::vector<std::string> engines;
+    for (std::size_t e = 0; e < campaign_.engines().size(); ++e)
+      if (const EngineEntry& entry = campaign_.engines()[e];
+          campaign_.refusal(e).empty() &&
+          (entry.mirrors.empty() || isNamed(command_.engines, entry)))
+        engines.push_back(entry.name);
+    findings_.looks = {};
+    findings_.looks.ended = "the case has one start";
+    findings_.rows =
+        closedFormRows(setup_, campaign_.runs(), engines, pairsOf(campaign_, command_.engines, {}));
+    return std::move(findings_);
+  }
+
   /// Everyone runs the first packings, but those that mirrors may carry, which run one. Beside them
   /// runs what tells how averages respond, which is asked for where there are such.
   void firstLook() {
@@ -256,7 +272,8 @@ std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<st
 EndpointFindings runInLooks(const Case& setup, Campaign& campaign, const RunCommand& command,
                             const LockstepFindings& lockstep, double budget) {
   Sequence sequence(setup, campaign, command, budget);
-  sequence.carry(carriedEngines(campaign, command.engines, lockstep));
+  if (!hasClosedForms(setup))  // where every engine answers for itself
+    sequence.carry(carriedEngines(campaign, command.engines, lockstep));
   return sequence.run();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "cases/flow.hpp"
 #include "cases/stable_step.hpp"
@@ -12,11 +14,28 @@
 namespace crossgrain::inline runs {
 
 RegionSeries::RegionSeries(const Case& setup, const Scene& scene)
-    : region_(setup.average->region), scene_(scene), bins_(binsOf(setup)) {}
+    : average_(*setup.average), region_(average_.region), scene_(scene), bins_(binsOf(setup)) {}
 
 void RegionSeries::add(const Snapshot& now) {
   addGlobalNumbers(rows_, scene_, now);
   addMoments(now);
+  addDisks(now);
+}
+
+void RegionSeries::addDisks(const Snapshot& now) {
+  std::set<std::string> added;  // two endpoints may share a column
+  for (const OwnEndpoint& own : average_.endpoints) {
+    if (!own.disk || !added.insert(own.series()).second) continue;
+    const auto i = static_cast<std::size_t>(*own.disk);
+    Numbers& row = rows_[own.series()];
+    if (own.quantity == "spin")
+      row.push_back(now.spin ? std::optional((*now.spin)[i]) : std::nullopt);
+    else {
+      const Vec2& pair = own.quantity.starts_with("velocity") ? now.velocity[i] : now.position[i];
+      row.push_back(own.quantity.ends_with("y") ? pair.y() : pair.x());
+    }
+  }
+  if (!added.empty()) rows_["velocity_t_s"].push_back(now.velocityTime);
 }
 
 void RegionSeries::addMoments(const Snapshot& now) {
@@ -62,6 +81,8 @@ void RegionAverages::add(const Snapshot& snapshot) {
 void RegionAverages::describe(const Realised& realised, CouetteRun& run) const {
   run.profiles = profiles_.profiles();
   run.series = series_.rows();
+  if (const auto times = run.series->find("velocity_t_s"); times != run.series->end())
+    for (auto& t : times->second) *t -= realised.velocityLag;
   const double diameter = flowDiameter(setup_);
   const auto mean = [&](const char* name) { return meanOf(valuesOf(*run.series, name)); };
   const auto add = [&](const char* name, std::optional<double> value, double factor = 1.0) {

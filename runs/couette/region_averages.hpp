@@ -6,7 +6,8 @@
 
 namespace crossgrain::inline runs {
 
-/// The numbers of a region at each snapshot, and of the whole scene (cases/average.hpp).
+/// The numbers of a region at each snapshot, of the whole scene, and of those disks that endpoints
+/// ask for (cases/average.hpp).
 class RegionSeries {
  public:
   /// Both outlive it.
@@ -19,7 +20,9 @@ class RegionSeries {
 
  private:
   void addMoments(const Snapshot& now);
+  void addDisks(const Snapshot& now);
 
+  const Average& average_;
   const Region& region_;
   const Scene& scene_;
   std::shared_ptr<const Coordinates> bins_;

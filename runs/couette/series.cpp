@@ -16,6 +16,10 @@ void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now) 
   rows["mean_overlap"].push_back(numbers.meanOverlap);
   rows["sliding_fraction"].push_back(numbers.slidingFraction);
   rows["pairs_listed"].push_back(numbers.listedPairs);
+  if (!now.ledger) return;
+  for (const LedgerTerm& term : ledgerTerms)
+    rows["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);
+  rows["energy_residual"].push_back(residual(*now.ledger));
 }
 
 void CouetteSeries::add(const Snapshot& now) {
@@ -31,10 +35,6 @@ void CouetteSeries::add(const Snapshot& now) {
   const auto motion = wheelMotion(scene_, now, ringsOf(setup_), setup_.cell.omega);
   rows_["wheel_slip"].push_back(motion ? std::optional(motion->slip) : std::nullopt);
   rows_["shear_share"].push_back(motion ? std::optional(motion->shear) : std::nullopt);
-  if (!now.ledger) return;
-  for (const LedgerTerm& term : ledgerTerms)
-    rows_["energy_" + std::string(term.name)].push_back(*now.ledger.*term.value);
-  rows_["energy_residual"].push_back(residual(*now.ledger));
 }
 
 }  // namespace crossgrain::inline runs

@@ -7,7 +7,8 @@
 
 namespace crossgrain::inline runs {
 
-/// Adds the numbers that any scene has: the snapshot's time, kinetic energy and what contacts show.
+/// Adds the numbers that any scene has: the snapshot's time, kinetic energy, what contacts show and
+/// the engine's ledger, where it keeps one.
 void addGlobalNumbers(RunSeries& rows, const Scene& scene, const Snapshot& now);
 
 /// Collects numbers of the whole cell over time.

@@ -87,6 +87,59 @@ TEST_F(Average, SaysWhatIsWrong) {
   expectMessage(scene + withLine(slabs, 5, "high = [0, 4]"), "must lie above and to the right");
 }
 
+TEST_F(Average, HasClosedForms) {
+  const std::string still = withLine(scene, 13, "");  // nothing is random
+  const auto with = [&](const std::string& keys, const std::string& rest = "") {
+    return still + slabs + endpoint(keys) + rest;
+  };
+  const std::string apex = "quantity = \"y\"\ndisk = 0\nat = \"maximum\"\nbetween = [1.5, 2]\n";
+  std::ofstream("case.toml") << with(apex + "expected = -4\nrelative = 0.1");
+  const Case c = loadCase("case.toml").front();
+  const OwnEndpoint& one = c.average->endpoints.front();
+  EXPECT_EQ(one.expected, -4.0);
+  EXPECT_EQ(one.disk, 0);
+  EXPECT_EQ(one.reduction, Reduction::maximum);
+  EXPECT_FALSE(one.byRatio);
+  EXPECT_NEAR(c.averaging.endpoints.at("one").value, 0.4, 1e-15);  // of |−4|
+  EXPECT_EQ(one.unit, "m");
+  std::ofstream("case.toml") << with(
+      "quantity = \"spin\"\ndisk = 0\nreaches = -3\nexpected = 1\nabsolute = 1");
+  EXPECT_EQ(loadCase("case.toml").front().average->endpoints.front().unit, "s");
+
+  expectMessage(with(apex + "expected = 0\nrelative = 0.1"), "give absolute");
+  expectMessage(scene + slabs + endpoint(apex + "expected = 1\nabsolute = 1"),
+                "endpoints[0].expected = 1: is of one start");
+  expectMessage(with(apex + "absolute = 1"), "no packing would differ from another");
+  expectMessage(with(apex + "expected = 1\nabsolute = 1", "[preparation]\npackings = 5\n"),
+                "preparation.packings = 5");
+  expectMessage(with(apex + "expected = 1\nabsolute = 1",
+                     "[[endpoints]]\nname = \"two\"\nquantity = \"spin\"\nabsolute = 1\nwhy = "
+                     "\"a reason\"\n"),
+                "endpoints[1].expected is missing");
+  expectMessage(with("quantity = \"y\"\ndisk = 99\nabsolute = 1"), "endpoints[0].disk = 99");
+  expectMessage(with("quantity = \"top\"\ndisk = 0\nabsolute = 1"), "x, y, velocity_x");
+  expectMessage(with("quantity = \"y\"\ndisk = 0\nat = \"end\"\ntime = 2\nabsolute = 1"),
+                "give one of them");
+  expectMessage(with("quantity = \"y\"\ndisk = 0\ntime = 9\nexpected = 1\nabsolute = 1"),
+                "endpoints[0].time = 9: snapshots are from 1.02 to 3 s");
+  expectMessage(with("quantity = \"spin\"\nreaches = 2\nabsolute = 1"), "not of a field");
+  expectMessage(with("quantity = \"disks\"\nbetween = [2, 1]\nabsolute = 1"),
+                "must be [from, to] in s");
+}
+
+TEST_F(Average, ReadsAllStartFilesFirstAndNamesTheLine) {
+  const std::string start = scene.substr(0, scene.find("[[")) +
+                            "[assembly.start]\nfile = [\"one.csv\", \"two.csv\"]\ndensity = 2\n";
+  write("one.csv", "x,y,radius\n0,1,0.5\n2,1,0.5\n");
+  write("two.csv", "# made by hand\nx,y,radius,fixed\n0,1,0.5,0\n\n4,1,0.5,0\n0,1,0.5,0\n");
+  expectMessage(start, "two.csv:6: disk 0 (line 3) and disk 2 (line 6) have the same centre");
+  write("two.csv", "x,y,radius\n0,1,0.5\n0.1,1,0.5\n");
+  expectMessage(start, "two.csv:3: disk 0 (line 2) and disk 1 (line 3) overlap by 0.9 m");
+  EXPECT_EQ(messageOf("case.toml").find("mm"), std::string::npos);  // near, but no thousandth
+  write("two.csv", "x,y,radius\n0,0.0037,3.7\n0.0074,0.0037,3.7\n");
+  expectMessage(start, "are radii in mm?");
+}
+
 TEST_F(Average, StartsFromAFile) {
   write("start.csv", "# made by hand\nx, y,radius,vy,fixed\n+0.0,+1,0.5,-2,0\r\n\n3,0,0.25,0,1\n");
   const std::string start =

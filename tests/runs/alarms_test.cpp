@@ -51,10 +51,29 @@ TEST(Alarms, AreRaisedBeyondTenMarginsUnlessItIsADisagreementAnyway) {
   EXPECT_EQ(said({}, {pressure(99.0, Answer::disagree)}), Words{});
 }
 
-TEST(Alarms, AreRaisedWhereMostPackingsHaveNoValue) {
-  EXPECT_EQ(said({}, {pressure(0.0, Answer::undecided, 3, 5)}),
+/// Eight packings of an engine, of which the first ones have a pressure.
+void addRuns(CompareResults& results, const std::string& engine, int there) {
+  for (int packing = 0; packing < 8; ++packing) {
+    CouetteRun run = filled(engine, 0.8);
+    run.packing = packing;
+    const std::optional<double> stress =
+        packing < there ? std::optional(100.0) : std::optional(0.0);
+    for (const char* field : {"stress_rr", "stress_pp"})
+      run.profiles.push_back({"slicing", field, "", {stress}, {}, {}, {}});
+    results.runs.push_back(std::move(run));
+  }
+}
+
+TEST(Alarms, AreRaisedWhereOneEngineHasNoValueOnMostPackings) {
+  CompareResults one, both;
+  addRuns(one, "a", 8);
+  addRuns(one, "b", 3);
+  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 3, 5)}),
             Words{"pressure is missing on 5 of 8 packings"});
-  EXPECT_EQ(said({}, {pressure(0.0, Answer::undecided, 4, 4)}), Words{});
+  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 4, 4)}), Words{});
+  addRuns(both, "a", 3);
+  addRuns(both, "b", 3);  // what neither has is no difference
+  EXPECT_EQ(said(both, {pressure(0.0, Answer::undecided, 3, 5)}), Words{});
 }
 
 TEST(Alarms, AreRaisedForAnotherRegimeOnMostPackings) {

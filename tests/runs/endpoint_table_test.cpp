@@ -51,7 +51,8 @@ TEST(Endpoints, AreAreaMeansRatiosOfThemAndTheRingAtTheWheel) {
   EXPECT_EQ(*value("stress_anisotropy"), 0.0);
   EXPECT_EQ(*value("coordination"), 3.5);
   EXPECT_EQ(*value("mean_velocity"), 0.8);  // a ring without disks has no velocity, and no weight
-  EXPECT_NEAR(*value("mean_spin"), 0.0, 1e-12);
+  // Over disks: 3·0.6 and 5·0.8 of their area lie in the two rings.
+  EXPECT_NEAR(*value("mean_spin"), (1.8 * -1.0 + 4.0 * 0.6) / 5.8, 1e-12);
   EXPECT_EQ(*value("velocity_at_wheel"), 0.8);
   EXPECT_EQ(*value("volume_fraction_at_wheel"), 0.6);
   EXPECT_EQ(*value("spin_at_wheel"), -1.0);
@@ -176,14 +177,92 @@ TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
                         {"a", "b"}, looksOf(setup));
   };
   const auto rows = rowsWith({-2.0, -2.0, -2.0, -2.0});
-  EXPECT_EQ(rows[0].answer, Answer::undecided);
-  EXPECT_EQ(rows[0].packings, 0);
+  EXPECT_EQ(rows[0].answer, Answer::noDifference);  // a margin of |−2|
+  EXPECT_EQ(rows[0].reference, -2.0);
   EXPECT_EQ(rows[1].answer, Answer::disagree);
-  const auto some = rowsWith({2.0, -2.0, 4.0, 0.0});
-  EXPECT_EQ(some[0].packings, 2);
-  EXPECT_EQ(some[0].lost, 2);
-  EXPECT_EQ(some[0].reference, 3.0);  // of those that are tested
+  const auto some = rowsWith({2.0, 2.0, 4.0, 0.0});
+  EXPECT_EQ(some[0].packings, 3);
+  EXPECT_EQ(some[0].lost, 1);
+  EXPECT_NEAR(*some[0].reference, 8.0 / 3.0, 1e-14);  // of those that are tested
+  EXPECT_NE(some[0].reason.find("0 or of another sign"), std::string::npos);
   EXPECT_EQ(some[1].answer, Answer::disagree);
+  for (const Numbers& none : {Numbers{2.0, -2.0, 4.0, 0.0}, Numbers{0.0, 0.0, 0.0, 0.0}}) {
+    const auto lost = rowsWith(none);
+    EXPECT_EQ(lost[0].answer, Answer::undecided);
+    EXPECT_EQ(lost[0].packings, 0);
+    EXPECT_EQ(lost[0].lost, 4);
+    EXPECT_NE(lost[0].reason.find("relative margin"), std::string::npos) << lost[0].reason;
+    EXPECT_EQ(lost[1].answer, Answer::disagree);
+  }
+}
+
+TEST(EndpointTable, ARelativeMarginIsOfTheSizeOfAReferenceBelowZero) {
+  Case setup = judging("pressure", {0.1, true, "because", ""});
+  const Numbers discharge = {-270.0, -260.0, -280.0, -275.0};
+  const auto rowOf = [&](double factor) {
+    Numbers other = discharge;
+    for (auto& value : other) *value *= factor;
+    return endpointRows(setup, {{"pressure", discharge, other}}, {"a", "b"}, looksOf(setup))
+        .front();
+  };
+  const EndpointRow close = rowOf(1.05), far = rowOf(1.3), back = rowOf(0.7);
+  EXPECT_EQ(close.answer, Answer::smallDifference);
+  EXPECT_NEAR(*close.difference, 0.05 * -271.25, 1e-9);  // b − a, as of any other endpoint
+  EXPECT_NEAR(*close.distance, -std::log(1.05) / std::log(1.1), 1e-12);
+  EXPECT_LE(*close.low, *close.high);
+  EXPECT_EQ(far.answer, Answer::disagree);
+  EXPECT_LT(*far.distance, 0.0);
+  EXPECT_EQ(back.answer, Answer::disagree);
+  EXPECT_GT(*back.difference, 0.0);
+  EXPECT_EQ(rowOf(-1.0).packings, 0);  // of another sign: nothing to divide
+}
+
+/// One disk at that height in every snapshot of both runs of one start.
+std::vector<CouetteRun> heights(const std::string& engine, double first, double second) {
+  std::vector<CouetteRun> runs;
+  for (const double y : {first, second}) {
+    CouetteRun run;
+    run.engine = engine;
+    run.packing = static_cast<int>(runs.size());
+    run.series = RunSeries{{"t_s", {1.0, 2.0}}, {"disk_0_y", {0.0, y}}};
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  OwnEndpoint apex;
+  apex.name = "apex";
+  apex.quantity = "y";
+  apex.disk = 0;
+  apex.reduction = Reduction::maximum;
+  apex.expected = 2.0;
+  apex.unit = "m";
+  setup.average.emplace().endpoints = {apex};
+  setup.averaging.endpoints["apex"] = {0.1, false, "because", ""};
+  EXPECT_EQ(flowPackings(setup), 2);
+  auto runs = heights("a", 2.05, 2.05);
+  append(runs, heights("b", 2.3, 2.3));
+  append(runs, heights("noisy", 2.0, 2.0 + 1e-15));
+  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b", 0.0};
+  const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].kind, PairKind::closedForm);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, 0.5, 1e-12);
+  EXPECT_EQ(rows[0].reference, 2.0);
+  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  EXPECT_NEAR(*rows[1].distance, 3.0, 1e-12);
+  EXPECT_EQ(rows[2].answer, Answer::undecided);  // never judged by a run that is another each time
+  EXPECT_NE(rows[2].reason.find("run twice"), std::string::npos);
+  EXPECT_FALSE(rows[2].difference);
+  EXPECT_EQ(rows[3].answer, Answer::disagree);  // a and b, 2.5 margins apart
+  EXPECT_NEAR(*rows[3].difference, 0.25, 1e-12);
+  // A run that failed is no second one.
+  runs[1].status = RunStatus::failed;
+  EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].answer, Answer::undecided);
 }
 
 TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
