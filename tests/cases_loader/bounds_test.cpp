@@ -107,7 +107,7 @@ TEST_F(LoaderErrors, MoreDisksThanACaseMayHave) {
 TEST_F(LoaderErrors, WholeNumbersBeyondTheGapsOfDoublesAreTaken) {
   write("case.toml", soundCase);
   for (const char* number : {"9007199254740993", "9223372036854775807"})
-    EXPECT_EQ(loadCase("case.toml", {std::string("law.kn=") + number}).front().law.kn,
+    EXPECT_EQ(loadCase("case.toml", {std::string("looks.budget=") + number}).front().looks.budget,
               std::strtod(number, nullptr));
 }
 
