@@ -4,13 +4,13 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "cases/loader_document.hpp"
 #include "stability/measures.hpp"
 #include "support/bad_input.hpp"
+#include "support/files.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string headOf(const fs::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
+  const std::string content = readFile(file).value_or("");
+  const std::string line = content.substr(0, content.find('\n'));
   const auto text = line.find_first_not_of("# ");
   return line.starts_with('#') && text != std::string::npos ? line.substr(text) : "";
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -15,7 +14,9 @@
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
 #include "support/data_folder.hpp"
+#include "support/files.hpp"
 #include "support/fingerprint.hpp"
+#include "support/input_file.hpp"
 #include "support/program.hpp"
 
 namespace crossgrain::inline cases {
@@ -26,10 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* extension = ".toml";
 
-std::string contentOf(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+/// Of a file that a program is stamped with; more is data that a program is not changed by [bytes].
+constexpr std::size_t longestNeed = std::size_t{1} << 30;
 
 /// A word of a command as a file, looked up where the command is started.
 fs::path inFolder(const std::string& word, const fs::path& folder) {
@@ -49,15 +48,18 @@ std::string besideThisProgram(const std::string& program) {
 /// Of a program that is changed while its version stays: the command, and the files that it names.
 std::string stampOf(const ProgramCall& call, const std::string& file,
                     const std::vector<fs::path>& needs = {}) {
-  std::string content = file;
-  for (const fs::path& path : needs) content += contentOf(path);
-  for (const std::string& word : call.argv) {
-    content += word + '\0';
+  std::uint64_t stamp = fnv1a(file);
+  const auto add = [&](const fs::path& path) {
     std::error_code none;
-    if (const fs::path path = inFolder(word, call.folder); fs::is_regular_file(path, none))
-      content += contentOf(path);
+    if (!fs::is_regular_file(path, none)) return;  // a folder is not looked into
+    readPieces(path, longestNeed, [&](std::string_view piece) { stamp = fnv1a(piece, stamp); });
+  };
+  for (const fs::path& path : needs) add(path);
+  for (const std::string& word : call.argv) {
+    stamp = fnv1a(word + '\0', stamp);
+    add(inFolder(word, call.folder));
   }
-  return fmt::format("program {:016x}", fnv1a(content));
+  return fmt::format("program {:016x}", stamp);
 }
 
 /// Why the program cannot be started, one line; empty: it can, as far as can be seen.
@@ -70,12 +72,16 @@ std::string whyNoProgram(const ProgramCall& call) {
   return isOnPath(program) ? "" : fmt::format("there is no program '{}' in PATH", program);
 }
 
-/// Which file it lacks; empty: none.
+/// Which file it lacks; empty: none. A folder is none.
 std::string whyIncomplete(const std::vector<fs::path>& needs) {
-  const auto lacking =
-      std::ranges::find_if(needs, [](const fs::path& file) { return !fs::exists(file); });
-  if (lacking == needs.end()) return {};
-  return fmt::format("there is no {}", lacking->lexically_normal().string());
+  for (const fs::path& file : needs) {
+    std::error_code none;
+    if (fs::is_directory(file, none)) continue;
+    const std::string why = whyNoFile(file), name = file.lexically_normal().string();
+    if (why == noSuchFile) return fmt::format("there is no {}", name);
+    if (!why.empty()) return fmt::format("{} {}", name, why);
+  }
+  return {};
 }
 
 /// The call with its stamp, made when an engine is first started and kept: engines that nobody
@@ -158,7 +164,7 @@ EngineEntry loadEngineFile(const fs::path& file) {
   std::vector<fs::path> needs;
   for (const std::string& word : words) needs.push_back(call.folder / word);
   EngineEntry entry = entryOf(std::move(name), std::move(summary), std::move(call));
-  entry.command = stampedOnce(entry.command(), contentOf(file), needs);
+  entry.command = stampedOnce(entry.command(), readFile(file).value_or(""), needs);
   entry.missing = [program = std::move(entry.missing), needs, install] {
     std::string why = program();
     if (why.empty()) why = whyIncomplete(needs);

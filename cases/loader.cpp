@@ -17,6 +17,7 @@
 #include "cases/time_step.hpp"
 #include "cases/volume_fraction.hpp"
 #include "oracle/impact.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline cases {
 namespace {

@@ -12,6 +12,7 @@
 #include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/time_step.hpp"
+#include "support/input_file.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {

@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string_view>
 
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
+#include "support/files.hpp"
 #include "support/input_file.hpp"
 
 namespace crossgrain::inline cases {
@@ -22,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view overridePrefix = "--set ";
 constexpr const char* caseExtension = ".toml";
-constexpr std::size_t longestName = 80;
+constexpr std::size_t longestCase = std::size_t{16} << 20;  ///< [bytes]
 
 constexpr std::string_view fragmentName = "fragment";
 /// Before the names of files outside the case's own folder; no file's name begins like that.
@@ -48,22 +46,14 @@ toml::table parse(std::string_view text, const std::string& source) {
   }
 }
 
-std::string textOf(const fs::path& file) {
-  try {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (stream) return text;
-  } catch (const std::ios_base::failure&) {
-    // Some files of the system can be opened and not be read.
-  }
-  throw BadInput(file.string() + ": cannot be read");
-}
-
 /// @param foreign  outside the case's own folder: nothing of it is quoted
 toml::table parseFile(const fs::path& file, bool foreign) {
   if (const std::string why = whyNoFile(file); !why.empty())
     throw BadInput(fmt::format("{}: {}{}", file.string(), why, nearestFile(file, caseExtension)));
-  const std::string text = textOf(file);
+  if (!isUtf8(file.string()))
+    throw BadInput(
+        fmt::format("{}: the name is not UTF-8: results could not hold it", file.string()));
+  const std::string text = readFile(file, longestCase).value_or("");
   if (!foreign) return parse(text, file.string());
   try {
     return toml::parse(text, std::string(foreignMark) + file.string());
@@ -239,15 +229,6 @@ void applyOverrides(toml::table& document, const std::vector<std::string>& overr
 }
 
 }  // namespace
-
-bool usableName(std::string_view name) {
-  const auto allowed = [](unsigned char c) {
-    return std::isalnum(c) ||
-           std::string_view("._-+").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  return !name.empty() && name.size() <= longestName && name.front() != '.' &&
-         std::ranges::all_of(name, allowed);
-}
 
 bool isOverride(const toml::source_region& source) {
   return source.path && source.path->starts_with(overridePrefix);

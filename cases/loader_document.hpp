@@ -32,12 +32,6 @@ toml::table readTomlFile(const std::filesystem::path& file);
 CaseDocument documentOf(const std::string& printed, const std::string& variant,
                         const std::string& fragment);
 
-/// Names of cases and variants become parts of file names and cells of CSV files: letters, digits
-/// and . _ - +, at most 80 of them, not starting with a dot.
-bool usableName(std::string_view name);
-inline constexpr const char* usableNameRule =
-    "must be of letters, digits and . _ - +, at most 80, and not start with a dot";
-
 /// A file as it is before variants and overrides, with all it extends. @throws BadInput
 CaseDocument readBaseDocument(const std::filesystem::path& file);
 

@@ -67,7 +67,9 @@ void convert(const Value& value, bool& target) {
 
 void convert(const Value& value, double& target, const Range& range) {
   if (!value.node.is_number()) value.failType("a number");
-  const double found = *value.node.value<double>();
+  // Of a whole number that no double is toml++ gives none; it is rounded as a decimal one is.
+  const auto whole = value.node.value_exact<std::int64_t>();
+  const double found = whole ? static_cast<double>(*whole) : *value.node.value_exact<double>();
   value.check(range, found);
   target = found + 0.0;  // −0 is 0
 }

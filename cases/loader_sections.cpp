@@ -161,6 +161,10 @@ void readLooks(Reader& in, Looks& looks) {
   in.finish();
 }
 
+/// No program answers in less than some milliseconds; what is longer than some years is none, and
+/// no clock holds it [s].
+constexpr double shortestTimeout = 0.01, longestTimeout = 1e9;
+
 void readRun(Reader& in, RunOptions& run) {
   static const std::vector<std::string> handovers = {"cold", "warm"};
   if (in.has("dt")) in.read("dt", run.dt.emplace(), positive("s"));
@@ -169,7 +173,7 @@ void readRun(Reader& in, RunOptions& run) {
   in.read("handover", run.handover, handovers);
   if (run.handover == "warm") in.fail("handover", "not yet supported; \"cold\" is");
   in.read("may_differ", run.mayDiffer, deviationNames());
-  in.read("timeout", run.timeout, positive("s"));
+  in.read("timeout", run.timeout, between(shortestTimeout, longestTimeout, "s"));
   static const std::vector<std::string> precisions(precisionNames.begin(), precisionNames.end());
   std::string precision = toString(run.precision);
   in.read("precision", precision, precisions);

@@ -15,6 +15,7 @@
 #include "support/fingerprint.hpp"
 #include "support/hdf5_file.hpp"
 #include "support/hdf5_trial.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -86,6 +87,7 @@ void writePacking(const Packing& packing, const std::filesystem::path& file) {
   out.write("spin", disks.spin);
   out.writeAttribute("wheel_angle", packing.wheelAngle);
   out.writeAttribute("hash", packing.hash);
+  out.writeChecksum();
   out.save();
 }
 
@@ -150,6 +152,7 @@ Packing readPackingFile(const std::filesystem::path& file, const DiskDefaults& d
   packing.wheelAngle = in.readAttribute("wheel_angle").value_or(0.0);
   if (!std::isfinite(packing.wheelAngle)) throw bad("wheel_angle is not finite");
   packing.hash = in.readTextAttribute("hash").value_or("");
+  packing.asWritten = in.isAsWritten();
   return packing;
 }
 
@@ -163,9 +166,25 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup, std::s
              kinds.inertiaFactor, most});
 }
 
-Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {
+std::optional<Packing> keptPacking(const std::filesystem::path& file, const std::string& hash,
+                                   const Case& setup, std::string& why, std::size_t most) {
+  if (whyNoFile(file) == noSuchFile) return std::nullopt;
   try {
-    tryReading(file, [&] { readPackingFile(file, defaults); });
+    Packing packing = readPacking(file, setup, most);
+    packing.fromCache = true;
+    if (packing.asWritten && packing.hash == hash) return packing;
+    why = fmt::format("{}: {}", file.string(),
+                      packing.asWritten ? "is another packing"
+                                        : "is not what was kept, or of an earlier version");
+  } catch (const BadInput& damaged) {
+    why = damaged.what();
+  }
+  return std::nullopt;
+}
+
+Packing readPacking(const std::filesystem::path& file, const DiskDefaults& defaults) {
+  tryReading(file, [&] { readPackingFile(file, defaults); });
+  try {
     return readPackingFile(file, defaults);
   } catch (const BadInput&) {
     throw;

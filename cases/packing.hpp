@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "adapters/scene.hpp"
@@ -17,7 +18,9 @@ struct Packing {
   double wallTime = 0.0;    ///< for which the walls of an assembly have moved [s]
   std::string fixed;        ///< fingerprint of disks of its file that stand still; empty: none
   std::string hash;         ///< of all that it was made from
+  bool asWritten = false;   ///< of a file: it is what writePacking() wrote, to the bit
   bool fromCache = false;
+  std::string anew;  ///< why the one that was kept was not used; empty: there was none, or it was
   std::string notCached;  ///< why it could not be kept for next time; empty if it could
 };
 
@@ -29,14 +32,21 @@ std::string packingHash(const Case& setup, int index, double dt);
 std::string contentHash(const Packing& packing);
 
 /// HDF5: datasets radius, mass, inertia (N), position, velocity (N × 2), spin (N), SI units, and
-/// the attributes wheel_angle and hash. Velocity, spin, mass and inertia may be absent from a file
-/// of the user's own: then they are zero, and what the case says for the radius.
+/// the attributes wheel_angle, hash and a checksum of all of it. Velocity, spin, mass and inertia
+/// may be absent from a file of the user's own: then they are zero, and what the case says for the
+/// radius.
 void writePacking(const Packing& packing, const std::filesystem::path& file);
 
 /// @param most  disks: more are refused
 /// @throws BadInput naming the file and what it lacks
 Packing readPacking(const std::filesystem::path& file, const Case& setup,
                     std::size_t most = mostDisks);
+
+/// What is kept in that file for that hash. Absent where there is none, and where it is another
+/// packing or no longer what was written: then `why` says so.
+std::optional<Packing> keptPacking(const std::filesystem::path& file, const std::string& hash,
+                                   const Case& setup, std::string& why,
+                                   std::size_t most = mostDisks);
 
 /// What a file of disks may leave out.
 struct DiskDefaults {

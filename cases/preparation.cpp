@@ -172,16 +172,10 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
                &setup.cell);
     return packing;
   }
-  const std::filesystem::path file = packingCacheFile(packingHash(setup, index, dt));
-  if (std::filesystem::exists(file)) {
-    try {
-      Packing packing = readPacking(file, setup);
-      packing.fromCache = true;
-      return packing;
-    } catch (const BadInput&) {
-      // A damaged file in the cache is prepared anew.
-    }
-  }
+  const std::string hash = packingHash(setup, index, dt);
+  const std::filesystem::path file = packingCacheFile(hash);
+  std::string why;
+  if (auto kept = keptPacking(file, hash, setup, why)) return *std::move(kept);
   Packing packing;
   if (const EngineEntry* const other = ownPreparer(setup)) {
     const ScratchFolder scratch;
@@ -190,6 +184,7 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
   } else {
     packing = preparePacking(setup, index, dt, engine, progress);
   }
+  packing.anew = why;
   try {
     writePacking(packing, file);
   } catch (const OutputError& error) {

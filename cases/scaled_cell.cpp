@@ -186,13 +186,11 @@ Packing scaledPacking(const Case& scaled, const std::filesystem::path& folder,
       fmt::format("{:016x}", fnv1a("scaled cell 1; " + packingHash(scaled, 0, timeStep(scaled))));
   const auto disks = static_cast<std::size_t>(scaled.particles.small + scaled.particles.large);
   const std::filesystem::path file = folder / fmt::format("scaled-{}-{}.h5", disks, hash);
-  if (std::filesystem::exists(file)) {
-    Packing kept = readPacking(file, scaled, mostScaled);
-    kept.fromCache = true;
-    return kept;
-  }
+  std::string why;
+  if (auto kept = keptPacking(file, hash, scaled, why, mostScaled)) return *std::move(kept);
   Packing packing = makePacking(scaled, progress);
   packing.hash = hash;
+  packing.anew = why;
   try {
     writePacking(packing, file);
   } catch (const std::exception& error) {

@@ -13,6 +13,7 @@
 #include "cases/case.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/input_file.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
@@ -143,7 +144,7 @@ class StartReader {
 Start readStart(const std::filesystem::path& file, const DiskDefaults& defaults) {
   if (file.extension() != ".csv") return {readPacking(file, defaults).disks, {}, {}};
   const auto text = readFile(file);
-  if (!text) throw BadInput(file.string() + ": cannot be read");
+  if (!text) throw BadInput(fmt::format("{}: {}", file.string(), noSuchFile));
   return StartReader(file, defaults).read(*text);
 }
 

@@ -10,6 +10,7 @@
 #include "cases/loader.hpp"
 #include "cases/loader_document.hpp"
 #include "cases/loader_reader.hpp"
+#include "support/input_file.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {

@@ -17,6 +17,8 @@
 #include "cli/reference.hpp"
 #include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
+#include "support/input_file.hpp"
+#include "support/json_text.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cli {
@@ -34,6 +36,10 @@ void requireKnownCommand(const std::string& name) {
 }  // namespace
 
 int runProgram(int argc, char** argv) {
+  for (int k = 1; k < argc; ++k)
+    if (!isUtf8(argv[k]))
+      throw BadInput(fmt::format("argument {} ({}) is not UTF-8: results could not hold it", k,
+                                 asOneLine(argv[k], 60)));
   CommandLine line;
   line.run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   line.run.commandLine =

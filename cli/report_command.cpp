@@ -14,6 +14,7 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
+#include "support/json_text.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -23,15 +24,14 @@ namespace {
 
 /// What is concluded from runs follows from them anew; all else is as it was.
 nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& folder,
-                             const std::optional<fs::path>& reasons) try {
+                             const std::optional<fs::path>& reasons) {
+  const fs::path file = folder / "results.json";
   if (results.at("kind") == kindThesis)
-    return toJson(judgedAgain(thesisFromJson(results), reasons));
+    return understood(file, [&] { return toJson(judgedAgain(thesisFromJson(results), reasons)); });
   if (reasons)
-    throw BadInput(fmt::format("--reasons: {} is not of thesis, whose claims have reasons",
-                               (folder / "results.json").string()));
+    throw BadInput(
+        fmt::format("--reasons: {} is not of thesis, whose claims have reasons", file.string()));
   return results;
-} catch (const FieldError& error) {
-  throw BadInput(fmt::format("{}: {}", (folder / "results.json").string(), error.what()));
 }
 
 struct ReportOptions {

@@ -37,6 +37,7 @@
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 
 namespace crossgrain {
 
@@ -197,6 +198,26 @@ ReportDigest write(const Kind<Results>& kind, const Results& results, Json docum
   return digest;
 }
 
+ReportDigest writeKind(const Json& results, const std::filesystem::path& dir,
+                       const std::filesystem::path& from) {
+  checkSchema(results, "results");
+  const std::string kind = results.at("kind");
+  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir, from);
+  if (kind == kindConformance)
+    return write(conformanceKind, conformanceFromJson(results), results, dir, from);
+  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir, from);
+  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir, from);
+  if (kind == kindLockstep)
+    return write(lockstepKind, lockstepFromJson(results), results, dir, from);
+  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir, from);
+  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir, from);
+  if (kind == kindStability)
+    return write(stabilityKind, stabilityFromJson(results), results, dir, from);
+  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir, from);
+  const CompareResults compared = compareFromJson(results);
+  return write(kindOf(compared), compared, results, dir, from);
+}
+
 }  // namespace
 
 void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
@@ -240,25 +261,8 @@ void writeReport(const ThesisResults& results, const std::filesystem::path& dir)
 }
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
-                         const std::filesystem::path& from) try {
-  checkSchema(results, "results");
-  const std::string kind = results.at("kind");
-  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir, from);
-  if (kind == kindConformance)
-    return write(conformanceKind, conformanceFromJson(results), results, dir, from);
-  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir, from);
-  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir, from);
-  if (kind == kindLockstep)
-    return write(lockstepKind, lockstepFromJson(results), results, dir, from);
-  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir, from);
-  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir, from);
-  if (kind == kindStability)
-    return write(stabilityKind, stabilityFromJson(results), results, dir, from);
-  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir, from);
-  const CompareResults compared = compareFromJson(results);
-  return write(kindOf(compared), compared, results, dir, from);
-} catch (const FieldError& error) {
-  throw BadInput(fmt::format("{}: {}", (from / "results.json").string(), error.what()));
+                         const std::filesystem::path& from) {
+  return understood(from / "results.json", [&] { return writeKind(results, dir, from); });
 }
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {

@@ -97,7 +97,7 @@ void fields(auto& io, SchemeScore& own) {
 
 /// Kept by itself, with the others of its engine and variant, as soon as it is there.
 void fields(auto& io, CollisionCurve& curve) {
-  io("engine", curve.engine);
+  io("engine", curve.engine, aName);
   io("dt", curve.dt);
   io("steps_per_contact", curve.stepsPerContact);
   io("status", curve.status);
@@ -122,7 +122,7 @@ void fields(auto& io, StickingLimit& sticking) {
 }
 
 void fields(auto& io, CollisionVariant& variant) {
-  io("case", variant.name);
+  io("case", variant.name, aName);
   io("variant", variant.variant);
   io("law", variant.law);
   io.present("effects", variant.effects);
@@ -143,8 +143,8 @@ void fields(auto& io, FittedOrder& fit) {
 
 /// Ψ_f's stands there twice, so that it is found at once.
 void fields(auto& io, ConvergenceOrder& order) {
-  io("engine", order.engine);
-  io("case", order.name);
+  io("engine", order.engine, aName);
+  io("case", order.name, aName);
   io("variant", order.variant);
   io("error_at", order.errorAt);
   io("quantities", order.of);

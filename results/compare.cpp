@@ -21,10 +21,10 @@ void fields(auto& io, AgreementRing& ring) {
 }
 
 void fields(auto& io, AgreementRow& row) {
-  io("a", row.a);
-  io("b", row.b);
+  io("a", row.a, aName);
+  io("b", row.b, aName);
   io("kind", row.kind);
-  io("field", row.field);
+  io("field", row.field, aField);
   io("margin", row.margin);
   io("margin_relative", row.marginRelative);
   io("margin_why", row.marginWhy);

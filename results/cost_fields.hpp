@@ -8,12 +8,12 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, CostPoint& point) {
-  io("engine", point.engine);
-  io("knob", point.knob);
+  io("engine", point.engine, aName);
+  io("knob", point.knob, aName);
   io("setting", point.setting);
   io("fragment", point.fragment);
   io("error_kind", point.kind);
-  io("measure", point.measure);
+  io("measure", point.measure, aName);
   io("dt_s", point.dt);
   io("steps_per_contact", point.stepsPerContact);
   io("error", point.error);
@@ -38,9 +38,9 @@ void fields(auto& io, LeftOut& left) {
 }
 
 void fields(auto& io, OrderFit& fit) {
-  io("engine", fit.engine);
+  io("engine", fit.engine, aName);
   io("error_kind", fit.kind);
-  io("measure", fit.measure);
+  io("measure", fit.measure, aName);
   io("integrator", fit.integrator);
   io("order", fit.order);
   io("stderr", fit.standardError);
@@ -57,16 +57,16 @@ void fields(auto& io, OrderFit& fit) {
 
 void fields(auto& io, Front& front) {
   io("error_kind", front.kind);
-  io("measure", front.measure);
-  io("engine", front.engine);
+  io("measure", front.measure, aName);
+  io("engine", front.engine, aName);
   io("points", front.points);
   io("errors", front.errors);
 }
 
 void fields(auto& io, Cheapest& row) {
-  io("engine", row.engine);
+  io("engine", row.engine, aName);
   io("error_kind", row.kind);
-  io("measure", row.measure);
+  io("measure", row.measure, aName);
   io("want", row.target);
   io("verdict", row.verdict);
   io("point", row.point);
@@ -77,10 +77,10 @@ void fields(auto& io, Cheapest& row) {
 }
 
 void fields(auto& io, Advice& advice) {
-  io("engine", advice.engine);
+  io("engine", advice.engine, aName);
   io("want", advice.target);
   io("verdict", advice.verdict);
-  io("knob", advice.knob);
+  io("knob", advice.knob, aName);
   io("setting", advice.setting);
   io("fragment", advice.fragment);
   io("kinds", advice.kinds);
@@ -95,12 +95,12 @@ void fields(auto& io, Advice& advice) {
 }
 
 void fields(auto& io, CostCell& cell) {
-  io("engine", cell.engine);
+  io("engine", cell.engine, aName);
   io("error_kind", cell.kind);
   io("basis", cell.basis);
   io("want", cell.target);
   io("verdict", cell.verdict);
-  io("knob", cell.knob);
+  io("knob", cell.knob, aName);
   io("setting", cell.setting);
   io("wall_s", cell.wallSeconds);
   io("point", cell.point);
@@ -132,37 +132,37 @@ void fields(auto& io, AveragedPacking& run) {
 
 void fields(auto& io, CostReference& reference) {
   io("error_kind", reference.kind);
-  io("engine", reference.engine);
+  io("engine", reference.engine, aName);
   io("setting", reference.setting);
   io("error", reference.error);
   io("note", reference.note);
 }
 
 void fields(auto& io, CostModel& model) {
-  io("engine", model.engine);
+  io("engine", model.engine, aName);
   io("error_kind", model.kind);
-  io("measure", model.measure);
+  io("measure", model.measure, aName);
   io("error", model.error);
   io("low", model.low);
   io("high", model.high);
 }
 
 void fields(auto& io, Startup& startup) {
-  io("engine", startup.engine);
+  io("engine", startup.engine, aName);
   io("start_s", startup.start);
   io("load_s", startup.load);
 }
 
 void fields(auto& io, StatisticalFall& fall) {
-  io("engine", fall.engine);
-  io("measure", fall.measure);
+  io("engine", fall.engine, aName);
+  io("measure", fall.measure, aName);
   io("rotations", fall.rotations);
   io("statistical", fall.statistical);
 }
 
 void fields(auto& io, CostResponse& response) {
-  io("measure", response.measure);
-  io("constant", response.constant);
+  io("measure", response.measure, aName);
+  io("constant", response.constant, aName);
   io("change", response.change);
   io("response", response.response);
   io("bound", response.bound);

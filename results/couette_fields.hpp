@@ -25,7 +25,7 @@ void fields(auto& io, CouetteCell& cell) {
 }
 
 void fields(auto& io, CouetteAveraging& averaging) {
-  io("method", averaging.method);
+  io("method", averaging.method, aName);
   io.present("settle_rotations", averaging.settleRotations);
   io.present("rotations", averaging.rotations);
   io.present("from_rotation", averaging.fromRotation);
@@ -59,7 +59,7 @@ void fields(auto& io, CouetteFrame& frame) {
   io.when(!frame.region, "cell", frame.cell);
   io.present("region", frame.region);
   io("averaging", frame.averaging);
-  io("effects", frame.effects);
+  io("effects", frame.effects, aName);
   io("rings", frame.rings);
   io("notes", frame.notes);
 }
@@ -69,9 +69,9 @@ void fields(auto& io, HeadNumber& number) {
   const bool mean = number.packings.has_value();
   std::optional<double> chi2;
   std::string reason;
-  io("name", number.name);
+  io("name", number.name, aName);
   io("value", number.value);
-  io("unit", number.unit);
+  io("unit", number.unit, aUnit);
   io.when(mean, "stderr", number.standardError);
   io.when(mean, "chi2_per_dof", chi2);
   io.when(mean, "reason", reason);
@@ -79,9 +79,9 @@ void fields(auto& io, HeadNumber& number) {
 }
 
 void fields(auto& io, FitRow& fit) {
-  io("name", fit.name);
+  io("name", fit.name, aName);
   io("label", fit.label);
-  io("unit", fit.unit);
+  io("unit", fit.unit, aUnit);
   io("value", fit.value);
   io("stderr", fit.standardError);
   io.when(fit.packings || fit.name != spinInRing1, "chi2_per_dof", fit.chi2PerDof);
@@ -93,7 +93,7 @@ void fields(auto& io, FitRow& fit) {
 }
 
 void fields(auto& io, CheckRow& check) {
-  io("name", check.name);
+  io("name", check.name, aName);
   io("label", check.label);
   io("value", check.value);
   io("reference", check.reference);
@@ -113,7 +113,7 @@ void fields(auto& io, RegimeRow& regime) {
 }
 
 void fields(auto& io, SeriesDrift& row) {
-  io("quantity", row.quantity);
+  io("quantity", row.quantity, aName);
   io("verdict", row.drift.verdict);
   io("change", row.drift.change);
   io("half_width", row.drift.half);
@@ -122,23 +122,23 @@ void fields(auto& io, SeriesDrift& row) {
 
 void fields(auto& io, EngineDrift& row) {
   fields(io, static_cast<SeriesDrift&>(row));
-  io("engine", row.engine);
+  io("engine", row.engine, aName);
   io("packings", row.packings);
   io("drifting", row.drifting);
 }
 
 void fields(auto& io, RegimesOfPair& pair) {
-  io("a", pair.a);
-  io("b", pair.b);
+  io("a", pair.a, aName);
+  io("b", pair.b, aName);
   io("kind", pair.kind);
   io("packings", pair.packings);
   io("differ", pair.differ);
 }
 
 void fields(auto& io, Profile& profile) {
-  io("method", profile.method);
-  io("field", profile.field);
-  io("unit", profile.unit);
+  io("method", profile.method, aName);
+  io("field", profile.field, aField);
+  io("unit", profile.unit, aUnit);
   io("mean", profile.mean);
   io("stderr", profile.standardError);
   io("n_eff", profile.nEff);
@@ -152,7 +152,7 @@ void fields(auto& io, Bins& axis) {
 }
 
 void fields(auto& io, Distribution& distribution) {
-  io("quantity", distribution.quantity);
+  io("quantity", distribution.quantity, aName);
   io("ring", distribution.ring);
   io("axes", distribution.axes);
   io("density", distribution.density);
@@ -162,8 +162,8 @@ void fields(auto& io, Distribution& distribution) {
 }
 
 void fields(auto& io, CouetteRun& run) {
-  io("engine", run.engine);
-  io.when(!run.without.empty(), "without", run.without);
+  io("engine", run.engine, aName);
+  io.when(!run.without.empty(), "without", run.without, aName);
   io("packing", run.packing);
   io("status", run.status);
   io("reason", run.reason);
@@ -181,8 +181,8 @@ void fields(auto& io, CouetteRun& run) {
 }
 
 void fields(auto& io, CouetteEnsemble& ensemble) {
-  io("engine", ensemble.engine);
-  io.when(!ensemble.without.empty(), "without", ensemble.without);
+  io("engine", ensemble.engine, aName);
+  io.when(!ensemble.without.empty(), "without", ensemble.without, aName);
   io("packings", ensemble.packings);
   io("profiles", ensemble.profiles);
   io("distributions", ensemble.distributions);

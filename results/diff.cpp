@@ -15,7 +15,7 @@ void fields(auto& io, DeclaredChange& change) {
 void fields(auto& io, CollisionChange& change) {
   io("name", change.name);
   io("variant", change.variant);
-  io("quantity", change.quantity);
+  io("quantity", change.quantity, aName);
   io("changed", change.changed);
   io("points", change.points);
   io("largest", change.largest);
@@ -24,8 +24,15 @@ void fields(auto& io, CollisionChange& change) {
   io("v_n", change.vn);
 }
 
+void fields(auto& io, ForcesChange& change) {
+  io("frames", change.frames);
+  io("normal", change.normal);
+  io("tangential", change.tangential);
+  io("walls", change.walls);
+}
+
 void fields(auto& io, DiffRow& row) {
-  io("engine", row.engine);
+  io("engine", row.engine, aName);
   io("version", row.version);
   io("before", row.before);
   io("version_before", row.versionBefore);
@@ -36,6 +43,8 @@ void fields(auto& io, DiffRow& row) {
   io("windows", row.windows);
   io("mirrored", row.mirrored);
   io("windows_verdict", row.windowsVerdict);
+  io("forces", row.forces);
+  io("forces_verdict", row.forcesVerdict);
   io("collisions", row.collisions);
   io("sweeps", row.sweeps);
   io("collisions_verdict", row.collisionsVerdict);

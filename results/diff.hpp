@@ -41,6 +41,13 @@ struct CollisionChange {
   double vn = 0.0;          ///< … and speed of approach [m/s]
 };
 
+/// Forces that are reported of the states that both came through.
+struct ForcesChange {
+  std::size_t frames = 0;                 ///< of such states
+  double normal = 0.0, tangential = 0.0;  ///< of a contact, in the largest normal force before [-]
+  double walls = 0.0;  ///< on a wall, in the largest force, or torque, before [-]
+};
+
 /// One engine against what was kept.
 struct DiffRow {
   std::string engine, version;        ///< now
@@ -52,8 +59,11 @@ struct DiffRow {
   std::optional<LockstepRow> windows;  ///< against those kept; absent of cases of collisions
   bool mirrored = false;  ///< a mirror of what was kept could be asked for the term that is off
   DiffVerdict windowsVerdict = DiffVerdict::notMeasured;
-  std::vector<CollisionChange> collisions;  ///< that are not the same bits
-  std::size_t sweeps = 0;                   ///< that were compared
+  std::optional<ForcesChange>
+      forces;  ///< absent where the engine does not report those of an instant
+  DiffVerdict forcesVerdict = DiffVerdict::notMeasured;  ///< differs, or nothing to tell
+  std::vector<CollisionChange> collisions;               ///< that are not the same bits
+  std::size_t sweeps = 0;                                ///< that were compared
   DiffVerdict collisionsVerdict = DiffVerdict::notMeasured;
   /// Averages of whole runs from each start against those kept; empty where none were kept, or
   /// where the windows are the same bits.

@@ -18,8 +18,8 @@ void fields(auto& io, RingChange& ring) {
 }
 
 void fields(auto& io, ChangedField& field) {
-  io("field", field.field);
-  io("unit", field.unit);
+  io("field", field.field, aField);
+  io("unit", field.unit, aUnit);
   io("judged", field.judged);
   io("verdict", field.verdict);
   io("rings", field.rings);
@@ -28,8 +28,8 @@ void fields(auto& io, ChangedField& field) {
 void fields(auto& io, EffectVariant& variant) {
   const bool ran = variant.status != EngineStatus::refused;
   const bool changes = ran && variant.isSwitched();
-  io("engine", variant.engine);
-  io("effect", variant.effect);
+  io("engine", variant.engine, aName);
+  io("effect", variant.effect, aName);
   io("status", variant.status);
   io("reason", variant.reason);
   io.when(ran, "step_s", variant.step);
@@ -44,7 +44,7 @@ void fields(auto& io, EffectVariant& variant) {
 }
 
 void fields(auto& io, SwitchRow& row) {
-  io("effect", row.effect);
+  io("effect", row.effect, aName);
   io("what", row.what);
 }
 

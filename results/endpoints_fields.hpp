@@ -6,11 +6,11 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, EndpointRow& row) {
-  io("a", row.a);
-  io("b", row.b);
+  io("a", row.a, aName);
+  io("b", row.b, aName);
   io("kind", row.kind);
-  io("endpoint", row.endpoint);
-  io("unit", row.unit);
+  io("endpoint", row.endpoint, aName);
+  io("unit", row.unit, aUnit);
   io("margin", row.margin);
   io("margin_relative", row.marginRelative);
   io("margin_why", row.marginWhy);
@@ -28,8 +28,8 @@ void fields(auto& io, EndpointRow& row) {
   io.when(!row.reason.empty(), "reason", row.reason);
   io.present("needs", row.needs);
   io.present("needs_at_most", row.needsAtMost);
-  io.when(!row.carrierA.empty(), "carrier_a", row.carrierA);
-  io.when(!row.carrierB.empty(), "carrier_b", row.carrierB);
+  io.when(!row.carrierA.empty(), "carrier_a", row.carrierA, aName);
+  io.when(!row.carrierB.empty(), "carrier_b", row.carrierB, aName);
   io.present("bound", row.bound);
 }
 
@@ -47,8 +47,8 @@ void fields(auto& io, LooksFindings& looks) {
 }
 
 void fields(auto& io, EndpointResponse& response) {
-  io("endpoint", response.endpoint);
-  io("constant", response.constant);
+  io("endpoint", response.endpoint, aName);
+  io("constant", response.constant, aName);
   io("change", response.change);
   io("difference", response.difference);
   io("bound", response.bound);
@@ -57,15 +57,15 @@ void fields(auto& io, EndpointResponse& response) {
 }
 
 void fields(auto& io, CanaryNumber& number) {
-  io("endpoint", number.endpoint);
+  io("endpoint", number.endpoint, aName);
   io("difference", number.difference);
   io("floor", number.floor);
   io("chance", number.chance);
 }
 
 void fields(auto& io, CarriedEngine& carried) {
-  io("engine", carried.engine);
-  io("mirror", carried.mirror);
+  io("engine", carried.engine, aName);
+  io("mirror", carried.mirror, aName);
   io("equivalent", carried.equivalent);
   io("starts", carried.starts);
   io("canary_packing", carried.canaryPacking);
@@ -75,8 +75,8 @@ void fields(auto& io, CarriedEngine& carried) {
 }
 
 void fields(auto& io, AlarmRow& alarm) {
-  io("a", alarm.a);
-  io("b", alarm.b);
+  io("a", alarm.a, aName);
+  io("b", alarm.b, aName);
   io("kind", alarm.kind);
   io("what", alarm.what);
 }

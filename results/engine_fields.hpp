@@ -7,10 +7,10 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, EngineRow& row) {
-  io("name", row.name);
+  io("name", row.name, aName);
   io("summary", row.summary);
   io("version", row.version);
-  io("mirrors", row.mirrors);
+  io("mirrors", row.mirrors, aName);
   io("status", row.status);
   io("reason", row.reason);
 }
@@ -29,7 +29,7 @@ T readAsProtocol(const Json& json, T (*read)(const Json&)) {
   try {
     return read(json);
   } catch (const std::exception& error) {
-    throw FieldError(std::string(": ") + error.what());
+    throw FieldError(": " + asOneLine(withoutPrefix(error.what()), 200));
   }
 }
 

@@ -10,12 +10,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "support/json_text.hpp"
 
 /// How the structs of this folder become JSON and come back. One list of a struct's members serves
 /// both ways; it stands beside the struct's toJson() and fromJson():
@@ -26,23 +27,39 @@
 ///       io.when(run.turns, "spin", run.spin);  // written where that holds, read where it is there
 ///     }
 ///
+/// A text that becomes part of a file's name, a command or a heading says what it can be, aName,
+/// aField or aUnit, and is refused where a file has anything else. All others are sentences, which
+/// whoever prints them has to quote.
+///
 /// Enumerators are written by name: constexpr auto namesOf(Verdict) { return std::array{…}; }.
 /// An absent optional is null; a number that is not finite is null too and comes back as NaN.
 namespace crossgrain::inline results {
 
 using Json = nlohmann::json;
 
-/// What a file holds is not what the struct has; the message begins with the path to it.
-class FieldError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// "leaves" and "1.length: is a text, …": "leaves.1.length: is a text, …".
 inline std::string path(const std::string& key, const FieldError& error) {
   const std::string_view rest = error.what();
   return fmt::format("{}{}{}", key, rest.starts_with(':') ? "" : ".", rest);
 }
+
+/// What a text can be.
+struct Words {
+  bool (*fit)(std::string_view);
+  std::string_view what;
+};
+
+/// Of engines, cases, variants, methods, quantities, …; empty where there is none.
+bool isName(std::string_view text);
+inline constexpr Words aName{isName, "a name of letters, digits and . _ - +"};
+
+/// Of a field: a name, and a unit, as averaging/fields.hpp has them.
+bool isField(std::string_view text);
+inline constexpr Words aField{isField, "a field (crossgrain list fields has them)"};
+
+/// "N/m²", "Ω D/d", "1"; empty where there is none.
+bool isUnit(std::string_view text);
+inline constexpr Words aUnit{isUnit, "a unit"};
 
 class FieldWriter;
 class FieldReader;
@@ -80,6 +97,14 @@ class FieldWriter {
   void when(bool there, const char* key, const T& value) {
     if (there) (*this)(key, value);
   }
+  template <typename T>
+  void operator()(const char* key, const T& value, const Words&) {
+    (*this)(key, value);
+  }
+  template <typename T>
+  void when(bool there, const char* key, const T& value, const Words&) {
+    when(there, key, value);
+  }
 
  private:
   Json& object_;
@@ -109,8 +134,26 @@ class FieldReader {
   void when(bool, const char* key, T& value) {
     (*this)(key, value);
   }
+  /// A text, or a list of such.
+  template <typename T>
+  void operator()(const char* key, T& value, const Words& words) {
+    (*this)(key, value);
+    if constexpr (std::is_same_v<T, std::string>)
+      require(key, value, words);
+    else
+      for (const std::string& each : value) require(key, each, words);
+  }
+  template <typename T>
+  void when(bool, const char* key, T& value, const Words& words) {
+    (*this)(key, value, words);
+  }
 
  private:
+  static void require(const char* key, const std::string& text, const Words& words) {
+    if (!words.fit(text))
+      throw FieldError(fmt::format("{}: is \"{}\", not {}", key, asOneLine(text, 60), words.what));
+  }
+
   const Json& object_;
 };
 

@@ -60,7 +60,7 @@ void fields(auto& io, NamedTerm& term) {
 }
 
 void fields(auto& io, LockstepRow& row) {
-  io("engine", row.engine);
+  io("engine", row.engine, aName);
   io("verdict", row.verdict);
   io("reason", row.reason);
   io("equivalent", row.equivalent);

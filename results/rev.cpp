@@ -5,9 +5,9 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, RevCurve& curve) {
-  io("method", curve.method);
-  io("field", curve.field);
-  io("unit", curve.unit);
+  io("method", curve.method, aName);
+  io("field", curve.field, aField);
+  io("unit", curve.unit, aUnit);
   io("r", curve.r);
   io("width", curve.width);
   io("mean", curve.mean);
@@ -15,8 +15,8 @@ void fields(auto& io, RevCurve& curve) {
 }
 
 void fields(auto& io, RevMeeting& meeting) {
-  io("method", meeting.method);
-  io("field", meeting.field);
+  io("method", meeting.method, aName);
+  io("field", meeting.field, aField);
   io("near", meeting.near);
   io("width", meeting.width);
   io("difference", meeting.difference);
@@ -24,7 +24,7 @@ void fields(auto& io, RevMeeting& meeting) {
 
 void fields(auto& io, RevResults& results) {
   fields(io, static_cast<CouetteFrame&>(results));
-  io("engine", results.engine);
+  io("engine", results.engine, aName);
   io("curves", results.curves);
   io("meetings", results.meetings);
 }

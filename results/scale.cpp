@@ -71,7 +71,7 @@ void fields(auto& io, ScaleCell& cell) {
 }
 
 void fields(auto& io, ScaleSharing& sharing) {
-  io("engine", sharing.engine);
+  io("engine", sharing.engine, aName);
   io("workers", sharing.workers);
 }
 

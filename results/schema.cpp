@@ -4,9 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cctype>
+#include <utility>
 
+#include "averaging/fields.hpp"
+#include "results/json_fields.hpp"
 #include "support/bad_input.hpp"
+#include "support/input_file.hpp"
+#include "support/json_text.hpp"
 
 namespace crossgrain::inline results {
 
@@ -34,21 +39,36 @@ std::string toText(const nlohmann::json& results) {
 }
 
 nlohmann::json readResultsFile(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in)
+  auto results = readJsonFile(file);
+  if (!results)
     throw BadInput(
         fmt::format("{}: cannot be read; a folder that compare, collide, lockstep, effects, "
                     "cost, stability, thesis, conformance, average or rev wrote has it",
                     file.string()));
-  nlohmann::json results;
-  try {
-    results = nlohmann::json::parse(in);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw BadInput(
-        fmt::format("{}: is not JSON, byte {}: {}", file.string(), error.byte, error.what()));
-  }
-  checkSchema(results, file.string());
-  return results;
+  checkSchema(*results, file.string());
+  return *std::move(results);
+}
+
+bool isName(std::string_view text) {
+  // Mirrors were once called "grain~yade".
+  std::string name(text);
+  std::erase(name, '~');
+  return text.empty() || usableName(name);
+}
+
+bool isField(std::string_view text) {
+  for (const auto& table : {fieldTable(), cartesianFieldTable()})
+    if (std::ranges::find(table, text, &FieldSpec::name) != table.end()) return true;
+  return false;
+}
+
+bool isUnit(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  const auto allowed = [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) ||
+           std::string_view(" /^()%-.,_·").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  return text.size() <= longest && std::ranges::all_of(text, allowed);
 }
 
 }  // namespace crossgrain::inline results

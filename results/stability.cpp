@@ -6,13 +6,13 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, HardCase& setup) {
-  io("case", setup.name);
+  io("case", setup.name, aName);
   io("variant", setup.variant);
   io("file", setup.file);
   io("tests", setup.tests);
-  io("measure", setup.measure);
+  io("measure", setup.measure, aName);
   io("what", setup.what);
-  io("unit", setup.unit);
+  io("unit", setup.unit, aUnit);
   io("limit", setup.limit);
   io("degraded_limit", setup.degradedLimit);
   io("why", setup.why);

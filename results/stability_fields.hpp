@@ -14,16 +14,16 @@ void fields(auto& io, MeasureCurve& curve) {
 
 /// Kept by itself as soon as it is there.
 void fields(auto& io, StabilityRun& run) {
-  io("engine", run.engine);
-  io("case", run.name);
+  io("engine", run.engine, aName);
+  io("case", run.name, aName);
   io("variant", run.variant);
   io("status", run.status);
   io("verdict", run.verdict);
-  io("measure", run.measure);
+  io("measure", run.measure, aName);
   io("value", run.value);
   io("limit", run.limit);
   io("degraded_limit", run.degradedLimit);
-  io("unit", run.unit);
+  io("unit", run.unit, aUnit);
   io("step", run.step);
   io("time_s", run.time);
   io.present("worst_time_s", run.worstTime);

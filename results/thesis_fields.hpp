@@ -8,7 +8,7 @@
 namespace crossgrain::inline results {
 
 void fields(auto& io, ThesisLeg& leg) {
-  io("name", leg.name);
+  io("name", leg.name, aName);
   io("purpose", leg.purpose);
   io("file", leg.file);
   io("families", leg.families);
@@ -45,8 +45,8 @@ void fields(auto& io, RingAverages& averages) {
 }
 
 void fields(auto& io, ThesisRun& run) {
-  io("leg", run.leg);
-  io("engine", run.engine);
+  io("leg", run.leg, aName);
+  io("engine", run.engine, aName);
   io("packing", run.packing);
   io("seed", run.seed);
   io("key", run.key);
@@ -58,7 +58,7 @@ void fields(auto& io, ThesisRun& run) {
 
 void fields(auto& io, ClaimFigure& figure) {
   io("name", figure.name);
-  io("unit", figure.unit);
+  io("unit", figure.unit, aUnit);
   io("value", figure.value);
   io("stderr", figure.standardError);
   io("low", figure.low);
@@ -70,8 +70,8 @@ void fields(auto& io, ClaimFigure& figure) {
 void fields(auto& io, ClaimRow& row) {
   io("id", row.id);
   io("claim", row.claim);
-  io("engine", row.engine);
-  io("carrier", row.carrier);
+  io("engine", row.engine, aName);
+  io("carrier", row.carrier, aName);
   io("reading", row.reading);
   io("figures", row.figures);
   io("verdict", row.verdict);
@@ -82,8 +82,8 @@ void fields(auto& io, ClaimRow& row) {
 }
 
 void fields(auto& io, ThesisCarrier& carrier) {
-  io("engine", carrier.engine);
-  io("mirror", carrier.mirror);
+  io("engine", carrier.engine, aName);
+  io("mirror", carrier.mirror, aName);
   io("carries", carrier.carries);
   io("equivalent", carrier.equivalent);
   io("starts", carrier.starts);

@@ -4,9 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <iterator>
+#include <span>
+
+#include "support/bad_input.hpp"
+#include "support/input_file.hpp"
+#include "support/interrupt.hpp"
+#include "support/regular_file.hpp"
 
 namespace crossgrain::inline support {
 
@@ -63,7 +68,8 @@ void makeDirectory(const std::filesystem::path& dir) {
 
 void writeFile(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path part = file.string() + fmt::format(".part{}", ::getpid());
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  ::unlink(part.c_str());  // what is there may be a link that leads elsewhere
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) throw OutputError(file, errno);
   int error = writeAll(descriptor, content);
   if (::close(descriptor) != 0 && error == 0) error = errno;
@@ -73,10 +79,42 @@ void writeFile(const std::filesystem::path& file, std::string_view content) {
   throw OutputError(file, error);
 }
 
-std::optional<std::string> readFile(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(in), {});
+bool readPieces(const std::filesystem::path& file, std::size_t most,
+                const std::function<void(std::string_view)>& take) {
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput(fmt::format("{}: {}", file.string(), why));
+  };
+  const RegularFile in(file);
+  if (in.state() == RegularFile::State::missing) {
+    const std::string why = whyNoFile(file);
+    if (why == noSuchFile) return false;
+    refuse(why.empty() ? "cannot be read" : why);
+  }
+  if (in.state() == RegularFile::State::special) refuse(whyNoFile(file));
+  constexpr double mega = 1e6;
+  // What a file of the system has is only known once it is read.
+  std::string piece(std::size_t{1} << 20, '\0');
+  for (std::size_t done = 0;;) {
+    throwIfInterrupted();
+    if (in.size() > most || done > most)
+      refuse(fmt::format("has {:.1f} MB; at most {:.1f} MB are read",
+                         static_cast<double>(std::max(in.size(), done)) / mega,
+                         static_cast<double>(most) / mega));
+    errno = 0;
+    const std::size_t got = in.read(done, std::as_writable_bytes(std::span(piece)));
+    if (got == 0) {
+      if (errno != 0 || done < in.size()) refuse("cannot be read");
+      return true;
+    }
+    take(std::string_view(piece).substr(0, got));
+    done += got;
+  }
+}
+
+std::optional<std::string> readFile(const std::filesystem::path& file, std::size_t most) {
+  std::string text;
+  if (!readPieces(file, most, [&](std::string_view piece) { text += piece; })) return std::nullopt;
+  return text;
 }
 
 }  // namespace crossgrain::inline support

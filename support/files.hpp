@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -36,7 +38,19 @@ void makeDirectory(const std::filesystem::path& dir);
 /// whole new one. @throws OutputError; the old file, if any, is then as it was
 void writeFile(const std::filesystem::path& file, std::string_view content);
 
-/// The whole file; absent if it cannot be read.
-std::optional<std::string> readFile(const std::filesystem::path& file);
+/// The most that is read of a file which is taken into memory whole [bytes].
+inline constexpr std::size_t longestText = std::size_t{1} << 30;
+
+/// Hands out a file that others may have made, piece by piece.
+/// @returns whether there is one
+/// @throws BadInput where it is no regular file (a pipe or a device might never end), is longer
+/// than
+///         `most` or cannot be read; Interrupted
+bool readPieces(const std::filesystem::path& file, std::size_t most,
+                const std::function<void(std::string_view)>& take);
+
+/// The whole file; absent if there is none. @throws as readPieces()
+std::optional<std::string> readFile(const std::filesystem::path& file,
+                                    std::size_t most = longestText);
 
 }  // namespace crossgrain::inline support

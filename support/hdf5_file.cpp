@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "support/files.hpp"
+#include "support/fingerprint.hpp"
 #include "support/input_file.hpp"
 
 namespace crossgrain::inline support {
@@ -85,7 +86,6 @@ bool isWhole(const Handle& set, const Handle& type, std::size_t count) {
   const Handle how(H5Dget_create_plist(set));
   const H5D_layout_t layout = H5Pget_layout(how);
   if (layout == H5D_CHUNKED) return true;
-  if (layout == H5D_CONTIGUOUS && H5Pget_external_count(how) != 0) return false;
   const hsize_t kept = H5Dget_storage_size(set);
   return (layout == H5D_COMPACT || layout == H5D_CONTIGUOUS) &&
          (kept == count * H5Tget_size(type) || (kept == 0 && layout == H5D_CONTIGUOUS));
@@ -97,7 +97,30 @@ std::unique_lock<std::mutex> lockLibrary() {
   // take, and crash. Files are closed one by one; there is nothing left for it to do.
   [[maybe_unused]] static const herr_t quiet = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are exceptions here, not print-outs
+  // A link of a file of others may lead to any file of this user, or to a pipe that never ends:
+  // none is followed out of a file.
+  [[maybe_unused]] static const herr_t within = H5Lunregister(H5L_TYPE_EXTERNAL);
   return lock;
+}
+
+/// Of an array or attribute, whichever order they come in; integers as the doubles that they are
+/// read as.
+std::uint64_t checksumOf(const std::string& name, std::string_view bytes) {
+  return fnv1a(bytes, fnv1a(name));
+}
+
+std::string_view bytesOf(const double* values, std::size_t count) {
+  return {reinterpret_cast<const char*>(values), count * sizeof *values};
+}
+
+constexpr const char* checksumName = "crossgrain_checksum";
+
+/// How an array is kept; in other files, "virtual", is no way to keep one here.
+bool isOfThisFile(const Handle& set) {
+  const Handle how(H5Dget_create_plist(set));
+  const H5D_layout_t layout = H5Pget_layout(how);
+  return layout == H5D_COMPACT || layout == H5D_CHUNKED ||
+         (layout == H5D_CONTIGUOUS && H5Pget_external_count(how) == 0);
 }
 
 }  // namespace
@@ -115,7 +138,8 @@ Hdf5File::Hdf5File(Hdf5File&& other) noexcept
     : lock_(std::move(other.lock_)),
       file_(std::exchange(other.file_, -1)),
       name_(std::move(other.name_)),
-      place_(other.place_) {}
+      place_(other.place_),
+      seen_(std::move(other.seen_)) {}
 
 Hdf5File::~Hdf5File() {
   if (file_ >= 0) H5Fclose(file_);
@@ -133,7 +157,9 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file) {
 
 Hdf5File Hdf5File::append(const std::filesystem::path& file) {
   auto lock = lockLibrary();
-  const bool there = std::filesystem::exists(file);
+  const std::string why = whyNoFile(file);
+  const bool there = why != noSuchFile;
+  if (there && !why.empty()) throw OutputError(file, why);
   // A lock would live on in worker processes that are started while the file is open.
   const Handle access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_file_locking(access, /*use=*/false, /*ignore when disabled=*/true);
@@ -181,17 +207,39 @@ void Hdf5File::writeArray(const std::string& path, const void* values, hid_t typ
   check(set < 0 ? -1 : H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
 }
 
+void Hdf5File::saw(const std::string& name, std::string_view bytes) const {
+  seen_[name] = checksumOf(name, bytes);
+}
+
+std::string Hdf5File::checksum() const {
+  std::uint64_t sum = 0;
+  for (const auto& [name, own] : seen_) sum += own;
+  return fmt::format("{:016x}", sum);
+}
+
+void Hdf5File::writeChecksum() {
+  writeAttribute(checksumName, checksum());
+}
+
+bool Hdf5File::isAsWritten() const {
+  const std::string own = checksum();  // before the attribute is read
+  return readTextAttribute(checksumName) == own;
+}
+
 void Hdf5File::write(const std::string& path, const double* values, std::size_t rows,
                      std::size_t columns) {
   writeArray(path, values, H5T_NATIVE_DOUBLE, rows, columns);
+  saw(path, bytesOf(values, rows * columns));
 }
 
 void Hdf5File::write(const std::string& path, const std::vector<double>& values) {
-  writeArray(path, values.data(), H5T_NATIVE_DOUBLE, values.size(), 1);
+  write(path, values.data(), values.size(), 1);
 }
 
 void Hdf5File::write(const std::string& path, const std::vector<std::int32_t>& values) {
   writeArray(path, values.data(), H5T_NATIVE_INT32, values.size(), 1);
+  const std::vector<double> read(values.begin(), values.end());
+  saw(path, bytesOf(read.data(), read.size()));
 }
 
 void Hdf5File::writeAttribute(const std::string& name, double value) {
@@ -199,6 +247,7 @@ void Hdf5File::writeAttribute(const std::string& name, double value) {
   const Handle attribute(
       H5Acreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT));
   check(attribute < 0 ? -1 : H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), name);
+  saw(name, bytesOf(&value, 1));
 }
 
 void Hdf5File::writeAttribute(const std::string& name, const std::string& value) {
@@ -207,6 +256,7 @@ void Hdf5File::writeAttribute(const std::string& name, const std::string& value)
   H5Tset_size(type, value.size() + 1);
   const Handle attribute(H5Acreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
   check(attribute < 0 ? -1 : H5Awrite(attribute, type, value.c_str()), name);
+  saw(name, value);
 }
 
 bool Hdf5File::holds(const std::string& path) const {
@@ -220,6 +270,8 @@ bool Hdf5File::holds(const std::string& path) const {
 std::optional<std::size_t> Hdf5File::length(const std::string& path) const {
   if (!holds(path)) return std::nullopt;
   const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
+  if (set < 0) fail(name_, path + " cannot be opened: it leads nowhere, or into another file");
+  if (!isOfThisFile(set)) fail(name_, path + " is kept in another file");
   const Handle space(H5Dget_space(set));
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   // A damaged file may claim any size, and room is taken before anything is read. Packed are at
@@ -242,6 +294,7 @@ std::optional<std::vector<double>> Hdf5File::read(const std::string& path) const
   std::vector<double> values(*count);
   if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail(name_, path + " cannot be read");
+  saw(path, bytesOf(values.data(), values.size()));
   return values;
 }
 
@@ -252,6 +305,7 @@ std::optional<double> Hdf5File::readAttribute(const std::string& name) const {
   if (!isOneValue(attribute) || !isOfNumbers(Handle(H5Aget_type(attribute))) ||
       H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
     fail(name_, name + " is not one number");
+  saw(name, bytesOf(&value, 1));
   return value;
 }
 
@@ -266,6 +320,7 @@ std::optional<std::string> Hdf5File::readTextAttribute(const std::string& name) 
     if (H5Aread(attribute, type, &text) < 0 || !text) fail(name_, name + " cannot be read");
     const std::string copy = text;
     H5free_memory(text);
+    saw(name, copy);
     return copy;
   }
   constexpr std::size_t most = 1 << 16;  // a damaged file may claim gigabytes
@@ -273,6 +328,7 @@ std::optional<std::string> Hdf5File::readTextAttribute(const std::string& name) 
   std::string value(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, value.data()) < 0) fail(name_, name + " cannot be read");
   value.resize(std::min(value.find('\0'), value.size()));
+  saw(name, value);
   return value;
 }
 

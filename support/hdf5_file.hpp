@@ -3,10 +3,13 @@
 #include <hdf5.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace crossgrain::inline support {
@@ -38,6 +41,12 @@ class Hdf5File {
   void writeAttribute(const std::string& name, double value);
   void writeAttribute(const std::string& name, const std::string& value);
 
+  /// Writes, of all that was written so far, a checksum of names and contents.
+  void writeChecksum();
+  /// Whether what was read so far is all that the file's checksum is of, to the bit: no less, no
+  /// more.
+  bool isAsWritten() const;
+
   /// Writes what create() or append() began. @throws OutputError
   void save();
 
@@ -58,11 +67,14 @@ class Hdf5File {
   void writeArray(const std::string& path, const void* values, hid_t type, std::size_t rows,
                   std::size_t columns);
   void check(herr_t status, const std::string& what) const;
+  void saw(const std::string& name, std::string_view bytes) const;
+  std::string checksum() const;
 
   std::unique_lock<std::mutex> lock_;
   hid_t file_;
   std::filesystem::path name_;
   Place place_;
+  mutable std::map<std::string, std::uint64_t> seen_;  ///< checksums of what was written or read
 };
 
 /// fork(), while no other thread is within HDF5: the new process may use it.

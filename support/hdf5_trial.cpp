@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,10 +13,12 @@
 #include <cstdint>
 #include <fstream>
 #include <new>
-#include <stdexcept>
 #include <string>
 
+#include "support/bad_input.hpp"
+#include "support/descriptor.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::inline support {
 namespace {
@@ -58,6 +61,24 @@ void setBounds(const std::filesystem::path& file) {
   }
 }
 
+/// Waits until the trial is over; the user need not. What waits for a file system that does not
+/// answer takes no CPU time, so that only this ends it.
+/// @returns its status, as waitpid() has it; −1: nobody knows  @throws Interrupted
+int await(int answer, pid_t child) {
+  constexpr int patience = 100;  // [ms]
+  pollfd entry{answer, POLLIN, 0};
+  for (int status = 0;;) {
+    ::poll(&entry, 1, patience);
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR) return -1;
+    if (!interrupted()) continue;
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    throw Interrupted();
+  }
+}
+
 std::string whatWasSaid(int answer) {
   std::string said(4096, '\0');
   const ssize_t size = ::read(answer, said.data(), said.size());
@@ -69,25 +90,20 @@ std::string whatWasSaid(int answer) {
 
 void tryReading(const std::filesystem::path& file, const std::function<void()>& read) {
   int pipe[2];
-  if (::pipe2(pipe, O_CLOEXEC) != 0) throw std::runtime_error("no pipe for a trial");
+  if (::pipe2(pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw BadInput("no pipe for a trial");
   const pid_t child = forkWithLibrary();
   if (child == 0) {
     setBounds(file);
     readAndExit(read, pipe[1]);
   }
   ::close(pipe[1]);
-  int status = -1;
-  if (child > 0)
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-  const std::string said = whatWasSaid(pipe[0]);
-  ::close(pipe[0]);
-  if (child < 0) throw std::runtime_error(fmt::format("{}: no process for a trial", file.string()));
+  const Descriptor answer(pipe[0]);
+  const int status = child > 0 ? await(answer.get(), child) : -1;
+  const std::string said = whatWasSaid(answer.get());
+  if (child < 0) throw BadInput(fmt::format("{}: no process for a trial", file.string()));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == threw && !said.empty())
-    throw std::runtime_error(said);
-  throw std::runtime_error(
-      fmt::format("{}: is damaged: HDF5 does not get to the end of it", file.string()));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == threw && !said.empty()) throw BadInput(said);
+  throw BadInput(fmt::format("{}: is damaged: HDF5 does not get to the end of it", file.string()));
 }
 
 }  // namespace crossgrain::inline support

@@ -9,7 +9,7 @@ namespace crossgrain::inline support {
 /// HDF5 1.10.8 (Debian 12) does not get over every damaged file: it may crash, go round for ever,
 /// or take all memory that there is.
 /// @param read  what is going to be read of it, by Hdf5File; what it changes is lost
-/// @throws std::runtime_error in one line, if it threw or did not come to an end
+/// @throws BadInput, if it threw or did not come to an end; Interrupted
 void tryReading(const std::filesystem::path& file, const std::function<void()>& read);
 
 }  // namespace crossgrain::inline support

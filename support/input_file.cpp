@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <vector>
 
@@ -31,6 +33,26 @@ std::vector<std::string> namesIn(const fs::path& folder, const std::string& exte
 
 }  // namespace
 
+bool usableName(std::string_view name) {
+  constexpr std::size_t longest = 80;
+  const auto allowed = [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("._-+").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  return !name.empty() && name.size() <= longest && name.front() != '.' &&
+         std::ranges::all_of(name, allowed);
+}
+
+bool isUtf8(std::string_view text) {
+  using Json = nlohmann::json;
+  try {
+    static_cast<void>(Json(text).dump());
+    return true;
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
+
 std::string whyNoFile(const fs::path& path) {
   std::error_code error;
   switch (fs::status(path, error).type()) {
@@ -38,7 +60,7 @@ std::string whyNoFile(const fs::path& path) {
       if (::access(path.c_str(), R_OK) == 0) return {};
       return "cannot be read: " + std::generic_category().message(errno);
     case fs::file_type::not_found:
-      return "no such file";
+      return noSuchFile;
     case fs::file_type::directory:
       return "is a folder, not a file";
     case fs::file_type::fifo:

@@ -2,8 +2,20 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace crossgrain::inline support {
+
+/// Names from outside become parts of file names, cells of CSV files and words of plots: letters,
+/// digits and . _ - +, at most 80 of them, not starting with a dot.
+bool usableName(std::string_view name);
+inline constexpr const char* usableNameRule =
+    "must be of letters, digits and . _ - +, at most 80, and not start with a dot";
+
+/// Whether it is UTF-8, which is all that results, reports and tables can hold.
+bool isUtf8(std::string_view text);
+
+inline constexpr const char* noSuchFile = "no such file";
 
 /// Why what the user named cannot be read as a file: "no such file", "is a folder, not a file", "is
 /// a named pipe, not a file", …; empty if it can. Nothing is opened: that may wait for ever.

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapters/worker/regular_file.hpp"
+#include "support/regular_file.hpp"
 
 namespace crossgrain {
 namespace {
@@ -39,20 +39,12 @@ constexpr std::pair<std::string_view, std::string_view> contents[] = {{"hello", 
 }  // namespace
 
 json parseAnswer(const std::string& line) {
-  std::vector<std::set<std::string>> keys;  // of each object that is being read
-  const auto hold = [&](int depth, json::parse_event_t event, json& parsed) {
-    using Event = json::parse_event_t;
-    if (depth > deepestAnswer)
-      throw std::runtime_error(
-          fmt::format("has more than {} objects and lists in each other", deepestAnswer));
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end && !keys.empty()) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw std::runtime_error(fmt::format("has the key '{}' twice in one object",
-                                           asOneLine(parsed.get<std::string>(), 60)));
-    return true;
-  };
-  json answer = json::parse(line, hold, false);
+  json answer;
+  try {
+    answer = parseJson(line, deepestAnswer);
+  } catch (const NotJson&) {
+    // Said below.
+  }
   if (!answer.is_object())
     throw std::runtime_error(fmt::format("is not a JSON object: '{}'", asOneLine(line, 60)));
   return answer;
@@ -69,25 +61,6 @@ void requireAnswerTo(const std::string& request, const json& answer) {
   for (const auto& [key, value] : answer.items()) there.push_back(key);
   throw std::runtime_error(
       fmt::format("it has no '{}' (it has: {})", wanted->second, fmt::join(there, ", ")));
-}
-
-std::string withoutPrefix(const std::string& what) {
-  const std::size_t end = what.find("] ");
-  return what.starts_with("[json.exception.") && end != std::string::npos ? what.substr(end + 2)
-                                                                          : what;
-}
-
-std::string asOneLine(const std::string& text, std::size_t longest) {
-  std::string line = text.substr(0, longest);
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  // A character that the end cut is no part of it.
-  if (text.size() > longest)
-    while (!line.empty() && (static_cast<unsigned char>(text[line.size()]) & 0xc0) == 0x80)
-      line.pop_back();
-  // What no text can hold comes back from JSON as U+FFFD.
-  line = json::parse(json(line).dump(-1, ' ', false, json::error_handler_t::replace));
-  return text.size() <= longest ? line : line + " …";
 }
 
 std::string lastWords(const std::filesystem::path& log) {

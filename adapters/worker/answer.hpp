@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/json_text.hpp"
+
 /// What is taken from a worker's words: nothing in them is trusted, and all of it has a bound.
 namespace crossgrain {
 
@@ -26,12 +28,6 @@ nlohmann::json parseAnswer(const std::string& line);
 /// @throws std::runtime_error where an answer holds nothing that answers that request, saying which
 /// other it answers
 void requireAnswerTo(const std::string& request, const nlohmann::json& answer);
-
-/// What an exception of the JSON library says, without the library's own numbers.
-std::string withoutPrefix(const std::string& what);
-
-/// The text in one line of valid UTF-8, with an ellipsis where it has more than `longest` bytes.
-std::string asOneLine(const std::string& text, std::size_t longest);
 
 /// What a worker printed last: "the end of its log: …" with its last three lines, or the error that
 /// a traceback of Python there ends with; empty if there is nothing. Looks at the log's last 64

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "adapters/worker/descriptor.hpp"
+#include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/vec2.hpp"
-#include "adapters/worker/regular_file.hpp"
+#include "support/regular_file.hpp"
 
 namespace crossgrain {
 

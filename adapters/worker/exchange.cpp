@@ -7,10 +7,10 @@
 #include <span>
 
 #include "adapters/worker/answer.hpp"
-#include "adapters/worker/regular_file.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/regular_file.hpp"
 
 namespace crossgrain {
 namespace {

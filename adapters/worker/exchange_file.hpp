@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "adapters/worker/arrays.hpp"
-#include "adapters/worker/descriptor.hpp"
+#include "support/descriptor.hpp"
 
 namespace crossgrain {
 

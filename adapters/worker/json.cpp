@@ -6,6 +6,7 @@
 
 #include "adapters/law_options.hpp"
 #include "adapters/worker/json_names.hpp"
+#include "support/json_text.hpp"
 
 namespace crossgrain {
 namespace {
@@ -37,7 +38,11 @@ json unlessNone(double constant) {
 
 double orNone(const json& in, const char* key) {
   const auto found = in.find(key);
-  return found == in.end() || found->is_null() ? 0.0 : found->get<double>();
+  return found == in.end() || found->is_null() ? 0.0 : member<double>(in, key);
+}
+
+bool flag(const json& in, const char* key, bool otherwise) {
+  return in.contains(key) ? member<bool>(in, key) : otherwise;
 }
 
 /// A count: converted as it is −1 would be 2⁶⁴ − 1, in silence.
@@ -52,7 +57,7 @@ std::uint64_t countFrom(const json& in, const char* key) {
 
 /// @throws std::exception naming a time that no clock shows
 double secondsFrom(const json& in, const char* key) {
-  const double seconds = in.at(key);
+  const auto seconds = member<double>(in, key);
   if (!(seconds >= 0.0)) throw std::runtime_error(fmt::format("{} is {} s", key, seconds));
   return seconds;
 }
@@ -154,26 +159,29 @@ json toJson(const Capabilities& can) {
 
 Capabilities capabilitiesFromJson(const json& in) {
   Capabilities can;
-  can.version = in.at("version");
+  can.version = member<std::string>(in, "version");
   for (const Effect effect : allEffects) can.effects[effect] = Support::never;  // if missing
   for (const auto& [name, support] : in.at("effects").items())
     can.effects[effectFromName(name)] = valueOf<Support>(support, supportNames);
-  in.at("law_options").get_to(can.lawOptions);
+  can.lawOptions = member<decltype(can.lawOptions)>(in, "law_options");
   checkLawOptions(can);
   for (const json& name : in.at("precisions"))
     can.precisions.push_back(valueOf<Precision>(name, precisionNames));
-  can.instantContacts = in.at("instant_contacts");
-  can.accumulatedContacts = in.at("accumulated_contacts");
-  can.warmHandover = in.at("warm_handover");
-  can.checkpoints = in.value("checkpoints", false);
-  can.slidingFlags = in.at("sliding_flags");
-  can.energyLedger = in.value("energy_ledger", false);
-  can.tangentialRestitution = in.value("tangential_restitution", true);
+  can.instantContacts = member<bool>(in, "instant_contacts");
+  can.accumulatedContacts = member<bool>(in, "accumulated_contacts");
+  can.warmHandover = member<bool>(in, "warm_handover");
+  can.checkpoints = flag(in, "checkpoints", false);
+  can.slidingFlags = member<bool>(in, "sliding_flags");
+  can.energyLedger = flag(in, "energy_ledger", false);
+  can.tangentialRestitution = flag(in, "tangential_restitution", true);
   for (const json& item : in.at("settings"))
-    can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
-                            item.at("doc"), item.at("choices"), item.value("least", 0.0),
-                            item.value("most", std::numeric_limits<double>::infinity()),
-                            item.value("whole", false)});
+    can.settings.push_back({member<std::string>(item, "name"), settingFromJson(item.at("default")),
+                            member<std::string>(item, "unit"), member<std::string>(item, "doc"),
+                            member<std::vector<std::string>>(item, "choices"),
+                            item.contains("least") ? member<double>(item, "least") : 0.0,
+                            item.contains("most") ? member<double>(item, "most")
+                                                  : std::numeric_limits<double>::infinity(),
+                            flag(item, "whole", false)});
   can.limits = limitsFrom(in);
   return can;
 }
@@ -222,20 +230,21 @@ json toJson(const Realised& realised) {
 
 Realised realisedFromJson(const json& in) {
   Realised realised;
-  realised.engine = in.at("engine");
-  realised.version = in.at("version");
-  realised.dt = in.at("dt");
-  realised.precision = in.at("precision");
-  realised.integrator = in.at("integrator");
+  realised.engine = member<std::string>(in, "engine");
+  realised.version = member<std::string>(in, "version");
+  realised.dt = member<double>(in, "dt");
+  realised.precision = member<std::string>(in, "precision");
+  realised.integrator = member<std::string>(in, "integrator");
   realised.velocityLag = orNone(in, "velocity_lag");
   for (const json& effect : in.at("effects")) realised.effects.insert(effectFromName(effect));
   for (const json& pair : in.at("pairs"))
-    realised.pairs.push_back({pair.at("pair"), orNone(pair, "kn"), orNone(pair, "gn"),
-                              orNone(pair, "kt"), orNone(pair, "gt"), orNone(pair, "mu"),
-                              orNone(pair, "en"), orNone(pair, "et0")});
+    realised.pairs.push_back({member<std::string>(pair, "pair"), orNone(pair, "kn"),
+                              orNone(pair, "gn"), orNone(pair, "kt"), orNone(pair, "gt"),
+                              orNone(pair, "mu"), orNone(pair, "en"), orNone(pair, "et0")});
   for (const json& deviation : in.at("deviations"))
     realised.deviations.push_back(
-        {deviation.at("name"), deviation.at("value"), deviation.at("unit"), deviation.at("note")});
+        {member<std::string>(deviation, "name"), member<double>(deviation, "value"),
+         member<std::string>(deviation, "unit"), member<std::string>(deviation, "note")});
   return realised;
 }
 
@@ -253,7 +262,7 @@ Stats statsFromJson(const json& in) {
   stats.contactEvaluations = countFrom(in, "contact_evaluations");
   stats.wallSeconds = secondsFrom(in, "wall_seconds");
   stats.cpuSeconds = secondsFrom(in, "cpu_seconds");
-  in.at("counters").get_to(stats.counters);
+  stats.counters = member<decltype(stats.counters)>(in, "counters");
   return stats;
 }
 

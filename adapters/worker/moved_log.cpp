@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "adapters/worker/descriptor.hpp"
+#include "support/descriptor.hpp"
 
 namespace crossgrain {
 

@@ -19,9 +19,9 @@
 #include <system_error>
 #include <thread>
 
-#include "adapters/worker/descriptor.hpp"
 #include "adapters/worker/launcher.hpp"
 #include "adapters/worker/stray_processes.hpp"
+#include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {

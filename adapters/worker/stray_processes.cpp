@@ -14,7 +14,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "adapters/worker/descriptor.hpp"
+#include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {

@@ -2,15 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 /// Lines of CSV (RFC 4180).
 namespace crossgrain::reports {
 
-/// Quoted where it has to be.
+/// Whether a spreadsheet would take the text for a formula, which may run programs; numbers and a
+/// sign alone are none.
+inline bool looksLikeFormula(const std::string& text) {
+  if (text.size() < 2 || std::string_view("=+-@\t\r").find(text[0]) == std::string_view::npos)
+    return false;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error != std::errc() || end != text.data() + text.size();
+}
+
+/// Quoted where it has to be; what would be a formula begins with an apostrophe.
 inline std::string cell(const std::string& value) {
+  if (looksLikeFormula(value)) return cell("'" + value);
   if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
   std::string quoted = "\"";
   for (const char c : value) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -4,13 +4,17 @@
 #include <cmath>
 
 #include "reports/common/gnuplot.hpp"
+#include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-/// Single quotes: gnuplot neither runs back-quoted commands nor reads escapes in them.
+/// The one way for words into a script. Single quotes: gnuplot neither runs back-quoted commands
+/// nor expands macros nor reads escapes in them; they end at the end of a line, so that there is
+/// none.
 std::string quoted(const std::string& words) {
   std::string result = "'";
   for (const char c : words) {
@@ -99,8 +103,8 @@ std::string barsElement(const std::string& source, const std::string& colour, bo
 std::string labelsElement(const std::string& source, const LineStyle& style) {
   return fmt::format(
       ", {} using 1:2:5 with labels noenhanced left offset char 0.7,0.35 font ',12' textcolor rgb "
-      "'{}' notitle",
-      source, style.colour);
+      "{} notitle",
+      source, quoted(style.colour));
 }
 
 std::string blocksElement(const std::string& source, const std::string& colour) {
@@ -133,8 +137,8 @@ std::string lookOf(const Curve& curve, bool across) {
 /// @see elementCount()
 std::string plotElements(const std::string& data, std::size_t index, const Curve& curve,
                          bool across, bool seen) {
-  const std::string source = fmt::format("'{}' index {}", data, index);
-  const std::string colour = fmt::format("lc rgb '{}'", curve.style.colour);
+  const std::string source = fmt::format("{} index {}", quoted(data), index);
+  const std::string colour = "lc rgb " + quoted(curve.style.colour);
   if (curve.draw == Draw::blocks)
     return blocksElement(source, colour) +
            (hasBars(curve) ? ", " + barsElement(source, "lc rgb 'black'", across) + "1/0 notitle"
@@ -273,9 +277,8 @@ std::string keyAbove(const Figure& figure) {
   std::string entries;
   for (const std::string& name : namesAbove(figure)) {
     const Curve& curve = *firstNamed(figure, name);
-    entries +=
-        fmt::format("{}2 with {} lc rgb '{}' title {} noenhanced", entries.empty() ? "" : ", ",
-                    lookOf(curve, false), curve.style.colour, quoted(name));
+    entries += fmt::format("{}2 with {} lc rgb {} title {} noenhanced", entries.empty() ? "" : ", ",
+                           lookOf(curve, false), quoted(curve.style.colour), quoted(name));
   }
   if (entries.empty()) return {};
   return fmt::format(
@@ -309,17 +312,18 @@ std::string terminals(const Figure& figure, std::size_t rows) {
   std::string script = fmt::format(
       "  if (terminal eq 'svg') {{\n"
       "    set terminal svg size {0},{1} font 'sans-serif,13' background rgb 'white'\n"
-      "    set output '{2}.svg'\n    set print '{2}.axes'\n  }}\n"
+      "    set output {2}\n    set print {3}\n  }}\n"
       "  if (terminal eq 'pdfcairo') {{\n"
-      "    set terminal pdfcairo size {3}in,{4}in font 'sans-serif,10'\n"
-      "    set output '{2}.pdf'\n  }}\n",
-      width, height, figure.name, width / 96.0, height / 96.0);
+      "    set terminal pdfcairo size {4}in,{5}in font 'sans-serif,10'\n"
+      "    set output {6}\n  }}\n",
+      width, height, quoted(figure.name + ".svg"), quoted(figure.name + ".axes"), width / 96.0,
+      height / 96.0, quoted(figure.name + ".pdf"));
   if (figure.png)
     script += fmt::format(
         "  if (terminal eq 'pngcairo') {{\n"
         "    set terminal pngcairo size {},{} font 'sans-serif,10' fontscale 2 linewidth 2 "
-        "pointscale 2\n    set output '{}.png'\n  }}\n",
-        2 * width, 2 * height, figure.name);
+        "pointscale 2\n    set output {}\n  }}\n",
+        2 * width, 2 * height, quoted(figure.name + ".png"));
   return script;
 }
 
@@ -383,6 +387,9 @@ bool hasPoints(const Panel& panel) {
 }
 
 std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) {
+  // It is the name of files, and part of a script outside of quotes.
+  if (!usableName(figure.name))
+    throw BadInput(fmt::format("no figure is called \"{}\"", figure.name));
   const std::string data = figure.name + ".dat";
   const auto columns = static_cast<std::size_t>(figure.columns);
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
@@ -409,6 +416,9 @@ std::string writeFigure(const Figure& figure, const std::filesystem::path& dir) 
   if (figure.keyAbove) script += keyAbove(figure);
   script += several ? "  unset multiplot\n" : "";
   script += "  unset output\n  set print\n}\n";
+  // gnuplot would write through a link that somebody left there, or wait for a pipe.
+  for (const char* end : {".svg", ".axes", ".pdf", ".png"})
+    std::filesystem::remove(dir / (figure.name + end));
   writeFile(dir / data, blocks);
   writeFile(dir / (figure.name + ".gp"), script);
   return figure.name + ".gp";

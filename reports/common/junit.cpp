@@ -18,8 +18,13 @@ std::string escaped(const std::string& raw) {
   const std::string utf8 = Json(raw).dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string text = Json::parse(utf8);
   std::string result;
-  for (const char c : text) {
-    if (c == '&')
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const std::string_view three = std::string_view(text).substr(k, 3);
+    if (three == "\ufffe" || three == "\uffff") {  // which no XML has
+      result += "\ufffd";
+      k += 2;
+    } else if (c == '&')
       result += "&amp;";
     else if (c == '<')
       result += "&lt;";

@@ -11,6 +11,9 @@
 #include "reports/common/view.hpp"
 #include "results/snapshot_layout.hpp"
 #include "support/hdf5_file.hpp"
+#include "support/hdf5_trial.hpp"
+#include "support/input_file.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::reports {
 
@@ -69,7 +72,9 @@ Json runLengths(const std::vector<double>& radius, double width) {
 
 }  // namespace
 
-std::optional<Motion> readMotion(const std::filesystem::path& file) try {
+namespace {
+
+std::optional<Motion> readMotionFile(const std::filesystem::path& file) {
   const Hdf5File in = Hdf5File::open(file);
   Motion motion;
   motion.radius = in.read("/disks/radius").value_or(std::vector<double>());
@@ -85,8 +90,20 @@ std::optional<Motion> readMotion(const std::filesystem::path& file) try {
   for (std::size_t k = 1; k <= wanted; ++k)
     motion.frames.push_back(frameOf(in, snapshotGroup(k * held / wanted - 1), disks, walls.size()));
   return motion;
-} catch (const std::runtime_error&) {
-  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Motion> readMotion(const std::filesystem::path& file) {
+  if (!whyNoFile(file).empty()) return std::nullopt;
+  try {
+    tryReading(file, [&] { readMotionFile(file); });
+    return readMotionFile(file);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 double largestSpeed(const Motion& motion) {

@@ -87,12 +87,12 @@ std::string withoutEnd(std::string line) {
   return line + "\n";
 }
 
-/// Markdown takes some characters for its own.
+/// The one way for words into Markdown, which takes some characters for its own.
 std::string forTable(const std::string& text) {
   std::string safe;
   for (const char c : text) {
-    if (std::string_view("\\|*_<>`[]#&").find(c) != std::string_view::npos) safe += '\\';
-    safe += c == '\n' ? ' ' : c;
+    if (std::string_view("\\|*_<>`[]#&$~@").find(c) != std::string_view::npos) safe += '\\';
+    safe += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
   }
   return safe;
 }

@@ -70,11 +70,11 @@ void addWidths(Json& view, const std::string& svg) {
   view["wide"] = width > column;
 }
 
-/// As text of a script element: no tag can begin in it.
+/// As text of a script element: no tag or comment can begin or end in it.
 std::string forScript(const Json& data) {
   std::string text = data.dump();
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
-    text.replace(at, 1, "\\u003c");
+  for (std::size_t at = 0; (at = text.find_first_of("<>", at)) != std::string::npos;)
+    text.replace(at, 1, text[at] == '<' ? "\\u003c" : "\\u003e");
   return text;
 }
 

@@ -21,6 +21,10 @@ CellState stateOf(DiffVerdict verdict) {
 }
 
 OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
+  if (row.forcesVerdict == DiffVerdict::differs && row.windowsVerdict != DiffVerdict::differs) {
+    const double most = std::max({row.forces->normal, row.forces->tangential, row.forces->walls});
+    return {CellState::bad, 100.0 * most, "%", percentInWords(most), "reported forces", {}};
+  }
   OverviewCell cell{stateOf(row.windowsVerdict), {}, "%", {}, {}, {}};
   if (cell.state == CellState::notMeasured) return cell;
   cell.words = spaced(nameOf(row.windowsVerdict));

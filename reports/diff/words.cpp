@@ -82,6 +82,13 @@ std::string rowInWords(const DiffRow& row, const LockstepRules& rules) {
                         orNothing(change.before), orNothing(change.now));
   if (row.windows && row.windowsVerdict != DiffVerdict::sameBits)
     text += windowsInWords(row, rules);
+  if (row.forcesVerdict == DiffVerdict::differs)
+    text += fmt::format(
+        "  reported forces of the same states: of contacts by {} of the largest along the normal, "
+        "{} "
+        "across; on walls by {}\n",
+        percentInWords(row.forces->normal), percentInWords(row.forces->tangential),
+        percentInWords(row.forces->walls));
   if (row.sweeps > 0 && row.collisionsVerdict != DiffVerdict::sameBits)
     text += collisionsInWords(row);
   if (!row.endpoints.empty()) text += endpointsInWords(row);
@@ -93,6 +100,7 @@ std::string rowInWords(const DiffRow& row, const LockstepRules& rules) {
 std::string verdictInWords(const DiffRow& row, const LockstepRules& rules) {
   if (row.verdict != DiffVerdict::differs) return spaced(nameOf(row.verdict));
   if (row.windowsVerdict == DiffVerdict::differs) return verdictInWords(*row.windows, rules);
+  if (row.forcesVerdict == DiffVerdict::differs) return "differs in reported forces";
   if (row.collisionsVerdict == DiffVerdict::differs)
     return row.windows ? "differs in collisions" : "differs";
   return "differs in averages";

@@ -31,14 +31,18 @@ void writeStart(Hdf5File& out, const std::string& group, const Disks& disks) {
   out.write(group + "spin", disks.spin);
 }
 
-/// Frames one after the other.
+/// Frames one after the other. What is absent of a wall is NaN there.
 void writeWindow(Hdf5File& out, const std::string& group, const BaselineWindow& window) {
-  std::vector<double> time, position, spin, normal, tangential, responses;
+  std::vector<double> time, position, spin, normal, tangential, walls, responses;
   std::vector<std::int32_t> count, i, j, sliding;
   for (const LockstepFrame& frame : window.frames) {
     time.insert(time.end(), {frame.time, frame.velocityTime, frame.contactTime});
     append(position, frame.position);
     spin.insert(spin.end(), frame.spin.begin(), frame.spin.end());
+    for (const BodySnapshot& body : frame.bodies) {
+      const Vec2 force = body.force.value_or(Vec2(NAN, NAN));
+      walls.insert(walls.end(), {force.x(), force.y(), body.torque.value_or(NAN)});
+    }
     count.push_back(frame.contacts ? static_cast<std::int32_t>(frame.contacts->size()) : -1);
     if (!frame.contacts) continue;
     const Contacts& contacts = *frame.contacts;
@@ -61,6 +65,7 @@ void writeWindow(Hdf5File& out, const std::string& group, const BaselineWindow& 
   out.write(group + "normal_force", normal);
   out.write(group + "tangential_force", tangential);
   out.write(group + "sliding", sliding);
+  out.write(group + "walls", walls);
   out.write(group + "yardstick", responses);
 }
 
@@ -100,6 +105,7 @@ void writeBaseline(const Baseline& baseline, const std::filesystem::path& file) 
     for (std::size_t s = 0; s < engine.windows.size(); ++s)
       writeWindow(out, windowGroup(e, s), engine.windows[s]);
   }
+  out.writeChecksum();
   out.save();
 }
 

@@ -6,7 +6,7 @@
 
 namespace crossgrain::inline runs {
 
-inline constexpr const char* baselineSchema = "crossgrain-baseline-1";
+inline constexpr const char* baselineSchema = "crossgrain-baseline-2";
 
 /// HDF5, whose doubles are the very bits; the same baseline gives the same bytes. What is no array
 /// is JSON in attributes: `schema`, `head`, `engine-0` … The arrays of each start and window are

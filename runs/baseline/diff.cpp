@@ -64,8 +64,39 @@ CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
   return common;
 }
 
-bool sameBits(const LockstepFrame& one, const LockstepFrame& other) {
-  return one.position == other.position && one.spin == other.spin;
+bool sameMotion(const LockstepFrame& one, const LockstepFrame& other) {
+  return one.position == other.position && one.spin == other.spin &&
+         one.velocityTime == other.velocityTime;
+}
+
+bool sameForces(const LockstepFrame& one, const LockstepFrame& other) {
+  const auto& a = one.contacts;
+  const auto& b = other.contacts;
+  if (a.has_value() != b.has_value() || one.contactTime != other.contactTime) return false;
+  const auto alike = [](const BodySnapshot& before, const BodySnapshot& now) {
+    return before.force == now.force && before.torque == now.torque;
+  };
+  return (!a || (a->i == b->i && a->j == b->j && a->normalForce == b->normalForce &&
+                 a->tangentialForce == b->tangentialForce)) &&
+         std::ranges::equal(one.bodies, other.bodies, alike);
+}
+
+/// Forces and torques on walls: the largest change, in the largest of before [-].
+double wallChange(const LockstepFrame& now, const LockstepFrame& before) {
+  double force = 0.0, torque = 0.0, forceUnit = 0.0, torqueUnit = 0.0;
+  for (std::size_t b = 0; b < std::min(now.bodies.size(), before.bodies.size()); ++b) {
+    const BodySnapshot &one = now.bodies[b], &other = before.bodies[b];
+    if (one.force && other.force) {
+      force = std::max(force, (*one.force - *other.force).norm());
+      forceUnit = std::max(forceUnit, other.force->norm());
+    }
+    if (one.torque && other.torque) {
+      torque = std::max(torque, std::abs(*one.torque - *other.torque));
+      torqueUnit = std::max(torqueUnit, std::abs(*other.torque));
+    }
+  }
+  return std::max(forceUnit > 0.0 ? force / forceUnit : 0.0,
+                  torqueUnit > 0.0 ? torque / torqueUnit : 0.0);
 }
 
 /// An engine against what was kept, from one start after the other.
@@ -85,6 +116,7 @@ class WindowsDiff {
     const FlowState& state = baseline_.starts[s];
     const BaselineWindow& kept = before_.windows[s];
     Realised realised = loadStart(now_, state);
+    if (realised_) requireSameStep(*realised_, realised);
     step_ = realised.dt;
     if (!realised_) realised_ = std::move(realised);
     common_ = commonFrames(kept.frames, step_);
@@ -96,11 +128,13 @@ class WindowsDiff {
     for (const std::size_t frame : common_.frames) window.mirror.push_back(kept.frames[frame]);
     for (const std::size_t which : common_.which) responses.push_back(kept.responses[which]);
     sameBits_ &= common_.frames.size() == kept.frames.size() &&
-                 std::ranges::equal(window.engine, window.mirror, sameBits);
+                 std::ranges::equal(window.engine, window.mirror, sameMotion) &&
+                 (!instant_ || std::ranges::equal(window.engine, window.mirror, sameForces));
     // Forces of another instant are no forces to compare.
     for (std::size_t k = 0; k < window.engine.size(); ++k)
       if (window.engine[k].contactTime != window.mirror[k].contactTime)
         window.engine[k].contacts.reset();
+    compareForces(window);
     if (!account_) account_.emplace(diameter_, timesOf(common_.steps, step_), common_.told);
     account_->add(s, window, responses, state.packing.disks.size());
     engineFrames_.push_back(chosen(window.engine, framesForTerms(common_.told)));
@@ -126,10 +160,37 @@ class WindowsDiff {
       found.term = termOf(found);
     row.reason = found.reason;
     row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
+    row.forces = forces_;
+    if (forces_ && largestOf(*forces_) >= lockstepSameLaw) row.forcesVerdict = DiffVerdict::differs;
     row.windows = std::move(found);
   }
 
  private:
+  static double largestOf(const ForcesChange& change) {
+    return std::max({change.normal, change.tangential, change.walls});
+  }
+
+  /// Forces that are reported of one and the same state: of soft disks also where it is the same
+  /// but for rounding, 1e-10 d, which moves a force by 1e-7 of that of an overlap of 1e-3 d;
+  /// impulses of rigid ones follow from no position alone.
+  void compareForces(const LockstepWindow& window) {
+    if (!instant_) return;
+    const double near = caseBefore_.law.soft() ? lockstepRounding : 0.0;
+    for (std::size_t k = 0; k < window.engine.size(); ++k) {
+      const LockstepFrame &now = window.engine[k], &before = window.mirror[k];
+      const bool alike =
+          near > 0.0 ? farthest(now, before, diameter_).distance <= near : sameMotion(now, before);
+      if (!alike || now.contactTime != before.contactTime) continue;
+      if (!forces_) forces_.emplace();
+      ++forces_->frames;
+      if (const auto contacts = forcesOfFirstStep({{now}, {before}})) {
+        forces_->normal = std::max(forces_->normal, contacts->normal);
+        forces_->tangential = std::max(forces_->tangential, contacts->tangential);
+      }
+      forces_->walls = std::max(forces_->walls, wallChange(now, before));
+    }
+  }
+
   static DiffVerdict verdictOf(LockstepVerdict verdict) {
     switch (verdict) {
       case LockstepVerdict::notMeasured:
@@ -188,6 +249,7 @@ class WindowsDiff {
   double step_ = 0.0;  ///< the engine's, now [s]
   CommonFrames common_;
   bool sameBits_ = true;
+  std::optional<ForcesChange> forces_;
   std::optional<Realised> realised_;
   std::optional<SeparationAccount> account_;
   std::vector<std::vector<LockstepFrame>> engineFrames_,
@@ -260,7 +322,7 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
   if (flows) windows.tell(row);
   row.declared = declaredChanges({before.name, before.can, before.realised},
                                  {entry.name, can, windows.realised()});
-  row.verdict = std::max(row.windowsVerdict, row.collisionsVerdict);
+  row.verdict = std::max({row.windowsVerdict, row.collisionsVerdict, row.forcesVerdict});
   // Collisions alone do not make a flow the same.
   const bool partly = flows && row.windowsVerdict == DiffVerdict::notMeasured;
   if (partly && row.verdict != DiffVerdict::differs) row.verdict = DiffVerdict::notMeasured;

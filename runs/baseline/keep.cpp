@@ -22,6 +22,7 @@ BaselineWindow windowOf(const Observed& of, const FlowState& state,
                         std::optional<Realised>& realised) {
   Realised now = loadStart(of, state);
   const double step = now.dt;
+  if (realised) requireSameStep(*realised, now);
   if (!realised) realised = std::move(now);
   const std::vector<std::uint64_t> steps = lockstepSteps(step);
   BaselineWindow window;

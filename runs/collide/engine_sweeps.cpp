@@ -32,11 +32,9 @@ void EngineSweeps::takeUp(const std::vector<CollisionCase>& cases) {
       curves_.emplace_back(std::vector<CollisionCurve>());
       continue;
     }
-    const auto kept = store_.find(nameOf(*each.setup), runKey(*each.setup, entry_.name, version_));
-    curves_.emplace_back();
-    if (!kept) continue;
-    readFrom(*kept, curves_.back().emplace());
-    ++takenUp_;
+    curves_.push_back(store_.findAs<std::vector<CollisionCurve>>(
+        nameOf(*each.setup), runKey(*each.setup, entry_.name, version_)));
+    if (curves_.back()) ++takenUp_;
   }
 }
 

@@ -253,6 +253,13 @@ Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
   return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
 }
 
+void requireSameStep(const Realised& first, const Realised& now) {
+  if (now.dt != first.dt || now.precision != first.precision)
+    throw EngineFailure(
+        fmt::format("from one start of the case its step is {} s ({}), from another {} s ({})",
+                    first.dt, first.precision, now.dt, now.precision));
+}
+
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch) {
   LoadedEngine loaded;

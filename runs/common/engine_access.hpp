@@ -105,4 +105,8 @@ Realised loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup
 /// (whyNoStart()) is BadInput.
 Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup, const Scene& scene);
 
+/// What is compared over several starts of a case has one step and one precision.
+/// @throws EngineFailure where the engine has others than from the first start
+void requireSameStep(const Realised& first, const Realised& now);
+
 }  // namespace crossgrain::inline runs

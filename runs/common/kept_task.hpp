@@ -47,8 +47,8 @@ std::vector<Result> doOrTakeUp(const std::vector<KeptTask<Result>>& tasks, const
   std::vector<Task> open;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const auto& task = tasks[k];
-    if (const auto before = store.find(task.name, task.key)) {
-      readFrom(*before, results[k]);
+    if (auto before = store.findAs<Result>(task.name, task.key)) {
+      results[k] = *std::move(before);
       progress.finish(k, task.label + ": finished in an earlier run");
       continue;
     }

@@ -1,7 +1,6 @@
 #include "runs/common/mirror_scene.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -9,23 +8,22 @@
 
 #include "runs/common/engine_access.hpp"
 #include "runs/common/engine_step.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
 
 std::optional<Capabilities> ask(const EngineEntry& entry, double timeout) {
   if (entry.make) return entry.make()->capabilities();
-  const std::filesystem::path scratch =
-      std::filesystem::temp_directory_path() / fmt::format("crossgrain-ask-{}", ::getpid());
-  std::optional<Capabilities> can;
+  const ScratchFolder scratch;
   try {
-    can = startEngine(entry, scratch, timeout)->capabilities();
+    return startEngine(entry, scratch.path, timeout)->capabilities();
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::exception&) {
-    // A mirror says so where it matters.
+    return std::nullopt;  // a mirror says so where it matters
   }
-  std::error_code ignored;
-  std::filesystem::remove_all(scratch, ignored);
-  return can;
 }
 
 }  // namespace

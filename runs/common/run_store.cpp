@@ -6,6 +6,7 @@
 
 #include "adapters/registry.hpp"
 #include "cases/cost_knobs.hpp"
+#include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
@@ -23,10 +24,34 @@ constexpr const char* earlier = "earlier";
 constexpr const char* versionKey = "engine version";
 constexpr const char* wayOut = "take another folder, or --fresh, which sets aside what is there";
 
-/// An object, empty if there is none.
-json parsed(const std::optional<std::string>& text) {
-  const json document = text ? json::parse(*text, nullptr, /*allow_exceptions=*/false) : json();
-  return document.is_object() ? document : json::object();
+/// What the marker of a folder says.
+struct Marker {
+  std::string command, program;
+  std::map<std::string, CaseKeys> cases;
+};
+
+void fields(auto& io, Marker& said) {
+  io("command", said.command);
+  io("program", said.program);
+  io("cases", said.cases);
+}
+
+/// @throws BadInput where it says what none does
+Marker markerIn(const fs::path& folder) {
+  const fs::path file = folder / marker;
+  const auto document = readJsonFile(file);
+  return understood(file, [&] { return document ? readAs<Marker>(*document) : Marker(); });
+}
+
+/// A file of a finished run.
+struct KeptRun {
+  CaseKeys key;
+  std::optional<json> run;
+};
+
+void fields(auto& io, KeptRun& kept) {
+  io("key", kept.key);
+  io("run", kept.run);
 }
 
 /// Files that are not of any crossgrain. The marker is looked for last: whoever makes the folder at
@@ -89,20 +114,20 @@ void RunStore::checkBefore() const {
   const auto refuse = [&](const std::string& why) {
     throw BadInput(fmt::format("--out {}: {}; {}", out_.string(), why, wayOut));
   };
-  const json before = parsed(readFile(out_ / marker));
-  const std::string owner = before.value("command", "");
+  const Marker before = markerIn(out_);
+  const std::string& owner = before.command;
   if ((holdsRuns() || holdsResults()) && owner != name_)
     refuse(owner.empty()
                ? "its results are of an earlier version of crossgrain"
                : fmt::format("its results are of 'crossgrain {}', not of '{}'", owner, name_));
   if (!holdsRuns()) return;
-  if (const std::string program = before.value("program", ""); program != thisProgram())
-    refuse(fmt::format("its runs are of another build of crossgrain: {} → {}", program,
+  if (before.program != thisProgram())
+    refuse(fmt::format("its runs are of another build of crossgrain: {} → {}", before.program,
                        thisProgram()));
-  const json known = before.value("cases", json::object());
   for (const auto& [name, keys] : cases_) {
-    if (!known.contains(name)) continue;
-    const auto changed = changes(known[name].get<CaseKeys>(), keys);
+    const auto known = before.cases.find(name);
+    if (known == before.cases.end()) continue;
+    const auto changed = changes(known->second, keys);
     if (!changed.empty())
       refuse(fmt::format("its runs are of {} that has changed: {}",
                          name.empty() ? "a case" : "a case, " + name + ",",
@@ -123,17 +148,12 @@ void RunStore::begin() {
   if (dry_ || begun_) return;
   begun_ = true;
   if (fresh_ && (holdsRuns() || holdsResults())) setAside();
-  json cases = cases_;
+  Marker now{name_, thisProgram(), cases_};
   // Cases of earlier commands stay, for as long as something of them is there.
-  if (holdsRuns()) {
-    json all = parsed(readFile(out_ / marker)).value("cases", json::object());
-    all.update(cases);
-    cases = std::move(all);
-  }
-  writeFile(out_ / marker, toText({{"about", "Made by crossgrain: see runs/README.md."},
-                                   {"command", name_},
-                                   {"program", thisProgram()},
-                                   {"cases", cases}}));
+  if (holdsRuns()) now.cases.merge(markerIn(out_).cases);
+  json document = jsonOf(now);
+  document["about"] = "Made by crossgrain: see runs/README.md.";
+  writeFile(out_ / marker, toText(document));
 }
 
 /// Entry by entry into a folder of its own; both folders say whose they are, so that whatever
@@ -160,10 +180,16 @@ void RunStore::setAside() {
 
 std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key) const {
   if (dry_ && fresh_) return std::nullopt;
-  const json stored = parsed(readFile(file(name)));
-  if (!stored.contains("run") || !stored.contains("key")) return std::nullopt;
-  auto before = stored["key"].get<CaseKeys>();
-  CaseKeys now = key;
+  const auto text = readFile(file(name));
+  if (!text) return std::nullopt;
+  KeptRun stored;
+  try {
+    stored = understood(file(name), [&] { return readAs<KeptRun>(parseJson(*text)); });
+  } catch (const NotJson&) {
+    // Half a file: the run is done again.
+  }
+  if (!stored.run) return std::nullopt;
+  CaseKeys before = stored.key, now = key;
   // An engine that does not answer, or did not, is not known to be another.
   if (before[versionKey].empty() || now[versionKey].empty())
     for (CaseKeys* side : {&before, &now}) side->erase(versionKey);
@@ -171,7 +197,7 @@ std::optional<json> RunStore::find(const std::string& name, const CaseKeys& key)
   if (!changed.empty())
     throw BadInput(fmt::format("--out {}: its run {} depends on what has changed: {}; {}",
                                out_.string(), name, changesInWords(changed), wayOut));
-  return stored["run"];
+  return std::move(stored.run);
 }
 
 void RunStore::keep(const std::string& name, const CaseKeys& key, const json& run) const {
@@ -198,7 +224,7 @@ fs::path RunStore::file(const std::string& name) const {
 }
 
 std::string programOf(const fs::path& folder) {
-  return parsed(readFile(folder / marker)).value("program", "");
+  return markerIn(folder).program;
 }
 
 CaseKeys keysThatMatter(const Case& setup) {

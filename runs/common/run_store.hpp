@@ -9,6 +9,7 @@
 
 #include "cases/case.hpp"
 #include "cases/case_keys.hpp"
+#include "results/json_fields.hpp"
 #include "runs/common/options.hpp"
 #include "support/folder_lock.hpp"
 #include "support/scratch_folder.hpp"
@@ -42,6 +43,13 @@ class RunStore {
   /// @param key  everything it depends on, what all runs of the folder have in common left out
   /// @throws BadInput saying what differs if it was made with another key
   std::optional<nlohmann::json> find(const std::string& name, const CaseKeys& key) const;
+  /// As the struct that was kept. @throws BadInput also where the file holds another one
+  template <typename Result>
+  std::optional<Result> findAs(const std::string& name, const CaseKeys& key) const {
+    const auto kept = find(name, key);
+    if (!kept) return std::nullopt;
+    return understood(file(name), [&] { return std::optional(readAs<Result>(*kept)); });
+  }
   void keep(const std::string& name, const CaseKeys& key, const nlohmann::json& run) const;
 
   const std::filesystem::path& folder() const { return out_; }

@@ -59,8 +59,7 @@ void fields(auto& io, CollisionLimit& limit) {
 /// @throws FieldError, and as RunStore::find()
 template <class Run>
 std::optional<Run> findAs(const RunStore& store, const std::string& name, const CaseKeys& key) {
-  const auto kept = store.find(name, key);
-  return kept ? std::optional(readAs<Run>(*kept)) : std::nullopt;
+  return store.findAs<Run>(name, key);
 }
 
 /// What the store has by that name, else what `make` makes, which is then kept.

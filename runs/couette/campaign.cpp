@@ -133,6 +133,7 @@ void Campaign::preparePackings(int count) {
              });
              std::string line =
                  label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
+             if (!packings_[at].anew.empty()) line += " anew: " + packings_[at].anew;
              if (!packings_[at].notCached.empty())
                line += ", not kept for next time: " + packings_[at].notCached;
              if (!packings_[at].fromCache)

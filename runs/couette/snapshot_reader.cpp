@@ -24,14 +24,10 @@ Hdf5File opened(const std::filesystem::path& file) {
 }  // namespace
 
 void requireReadable(const std::filesystem::path& file, const Case& setup) {
-  try {
-    tryReading(file, [&] {
-      const SnapshotReader reader(file, setup);
-      for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
-    });
-  } catch (const std::runtime_error& error) {
-    throw BadInput(error.what());
-  }
+  tryReading(file, [&] {
+    const SnapshotReader reader(file, setup);
+    for (std::size_t k = 0; k < reader.count(); ++k) reader.read(k);
+  });
 }
 
 SnapshotReader::SnapshotReader(const std::filesystem::path& file, const Case& setup)

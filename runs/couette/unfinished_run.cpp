@@ -5,6 +5,7 @@
 #include "adapters/worker/arrays.hpp"
 #include "adapters/worker/json.hpp"
 #include "support/files.hpp"
+#include "support/json_text.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -18,9 +19,14 @@ constexpr const char* index = "index.json";
 
 /// What was kept under that key; null: nothing that can be used.
 json keptUnder(const fs::path& folder, const std::string& key) {
-  const auto text = readFile(folder / index);
-  json kept = text ? json::parse(*text, nullptr, /*allow_exceptions=*/false) : json();
-  return kept.is_object() && kept.value("key", "") == key ? kept : json();
+  try {
+    json kept = readJsonFile(folder / index).value_or(json());
+    return kept.is_object() && member<std::string>(kept, "key") == key ? kept : json();
+  } catch (const FieldError&) {
+    return json();
+  } catch (const BadInput&) {
+    return json();
+  }
 }
 
 }  // namespace

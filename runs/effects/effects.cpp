@@ -165,8 +165,8 @@ class EffectCampaign {
                                      const std::vector<const PlannedVariant*>& planned) {
     const std::string kept = timingName(e);
     const CaseKeys key = timingKey(e);
-    if (const auto before = campaign_.store().find(kept, key); before && !before->empty())
-      return readAs<std::vector<StepTimes>>(*before);
+    const auto before = campaign_.store().findAs<std::vector<StepTimes>>(kept, key);
+    if (before && !before->empty()) return *before;
     std::vector<TimedVariant> timed;
     for (const PlannedVariant* one : planned) timed.push_back(timedVariant(*one));
     const auto times = timeSteps(timed, plan_, [&](double fraction) {

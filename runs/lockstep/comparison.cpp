@@ -34,6 +34,7 @@ class Comparison {
   void follow(std::size_t start, const FlowState& state) {
     const Scene scene = flowScene(setup_, state.packing, dt_);
     Realised realised = loadScene(engine_, entry_, setup_, scene);
+    if (realised_) requireSameStep(*realised_, realised);
     step_ = realised.dt;
     steps_ = lockstepSteps(step_);
     const Scene mirrored = sceneOfMirror(can_, entry_, setup_, scene, step_);

@@ -71,7 +71,9 @@ class Search {
     for (const FlowState& state : states) {
       throwIfInterrupted();
       Scene scene = flowScene(setup, state.packing, dt);
-      realised_ = loadScene(engine, entry, setup, scene);
+      const Realised realised = loadScene(engine, entry, setup, scene);
+      if (!engine_.empty()) requireSameStep(realised_, realised);
+      realised_ = realised;
       step_ = realised_.dt;
       until_.clear();
       for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));

@@ -19,6 +19,7 @@ LockstepFrame frameOf(Snapshot&& seen) {
   if (seen.spin) frame.spin = std::move(*seen.spin);
   frame.contacts = std::move(seen.contacts);
   frame.contactTime = seen.contactTime;
+  frame.bodies = std::move(seen.bodies);
   return frame;
 }
 

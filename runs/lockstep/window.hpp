@@ -16,7 +16,8 @@ struct LockstepFrame {
   std::vector<Vec2> position;  ///< of the disks [m]
   std::vector<double> spin;    ///< [rad/s]; empty: nothing spins
   std::optional<Contacts> contacts;
-  double contactTime = 0.0;  ///< of the contacts, since the start [s]
+  double contactTime = 0.0;  ///< of the contacts and of forces on walls, since the start [s]
+  std::vector<BodySnapshot> bodies = {};
 };
 
 /// An engine and its mirror over one window, at the same steps; contacts are of the same instants.

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "results/json_fields.hpp"
+#include "results/compare.hpp"
 #include "results/schema.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/plan/job_plan.hpp"
@@ -24,22 +24,21 @@ struct JobResults {
   std::size_t runs = 0, failed = 0;
 };
 
-/// @throws BadInput, FieldError, Json's own
+/// @throws BadInput
 JobResults resultsIn(const fs::path& folder) {
-  const Json document = readResultsFile(folder / "results.json");
-  checkSchema(document, "results.json");
+  const fs::path file = folder / "results.json";
+  const Json document = readResultsFile(file);
   if (document.at("kind") != kindCompare)
     throw BadInput(fmt::format("results.json is of {}, not of compare",
                                document.at("kind").get<std::string>()));
+  const CompareResults results = understood(file, [&] { return compareFromJson(document); });
   JobResults found;
-  found.setup = setupFingerprint(document.at("case").at("toml"));
-  for (const Json& engine : document.at("engines"))
-    if (engine.value("mirrors", "").empty())
-      found.versions[engine.at("name")] = engine.value("version", "");
-  for (const Json& run : document.at("runs")) {
-    ++found.runs;
-    found.failed += run.at("status") == "failed";
-  }
+  found.setup = setupFingerprint(results.head.setup.toml);
+  for (const EngineRow& engine : results.engines)
+    if (engine.mirrors.empty()) found.versions[engine.name] = engine.version;
+  found.runs = results.runs.size();
+  found.failed = static_cast<std::size_t>(
+      std::ranges::count(results.runs, RunStatus::failed, &CouetteRun::status));
   return found;
 }
 

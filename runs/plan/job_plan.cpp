@@ -202,17 +202,12 @@ JobPlan readPlan(const fs::path& folder) {
   const auto bad = [&](const std::string& why) {
     return BadInput(fmt::format("{}: {}", file.string(), why));
   };
-  const auto text = readFile(file);
-  if (!text) throw bad("cannot be read");
-  const Json document = Json::parse(*text, nullptr, false);
-  if (!document.is_object() || document.value("schema", "") != planSchema)
+  const auto document = readJsonFile(file);
+  if (!document) throw bad("cannot be read");
+  if (const auto schema = document->find("schema");
+      schema == document->end() || *schema != planSchema)
     throw bad(fmt::format("is no plan: its schema is not \"{}\"", planSchema));
-  JobPlan plan;
-  try {
-    plan = readAs<JobPlan>(document);
-  } catch (const FieldError& error) {
-    throw bad(error.what());
-  }
+  const JobPlan plan = understood(file, [&] { return readAs<JobPlan>(*document); });
   std::set<std::string> names, parts;
   for (const PlannedJob& job : plan.jobs) {
     if (job.name.empty() || job.name.starts_with(".") || job.name.find('/') != std::string::npos)

@@ -143,8 +143,8 @@ class ScaleStudy {
   void takeUp() {
     taken_.assign(points_.size(), false);
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (const auto before = store_.find(nameOf(k), keyOf(k))) {
-        readFrom(*before, points_[k]);
+      if (auto before = store_.findAs<ScalePoint>(nameOf(k), keyOf(k))) {
+        points_[k] = *std::move(before);
         taken_[k] = true;
       }
   }
@@ -194,6 +194,7 @@ class ScaleStudy {
       throwIfInterrupted();
       progress_.update(shownAs, fmt::format("{}, {:.0f} %", label, 100.0 * fraction), 0.0);
     });
+    if (!packing.anew.empty()) progress_.say("the packing is made anew: " + packing.anew);
     if (!packing.notCached.empty())
       progress_.say("the packing cannot be kept for next time: " + packing.notCached);
     std::ranges::find(cells_, points_[shownAs].disks, &ScaleCell::disks)->packing = packing.hash;

@@ -21,10 +21,10 @@ std::string Climb::plan() const {
     work.engine = engines_[step.engine].entry.name;
     work.what = "runs";
     const auto task = taskOf(step);
-    const auto kept = store_.find(task.name, task.key);
+    const auto kept = store_.findAs<ThesisRun>(task.name, task.key);
     std::optional<nlohmann::json> run;
     if (kept)
-      run = kept->at("run");
+      run = jsonOf(kept->run);
     else if (const ThesisRun* before = earlier(step, task.key))
       run = jsonOf(before->run);
     count(work, run);

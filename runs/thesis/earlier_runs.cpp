@@ -18,18 +18,13 @@ std::string keyOfRun(const Case& setup, const CaseKeys& task) {
 EarlierRuns readEarlierRuns(const std::filesystem::path& file) {
   const nlohmann::json document = readResultsFile(file);
   const std::string name = file.string();
-  checkSchema(document, name);
   if (document.at("kind") != kindThesis)
     throw BadInput(fmt::format("--from {}: its results are of 'crossgrain {}', not of a ladder",
                                name, document.at("kind").get<std::string>()));
   EarlierRuns runs;
-  try {
-    for (ThesisRun& run : thesisFromJson(document).runs)
-      if (!run.key.empty() && run.run.status != RunStatus::failed)
-        runs.emplace(run.key, std::move(run));
-  } catch (const FieldError& error) {
-    throw BadInput(fmt::format("--from {}: {}", name, error.what()));
-  }
+  for (ThesisRun& run : understood(file, [&] { return thesisFromJson(document); }).runs)
+    if (!run.key.empty() && run.run.status != RunStatus::failed)
+      runs.emplace(run.key, std::move(run));
   return runs;
 }
 

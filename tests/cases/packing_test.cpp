@@ -1,6 +1,8 @@
 #include "cases/packing.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -52,6 +54,75 @@ TEST(Packing, ComesBackFromItsFileBitForBit) {
   EXPECT_EQ(back.disks.spin, packing.disks.spin);
   EXPECT_EQ(back.wheelAngle, 0.7);
   EXPECT_EQ(back.hash, "abc");
+}
+
+/// Changes one value of an array of a file that is there.
+void alter(const fs::path& path, const char* name, double factor) {
+  const hid_t whole = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(whole, name, H5P_DEFAULT), space = H5Dget_space(set);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  values.front() *= factor;
+  H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  for (const hid_t id : {space, set, whole}) H5Idec_ref(id);
+}
+
+/// A packing in the cache is the one that was kept, for what it was kept, or it is not used.
+TEST(Packing, OfTheCacheThatIsAlteredOrAnotherIsNotUsed) {
+  Packing packing;
+  packing.disks.radius = {1.0, 2.0};
+  packing.disks.mass = {3.0, 7.0};
+  packing.disks.inertia = {0.1, 0.2};
+  packing.disks.position = {Vec2(0.1, 0.2), Vec2(-5.0, 1.0)};
+  packing.disks.velocity = {Vec2(1.0, 0.0), Vec2(0.0, -1.0)};
+  packing.disks.spin = {4.0, 1.0};
+  packing.hash = "abc";
+  const fs::path kept = file("kept.h5");
+  std::string why;
+  EXPECT_FALSE(keptPacking(file("no-such.h5"), "abc", kinds(), why));
+  EXPECT_EQ(why, "");
+  writePacking(packing, kept);
+  const auto found = keptPacking(kept, "abc", kinds(), why);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->fromCache);
+  EXPECT_FALSE(keptPacking(kept, "abd", kinds(), why));
+  EXPECT_NE(why.find("another packing"), std::string::npos) << why;
+  for (const char* name : {"radius", "mass", "inertia", "position", "velocity", "spin"}) {
+    writePacking(packing, kept);
+    alter(kept, name, 3.0);
+    EXPECT_FALSE(keptPacking(kept, "abc", kinds(), why)) << name;
+    EXPECT_NE(why.find("is not what was kept"), std::string::npos) << why;
+    // The user's own file is the user's to change.
+    EXPECT_NO_THROW(readPacking(kept, kinds())) << name;
+  }
+}
+
+/// A link out of the file may lead to a pipe, which never ends, or to what is nobody's business.
+TEST(Packing, LinksIntoOtherFilesAreNotFollowed) {
+  ::unlink(file("pipe").c_str());
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  {
+    Hdf5File out = Hdf5File::create(file("links.h5"));
+    out.write("position", std::vector<double>{0.0, 0.0});
+    out.save();
+    const hid_t whole = H5Fopen(file("links.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    hid_t link = H5P_LINK_CREATE;
+    link = H5Pcreate(link);
+    // The library's own class of such links is gone, so that it is put there as its bytes.
+    const std::string value =
+        std::string(1, '\0') + file("pipe").string() + '\0' + "/radius" + '\0';
+    H5L_class_t external{};
+    external.version = H5L_LINK_CLASS_T_VERS;
+    external.id = H5L_TYPE_EXTERNAL;
+    external.trav_func = [](const char*, hid_t, const void*, std::size_t, hid_t, hid_t) -> hid_t {
+      return -1;
+    };
+    H5Lregister(&external);
+    H5Lcreate_ud(whole, "radius", H5L_TYPE_EXTERNAL, value.data(), value.size(), link, H5P_DEFAULT);
+    H5Lunregister(H5L_TYPE_EXTERNAL);
+    for (const hid_t id : {link, whole}) H5Idec_ref(id);
+  }
+  EXPECT_THROW(readPacking(file("links.h5"), kinds()), BadInput);
 }
 
 std::vector<double> drawn(std::uint64_t seed, std::uint64_t index) {

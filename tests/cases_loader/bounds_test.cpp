@@ -103,6 +103,26 @@ TEST_F(LoaderErrors, MoreDisksThanACaseMayHave) {
   });
 }
 
+/// A whole number that no double is is rounded, as a decimal one is.
+TEST_F(LoaderErrors, WholeNumbersBeyondTheGapsOfDoublesAreTaken) {
+  write("case.toml", soundCase);
+  for (const char* number : {"9007199254740993", "9223372036854775807"})
+    EXPECT_EQ(loadCase("case.toml", {std::string("looks.budget=") + number}).front().looks.budget,
+              std::strtod(number, nullptr));
+}
+
+TEST_F(LoaderErrors, ATimeoutIsOneThatAProgramCanAnswerIn) {
+  write("case.toml", soundCase);
+  for (const char* timeout : {"1e-308", "1e300"}) {
+    try {
+      loadCase("case.toml", {std::string("run.timeout=") + timeout});
+      ADD_FAILURE() << timeout;
+    } catch (const BadInput& refused) {
+      EXPECT_NE(std::string(refused.what()).find("run.timeout"), std::string::npos);
+    }
+  }
+}
+
 TEST_F(LoaderErrors, BlankSentencesAndEndlessNames) {
   expectMessages({
       {plus("[averaging.margins]\nspin = { relative = 0.1, why = \"  \" }\n"),

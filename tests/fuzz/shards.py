@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads a million generated inputs of each kind, some thousands at a time: README.md.
 
-    shards.py --inputs …/fuzz_input_tests --messages …/fuzz_tests --out out/fuzz --minutes 60
+    shards.py --inputs …/fuzz_input_tests --messages …/fuzz_tests --reports …/fuzz_report_tests --out out/fuzz --minutes 60
 """
 
 import argparse
@@ -19,6 +19,8 @@ kinds = {
     "packings": ("inputs", "FuzzedInput.PackingsAreSoundOrRefusedInOneLine", 1000),
     "starts": ("inputs", "FuzzedInput.StartsAreSoundOrRefusedInOneLine", 10000),
     "results": ("inputs", "FuzzedInput.ResultsAreReadOrRefusedInOneLine", 10000),
+    "texts": ("reports", "HostileResults.RunNothingAndStayWithinTheirQuotes", 200),
+    "reports": ("reports", "HostileResults.AreReportsOrRefusedInOneLine", 200),
     "answers": ("messages", "Hostile.AnswersAreAValueOrOneLine", 20000),
     "recordings": ("messages", "Hostile.RecordingsAreExchangesOrBadInput", 20000),
 }
@@ -53,6 +55,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--inputs", type=pathlib.Path, required=True, help="the program fuzz_input_tests")
     parser.add_argument("--messages", type=pathlib.Path, required=True, help="the program fuzz_tests")
+    parser.add_argument("--reports", type=pathlib.Path, required=True, help="the program fuzz_report_tests")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="which shards have been read; what is there is gone on with")
     parser.add_argument("--all", type=int, default=1000000, help="inputs of each kind")
     parser.add_argument("--kinds", default=",".join(kinds))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reports/collide/report.hpp"
+#include "reports/common/csv_row.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -13,7 +14,7 @@ namespace {
 
 /// A comparison small enough to write its tables down by hand.
 CompareResults tiny() {
-  return compareFromJson(Json::parse(R"({
+  CompareResults results = compareFromJson(Json::parse(R"({
     "kind": "compare",
     "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
     "runs": [
@@ -23,7 +24,7 @@ CompareResults tiny() {
                      "dof": [7, null]}],
        "series": {"t_s": [0.0, 0.25], "wheel_torque": [null, 2e-3], "kinetic_energy": [1, 2],
                   "zz_extra": [7, 8]}},
-      {"engine": "a,\"b\"", "packing": 1, "profiles": [], "series": {}}],
+      {"engine": "other", "packing": 1, "profiles": [], "series": {}}],
     "ensemble": [
       {"engine": "one", "profiles": [{"method": "slicing", "field": "spin", "unit": "rad/s",
                                       "mean": [0.30000000000000004, 2]}]}],
@@ -34,6 +35,18 @@ CompareResults tiny() {
                   "packings": 4},
                  {"ring": 1, "difference": 0.25, "stderr": null, "low": null, "high": null,
                   "margin": 0.56, "verdict": "undecided"}]}]})"));
+  results.runs[1].engine = "a,\"b\"";
+  return results;
+}
+
+/// What a spreadsheet would compute, or run, is text.
+TEST(Csv, FormulasAreText) {
+  EXPECT_EQ(cell(std::string("=cmd|' /C calc'!A1")), "'=cmd|' /C calc'!A1");
+  EXPECT_EQ(cell(std::string("@SUM(1,2)")), "\"'@SUM(1,2)\"");
+  EXPECT_EQ(cell(std::string("+1+1")), "'+1+1");
+  for (const char* plain : {"-", "-1.5e-3", "+", "grain-as-yade"})
+    EXPECT_EQ(cell(std::string(plain)), plain);
+  EXPECT_EQ(cell(std::optional(-0.5)), "-0.5");
 }
 
 TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {

@@ -330,7 +330,7 @@ CompareResults compareResults(int packings, int disks) {
       engine("grain", "the in-house engine"), engine("yade", "YADE's viscoelastic law"),
       engine("box2d-impulse", "Box2D's own solver"),
       engine("grain~yade", "grain with YADE's conventions", "yade"),
-      engine(awkward, "the user's own", "", "refused", "it lacks \"bottom_friction\" & <more>")};
+      engine("odd-one", awkward, "", "refused", "it lacks \"bottom_friction\" & <more>")};
   results["rings"] = {{"r", Json::array()}, {"r_tilde", Json::array()}, {"width", width}};
   for (std::size_t ring = 0; ring < rings; ++ring) {
     results["rings"]["r"].push_back(radius(ring));

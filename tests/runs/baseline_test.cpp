@@ -1,6 +1,10 @@
 // What a baseline keeps, and what a diff says of engines that do otherwise.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <cmath>
 #include <filesystem>
 
 #include "adapters/grain.hpp"
@@ -116,6 +120,52 @@ TEST_F(BaselineDiff, ALittleIsTheSameLaw) {
   EXPECT_EQ(row.windowsVerdict, DiffVerdict::sameLaw);
 }
 
+/// Motion to the bit, and half as much again of the forces that are reported.
+TEST_F(BaselineDiff, ForcesThatAreReportedOtherwiseAreADifference) {
+  const auto nothing = [](Scene&) {};
+  const auto expect = [&](const std::function<void(Snapshot&)>& shown, DiffVerdict verdict) {
+    test::PlantedEngine engine(nothing, shown);
+    const DiffRow row = rowOf(engine);
+    EXPECT_EQ(row.verdict, verdict);
+    EXPECT_EQ(row.windows->track.back(), 0.0);
+    return row;
+  };
+  const DiffRow contacts = expect(
+      [](Snapshot& snapshot) {
+        if (!snapshot.contacts) return;
+        for (double& force : snapshot.contacts->normalForce) force *= 1.5;
+      },
+      DiffVerdict::differs);
+  EXPECT_NEAR(contacts.forces->normal, 0.5, 1e-12);
+  EXPECT_EQ(contacts.forces->walls, 0.0);
+  const DiffRow walls = expect(
+      [](Snapshot& snapshot) {
+        for (BodySnapshot& body : snapshot.bodies) {
+          if (body.force) *body.force *= 1.5;
+          if (body.torque) *body.torque *= 1.5;
+        }
+      },
+      DiffVerdict::differs);
+  EXPECT_EQ(walls.forces->normal, 0.0);
+  EXPECT_NEAR(walls.forces->walls, 0.5, 1e-12);
+  expect(
+      [](Snapshot& snapshot) {
+        if (snapshot.contacts && snapshot.contacts->size() > 0)
+          snapshot.contacts->normalForce.front() *= 1.0 + 1e-12;
+      },
+      DiffVerdict::sameToRounding);
+}
+
+/// What is compared over several starts has one step and one precision.
+TEST_F(BaselineDiff, AStepThatChangesBetweenStartsIsAFailure) {
+  int loads = 0;
+  const DiffRow row = rowOf([&](Scene& scene) {
+    if (++loads > 1) scene.dt *= 0.5;
+  });
+  EXPECT_NE(row.failure.find("from another"), std::string::npos) << row.failure;
+  EXPECT_EQ(row.windows->starts, 1u);
+}
+
 /// A step that never comes by the times that were kept leaves the flow unmeasured, and collisions.
 TEST_F(BaselineDiff, WhatMeetsNoTimeIsNotMeasured) {
   const DiffRow row = rowOf([](Scene& scene) { scene.dt *= 0.99; });
@@ -186,7 +236,7 @@ TEST_F(BaselineDiff, OtherFilesAreRefused) {
   attributes({{"hash", "of a packing"}});
   has("is no baseline");
   attributes({{"schema", "crossgrain-baseline-9"}});
-  has("has schema \"crossgrain-baseline-9\", this crossgrain reads \"crossgrain-baseline-1\"");
+  has("has schema \"crossgrain-baseline-9\", this crossgrain reads \"crossgrain-baseline-2\"");
   attributes({{"schema", baselineSchema}});
   has("is damaged: head is missing");
   attributes({{"schema", baselineSchema}, {"head", "{"}});
@@ -199,6 +249,45 @@ TEST_F(BaselineDiff, OtherFilesAreRefused) {
   other.starts.front().start.wheelAngle += 1e-9;  // not what the hash is of
   writeBaseline(other, file);
   has("start 0 is not what its hash says");
+}
+
+/// Whatever of it is changed, it is no longer the baseline.
+TEST_F(BaselineDiff, AFileThatWasAlteredIsRefused) {
+  const ScratchFolder scratch;
+  const auto file = scratch.path / "b.h5";
+  const auto said = [&] {
+    try {
+      readBaseline(file);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  for (const char* name : {"position", "spin", "normal_force", "tangential_force", "sliding",
+                           "walls", "yardstick", "time"}) {
+    writeBaseline(*baseline_, file);
+    EXPECT_EQ(said(), "none");
+    const hid_t whole = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t set =
+        H5Dopen2(whole, fmt::format("/engine-0/window-1/{}", name).c_str(), H5P_DEFAULT);
+    const hid_t space = H5Dget_space(set);
+    std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    values.back() += 1.0;
+    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    for (const hid_t id : {space, set, whole}) H5Idec_ref(id);
+    EXPECT_NE(said().find("is damaged: its content is not that of its checksum"), std::string::npos)
+        << name << ": " << said();
+  }
+  // With a checksum of its own, too.
+  Baseline other = *baseline_;
+  other.engines.front().windows[1].frames[2].time = NAN;
+  writeBaseline(other, file);
+  EXPECT_NE(said().find("time has a value that is not finite"), std::string::npos) << said();
+  std::swap(other.engines.front().windows[1].frames[2], other.engines.front().windows[1].frames[3]);
+  other.engines.front().windows[1].frames[3].time = 0.0;
+  writeBaseline(other, file);
+  EXPECT_NE(said().find("times of a window"), std::string::npos) << said();
 }
 
 /// The packing file that a flow began with need not be there any more.

@@ -10,8 +10,10 @@ namespace crossgrain::test {
 /// The in-house engine on another scene than it is given: right but for what is planted.
 class PlantedEngine : public Engine {
  public:
-  explicit PlantedEngine(std::function<void(Scene&)> fault)
-      : fault_(std::move(fault)), own_(makeGrain()) {}
+  /// @param shown  what is planted in what it shows
+  explicit PlantedEngine(
+      std::function<void(Scene&)> fault, std::function<void(Snapshot&)> shown = [](Snapshot&) {})
+      : fault_(std::move(fault)), shown_(std::move(shown)), own_(makeGrain()) {}
   Capabilities capabilities() const override { return own_->capabilities(); }
   Realised load(const Scene& scene, const Settings& settings) override {
     Scene other = scene;
@@ -19,11 +21,16 @@ class PlantedEngine : public Engine {
     return own_->load(other, settings);
   }
   double advance(double t) override { return own_->advance(t); }
-  Snapshot snapshot(ContactReport contacts) override { return own_->snapshot(contacts); }
+  Snapshot snapshot(ContactReport contacts) override {
+    Snapshot snapshot = own_->snapshot(contacts);
+    shown_(snapshot);
+    return snapshot;
+  }
   Stats stats() const override { return own_->stats(); }
 
  private:
   std::function<void(Scene&)> fault_;
+  std::function<void(Snapshot&)> shown_;
   std::unique_ptr<Engine> own_;
 };
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
 
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace {
 
@@ -174,6 +176,66 @@ TEST_F(RunStores, ADamagedRunIsRunAgain) {
   finish();
   std::ofstream(command_.out / "runs" / "a-p0.json") << R"({"key": {"engine": "a"}, )";
   EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));
+}
+
+/// What is of another type is named with its file; what might never end is not opened.
+TEST_F(RunStores, WhatNoRunWroteIsNamedWithFileAndMember) {
+  finish();
+  const fs::path run = command_.out / "runs" / "a-p0.json", marker = command_.out / ".crossgrain";
+  const auto said = [&](auto&& read) {
+    try {
+      read();
+    } catch (const BadInput& refused) {
+      return std::string(refused.what());
+    }
+    return std::string("none");
+  };
+  const auto find = [&] { RunStore(command_, "compare", rings20).find("a-p0", key); };
+  std::ofstream(run) << R"({"key": {"engine": 7}, "run": {}})";
+  EXPECT_EQ(said(find), run.string() + ": key.engine: is number, not a text");
+  std::ofstream(run) << R"({"key": {"engine": "a", "engine version": "1"}, "run": {"value": "a"}})";
+  EXPECT_NE(
+      said([&] {
+        RunStore(command_, "compare", rings20).findAs<std::map<std::string, double>>("a-p0", key);
+      }).find(run.string() + ": value: is string, not a number"),
+      std::string::npos);
+  fs::remove(run);
+  ASSERT_EQ(::mkfifo(run.c_str(), 0600), 0);
+  EXPECT_EQ(said(find), run.string() + ": is a named pipe, not a file");
+  std::ofstream(marker) << R"({"command": 7})";
+  EXPECT_EQ(refusal("compare", rings20), marker.string() + ": command: is number, not a text");
+  fs::remove(marker);
+  ASSERT_EQ(::mkfifo(marker.c_str(), 0600), 0);
+  EXPECT_EQ(refusal("compare", rings20), marker.string() + ": is a named pipe, not a file");
+}
+
+TEST(Files, AreReadWholeWithinTheirBoundOrRefused) {
+  const ScratchFolder scratch;
+  const fs::path file = scratch.path / "file";
+  EXPECT_FALSE(readFile(file));
+  writeFile(file, "0123456789");
+  EXPECT_EQ(readFile(file, 10), "0123456789");
+  EXPECT_THROW(readFile(file, 9), BadInput);
+  EXPECT_THROW(readFile(scratch.path), BadInput);
+  EXPECT_THROW(readFile("/dev/zero"), BadInput);
+  EXPECT_GT(readFile("/proc/self/status")->size(), 0u);  // whose length nobody says
+  fs::resize_file(file, std::uintmax_t{50} << 30);       // sparse: it takes no room
+  EXPECT_THROW(readFile(file), BadInput);
+}
+
+/// What calls itself for each list in another would use up its stack.
+TEST(JsonText, IsBoundedInDepthAndNamesItsFaults) {
+  EXPECT_EQ(parseJson("[[[1]]]", 3).dump(), "[[[1]]]");
+  EXPECT_THROW(parseJson("[[[[1]]]]", 3), std::runtime_error);
+  EXPECT_THROW(parseJson(std::string(1'000'000, '[')), std::runtime_error);
+  EXPECT_THROW(parseJson(R"({"a": 1, "a": 2})"), std::runtime_error);
+  EXPECT_THROW(parseJson("{"), NotJson);
+  try {
+    understood("run.json", [] { return member<double>(parseJson(R"({"dt": "1"})"), "dt"); });
+    FAIL() << "taken";
+  } catch (const BadInput& refused) {
+    EXPECT_STREQ(refused.what(), "run.json: dt: type must be number, but is string");
+  }
 }
 
 TEST_F(RunStores, AFolderThatCannotBeMadeIsAnOutputError) {

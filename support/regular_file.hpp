@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <span>
 
-#include "adapters/worker/descriptor.hpp"
+#include "support/descriptor.hpp"
 
-namespace crossgrain {
+namespace crossgrain::inline support {
 
 /// A file that a worker may have put there, open for reading. A pipe or a device under its name
 /// might never end, or hold who opens it: it is not opened for reading at all.
@@ -30,4 +30,4 @@ class RegularFile {
   std::size_t size_ = 0;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline support

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace crossgrain {
+namespace crossgrain::inline support {
 
 /// A file descriptor that closes itself. Opened with O_CLOEXEC it is not inherited by a program
 /// that is started meanwhile: a sibling that held our end of a worker's pipe would keep that worker
@@ -28,4 +28,4 @@ class Descriptor {
   int fd_;
 };
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline support

@@ -1,4 +1,4 @@
-#include "adapters/worker/regular_file.hpp"
+#include "support/regular_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-namespace crossgrain {
+namespace crossgrain::inline support {
 
 // O_NONBLOCK: opening a pipe would wait for who writes to it.
 RegularFile::RegularFile(const std::filesystem::path& file)
@@ -33,4 +33,4 @@ std::size_t RegularFile::read(std::size_t offset, std::span<std::byte> bytes) co
   return done;
 }
 
-}  // namespace crossgrain
+}  // namespace crossgrain::inline support
