@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "support/bad_input.hpp"
@@ -13,10 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What --quick changes.
+/// What --quick changes; never to more packings than the case has.
 std::vector<std::string> hurried(const Case& setup) {
-  if (setup.average) return {"preparation.packings=2", "average.snapshots=20"};
-  return {"preparation.packings=2", "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
+  const std::string packings =
+      fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
+  if (setup.average) return {packings, "average.snapshots=20"};
+  return {packings, "preparation.rotations=0.1", "averaging.settle_rotations=0.02",
           "averaging.rotations=0.1", "averaging.snapshots_per_rotation=400"};
 }
 

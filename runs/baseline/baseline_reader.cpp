@@ -107,7 +107,7 @@ BaselineWindow readWindow(const Arrays& in, std::size_t disks) {
     if (!spin.empty()) frame.spin.assign(spin.begin() + from, spin.begin() + to);
     if (counts[k] >= 0.0) frame.contacts = contacts.next(static_cast<std::size_t>(counts[k]));
   }
-  const std::size_t changes = yardstickChanges.size();
+  const std::size_t changes = yardstickChanges.size() * disks;
   const std::vector<double> responses = in.read("yardstick", lockstepTimes.size() * changes);
   for (std::size_t k = 0; k < lockstepTimes.size(); ++k) {
     const auto from = responses.begin() + static_cast<std::ptrdiff_t>(k * changes);
