@@ -79,6 +79,9 @@ double numberSetting(const Settings& settings, const std::vector<SettingSpec>& s
 
 box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUnit) {
   if (!(dt > 0.0)) throw std::invalid_argument(fmt::format("dt must be > 0 s, not {}", dt));
+  // Box2D's bodies are of floats also where its own motion is not used.
+  if (const std::string why = beyondSinglePrecision(scene); !why.empty())
+    throw UnsupportedScene(why);
   box2d_granular::Model model;
   for (std::size_t i = 0; i < scene.disks.size(); ++i)
     model.disks.push_back({scene.disks.radius[i], scene.disks.mass[i], scene.disks.inertia[i],

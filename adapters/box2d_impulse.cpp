@@ -44,11 +44,6 @@ double friction(const ContactLaw& law) {
   return frictionless ? 0.0 : law.mu;
 }
 
-int iterations(double setting, const std::string& name) {
-  if (setting >= 1.0) return static_cast<int>(setting);
-  throw std::invalid_argument(fmt::format("setting '{}' must be at least 1", name));
-}
-
 std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Model& model,
                                     const std::vector<PairCoefficients>& pairs) {
   std::vector<Deviation> deviations;
@@ -106,8 +101,8 @@ Capabilities Box2dImpulse::capabilities() const {
        "contacts that begin more slowly get no tangential restitution: the position solver moves "
        "enduring ones apart by up to Box2D's slop, and slop/dt is of this order",
        {}},
-      {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}},
-      {"position_iterations", 3.0, "-", "of Box2D's position solver", {}}};
+      {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
+      {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true}};
   can.limits = box2dLimits();
   return can;
 }
@@ -115,7 +110,7 @@ Capabilities Box2dImpulse::capabilities() const {
 Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   const std::vector<SettingSpec> specs = capabilities().settings;
   const auto number = [&](const std::string& name) { return numberSetting(settings, specs, name); };
-  const auto passes = [&](const std::string& name) { return iterations(number(name), name); };
+  const auto passes = [&](const std::string& name) { return static_cast<int>(number(name)); };
   if (scene.bottom && scene.bottom->mu > 0.0) throw UnsupportedScene("has no bottom_friction");
   if (scene.law.stiffens())
     throw UnsupportedScene(

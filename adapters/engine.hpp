@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,9 @@ struct SettingSpec {
   std::string unit;
   std::string doc;
   std::vector<std::string> choices;  ///< of a string setting; empty: any
+  // Of a number.
+  double least = 0.0, most = std::numeric_limits<double>::infinity();
+  bool whole = false;
 };
 
 /// What an engine can do. Asked for, never assumed.

@@ -145,14 +145,23 @@ class GrainEngine : public Engine {
          stiffness_,
          "-",
          "times the case's k_n and k_t, at the same restitution; dt shrinks by its root",
-         {}},
+         {},
+         1e-9,
+         1e9},
         {"skin", 0.0, "m", "of the Verlet lists; 0: tuned while it runs", {}},
         {"max_overlap",
          1.0,
          "-",
          "of two disks, in units of the smaller radius: a run with a deeper one ends; 0: any",
          {}},
-        {"threads", 1.0, "-", "that share the work of a step, to the same bits", {}}};
+        {"threads",
+         1.0,
+         "-",
+         "that share the work of a step, to the same bits",
+         {},
+         1.0,
+         1024.0,
+         true}};
     return can;
   }
 
@@ -167,7 +176,6 @@ class GrainEngine : public Engine {
     // An impulse is a force within one step of the scheme in which a kick precedes its drift.
     if (rigid) law.conventions.integrator = Integrator::semiImplicitEuler;
     const double stiffness = setting(settings, "stiffness", stiffness_);
-    if (!(stiffness > 0.0)) throw std::invalid_argument("the setting stiffness must be > 0");
     law = stiffened(law, stiffness);
 
     Scene own = scene;
@@ -177,7 +185,7 @@ class GrainEngine : public Engine {
     if (const double dt = setting(settings, "dt", 0.0); dt > 0.0) setup.dt = dt;
     setup.skin = setting(settings, "skin", 0.0);
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
-    setup.threads = threadsOf(settings);
+    setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
     bodies_ = scene.bodies;
     spins_ = effectsOf(own).contains(Effect::friction);
     stopwatch_ = {};
@@ -280,15 +288,6 @@ class GrainEngine : public Engine {
   static double setting(const Settings& settings, const std::string& name, double otherwise) {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : std::get<double>(found->second);
-  }
-
-  static int threadsOf(const Settings& settings) {
-    constexpr double most = 1024.0;
-    const double threads = setting(settings, "threads", 1.0);
-    if (threads != std::floor(threads) || threads < 1.0 || threads > most)
-      throw std::invalid_argument(fmt::format(
-          "the setting threads = {:g} must be a whole number from 1 to {:g}", threads, most));
-    return static_cast<int>(threads);
   }
 
   Contacts contacts() const {

@@ -83,4 +83,38 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& sc
   return reasons;
 }
 
+std::string beyondSinglePrecision(const Scene& scene) {
+  // Squares of these, and products of a mass with one of them, are within 10^±38.
+  constexpr double farthest = 1e15, lightest = 1e-30, heaviest = 1e20;
+  const Disks& disks = scene.disks;
+  if (disks.size() == 0) return {};
+  const double unit = *std::ranges::min_element(disks.radius);
+  const auto beyond = [](const std::string& what, double value, const char* symbol, double least,
+                         double most) {
+    return fmt::format(
+        "works in single precision, which needs {} between {:.3g} and {:.3g} {}, not {:.6g}", what,
+        least, most, symbol, value);
+  };
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const std::string of = fmt::format(" of disk {}", k);
+    const double m = disks.mass[k], j = disks.inertia[k], square = unit * unit;
+    if (!(m >= lightest && m <= heaviest))
+      return beyond("the mass" + of, m, "kg", lightest, heaviest);
+    if (!(j >= square * lightest && j <= square * heaviest))
+      return beyond("the moment of inertia" + of, j, "kg m²", square * lightest, square * heaviest);
+    const double lengths[] = {disks.radius[k], disks.position[k].x(), disks.position[k].y(),
+                              disks.velocity[k].x(), disks.velocity[k].y()};
+    const char* const names[] = {"the radius", "x", "y", "v_x", "v_y"};
+    for (int n = 0; n < 5; ++n)
+      if (!(std::abs(lengths[n]) <= farthest * unit))
+        return beyond(names[n] + of, lengths[n], n < 3 ? "m" : "m/s", -farthest * unit,
+                      farthest * unit);
+    if (!(std::abs(disks.spin[k]) <= farthest))
+      return beyond("the spin" + of, disks.spin[k], "rad/s", -farthest, farthest);
+  }
+  if (!(scene.gravity.norm() <= farthest * unit))
+    return beyond("gravity", scene.gravity.norm(), "m/s²", 0.0, farthest * unit);
+  return {};
+}
+
 }  // namespace crossgrain

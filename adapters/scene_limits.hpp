@@ -26,4 +26,9 @@ struct SceneLimits {
 std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& scene,
                                       bool softLawStoodFor);
 
+/// The first number of a scene that single precision cannot hold, or square, in a unit of about the
+/// smallest radius: such engines end with an assertion, or take a mass that is rounded to nothing
+/// for another. Empty: none.
+std::string beyondSinglePrecision(const Scene& scene);
+
 }  // namespace crossgrain

@@ -151,6 +151,9 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
            fmt::format("runs in {}, not {}", toString(can.precisions.front()),
                        toString(scene.precision))});
   }
+  if (adapted.scene.precision == Precision::float32)
+    if (const std::string why = beyondSinglePrecision(adapted.scene); !why.empty())
+      throw UnsupportedScene(why);
   return adapted;
 }
 

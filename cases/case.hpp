@@ -134,6 +134,7 @@ struct Case {
   Cost cost;
   std::map<std::string, Settings> engines;  ///< [engines.NAME]
   std::vector<std::string> warnings;        ///< what loads, but is hardly meant; one line each
+  std::vector<std::string> overrides;       ///< "key.path=value" each, as after `--set`
 };
 
 }  // namespace crossgrain::inline cases

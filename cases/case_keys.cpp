@@ -42,6 +42,15 @@ bool isIn(const std::string& section, const std::string& key) {
   return key == section || key.starts_with(section + ".");
 }
 
+std::string whereSaid(const Case& setup, const std::string& key) {
+  std::string where = setup.file.string();
+  for (const std::string& text : setup.overrides) {
+    const std::string said = text.substr(0, text.find_first_of("= \t"));
+    if (isIn(said, key) || isIn(key, said)) where = "--set " + text;
+  }
+  return where;
+}
+
 std::vector<std::string> changes(const CaseKeys& before, const CaseKeys& now) {
   std::set<std::string> keys;
   for (const CaseKeys* side : {&before, &now})

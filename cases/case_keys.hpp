@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "cases/case.hpp"
+
 namespace crossgrain::inline cases {
 
 /// Every key of a case's merged document, "law.mu", with its value as TOML prints it: what two
@@ -15,6 +17,9 @@ CaseKeys caseKeys(const std::string& toml);
 
 /// Whether a key stands in a section, "averaging.margins", or is that key itself.
 bool isIn(const std::string& section, const std::string& key);
+
+/// Who says a key, for messages: "--set law.kn=1", or the case file.
+std::string whereSaid(const Case& setup, const std::string& key);
 
 /// One line per key that differs, "law.mu: 0.44 → 0.5"; "none" stands for a key that is missing.
 std::vector<std::string> changes(const CaseKeys& before, const CaseKeys& now);

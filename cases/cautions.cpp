@@ -26,8 +26,8 @@ void cautionsOfStep(const Case& setup, Lines& lines) {
   // Six contacts, as in a triangular lattice, are the most that disks of one size have.
   if (dt >= limit->dt / std::sqrt(6.0))
     return lines.push_back(fmt::format(
-        "the time step of {:.3g} s is beyond what a disk with six contacts bears, 2/(√6 "
-        "ω) = {:.3g} s",
+        "the time step of {:.3g} s is beyond what a disk with six contacts bears, 1/√6 of what one "
+        "does = {:.3g} s",
         dt, limit->dt / std::sqrt(6.0)));
   constexpr double fewSteps = 20.0;  // t_c/50 is usual
   const auto time = pairContactTime(setup);

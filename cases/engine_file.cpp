@@ -171,7 +171,11 @@ EngineEntry loadEngineFile(const fs::path& file) {
 EngineEntry engineOfCommand(const std::string& text) {
   const std::string where = fmt::format("--engine '{}': ", text);
   const std::size_t sign = text.find('=');
-  if (sign == std::string::npos) throw BadInput(where + "must be NAME='program arguments'");
+  if (sign == std::string::npos)
+    throw BadInput(fmt::format("{}must be NAME='program arguments'{}", where,
+                               findEngine(text) || namesEngineFile(text) || text == "all"
+                                   ? fmt::format(" (did you mean --engines {}?)", text)
+                                   : ""));
   const std::string name = text.substr(0, sign);
   if (const std::string why = whyNoName(name); !why.empty())
     throw BadInput(fmt::format("{}the name '{}' {}", where, name, why));

@@ -1,6 +1,7 @@
 #include "cases/loader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,7 +229,7 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
 
   readHeader(header, c);
   refuseSections(root, c.kind);
-  readLaw(law, c.law);
+  readLaw(law, c.law, c.kind == CaseKind::collision);
   readRun(run, c.run);
   readEngines(engines, c.engines);
   if (root.has("stability")) readStability(stability, c.stability.emplace());
@@ -266,21 +267,44 @@ void warnOfStep(Case& c, const std::filesystem::path& said) {
 
 }  // namespace
 
-std::vector<Case> loadCase(const std::filesystem::path& file,
-                           const std::vector<std::string>& overrides, const std::string& fragment) {
+namespace {
+
+std::vector<Case> loadAll(const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides, const std::string& fragment) {
   std::vector<Case> cases;
   for (CaseDocument& document : readCaseDocuments(file, overrides, fragment)) {
     const toml::node* const step = document.root.at_path("run.dt").node();
     const auto said = step ? fileOf(step->source()) : std::nullopt;
     Case& c = cases.emplace_back(readCase(file, document));
+    c.overrides = overrides;
     if (said && c.run.dt) warnOfStep(c, *said);
   }
   return cases;
 }
 
+}  // namespace
+
+std::vector<Case> loadCase(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides, const std::string& fragment) {
+  try {
+    return loadAll(file, overrides, fragment);
+  } catch (const BadInput& error) {
+    // What the command line broke is not the file's fault, wherever it shows.
+    if (overrides.empty() || std::string_view(error.what()).starts_with("--set ")) throw;
+    try {
+      loadAll(file, {}, fragment);
+    } catch (const BadInput&) {
+      throw error;
+    }
+    throw BadInput(fmt::format("--set {}: {}", fmt::join(overrides, " --set "), error.what()));
+  }
+}
+
 Case caseWith(const Case& setup, const std::string& fragment) {
   CaseDocument document = documentOf(setup.resolvedToml, setup.variant, fragment);
-  return readCase(setup.file, document);
+  Case changed = readCase(setup.file, document);
+  changed.overrides = setup.overrides;
+  return changed;
 }
 
 std::string resolvedFile(const std::vector<Case>& cases) {

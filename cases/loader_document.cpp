@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 #include "support/input_file.hpp"
 
 namespace crossgrain::inline cases {
@@ -107,7 +108,33 @@ void merge(toml::table& base, toml::table&& changes) {
   }
 }
 
-/// Where `extends` points to, if anywhere; takes the key out of the document.
+/// "cases/laws/thesis.toml" of the cases that came with the program; absent for another name.
+std::optional<fs::path> shippedCase(const std::string& name) {
+  const fs::path file = dataFolder() / name;
+  std::error_code unknown;
+  const bool named = *fs::path(name).begin() == "cases" && fs::exists(file, unknown);
+  return named ? std::optional(file) : std::nullopt;
+}
+
+/// " (did you mean cases/laws/thesis.toml?)": a case that came with the program and ends in the
+/// same folder and name, for a copy of a case that lies elsewhere; empty without one.
+std::string shippedNamesake(const fs::path& base) {
+  const fs::path cases = dataFolder() / "cases";
+  std::string found;
+  std::error_code stop;
+  for (fs::recursive_directory_iterator at(cases, stop), end; !stop && at != end;
+       at.increment(stop)) {
+    if (at->path().filename() != base.filename()) continue;
+    const bool sameFolder = at->path().parent_path().filename() == base.parent_path().filename();
+    if (found.empty() || sameFolder)
+      found = ("cases" / at->path().lexically_relative(cases)).string();
+    if (sameFolder) break;
+  }
+  return found.empty() ? "" : fmt::format(" (did you mean {}?)", found);
+}
+
+/// Where `extends` points to, if anywhere; takes the key out of the document. A name in cases/ that
+/// is not there beside the file is that of a case that came with the program.
 std::optional<fs::path> takeBase(toml::table& document, const fs::path& file) {
   if (const toml::node* const misplaced = document.get("extends"))
     throw BadInput(location(misplaced->source()) +
@@ -117,12 +144,16 @@ std::optional<fs::path> takeBase(toml::table& document, const fs::path& file) {
   const auto name = node->value_exact<std::string>();
   if (!name || name->empty())
     throw BadInput(location(node->source()) + "case.extends: must be the path of a case file");
-  const fs::path base = (file.parent_path() / *name).lexically_normal();
+  fs::path base = (file.parent_path() / *name).lexically_normal();
+  std::error_code unknown;
+  if (!fs::exists(base, unknown)) base = shippedCase(*name).value_or(base);
   if (const std::string why = whyNoFile(base); !why.empty()) {
     const std::string where = location(node->source());
     if (isForeign(node->source())) throw BadInput(where + "case.extends: " + why);
+    const std::string shipped = shippedNamesake(base);
     throw BadInput(fmt::format("{}case.extends = \"{}\": {} (looked for {}){}", where, *name, why,
-                               base.string(), nearestFile(base, caseExtension)));
+                               base.string(),
+                               shipped.empty() ? nearestFile(base, caseExtension) : shipped));
   }
   document["case"].as_table()->erase("extends");
   return base;

@@ -72,12 +72,21 @@ struct Material {
   double young[2], poisson[2];
 };
 
-Material readMaterial(Reader& in) {
+/// @param ofTwoBodies  in a collision; elsewhere every contact would be one of the first material
+/// with
+///                     the second, and no disk has one of its own
+Material readMaterial(Reader& in, bool ofTwoBodies) {
   Material material{};
   Range stiff = positive("Pa");
   stiff.mayBeInfinite = true;
   requirePair(in, "young", material.young, stiff);
   requirePair(in, "poisson", material.poisson, between(0.0, 0.5));
+  for (const auto& [key, values] :
+       {std::pair{"young", material.young}, {"poisson", material.poisson}})
+    if (!ofTwoBodies && values[0] != values[1])
+      in.fail(key,
+              "the values of two bodies belong to a collision; here all disks and walls are of one "
+              "material: give one value");
   if (std::isinf(material.young[0]) && std::isinf(material.young[1]))
     in.fail("young", "one of two bodies must give way");
   return material;
@@ -161,7 +170,7 @@ void settleRigid(const Reader& in, ContactLaw& law) {
 
 }  // namespace
 
-void readLaw(Reader& in, ContactLaw& law) {
+void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies) {
   readOptions(in, law);
   const char* const damping = law.damper == Damper::constant       ? "kg/s"
                               : law.damper == Damper::viscoelastic ? "s"
@@ -176,7 +185,7 @@ void readLaw(Reader& in, ContactLaw& law) {
   in.read("e_n", law.en, between(0.0, 1.0));
   in.read("e_t0", law.et0, between(0.0, 1.0));
   if (law.normal == NormalLaw::hertz && in.has("young") && in.has("poisson"))
-    setHertz(law, readMaterial(in));
+    setHertz(law, readMaterial(in, ofTwoBodies));
   in.take("young");
   in.take("poisson");
   in.finish();

@@ -22,7 +22,7 @@ double massOf(const Reader& in, double density, double radius, double height);
 /// One number for both bodies, or two.
 void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range);
 
-void readLaw(Reader& in, ContactLaw& law);
+void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies);
 void readBottom(Reader& in, BottomPlate& bottom);
 void readCell(Reader& in, Cell& cell);
 /// @param cell  read already: its area and height make numbers and masses

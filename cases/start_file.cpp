@@ -83,7 +83,10 @@ class StartReader {
 
   double number(std::string_view text, Column column) {
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Tables have a plus sign where from_chars has none.
+    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const auto [end, error] =
+        std::from_chars(text.data() + (plus ? 1 : 0), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
       fail(fmt::format("{} = {}: must be a number", columnNames[column],
                        text.empty() ? "nothing" : std::string(text)));

@@ -11,34 +11,70 @@ namespace crossgrain::inline cases {
 
 namespace {
 
-/// A single disk meets walls only.
-double lightestReducedMass(const Assembly& assembly) {
-  double lightest = INFINITY, second = INFINITY;
-  for (const DiskGroup& group : assembly.disks) {
-    const double smallest = group.mass * (1.0 - group.radiusSpread) * (1.0 - group.radiusSpread);
-    for (std::size_t k = 0; k < std::min<std::size_t>(group.places.size(), 2); ++k) {
-      second = std::min(second, std::max(lightest, smallest));
-      lightest = std::min(lightest, smallest);
-    }
+/// The two largest of some inverse masses: those of a pair. A single disk meets walls only.
+struct LargestTwo {
+  double first = 0.0, second = 0.0;
+  void add(double inverse) {
+    second = std::max(second, std::min(first, inverse));
+    first = std::max(first, inverse);
   }
-  for (const Disks& disks : assembly.starts.disks)
-    for (const double mass : disks.mass) {
-      second = std::min(second, std::max(lightest, mass));
-      lightest = std::min(lightest, mass);
-    }
-  return 1.0 / (1.0 / lightest + 1.0 / second);
+  double reducedMass() const { return 1.0 / (first + second); }
+};
+
+class Lightest {
+ public:
+  void add(double mass, double radius, double inertia, bool rotation) {
+    normal_.add(1.0 / mass);
+    tangential_.add(1.0 / mass + (rotation ? radius * radius / inertia : 0.0));
+  }
+  LightestPair pair() const { return {normal_.reducedMass(), tangential_.reducedMass()}; }
+
+ private:
+  LargestTwo normal_, tangential_;
+};
+
+void add(Lightest& lightest, const Disks& disks, bool rotation) {
+  for (std::size_t i = 0; i < disks.size(); ++i)
+    lightest.add(disks.mass[i], disks.radius[i], disks.inertia[i], rotation);
+}
+
+LightestPair lightestPair(const Assembly& assembly) {
+  Lightest lightest;
+  for (const DiskGroup& group : assembly.disks) {
+    const double share = 1.0 - group.radiusSpread;
+    const double radius = group.radius * share, mass = group.mass * share * share;
+    for (std::size_t k = 0; k < std::min<std::size_t>(group.places.size(), 2); ++k)
+      lightest.add(mass, radius, assembly.inertiaFactor * mass * radius * radius,
+                   assembly.rotation);
+  }
+  for (const Disks& disks : assembly.starts.disks) add(lightest, disks, assembly.rotation);
+  return lightest.pair();
 }
 
 }  // namespace
 
-double lightestReducedMass(const Case& c) {
-  if (c.kind == CaseKind::collision) return collidingPair(c).reducedMass();
-  if (c.kind == CaseKind::assembly) return lightestReducedMass(c.assembly);
+LightestPair lightestPair(const Disks& disks, bool rotation) {
+  Lightest lightest;
+  add(lightest, disks, rotation);
+  return lightest.pair();
+}
+
+LightestPair lightestPair(const Case& c) {
+  if (c.kind == CaseKind::collision) {
+    const CollidingPair pair = collidingPair(c);
+    return {pair.reducedMass(), 1.0 / pair.tangentialCompliance()};
+  }
+  if (c.kind == CaseKind::assembly) return lightestPair(c.assembly);
   // A single disk of a kind never meets its like, but a bound is all that is wanted.
   const Particles& p = c.particles;
-  if (p.small > 0 && p.large == 0) return p.smallMass / 2.0;
-  if (p.large > 0 && p.small == 0) return p.largeMass / 2.0;
-  return std::min(p.smallMass, p.largeMass) / 2.0;
+  double mass = std::min(p.smallMass, p.largeMass);
+  if (p.small > 0 && p.large == 0) mass = p.smallMass;
+  if (p.large > 0 && p.small == 0) mass = p.largeMass;
+  return {mass / 2.0, mass / 2.0 / (1.0 + 1.0 / p.inertiaFactor)};
+}
+
+double lightestReducedMass(const Case& c) {
+  return lightestPair(c).normal;
 }
 
 double timeStep(const Case& c) {

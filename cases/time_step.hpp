@@ -6,6 +6,16 @@
 
 namespace crossgrain::inline cases {
 
+/// The bodies that give way most readily in a case, as bounds over all pairs.
+struct LightestPair {
+  double normal = 0.0;      ///< m₁₂: dv_n/dt = f_n/m₁₂ [kg]
+  double tangential = 0.0;  ///< 1/(1/m₁₂ + a_i²/J_i + a_j²/J_j): dv_t/dt = f_t/it [kg]
+};
+/// That the case's own numbers allow; of the two bodies in a collision.
+LightestPair lightestPair(const Case& c);
+/// Of these disks, which walls as heavy as can be surround.
+LightestPair lightestPair(const Disks& disks, bool rotation);
+
 /// m₁₂ of the lightest pair of disks that the case's own numbers allow, the one with the shortest
 /// contact [kg]; that of the two bodies in a collision.
 double lightestReducedMass(const Case& c);

@@ -31,7 +31,15 @@ struct NamedPair {
   CollidingPair bodies;
 };
 
-/// One row for each pair.
+/// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
+/// @throws std::invalid_argument where the pair does not part
+std::vector<CollisionEnd> headOnImpacts(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                                        double speed);
+/// Of those one row for each pair.
+void printStiffeningPairs(const std::vector<NamedPair>& pairs,
+                          const std::vector<CollisionEnd>& ends, double speed);
+
+/// One row for each pair, of the linear law.
 void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
                 std::optional<double> vn);
 

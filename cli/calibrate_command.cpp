@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "adapters/law_options.hpp"
+#include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "support/bad_input.hpp"
@@ -199,8 +200,7 @@ int fromConstants(const Request& request) {
 
 CollidingPair disksOf(const Case& setup, double radiusI, double massI, double radiusJ,
                       double massJ) {
-  const double q = setup.kind == CaseKind::collision ? setup.collision.inertiaFactor
-                                                     : setup.particles.inertiaFactor;
+  const double q = setup.particles.inertiaFactor;
   return {{radiusI, radiusJ},
           {massI, massJ},
           {q * massI * radiusI * radiusI, q * massJ * radiusJ * radiusJ}};
@@ -208,8 +208,7 @@ CollidingPair disksOf(const Case& setup, double radiusI, double massI, double ra
 
 std::vector<NamedPair> pairsOf(const Case& setup) {
   if (setup.kind == CaseKind::collision) {
-    const Collision& two = setup.collision;
-    return {{"i-j", disksOf(setup, two.radius[0], two.mass[0], two.radius[1], two.mass[1])}};
+    return {{"i-j", collidingPair(setup)}};
   }
   const Particles& p = setup.particles;
   struct Kind {
@@ -230,6 +229,13 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
   return pairs;
 }
 
+/// Of an impact under a law that stiffens [m/s].
+double speedOf(const Case& setup, const Request& request) {
+  if (request.vn) return *request.vn;
+  return setup.kind == CaseKind::collision ? setup.collision.vn.front()
+                                           : std::abs(setup.cell.omega) * setup.cell.innerRadius;
+}
+
 int fromCase(const CommandLine& line, const Request& request) {
   for (const auto* numbers : {&bodies, &furtherNumbers})
     if (const Number* given = firstGiven(request, *numbers); given && given->member != &Request::vn)
@@ -245,11 +251,24 @@ int fromCase(const CommandLine& line, const Request& request) {
     if (setup.law.normal == NormalLaw::rigid)
       throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",
                                  file.string()));
+  // All that may fail comes before what is printed.
+  std::vector<std::vector<CollisionEnd>> impacts;
   for (const Case& setup : cases) {
+    impacts.emplace_back();
+    if (setup.law.stiffens())
+      impacts.back() = headOnImpacts(setup.law, pairsOf(setup), speedOf(setup, request));
+    else
+      for (const NamedPair& pair : pairsOf(setup)) impliedImpact(setup.law, pair.bodies);
+  }
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const Case& setup = cases[k];
     if (cases.size() > 1) fmt::print("# variant {}\n", setup.variant);
     printLaw(setup.law, file.filename().string());
-    printPairs(setup.law, pairsOf(setup), request.vn);
-    if (&setup != &cases.back()) fmt::print("\n");
+    if (setup.law.stiffens())
+      printStiffeningPairs(pairsOf(setup), impacts[k], speedOf(setup, request));
+    else
+      printPairs(setup.law, pairsOf(setup), request.vn);
+    if (k + 1 < cases.size()) fmt::print("\n");
   }
   return exitHeld;
 }

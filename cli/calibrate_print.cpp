@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "adapters/law_options.hpp"
 #include "cli/calibrate.hpp"
@@ -36,6 +38,27 @@ void warnIfSoft(double overlap) {
         overlap, softOverlap);
 }
 
+constexpr std::array<std::string_view, 6> alwaysPrinted = {
+    "normal", "tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"};
+
+/// Of Hertz' law E and ν of two equal bodies with these k_n and k_t, as the loader's setHertz() has
+/// them: k_t/k_n = 3 (1 − ν)/(2 − ν), k_n = 2/3 E/(1 − ν²). Any ν serves without a spring.
+void printStiffness(const ContactLaw& law) {
+  if (law.normal == NormalLaw::hertz) {
+    const double ratio = law.kt / law.kn;
+    const double poisson =
+        law.kt > 0.0 ? std::clamp((3.0 - 2.0 * ratio) / (3.0 - ratio), 0.0, 0.5) : 0.0;
+    printConstant("young", 1.5 * law.kn * (1.0 - poisson * poisson),
+                  "Pa, of each of two equal bodies");
+    printConstant("poisson", poisson, "-");
+  } else if (law.normal == NormalLaw::polynomial) {
+    printConstant("k2", law.kn, "N/m^2");
+    printConstant("k3", law.kn3, "N/m^3");
+  } else {
+    printConstant("kn", law.kn, "N/m");
+  }
+}
+
 /// Where e_t0 is not known, or not all there is to know.
 void printRemarks(const ContactLaw& law, const ImpliedImpact& is) {
   if (law.tangential != TangentialLaw::none && !is.et0)
@@ -49,20 +72,26 @@ void printRemarks(const ContactLaw& law, const ImpliedImpact& is) {
 }  // namespace
 
 void printLaw(const ContactLaw& law, const std::string& asked) {
-  fmt::print("# {}\n[law]\nnormal = \"linear\"\n", asked);
-  for (const char* option :
-       {"tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"})
-    if (mattersTo(law, option)) fmt::print("{} = \"{}\"\n", option, lawOptionValue(law, option));
-  printConstant("kn", law.kn, "N/m");
-  printConstant("gn", law.gn, "kg/s");
+  fmt::print("# {}\n[law]\n", asked);
+  for (const LawOption& option : lawOptions()) {
+    const bool asLoaded = option.get(law) == option.get(ContactLaw{});
+    const bool always = std::ranges::find(alwaysPrinted, option.name) != alwaysPrinted.end();
+    if (mattersTo(law, option.name) && (always || !asLoaded))
+      fmt::print("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
+  }
+  printStiffness(law);
+  const char* const damping = law.damper == Damper::constant       ? "kg/s"
+                              : law.damper == Damper::viscoelastic ? "s"
+                                                                   : "-";
+  printConstant("gn", law.gn, damping);
   if (law.tangential == TangentialLaw::none) return;
   if (law.mu > 0.0)
     printConstant("mu", law.mu, "-");
   else
     fmt::print("# mu = …   a case needs it; not given\n");
-  if (law.kt > 0.0) printConstant("kt", law.kt, "N/m");
+  if (law.kt > 0.0 && law.normal != NormalLaw::hertz) printConstant("kt", law.kt, "N/m");
   if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
-    printConstant("gt", law.gt, "kg/s");
+    printConstant("gt", law.gt, damping);
 }
 
 void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn) {
@@ -100,11 +129,39 @@ void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional
   warnIfSoft(overlap / radius);
 }
 
+std::vector<CollisionEnd> headOnImpacts(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                                        double speed) {
+  ContactLaw normal = law;
+  normal.tangential = TangentialLaw::none;
+  std::vector<CollisionEnd> ends;
+  for (const auto& [name, bodies] : pairs)
+    ends.push_back(oracleOutcome(normal, bodies, {0.0, speed}));
+  return ends;
+}
+
+void printStiffeningPairs(const std::vector<NamedPair>& pairs,
+                          const std::vector<CollisionEnd>& ends, double speed) {
+  fmt::print("\n# implied, at v_n = {:.6g} m/s\n", speed);
+  fmt::print("# {:<12} {:>11} {:>8} {:>9} {:>11} {:>11} {:>9}\n", "pair", "m12 [kg]", "K", "e_n",
+             "t_c [s]", "t_c/50 [s]", "δ_max/a");
+  double largest = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ReducedPair two = reduced(pairs[k].bodies);
+    const double overlap = *ends[k].maxOverlap / smallerRadius(pairs[k].bodies);
+    largest = std::max(largest, overlap);
+    fmt::print("# {:<12} {:>11.4g} {:>8.4g} {:>9.4f} {:>11.4g} {:>11.4g} {:>9.2g}\n", pairs[k].name,
+               two.mass, two.K, ends[k].en, *ends[k].duration, *ends[k].duration / stepsPerContact,
+               overlap);
+  }
+  warnIfSoft(largest);
+}
+
 void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
                 std::optional<double> vn) {
-  fmt::print(
-      "\n# implied (normal frozen: slow impacts); the constants are the same for all pairs, "
-      "so restitutions are not\n");
+  fmt::print("\n# implied (normal frozen: slow impacts){}\n",
+             pairs.size() > 1 && law.gn > 0.0 && law.damper != Damper::critical
+                 ? "; the constants are the same for all pairs, so restitutions are not"
+                 : "");
   fmt::print("# {:<12} {:>11} {:>8} {:>9} {:>9} {:>11} {:>9} {:>9} {:>9} {:>11}{}\n", "pair",
              "m12 [kg]", "K", "e_n allow", "e_n cut", "t_c [s]", "e_t0", "sliding", "Ψ*",
              "t_c/50 [s]", vn ? fmt::format(" {:>9}", "δ_max/a") : "");

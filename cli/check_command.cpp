@@ -94,7 +94,7 @@ void printChecked(const json& checked) {
   fmt::print("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
              listed(checked["left_out"]));
   if (checked["steps_per_contact"].is_number())
-    fmt::print("  {:.3g} steps in the shortest contact; dt may be at most 2/ω = {:.3g} s\n",
+    fmt::print("  {:.3g} steps in the shortest contact; dt may be at most {:.3g} s\n",
                checked["steps_per_contact"].get<double>(), checked["step_limit_s"].get<double>());
   if (checked.contains("cell")) printCell(checked);
   for (const json& caution : checked["cautions"])

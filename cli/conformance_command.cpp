@@ -36,7 +36,9 @@ void print(const ConformanceResults& results) {
       if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
   for (const ConformanceRow& row : results.rows)
     if (row.part == "lockstep" && row.outcome == passed) fmt::print("  {}\n", row.detail);
-  if (!results.cause.empty()) fmt::print("most likely: {}\n", results.cause);
+  for (const std::string& line :
+       {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
+    if (!line.empty()) fmt::print("{}\n", line);
 }
 
 int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {

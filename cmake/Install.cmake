@@ -30,8 +30,9 @@ install(FILES engines/chipmunk/chipmunk.toml
         DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines/chipmunk)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml")
-install(FILES README.md LICENSE CHANGELOG.md docs/your-engine.md adapters/worker/protocol.schema.json
+install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging

@@ -89,7 +89,8 @@ struct CollisionEnd {
   /// The law has no limit of small time steps here: it jumps (jumpsAtTouch()), or a slip ended at
   /// v_t = 0 while the bound fell faster than the dashpot relaxes. Reset to the bound, the spring
   /// is caught by it again after a time ∝ v_t, so v_t grows from its rounding by a factor per
-  /// reset: where that leads is a function of log dt. The outcome is one of a narrow family.
+  /// reset: where that leads is a function of log dt. The outcome is one of a narrow family, whose
+  /// members are further apart than 1e-4 of the larger of v_n and v_t.
   bool noLimit = false;
 };
 

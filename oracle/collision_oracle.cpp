@@ -1,5 +1,6 @@
 #include "oracle/collision_oracle.hpp"
 
+#include <fmt/format.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
@@ -7,8 +8,10 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "oracle/impact.hpp"
 #include "oracle/two_body_problem.hpp"
@@ -35,12 +38,28 @@ State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   State state{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0, 0.0,
               0.0,    0.0, 0.0};
   if (!law_.stiffens()) return state;
-  const double visible = 64.0 * std::numeric_limits<double>::epsilon() * reach_;
-  const double later = std::max(1e-12 * contactTime(start.vn), visible / start.vn);
+  const double later = std::max(1e-12 * contactTime(start.vn), visibleLength() / start.vn);
   state.x += later * state.vx;
   state.y += later * state.vy;
   if (!remembersForce()) state.spring = later * kinematics(state).tangentialVelocity;
   return state;
+}
+
+/// Differences of positions below this are rounding [m].
+double TwoBodyProblem::visibleLength() const {
+  return 64.0 * std::numeric_limits<double>::epsilon() * reach_;
+}
+
+/// The state a little later (or earlier), to first order.
+State TwoBodyProblem::along(const State& s, double time) const {
+  const State rate = derivative(s);
+  std::array<double, dimension> y, dydt;
+  std::memcpy(y.data(), &s, sizeof s);
+  std::memcpy(dydt.data(), &rate, sizeof rate);
+  for (std::size_t k = 0; k < dimension; ++k) y[k] += time * dydt[k];
+  State moved;
+  std::memcpy(&moved, y.data(), sizeof moved);
+  return moved;
 }
 
 /// What a force changes by where the distance is rounded [N].
@@ -91,15 +110,48 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
   };
   const auto phaseLasts = [this](const State& s) { return firstGuard(s); };
   const auto approach = [this](const State& s) { return -kinematics(s).normalVelocity; };
+  const auto tangentialGuardAfter = [&](const State& from, double h) {
+    return tangentialGuard(stepFrom(from, h));
+  };
+  /// When within h the tangential guard, > 0 at both ends, is ≤ 0 in between: where it falls at
+  /// first and rises at last its minimum is looked for. Else the events between would be missed,
+  /// and with them that a contact sticks for less than a step before its bound begins to fall,
+  /// which is where the outcome jumps.
+  const auto dipOf = [&](const State& from, const State& to, double h) -> std::optional<double> {
+    const double little = 1e-6 * h, first = tangentialGuard(from), last = tangentialGuard(to);
+    const bool justBegun = first < 1e-9 * last;  // it is 0 to rounding
+    if (justBegun || tangentialGuard(along(from, little)) >= first ||
+        tangentialGuard(along(to, -little)) >= last)
+      return std::nullopt;
+    constexpr double golden = 0.6180339887498949;
+    double low = 0.0, high = h;
+    double left = high - golden * h, right = low + golden * h;
+    double atLeft = tangentialGuardAfter(from, left), atRight = tangentialGuardAfter(from, right);
+    while (high - low > little) {
+      if (!(atLeft > 0.0)) return left;
+      if (!(atRight > 0.0)) return right;
+      if (atLeft < atRight) {
+        high = std::exchange(right, left);
+        left = high - golden * (high - low);
+        atRight = std::exchange(atLeft, tangentialGuardAfter(from, left));
+      } else {
+        low = std::exchange(left, right);
+        right = low + golden * (high - low);
+        atLeft = std::exchange(atRight, tangentialGuardAfter(from, right));
+      }
+    }
+    return std::nullopt;
+  };
 
   // Steps of t_c/400 leave rk8pd's own error far below rounding where the law is smooth; where it
   // is not, at the ends of a contact that stiffens, they shrink until it is again, to a thousandth
   // of the time in which the overlap comes or goes at most, which is fine enough for any power of
-  // it. Events cut steps short.
+  // it, or to that in which positions change visibly. Events cut steps short.
   const double fullStep = contactTime / 400.0;
   const auto shortest = [&](const State& from) {
     const Kinematics k = kinematics(from);
-    return std::min(fullStep, 1e-3 * k.overlap / std::abs(k.normalVelocity));
+    return std::min(fullStep,
+                    std::max(1e-3 * k.overlap, visibleLength()) / std::abs(k.normalVelocity));
   };
   /// Errors below this are those of rounded positions, which a force sees.
   const auto allowed = [&](const State& from, double h) {
@@ -119,9 +171,14 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
       const double grown = errorOfStep() < 0.01 * allowed(now, h) ? 2.0 * h : h;
       wanted = std::min(fullStep, std::max(grown, shortest(next)));
     }
-    const bool event = !(phaseLasts(next) > 0.0);
+    std::optional<double> within;  // a time by when the phase has ended
+    if (!(phaseLasts(next) > 0.0))
+      within = h;
+    else if (law_.springs())
+      within = dipOf(now, next, h);
+    const bool event = within.has_value();
     if (event) {
-      h = timeOf(phaseLasts, now, h);
+      h = timeOf(phaseLasts, now, *within);
       next = stepFrom(now, h);
     }
     if (approach(now) > 0.0 && !(approach(next) > 0.0))
@@ -138,29 +195,26 @@ CollisionEnd TwoBodyProblem::solve(const CollisionStart& start) {
     }
     enterPhase(now);
   }
-  throw std::invalid_argument("the pair does not part within many contact times: too much damping");
+  throw std::invalid_argument(
+      fmt::format("the pair has not parted after {} steps of the oracle, {:.3g} contact times",
+                  mostSteps, duration / contactTime));
 }
 
 namespace {
 
 /// Some conventions make the force jump back and forth between the steps of any engine: sticking
-/// with the dashpot on top of a spring at its bound, slipping without it. What they converge to
-/// depends on the engine, so there is nothing to hold it against.
+/// with the dashpot on top of a spring at its bound, slipping without it; or a bound below zero
+/// that turns the spring's force round. What they converge to depends on the engine, so there is
+/// nothing to compare it with.
 void requireContinuousLimit(const ContactLaw& law) {
   const LawConventions& how = law.conventions;
   const bool tension = law.gn > 0.0 && how.tension == Tension::allow;
   const bool dashpot = law.tangential == TangentialLaw::springDashpot && law.gt > 0.0;
   const char* jumps = nullptr;
-  if (tension && law.tangential != TangentialLaw::none) {
-    if (how.coulombBound == CoulombBound::signedForce) jumps = "coulomb_bound = \"signed\"";
-    if (how.coulombBound == CoulombBound::magnitude && law.springs() &&
-        how.springUpdate == SpringUpdate::after)
-      jumps = "coulomb_bound = \"magnitude\" with spring_update = \"after\"";
-  }
+  if (tension && law.tangential != TangentialLaw::none &&
+      how.coulombBound == CoulombBound::signedForce)
+    jumps = "coulomb_bound = \"signed\"";
   if (dashpot && how.dashpot == Dashpot::outside) jumps = "dashpot = \"outside\"";
-  if (dashpot && how.springReset == SpringReset::springOnly &&
-      how.springUpdate == SpringUpdate::after)
-    jumps = "spring_reset = \"spring_only\" with spring_update = \"after\"";
   if (dashpot && law.normal == NormalLaw::hertz && how.history == History::displacement &&
       how.springReset == SpringReset::springOnly)
     throw std::invalid_argument(
@@ -172,13 +226,41 @@ void requireContinuousLimit(const ContactLaw& law) {
                                 " has no limit of small time steps to score against");
 }
 
+/// Whether a collision has several outcomes in the limit of small steps, where a slip's end lets
+/// v_t grow from its rounding (CollisionEnd::noLimit). What it grows from is taken anew, over three
+/// decades below any step's, at places that no factor of growth can share; outcomes that then stay
+/// together are one. 10⁻⁴ of the larger of v_n and v_t is a hundredth of the narrowest margin that
+/// collisions are judged by here: what is left moves no verdict.
+bool hasSeveralOutcomes(const ContactLaw& law, const CollidingPair& pair,
+                        const CollisionStart& start) {
+  constexpr int samples = 8;
+  constexpr double golden = 0.6180339887498949;
+  const double allowed = 1e-4 * std::max(1.0, std::abs(start.psi));
+  std::array<double, samples> psi, en;
+  for (int k = 0; k < samples; ++k) {
+    TwoBodyProblem problem(law, pair);
+    problem.overshoot(start.vn * std::pow(10.0, -9.0 + 3.0 * std::fmod(k * golden, 1.0)));
+    const CollisionEnd end = problem.solve(start);
+    psi[k] = end.psi;
+    en[k] = end.en;
+  }
+  const auto spread = [](const auto& values) {
+    const auto [low, high] = std::ranges::minmax(values);
+    return high - low;
+  };
+  return spread(psi) > allowed || spread(en) > allowed;
+}
+
 }  // namespace
 
 CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
                            const CollisionStart& start) {
   if (!law.soft()) return rigidOutcome(law, pair, start);
   requireContinuousLimit(law);
-  return TwoBodyProblem(law, pair).solve(start);
+  CollisionEnd end = TwoBodyProblem(law, pair).solve(start);
+  if (end.noLimit)
+    end.noLimit = jumpsAtTouch(law, pair, start) || hasSeveralOutcomes(law, pair, start);
+  return end;
 }
 
 bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {

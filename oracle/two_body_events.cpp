@@ -192,8 +192,12 @@ void TwoBodyProblem::chooseSpringPhase(State& s, const Kinematics& k) {
   const double limit = bound(normalForce(k));
   if (phase_.tangential == Phase::Tangential::slip) {
     s.spring = slippedSpring(k);
-    // A slip with a dashpot ends at v_t = 0.
-    noLimit_ |= law_.gt > 0.0 && dashpotRate(s, k) > boundRate(s, k);
+    // A slip with a dashpot ends at v_t = 0, unless the spring is reset beside the dashpot.
+    if (law_.gt > 0.0 && law_.conventions.springReset == SpringReset::total &&
+        dashpotRate(s, k) > boundRate(s, k)) {
+      noLimit_ = true;
+      if (overshoot_ > 0.0) s.spinI += (k.tangentialVelocity - phase_.side * overshoot_) / k.armI;
+    }
   }
   phase_.tangential = Phase::Tangential::stick;
   const double tested = testedForce(k, s.spring);

@@ -54,6 +54,9 @@ class TwoBodyProblem {
   CollisionEnd solve(const CollisionStart& start);
   /// As the free function below.
   bool jumpsAtTouch(const CollisionStart& start);
+  /// What v_t is let grow from where a slip ends at 0 and CollisionEnd::noLimit may hold; rounding
+  /// without it. @param speed  [m/s]
+  void overshoot(double speed) { overshoot_ = speed; }
 
  private:
   // How stiff a contact is and how much it damps
@@ -110,6 +113,8 @@ class TwoBodyProblem {
   // Integration
   double contactTime(double speed) const;
   State firstTouch(const CollisionStart& start) const;
+  double visibleLength() const;
+  State along(const State& s, double time) const;
   double roundingOfForce(const State& s) const;
 
   static int rightHandSide(double t, const double y[], double dydt[], void* self);
@@ -119,6 +124,7 @@ class TwoBodyProblem {
   double reach_, inverseMass_;
   Phase phase_;
   double stillness_ = 0.0;  ///< v_t that counts as 0 [m/s]
+  double overshoot_ = 0.0;  ///< overshoot() [m/s]
   bool noLimit_ = false;    ///< CollisionEnd::noLimit
 };
 

@@ -36,7 +36,8 @@ struct CollisionCurve {
   std::optional<SchemeScore> ownScheme;   ///< looked at at the largest time step of a variant
 };
 
-/// A point of the sweep at which the law has no limit of small time steps.
+/// A point of the sweep at which the oracle's outcome is no reference: the law has no limit of small
+/// time steps there, or jumps beside it.
 struct NoLimitPoint {
   double psi = 0.0;       ///< Ψ_i
   double vn = 0.0;        ///< [m/s]

@@ -45,7 +45,7 @@ struct CollisionTable {
 enum class PairStatus {
   parted,
   notParted,
-  noLimit  ///< parted, but the law has no limit of small time steps there: nothing is judged
+  noLimit  ///< parted, but there is no reference to judge by: `reason` says why
 };
 constexpr auto namesOf(PairStatus) {
   return std::array<std::string_view, 3>{"parted", "not parted", "no limit"};
@@ -54,7 +54,7 @@ constexpr auto namesOf(PairStatus) {
 /// What an engine made of a sweep.
 struct CollisionPoints : CollisionTable {
   std::vector<PairStatus> status;
-  std::vector<std::string> reason;  ///< why there is no limit; else empty
+  std::vector<std::string> reason;  ///< why there is no reference; else empty
 };
 
 }  // namespace crossgrain::inline results

@@ -14,6 +14,7 @@ void fields(auto& io, ConformanceRow& row) {
   io("outcome", row.outcome);
   io("detail", row.detail);
   io("faults", row.faults);
+  io("cause", row.cause);
   io("wall_s", row.seconds);
 }
 
@@ -23,6 +24,8 @@ void fields(auto& io, ConformanceResults& results) {
   io("engine", results.engine);
   io("checks", results.rows);
   io("cause", results.cause);
+  io.present("declared", results.declared);
+  io("not_examined", results.notExamined);
 }
 
 std::size_t ConformanceResults::count(ConformanceOutcome outcome) const {

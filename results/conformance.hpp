@@ -31,6 +31,7 @@ struct ConformanceRow {
   ConformanceOutcome outcome = ConformanceOutcome::passed;
   std::string detail;      ///< the first fault with its number, or why it was skipped; may be empty
   std::size_t faults = 0;  ///< that were found in all
+  std::string cause = {};  ///< what explains them, sign and size; empty: nothing that was tried
   double seconds = 0.0;    ///< wall time [s]
 };
 
@@ -39,7 +40,9 @@ struct ConformanceResults {
   std::optional<double> elapsed;  ///< [s]
   EngineRow engine;
   std::vector<ConformanceRow> rows;  ///< in the order in which they were run
-  std::string cause;                 ///< most likely, of what failed; empty: nothing is known of it
+  std::string cause;  ///< those of the rows, each once; empty: nothing that was tried explains them
+  std::optional<std::size_t> declared;   ///< capabilities; absent: only some checks were asked for
+  std::vector<std::string> notExamined;  ///< of them, by no check
 
   std::size_t count(ConformanceOutcome outcome) const;
 };

@@ -38,17 +38,22 @@ double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
 }  // namespace
 
 EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
-  // Not the ledger's tangential springs: where they slip, a convention may put into them what no
-  // force ever gives back.
-  if (const auto& ledger = snapshot.ledger)
-    return {ledger->kinetic,
-            ledger->elasticNormal + ledger->plateSprings + tangentialEnergy(run, snapshot),
-            ledger->potential};
   const Scene& scene = run.scene;
   const double t = timeOfVelocities(snapshot, run.realised.velocityLag);
+  const double later = snapshot.positionTime - t;
+  // Not the ledger's tangential springs: where they slip, a convention may put into them what no
+  // force ever gives back.
+  if (const auto& ledger = snapshot.ledger) {
+    EnergyState energy{
+        ledger->kinetic,
+        ledger->elasticNormal + ledger->plateSprings + tangentialEnergy(run, snapshot),
+        ledger->potential};
+    for (std::size_t i = 0; i < snapshot.position.size(); ++i)  // at the time of the velocities
+      energy.potential += later * scene.disks.mass[i] * scene.gravity.dot(snapshot.velocity[i]);
+    return energy;
+  }
   std::vector<Vec2> position = snapshot.position;
-  for (std::size_t i = 0; i < position.size(); ++i)
-    position[i] -= (snapshot.positionTime - t) * snapshot.velocity[i];
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] -= later * snapshot.velocity[i];
 
   EnergyState energy;
   energy.kinetic = kineticEnergy(scene.disks, snapshot);

@@ -68,7 +68,7 @@ std::string nearestFile(const fs::path& path, const std::string& extension) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> stems;
   for (const std::string& name : namesIn(folder, extension))
-    stems.push_back(fs::path(name).stem().string());
+    if (name != path.filename()) stems.push_back(fs::path(name).stem().string());
   const auto near = nearest(path.stem().string(), stems);
   if (!near) return {};
   return fmt::format(" (did you mean {}?)", (path.parent_path() / (*near + extension)).string());

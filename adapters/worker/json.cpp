@@ -1,6 +1,7 @@
 #include "adapters/worker/json.hpp"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "adapters/law_options.hpp"
@@ -125,12 +126,16 @@ json toJson(const Capabilities& can) {
   json precisions = json::array();
   for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
   json settings = json::array();
-  for (const SettingSpec& spec : can.settings)
+  for (const SettingSpec& spec : can.settings) {
     settings.push_back({{"name", spec.name},
                         {"default", toJson(spec.defaultValue)},
                         {"unit", spec.unit},
                         {"doc", spec.doc},
-                        {"choices", spec.choices}});
+                        {"choices", spec.choices},
+                        {"least", spec.least},
+                        {"whole", spec.whole}});
+    if (std::isfinite(spec.most)) settings.back()["most"] = spec.most;
+  }
   json out = {{"version", can.version},
               {"effects", effects},
               {"law_options", can.lawOptions},
@@ -166,7 +171,9 @@ Capabilities capabilitiesFromJson(const json& in) {
   can.tangentialRestitution = in.value("tangential_restitution", true);
   for (const json& item : in.at("settings"))
     can.settings.push_back({item.at("name"), settingFromJson(item.at("default")), item.at("unit"),
-                            item.at("doc"), item.at("choices")});
+                            item.at("doc"), item.at("choices"), item.value("least", 0.0),
+                            item.value("most", std::numeric_limits<double>::infinity()),
+                            item.value("whole", false)});
   can.limits = limitsFrom(in);
   return can;
 }

@@ -180,8 +180,11 @@ void WorkerEngine::restore(const std::filesystem::path& file) {
   ask({{"request", "restore"}, {"file", file.string()}}, "restore");
 }
 
-json WorkerEngine::ask(const json& request, const std::string& what) const {
+/// Paths are sent as absolute ones: a worker need not be in this process' folder.
+json WorkerEngine::ask(json request, const std::string& what) const {
   if (!process_) throw EngineFailure(firstFailure_);
+  if (const auto file = request.find("file"); file != request.end())
+    *file = std::filesystem::absolute(file->get<std::string>()).string();
   json reply = exchange(request, what);
   understand(what, [&] {
     if (reply.at("ok").get<bool>()) return requireAnswerTo(request.at("request"), reply);

@@ -56,7 +56,7 @@ class WorkerEngine final : public Engine {
   pid_t pid() const { return process_ ? process_->pid() : -1; }
 
  private:
-  nlohmann::json ask(const nlohmann::json& request, const std::string& what) const;
+  nlohmann::json ask(nlohmann::json request, const std::string& what) const;
   /// The answer, heard by the listener, too.
   nlohmann::json exchange(const nlohmann::json& request, const std::string& what) const;
   nlohmann::json answerTo(const nlohmann::json& request, const std::string& what) const;

@@ -8,7 +8,8 @@ const {default: Box2D} = await import(new URL('build/dist/es/compat/Box2D.compat
 const b2 = await Box2D();
 const MOST_CONTACTS = 64;    // of one disk at a time
 const THICKNESS = 20;        // of planes, in units: what lies behind one comes out in front of it
-const FAR = 1e4;             // half a plane's length, in units
+const FAR = 1e4;             // half a plane's length, in units: it follows the disks
+const LOOKS = 32;            // steps between two looks where they are: in these they go less than half of that
 
 export const version = `box2d3-wasm ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
 
@@ -32,7 +33,8 @@ export class Box2dWorld {
     this.walls = bodies.map((body) => this.body(body.moves ? 'b2_kinematicBody' : 'b2_staticBody', body.start));
     this.moving = bodies.map((body) => body.moves);
     bodies.forEach((body, b) => body.offset.forEach((at, k) => this.circle(this.walls[b], at, body.diskRadius[k], this.kinds.length)));
-    bodies.forEach((body, b) => body.planes.forEach((plane) => this.plane(this.walls[b], body.fromCentre(plane.point), plane.normal)));
+    this.planes = bodies.flatMap((body, b) => body.planes.map((plane) => this.plane(b, body.fromCentre(plane.point), plane.normal)));
+    this.steps = 0;
     this.describe(law, bodies.length > 0);
   }
 
@@ -88,6 +90,7 @@ export class Box2dWorld {
     how.material.userMaterialId = BigInt(kind);
     const id = once(how, () => make(how));
     this.idOf.set(id.index1, this.idOf.size);
+    return id;
   }
 
   circle(body, at, radius, kind) {
@@ -98,10 +101,38 @@ export class Box2dWorld {
     circle.delete();
   }
 
-  plane(body, at, normal) {
-    const middle = this.toUnits([at[0] - THICKNESS * this.unit * normal[0], at[1] - THICKNESS * this.unit * normal[1]]);
-    const box = b2.b2MakeOffsetBox(FAR, THICKNESS, middle, b2.b2MakeRot(Math.atan2(-normal[0], normal[1])));
-    this.shape(this.kinds.length, (how) => b2.b2CreatePolygonShape(body, how, box));
+  plane(b, at, normal) {
+    const plane = {b, at, normal, middle: 0, half: FAR * this.unit};
+    plane.shape = this.shape(this.kinds.length, (how) => b2.b2CreatePolygonShape(this.walls[b], how, this.box(plane)));
+    return plane;
+  }
+
+  box({at, normal, middle, half}) {
+    const deep = THICKNESS * this.unit;
+    const centre = [0, 1].map((k) => at[k] - deep * normal[k] + middle * (k ? -normal[0] : normal[1]));
+    return b2.b2MakeOffsetBox(half / this.unit, THICKNESS, this.toUnits(centre), b2.b2MakeRot(Math.atan2(-normal[0], normal[1])));
+  }
+
+  /// Planes are infinite: each reaches as far as the disks which could touch it, whatever the way that they or the wall go.
+  coverPlanes(states) {
+    if (this.planes.length === 0 || this.steps++ % LOOKS) return;
+    const places = this.disks.map((_, i) => this.disk(i).position);
+    for (const plane of this.planes) {
+      const {at, normal: [nx, ny]} = plane, {centre, angle} = states[plane.b];
+      const c = Math.cos(angle), s = Math.sin(angle);
+      let low = Infinity, high = -Infinity;
+      places.forEach(([px, py], i) => {
+        const dx = px - centre[0], dy = py - centre[1];
+        const x = c * dx + s * dy - at[0], y = c * dy - s * dx - at[1], along = x * ny - y * nx;
+        if (x * nx + y * ny > 0.25 * plane.half) return;
+        low = Math.min(low, along);
+        high = Math.max(high, along);
+      });
+      if (!(Math.max(high - plane.middle, plane.middle - low) > 0.5 * plane.half)) continue;
+      plane.middle = (low + high) / 2;
+      plane.half = Math.max(plane.half, 2 * (high - low));
+      b2.b2Shape_SetPolygon(plane.shape, this.box(plane));
+    }
   }
 
   describe(law, walls) {
@@ -115,6 +146,7 @@ export class Box2dWorld {
   }
 
   placeWalls(now, next) {
+    this.coverPlanes(now);
     this.walls.forEach((wall, b) => {
       if (!this.moving[b]) return;
       const target = new b2.b2Transform();

@@ -17,10 +17,13 @@ b2Vec2 relativeVelocity(b2Contact* contact, const b2Vec2& point) {
 ImpulseWorld::ImpulseWorld(const Model& model, ImpulseOptions options)
     : options_(std::move(options)),
       dt_(model.dt),
+      gravity_(model.gravity),
       restSpeed_(2.0 * std::hypot(model.gravity.x, model.gravity.y) * model.dt),
       walls_(model.walls),
       members_(model),
       world_(model, 0.0),
+      ahead_(model.walls.size()),
+      behind_(model.walls.size()),
       lastOnWalls_(model.walls.size()),
       sumOnWalls_(model.walls.size()),
       sums_(model.disks.size()) {
@@ -29,6 +32,7 @@ ImpulseWorld::ImpulseWorld(const Model& model, ImpulseOptions options)
 
 void ImpulseWorld::step() {
   setWallsMoving();
+  world_.coverPlanes();
   touching_.clear();
   turnedBack_.clear();
   world_.box2d().Step(static_cast<float>(dt_), options_.velocityIterations,
@@ -44,10 +48,12 @@ void ImpulseWorld::setWallsMoving() {
     if (!walls_[w].moves) continue;
     const Pose now = walls_[w].pose(time());
     const Pose next = walls_[w].pose(time() + dt_);
+    behind_[w] = ahead_[w];
+    ahead_[w] = {(1.0 / dt_) * (next.centre - now.centre), (next.angle - now.angle) / dt_};
+    if (steps_ == 0) behind_[w] = ahead_[w];
     members_.pose[w] = now;
     world_.placeWall(w, now);
-    world_.wall(w).SetLinearVelocity(world_.toUnits((1.0 / dt_) * (next.centre - now.centre)));
-    world_.wall(w).SetAngularVelocity(static_cast<float>((next.angle - now.angle) / dt_));
+    world_.moveWall(w, ahead_[w].velocity, ahead_[w].spin);
   }
 }
 
@@ -83,6 +89,28 @@ void ImpulseWorld::PreSolve(b2Contact* contact, const b2Manifold*) {
                        {towardsI * static_cast<double>(manifold.normal.x),
                         towardsI * static_cast<double>(manifold.normal.y)},
                        world_.toMetres(manifold.points[0])});
+  if (members_.isWall(touching_.back().j)) actBeforeTheKick(touching_.back());
+}
+
+/// Box2D reflects the velocity that already holds the coming kick, of gravity or of a wall that
+/// speeds up: a ball would gain g dt at every bounce. So the restitution of this step is such that
+/// the velocity before the kick comes back. Two disks get the same kick.
+void ImpulseWorld::actBeforeTheKick(const Touching& touch) {
+  const auto i = static_cast<std::size_t>(touch.i);
+  const std::size_t w = members_.wallOf(touch.j);
+  const Vector arm = touch.point - members_.pose[w].centre;
+  const auto along = [&](const Motion& wall, Vector at) {
+    return dot(wall.velocity + wall.spin * perpendicular(at), touch.normal);
+  };
+  const double ahead = along(ahead_[w], arm);
+  const double behind = along(behind_[w], turned(-behind_[w].spin * dt_, arm));
+  const double disk = dot(world_.toMetres(world_.disk(i).GetLinearVelocity()), touch.normal);
+  const double before = disk - behind;
+  const double kicked = disk + dt_ * dot(gravity_, touch.normal) - ahead;
+  if (!(kicked < 0.0)) return;
+  const double share = std::max(0.0, before / kicked);
+  touch.contact->SetRestitution(
+      static_cast<float>(share * options_.restitution(touch.i, touch.j).normal));
 }
 
 void ImpulseWorld::harvest() {

@@ -40,8 +40,8 @@ struct WallImpulse {
 ///
 /// Box2D mixes friction by square root and restitution by maximum and ignores restitution below
 /// one unit a second: all three are set contact by contact. What is left of that threshold is the
-/// speed that gravity gives in two steps: every resting contact approaches by g dt in each, and
-/// rebounds of it would keep stacks warm and take their friction away step by step.
+/// speed that gravity gives in two steps: the solver ends before the contacts of a stack all rest,
+/// and rebounds of what is left would keep it warm and take its friction away step by step.
 class ImpulseWorld : private b2ContactListener {
  public:
   ImpulseWorld(const Model& model, ImpulseOptions options);
@@ -70,6 +70,11 @@ class ImpulseWorld : private b2ContactListener {
   double restSpeed() const { return restSpeed_; }     ///< slower impacts do not rebound [m/s]
 
  private:
+  /// Of a wall, over a step: velocity of its centre [m/s] and spin [rad/s].
+  struct Motion {
+    Vector velocity;
+    double spin = 0.0;
+  };
   /// A contact that the solver is about to see, with the geometry it will use.
   struct Touching {
     b2Contact* contact;
@@ -80,15 +85,19 @@ class ImpulseWorld : private b2ContactListener {
 
   void BeginContact(b2Contact* contact) override;
   void PreSolve(b2Contact* contact, const b2Manifold* old) override;
+  void actBeforeTheKick(const Touching& touch);
   void setWallsMoving();
   void harvest();
   void addToSum(const PairImpulse& impulse);
 
   ImpulseOptions options_;
-  double dt_, restSpeed_;
+  double dt_;
+  Vector gravity_;
+  double restSpeed_;
   std::vector<Wall> walls_;
   Members members_;
   World world_;
+  std::vector<Motion> ahead_, behind_;  ///< of walls, in this step and the last
   std::uint64_t steps_ = 0, sumsFrom_ = 0, contactEvaluations_ = 0, impacts_ = 0;
   std::vector<Touching> touching_;
   std::vector<b2Contact*> turnedBack_;  ///< contacts that hold a tangent speed in this step

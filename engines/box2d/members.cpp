@@ -35,19 +35,16 @@ Members::Members(const Model& model) : disks(model.disks.size()) {
 
 void Members::place(std::size_t w, const Pose& at) {
   const Reference& reference = reference_[w];
-  const double c = std::cos(at.angle);
-  const double s = std::sin(at.angle);
-  const auto turned = [&](Vector v) { return Vector{c * v.x - s * v.y, s * v.x + c * v.y}; };
   pose[w] = at;
   for (std::size_t k = 0; k < reference.disk.size(); ++k) {
-    const Vector arm = turned(reference.disk[k]);
+    const Vector arm = turned(at.angle, reference.disk[k]);
     position[reference.firstDisk + k] = at.centre + arm;
     velocity[reference.firstDisk + k] = at.velocity + at.spin * perpendicular(arm);
     spin[reference.firstDisk + k] = at.spin;
   }
   for (std::size_t k = 0; k < reference.planes.size(); ++k)
-    plane[reference.firstPlane + k] = {at.centre + turned(reference.planes[k].point),
-                                       turned(reference.planes[k].normal)};
+    plane[reference.firstPlane + k] = {at.centre + turned(at.angle, reference.planes[k].point),
+                                       turned(at.angle, reference.planes[k].normal)};
 }
 
 }  // namespace box2d_granular

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -29,6 +30,12 @@ inline double cross(Vector a, Vector b) {
 /// z × a: a turned by +90°.
 inline Vector perpendicular(Vector a) {
   return {-a.y, a.x};
+}
+
+/// v turned by an angle [rad].
+inline Vector turned(double angle, Vector v) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
 struct Disk {

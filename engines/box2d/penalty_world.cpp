@@ -66,6 +66,7 @@ void PenaltyWorld::moveWalls() {
 void PenaltyWorld::showBox2d() {
   for (std::size_t i = 0; i < members_.disks; ++i)
     world_.disk(i).SetTransform(world_.toUnits(members_.position[i]), 0.0f);
+  world_.coverPlanes();
   world_.box2d().Step(0.0f, 0, 0);
 }
 

@@ -2,35 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace box2d_granular {
 namespace {
 
-// A box whose upper face is the plane. Its normals are written as they are, not through an angle,
-// and its skin (b2_polygonRadius, twice the slop) is taken off: a disk touches at its radius.
-b2PolygonShape halfPlane(b2Vec2 point, b2Vec2 normal, float reach) {
+// A box whose upper face is the plane, through the body's centre. Its normals are written as they
+// are, not through an angle, and its skin (b2_polygonRadius, twice the slop) is taken off: a disk
+// touches at its radius.
+b2PolygonShape halfPlane(b2Vec2 normal, float reach) {
   const b2Vec2 along(normal.y, -normal.x);
   const b2Vec2 depth = 2.0f * reach * normal;
   b2PolygonShape box;
   box.m_count = 4;
-  box.m_vertices[0] = point - reach * along - depth;
-  box.m_vertices[1] = point + reach * along - depth;
-  box.m_vertices[2] = point + reach * along;
-  box.m_vertices[3] = point - reach * along;
+  box.m_vertices[0] = -reach * along - depth;
+  box.m_vertices[1] = reach * along - depth;
+  box.m_vertices[2] = reach * along;
+  box.m_vertices[3] = -reach * along;
   box.m_normals[0] = -normal;
   box.m_normals[1] = along;
   box.m_normals[2] = normal;
   box.m_normals[3] = -along;
-  box.m_centroid = point - 0.5f * depth;
+  box.m_centroid = -0.5f * depth;
   box.m_radius = 0.0f;
   return box;
+}
+
+b2Vec2 direction(Vector v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+float wrapped(double angle) {
+  return static_cast<float>(std::remainder(angle, 2.0 * std::numbers::pi));
 }
 
 }  // namespace
 
 World::World(const Model& model, double skin)
-    : unit_(model.lengthUnit), skin_(skin), world_(toUnits(model.gravity)) {
+    : unit_(model.lengthUnit),
+      skin_(skin),
+      farthest_(extentOf(model)),
+      world_(toUnits(model.gravity)) {
   world_.SetAllowSleeping(false);
   world_.SetContinuousPhysics(false);
 
@@ -40,17 +53,20 @@ World::World(const Model& model, double skin)
   std::size_t nextPlane = nextDisk + wallDisks;
   // Walls come first: of two shapes Box2D searches the contacts of the younger one's body, and a
   // wall has hundreds.
-  for (const Wall& wall : model.walls) {
-    addWall(wall, extentOf(model), nextDisk, nextPlane);
+  for (std::size_t w = 0; w < model.walls.size(); ++w) {
+    const Wall& wall = model.walls[w];
+    addWall(wall, nextDisk);
     nextDisk += wall.diskRadius.size();
-    nextPlane += wall.planes.size();
+    for (const Plane& plane : wall.planes) addPlane(plane, w, wall.moves, nextPlane++);
   }
   for (std::size_t i = 0; i < model.disks.size(); ++i) addDisk(model.disks[i], model.rotation, i);
+  coverPlanes();
 }
 
-void World::addWall(const Wall& wall, double extent, std::size_t firstDisk,
-                    std::size_t firstPlane) {
-  const Vector centre = wall.pose(0.0).centre;
+void World::addWall(const Wall& wall, std::size_t firstDisk) {
+  pose_.push_back(wall.pose(0.0));
+  const Vector centre = pose_.back().centre;
+  start_.push_back(centre);
   b2BodyDef def;
   def.type = wall.moves ? b2_kinematicBody : b2_staticBody;
   def.position = toUnits(centre);
@@ -63,12 +79,19 @@ void World::addWall(const Wall& wall, double extent, std::size_t firstDisk,
     shape.m_radius = static_cast<float>((wall.diskRadius[k] + skin_) / unit_);
     addFixture(body, shape, firstDisk + k);
   }
-  for (std::size_t k = 0; k < wall.planes.size(); ++k) {
-    const Plane& plane = wall.planes[k];
-    const b2Vec2 normal(static_cast<float>(plane.normal.x), static_cast<float>(plane.normal.y));
-    const auto reach = static_cast<float>(16.0 * extent / unit_);
-    addFixture(body, halfPlane(toUnits(plane.point - centre), normal, reach), firstPlane + k);
-  }
+}
+
+void World::addPlane(const Plane& plane, std::size_t wall, bool moves, std::size_t id) {
+  b2BodyDef def;
+  def.type = moves ? b2_kinematicBody : b2_staticBody;
+  def.position = toUnits(plane.point);
+  def.allowSleep = false;
+  b2Body& body = *world_.CreateBody(&def);
+  const double half = 2.0 * farthest_;
+  b2Fixture* const fixture =
+      addFixture(body, halfPlane(direction(plane.normal), static_cast<float>(half / unit_)), id);
+  planes_.push_back(
+      {&body, static_cast<b2PolygonShape*>(fixture->GetShape()), wall, plane, plane, half});
 }
 
 void World::addDisk(const Disk& disk, bool rotation, std::size_t id) {
@@ -81,6 +104,7 @@ void World::addDisk(const Disk& disk, bool rotation, std::size_t id) {
   def.allowSleep = false;
   b2Body& body = *world_.CreateBody(&def);
   disks_.push_back(&body);
+  radius_.push_back(disk.radius + skin_);
 
   b2CircleShape shape;
   shape.m_radius = static_cast<float>((disk.radius + skin_) / unit_);
@@ -93,16 +117,56 @@ void World::addDisk(const Disk& disk, bool rotation, std::size_t id) {
   body.SetMassData(&data);
 }
 
-void World::addFixture(b2Body& body, const b2Shape& shape, std::size_t id) {
+b2Fixture* World::addFixture(b2Body& body, const b2Shape& shape, std::size_t id) {
   b2FixtureDef def;
   def.shape = &shape;
   def.userData.pointer = id;
-  body.CreateFixture(&def);
+  return body.CreateFixture(&def);
 }
 
 void World::placeWall(std::size_t w, const Pose& pose) {
-  const double angle = std::remainder(pose.angle, 2.0 * std::numbers::pi);
-  walls_[w]->SetTransform(toUnits(pose.centre), static_cast<float>(angle));
+  pose_[w] = pose;
+  walls_[w]->SetTransform(toUnits(pose.centre), wrapped(pose.angle));
+  for (PlaneBody& plane : planes_) {
+    if (plane.wall != w) continue;
+    const Vector point = pose.centre + turned(pose.angle, plane.start.point - start_[w]);
+    plane.now.normal = turned(pose.angle, plane.start.normal);
+    const Vector aside = plane.now.point - point;
+    plane.now.point = plane.now.point - dot(aside, plane.now.normal) * plane.now.normal;
+    place(plane);
+  }
+}
+
+void World::place(PlaneBody& plane) {
+  plane.body->SetTransform(toUnits(plane.now.point), wrapped(pose_[plane.wall].angle));
+}
+
+void World::moveWall(std::size_t w, Vector velocity, double spin) {
+  const auto move = [&](b2Body& body, Vector at) {
+    body.SetLinearVelocity(toUnits(velocity + spin * perpendicular(at - pose_[w].centre)));
+    body.SetAngularVelocity(static_cast<float>(spin));
+  };
+  move(*walls_[w], pose_[w].centre);
+  for (const PlaneBody& plane : planes_)
+    if (plane.wall == w) move(*plane.body, plane.now.point);
+}
+
+void World::coverPlanes() {
+  for (PlaneBody& plane : planes_) {
+    const Vector along{plane.now.normal.y, -plane.now.normal.x};
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t i = 0; i < disks_.size(); ++i) {
+      const Vector from = toMetres(disks_[i]->GetPosition()) - plane.now.point;
+      if (dot(from, plane.now.normal) > 2.0 * radius_[i]) continue;
+      lowest = std::min(lowest, dot(from, along) - 2.0 * radius_[i]);
+      highest = std::max(highest, dot(from, along) + 2.0 * radius_[i]);
+    }
+    if (!(std::max(-lowest, highest) > plane.half)) continue;
+    plane.now.point = plane.now.point + 0.5 * (lowest + highest) * along;
+    plane.half = std::max(plane.half, highest - lowest);
+    *plane.shape = halfPlane(direction(plane.start.normal), static_cast<float>(plane.half / unit_));
+    place(plane);
+  }
 }
 
 double extentOf(const Model& model) {

@@ -11,8 +11,12 @@
 namespace box2d_granular {
 
 /// A Box2D world that holds a model: one dynamic body for each disk, with mass and inertia set by
-/// hand, one body for each wall. Walls that move are kinematic bodies; fixed ones are static, which
-/// spares Box2D to follow each of their fixtures. Walls never touch each other.
+/// hand, one body for each wall's disks and for each plane. Walls that move are kinematic bodies;
+/// fixed ones are static, which spares Box2D to follow each of their fixtures. Walls never touch
+/// each other.
+///
+/// Planes are infinite: each is one side of a box that stays before the disks that could touch it,
+/// whatever the way that they or a wall go, and is as long as they are far apart.
 ///
 /// Box2D's constants are in its length unit (b2_linearSlop 0.005, b2_aabbExtension 0.1,
 /// b2_maxTranslation 2 a step), so the model says how long that unit is. Sleep and continuous
@@ -25,7 +29,6 @@ class World {
   b2World& box2d() { return world_; }
   b2Body& disk(std::size_t i) { return *disks_[i]; }
   const b2Body& disk(std::size_t i) const { return *disks_[i]; }
-  b2Body& wall(std::size_t w) { return *walls_[w]; }
 
   b2Vec2 toUnits(Vector v) const {
     return {static_cast<float>(v.x / unit_), static_cast<float>(v.y / unit_)};
@@ -36,6 +39,10 @@ class World {
 
   /// Position and angle of a wall; the angle is wrapped so that float32 keeps resolving it.
   void placeWall(std::size_t w, const Pose& pose);
+  /// Its velocities, for Box2D's next step; its place is that of the last placeWall().
+  void moveWall(std::size_t w, Vector velocity, double spin);
+  /// Before each step: planes are to reach as far as the disks do.
+  void coverPlanes();
 
   /// The model's id of a shape.
   static std::int32_t id(b2Fixture* fixture) {
@@ -43,13 +50,28 @@ class World {
   }
 
  private:
-  void addWall(const Wall& wall, double extent, std::size_t firstDisk, std::size_t firstPlane);
+  struct PlaneBody {
+    b2Body* body;
+    b2PolygonShape* shape;
+    std::size_t wall;
+    Plane start;  ///< at t = 0
+    Plane now;    ///< its point is the middle of the box's face
+    double half;  ///< length of the face [m]
+  };
+  void addWall(const Wall& wall, std::size_t firstDisk);
+  void addPlane(const Plane& plane, std::size_t wall, bool moves, std::size_t id);
   void addDisk(const Disk& disk, bool rotation, std::size_t id);
-  void addFixture(b2Body& body, const b2Shape& shape, std::size_t id);
+  b2Fixture* addFixture(b2Body& body, const b2Shape& shape, std::size_t id);
+  void place(PlaneBody& plane);
 
   double unit_, skin_;
+  double farthest_;  ///< extentOf() the model [m]
   b2World world_;
   std::vector<b2Body*> disks_, walls_;  // owned by world_
+  std::vector<PlaneBody> planes_;
+  std::vector<Vector> start_;   ///< centres of walls at t = 0
+  std::vector<Pose> pose_;      ///< as placed last
+  std::vector<double> radius_;  ///< of the disks' shapes [m]
 };
 
 /// The farthest coordinate that occurs in a model [m].

@@ -1,7 +1,10 @@
 #include "space.hpp"
 
+#include <chipmunk/chipmunk_unsafe.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace chipmunk_worker {
@@ -40,7 +43,10 @@ double extentOf(const std::vector<Disk>& disks, const std::vector<Body>& walls) 
 }  // namespace
 
 Space::Space(const std::vector<Disk>& disks, std::vector<Body>& walls, SpaceOptions options)
-    : options_(std::move(options)), walls_(walls), space_(cpSpaceNew()) {
+    : options_(std::move(options)),
+      walls_(walls),
+      space_(cpSpaceNew()),
+      extent_(extentOf(disks, walls)) {
   cpSpaceSetIterations(space_, options_.iterations);
   cpSpaceSetGravity(space_, toChipmunk(options_.gravity));
   cpSpaceSetCollisionSlop(space_, options_.slop);
@@ -53,10 +59,10 @@ Space::Space(const std::vector<Disk>& disks, std::vector<Body>& walls, SpaceOpti
   handler->postSolveFunc = afterSolving;
   handler->userData = this;
   for (const Disk& disk : disks) addDisk(disk);
-  const double reach = 16.0 * extentOf(disks, walls);
-  for (Body& wall : walls) addWall(wall, reach);
-  for (cpShape* plane : planes_)
-    cpShapeSetUserData(plane, reinterpret_cast<cpDataPointer>(nextId_++));
+  for (Body& wall : walls) addWall(wall);
+  for (const WallShapes& shapes : shapes_)
+    for (const PlaneShape& plane : shapes.planes)
+      cpShapeSetUserData(plane.shape, reinterpret_cast<cpDataPointer>(nextId_++));
 }
 
 Space::~Space() {
@@ -85,6 +91,7 @@ void Space::addDisk(const Disk& disk) {
   cpBodySetAngularVelocity(body, disk.spin);
   allBodies_.push_back(body);
   disks_.push_back(body);
+  radius_.push_back(disk.radius);
   cpShape* const shape = cpCircleShapeNew(body, disk.radius, cpvzero);
   cpShapeSetUserData(shape, reinterpret_cast<cpDataPointer>(nextId_++));
   add(shape, false);
@@ -98,7 +105,7 @@ cpBody* Space::newWallBody(bool moves, Vector place) {
   return body;
 }
 
-void Space::addWall(Body& wall, double reach) {
+void Space::addWall(Body& wall) {
   WallShapes& shapes = shapes_.emplace_back();
   for (std::size_t k = 0; k < wall.radius.size(); ++k) {
     cpBody* const body = newWallBody(wall.moves(), wall.position[k]);
@@ -107,17 +114,37 @@ void Space::addWall(Body& wall, double reach) {
     cpShapeSetUserData(shape, reinterpret_cast<cpDataPointer>(nextId_++));
     add(shape, true);
   }
-  if (wall.planes.empty()) return;
-  shapes.planes = newWallBody(wall.moves(), wall.centre);
   for (const auto& plane : wall.planes) {
-    // A segment as thick as the scene is large: nothing gets behind it.
-    const double thick = reach / 16.0;
-    const Vector middle = plane.point - wall.centre - thick * plane.normal;
-    const Vector along = reach * crossgrain_worker::turned(plane.normal);
-    planes_.push_back(cpSegmentShapeNew(shapes.planes, toChipmunk(middle - along),
-                                        toChipmunk(middle + along), thick));
-    add(planes_.back(), true);
+    cpBody* const body = newWallBody(true, plane.point);
+    // As thick as the scene is large: nothing gets behind it.
+    cpShape* const shape = cpSegmentShapeNew(body, cpvzero, cpvzero, extent_);
+    shapes.planes.push_back({body, shape, plane.normal, plane.point, 2.0 * extent_});
+    setEnds(shapes.planes.back());
+    add(shape, true);
   }
+}
+
+void Space::setEnds(const PlaneShape& plane) const {
+  const Vector middle = -extent_ * plane.normal;
+  const Vector along = plane.half * crossgrain_worker::turned(plane.normal);
+  cpSegmentShapeSetEndpoints(plane.shape, toChipmunk(middle - along), toChipmunk(middle + along));
+}
+
+/// As far as disks reach that could touch it after their next move.
+void Space::cover(PlaneShape& shape, const crossgrain_worker::Plane& plane) const {
+  shape.at = shape.at - dot(shape.at - plane.point, plane.normal) * plane.normal;
+  const Vector along = crossgrain_worker::turned(plane.normal);
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (std::size_t i = 0; i < disks_.size(); ++i) {
+    const Vector from = position(i) + options_.dt * velocity(i) - shape.at;
+    if (dot(from, plane.normal) > 2.0 * radius_[i]) continue;
+    lowest = std::min(lowest, dot(from, along) - 2.0 * radius_[i]);
+    highest = std::max(highest, dot(from, along) + 2.0 * radius_[i]);
+  }
+  if (!(std::max(-lowest, highest) > shape.half)) return;
+  shape.at = shape.at + 0.5 * (lowest + highest) * along;
+  shape.half = std::max(shape.half, highest - lowest);
+  setEnds(shape);
 }
 
 void Space::setPose(cpBody* body, Vector place, double angle, Vector velocity, double spin) {
@@ -130,11 +157,15 @@ void Space::setPose(cpBody* body, Vector place, double angle, Vector velocity, d
 void Space::placeWalls() {
   for (std::size_t b = 0; b < walls_.size(); ++b) {
     const Body& wall = walls_[b];
+    WallShapes& shapes = shapes_[b];
+    for (std::size_t p = 0; p < shapes.planes.size(); ++p) {
+      PlaneShape& plane = shapes.planes[p];
+      cover(plane, wall.planes[p]);
+      setPose(plane.body, plane.at, wall.angle, wall.velocityAt(plane.at), wall.spin);
+    }
     if (!wall.moves()) continue;
-    const WallShapes& shapes = shapes_[b];
     for (std::size_t k = 0; k < shapes.disks.size(); ++k)
       setPose(shapes.disks[k], wall.position[k], wall.angle, wall.diskVelocity[k], wall.spin);
-    if (shapes.planes) setPose(shapes.planes, wall.centre, wall.angle, wall.velocity, wall.spin);
   }
 }
 

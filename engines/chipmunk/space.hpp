@@ -57,13 +57,24 @@ class Space {
   const std::vector<PairImpulse>& impulses() const { return impulses_; }
 
  private:
+  /// A segment that stays before the disks which could touch it, whatever the way that they or the
+  /// wall go: planes are infinite.
+  struct PlaneShape {
+    cpBody* body;
+    cpShape* shape;
+    Vector normal;  ///< at t = 0
+    Vector at;      ///< place of the body, on the plane [m]
+    double half;    ///< length [m]
+  };
   struct WallShapes {
     std::vector<cpBody*> disks;  ///< each by itself, so that a ring can shrink
-    cpBody* planes = nullptr;
+    std::vector<PlaneShape> planes;
   };
 
   void addDisk(const Disk& disk);
-  void addWall(Body& wall, double reach);
+  void addWall(Body& wall);
+  void setEnds(const PlaneShape& plane) const;
+  void cover(PlaneShape& shape, const crossgrain_worker::Plane& plane) const;
   void add(cpShape* shape, bool wall);
   void placeWalls();
   cpBody* newWallBody(bool moves, Vector place);
@@ -77,8 +88,9 @@ class Space {
   std::vector<Body>& walls_;
   cpSpace* space_;
   std::vector<cpBody*> disks_;
+  std::vector<double> radius_;
   std::vector<WallShapes> shapes_;  ///< by wall body
-  std::vector<cpShape*> planes_;    ///< numbered when all disks of walls are
+  double extent_;                   ///< how far anything reaches from the origin at the start [m]
   std::vector<cpBody*> allBodies_;
   std::vector<cpShape*> allShapes_;
   std::intptr_t nextId_ = 0;

@@ -43,6 +43,11 @@ Json setting(const char* name, double value, const char* unit, const char* doc) 
       {"name", name}, {"default", value}, {"unit", unit}, {"doc", doc}, {"choices", Json::array()}};
 }
 
+Json within(Json setting, double least, double most, bool whole) {
+  setting.update({{"least", least}, {"most", most}, {"whole", whole}});
+  return setting;
+}
+
 class Engine {
  public:
   static Json capabilities() {
@@ -64,12 +69,13 @@ class Engine {
             {"tangential_restitution", false},
             {"settings",
              {setting("dt", 5e-4, "s", "time step; 0: the case's"),
-              setting("iterations", 10.0, "-", "of the solver"),
+              within(setting("iterations", 10.0, "-", "of the solver"), 1.0, 1e6, true),
               setting("slop", 0.0, "m",
                       "overlaps up to this are left standing; 0: a thousandth of the smallest "
                       "radius"),
-              setting("bias", std::pow(0.9, 60.0), "-",
-                      "what is left after a second of an overlap beyond the slop")}}};
+              within(setting("bias", std::pow(0.9, 60.0), "-",
+                             "what is left after a second of an overlap beyond the slop"),
+                     0.0, 1.0, false)}}};
   }
 
   Json load(const Json& scene, const Arrays& arrays, const Json& settings) {
@@ -83,7 +89,6 @@ class Engine {
       throw std::logic_error(name);
     };
     dt_ = number("dt") > 0.0 ? number("dt") : scene.at("dt").get<double>();
-    if (number("iterations") < 1.0) throw Unsupported("needs at least 1 of its iterations");
     steps_ = evaluations_ = 0;
     wallSeconds_ = cpuSeconds_ = 0.0;
     disks_ = scene.at("disks");

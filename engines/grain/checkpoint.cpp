@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 #include <ostream>
@@ -107,7 +108,10 @@ void Core<Real>::restore(std::istream& in) {
   std::vector<Contact> contacts;
   readAny(in, contacts, mostPairs);
   read(in, recorded_);
-  for (MovingWall& wall : walls_) wall.moveTo(time());
+  for (MovingWall& wall : walls_) {
+    wall.moveTo(std::max(0.0, static_cast<double>(steps_) - 1.0) * dt_);
+    wall.moveTo(time());
+  }
   for (PlacedPlane& placed : placedPlanes_) placed.plane = walls_[placed.wall].plane(placed.member);
   placeWalls(Which::all);
   lists_.restoreSprings(std::move(springs), places(), travel(), team_);

@@ -83,6 +83,7 @@ class Core {
   void addImpacts();
   void findPairImpacts();
   void findPlaneImpacts(std::size_t plane);
+  ImpactBody wallBody(const MovingWall& wall, const WallOffset& offset) const;
   void addImpulse(const Impact& impact);
   std::vector<Contact> impactContacts() const;
 

@@ -9,23 +9,28 @@
 
 namespace grain {
 
-/// Impulses act on the velocities that the coming kick would bring about without them: a disk that
-/// rests on another is held, and does not sink by what gravity gives it in a step.
+/// Disks have the velocities of the step that led here, and the coming kick; walls likewise: means
+/// over the two steps, so that what rests on a wall that speeds up is held as it is under gravity.
 template <class Real>
 void Core<Real>::addImpacts() {
   impactBodies_.clear();
-  for (std::size_t k = 0; k < position_.size(); ++k) {
-    ImpactBody body{velocity_[k].x, velocity_[k].y, 0.0, inverseMass_[k], 0.0};
+  for (std::size_t i = 0; i < moving_; ++i) {
+    const double kick = dt_ * static_cast<double>(inverseMass_[i]);
+    ImpactBody body{.vx = velocity_[i].x,
+                    .vy = velocity_[i].y,
+                    .kickX = kick * static_cast<double>(force_[i].x),
+                    .kickY = kick * static_cast<double>(force_[i].y),
+                    .inverseMass = inverseMass_[i]};
     if (law_.rotation) {
-      body.spin = spin_[k];
-      body.inverseInertia = inverseInertia_[k];
-    }
-    if (k < moving_) {
-      body.vx += dt_ * static_cast<double>(force_[k].x) * body.inverseMass;
-      body.vy += dt_ * static_cast<double>(force_[k].y) * body.inverseMass;
-      if (law_.rotation) body.spin += dt_ * static_cast<double>(torque_[k]) * body.inverseInertia;
+      body.spin = spin_[i];
+      body.kickSpin = dt_ * static_cast<double>(torque_[i]) * inverseInertia_[i];
+      body.inverseInertia = inverseInertia_[i];
     }
     impactBodies_.push_back(body);
+  }
+  for (MovingWall& wall : walls_) {
+    wall.lookAhead(time() + dt_);
+    for (const WallOffset& offset : wall.offsets()) impactBodies_.push_back(wallBody(wall, offset));
   }
   impacts_.clear();
   findPairImpacts();
@@ -38,6 +43,20 @@ void Core<Real>::addImpacts() {
   if (!solveImpacts(impactLaw_, impactBodies_, impacts_)) ++unfinishedImpacts_;
   contactEvaluations_ += impacts_.size();
   for (const Impact& impact : impacts_) addImpulse(impact);
+}
+
+template <class Real>
+ImpactBody Core<Real>::wallBody(const MovingWall& wall, const WallOffset& offset) const {
+  const auto [before, after] = wall.meanVelocities(offset);
+  ImpactBody body{.vx = before.vx,
+                  .vy = before.vy,
+                  .kickX = after.vx - before.vx,
+                  .kickY = after.vy - before.vy};
+  if (law_.rotation) {
+    body.spin = before.spin;
+    body.kickSpin = after.spin - before.spin;
+  }
+  return body;
 }
 
 template <class Real>
@@ -73,7 +92,7 @@ template <class Real>
 void Core<Real>::findPlaneImpacts(std::size_t p) {
   const PlacedPlane& placed = placedPlanes_[p];
   const Plane& plane = placed.plane;
-  const WallState& wall = walls_[placed.wall].state();
+  const MovingWall& wall = walls_[placed.wall];
   for (std::size_t i = 0; i < moving_; ++i) {
     Vec<double> origin{0.0, 0.0};
     if constexpr (hasLocalCoordinates<Real>)
@@ -84,8 +103,8 @@ void Core<Real>::findPlaneImpacts(std::size_t p) {
     const auto radius = static_cast<double>(radius_[i]);
     if (!(height < radius)) continue;
     const double reach = planePoint(law_, radius, height);
-    const double armX = plane.x + dx - reach * plane.nx - wall.x;
-    const double armY = plane.y + dy - reach * plane.ny - wall.y;
+    const double armX = plane.x + dx - reach * plane.nx - wall.state().x;
+    const double armY = plane.y + dy - reach * plane.ny - wall.state().y;
     Impact impact{.i = i,
                   .j = impactBodies_.size(),
                   .nx = plane.nx,
@@ -94,8 +113,7 @@ void Core<Real>::findPlaneImpacts(std::size_t p) {
     impact.leverI = planeArmOf(law_.lever, law_.planeLever, radius, height);
     impact.armI = planeArmOf(law_.velocityLever, law_.planeLever, radius, height);
     impact.plane = static_cast<std::int32_t>(p);
-    impactBodies_.push_back(
-        {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0, 0.0, 0.0});
+    impactBodies_.push_back(wallBody(wall, wall.offsetOf(armX, armY)));
     impacts_.push_back(impact);
   }
 }

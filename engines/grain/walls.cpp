@@ -14,14 +14,20 @@ MovingWall::MovingWall(Wall wall) : wall_(std::move(wall)), start_(wall_.motion(
     reach_ = std::max(reach_, std::hypot(dx, dy));
   }
   moveTo(0.0);
+  before_ = ahead_ = pose_;
+}
+
+WallPose MovingWall::poseAt(double t) const {
+  const WallState at = wall_.motion(t);
+  return {at, std::cos(at.angle), std::sin(at.angle),
+          at.radialShift != 0.0 || at.radialVelocity != 0.0};
 }
 
 double MovingWall::moveTo(double t) {
-  const WallState before = pose_.now;
-  const WallState now = wall_.motion(t);
+  before_ = std::exchange(pose_, poseAt(t));
+  const WallState& before = before_.now;
+  const WallState& now = pose_.now;
   stoodStill_ = now == before;
-  pose_ = {now, std::cos(now.angle), std::sin(now.angle),
-           now.radialShift != 0.0 || now.radialVelocity != 0.0};
   const double arm = reach_ + std::max(std::abs(before.radialShift), std::abs(now.radialShift));
   return std::hypot(now.x - before.x, now.y - before.y) + std::abs(now.angle - before.angle) * arm +
          std::abs(now.radialShift - before.radialShift);
@@ -38,6 +44,23 @@ double MovingWall::speed() const {
   const WallState& now = pose_.now;
   return std::hypot(now.vx, now.vy) + std::abs(now.spin) * (reach_ + std::abs(now.radialShift)) +
          std::abs(now.radialVelocity);
+}
+
+void MovingWall::lookAhead(double t) {
+  if (moves()) ahead_ = poseAt(t);
+}
+
+auto MovingWall::meanVelocities(const WallOffset& offset) const
+    -> std::pair<MeanVelocity, MeanVelocity> {
+  const auto mean = [&](const WallPose& from, const WallPose& to) -> MeanVelocity {
+    const WallPoint a = from.at(offset), b = to.at(offset);
+    return {0.5 * (a.vx + b.vx), 0.5 * (a.vy + b.vy), 0.5 * (from.now.spin + to.now.spin)};
+  };
+  return {mean(before_, pose_), mean(pose_, ahead_)};
+}
+
+WallOffset MovingWall::offsetOf(double x, double y) const {
+  return {pose_.cosine * x + pose_.sine * y, pose_.cosine * y - pose_.sine * x, 0.0};
 }
 
 }  // namespace grain

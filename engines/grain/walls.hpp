@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace grain {
@@ -90,10 +91,23 @@ class MovingWall {
   /// No member is faster than this now [m/s].
   double speed() const;
 
+  /// Has the place at a later time ready, for meanVelocities().
+  void lookAhead(double t);
+  struct MeanVelocity {
+    double vx, vy, spin;
+  };
+  /// Of a point that moves with the wall, from the last moveTo() to this one, and on to where
+  /// lookAhead() was: by the trapezium rule, so exact where the velocity is constant.
+  std::pair<MeanVelocity, MeanVelocity> meanVelocities(const WallOffset& offset) const;
+  /// Of a point that is at (x, y) from the centre now, not shifted radially.
+  WallOffset offsetOf(double x, double y) const;
+
  private:
+  WallPose poseAt(double t) const;
+
   Wall wall_;
   WallState start_;
-  WallPose pose_;
+  WallPose pose_, before_, ahead_;
   std::vector<WallOffset> offsets_;
   bool stoodStill_ = false;
   double reach_ = 0.0;  ///< of the farthest disk from the centre [m]

@@ -41,8 +41,6 @@ OPEN_MPI = {
 def count_of(settings):
     """The setting `ranks`. @raise Unsupported where there are no such"""
     ranks = settings.get("ranks", 1)
-    if ranks != int(ranks) or not 1 <= ranks <= MOST:
-        raise Unsupported(f"has ranks that are a whole number from 1 to {MOST}, not {ranks:g}")
     if ranks > 1 and not shutil.which("mpirun"):
         raise Unsupported(
             f"has ranks = {ranks:g} by the program 'mpirun' alone, and there is none in PATH "

@@ -21,7 +21,7 @@ class LammpsEngine(Engine):
     def capabilities(self):
         can = super().capabilities()
         doc = "processes that share a step, under mpirun; sums in another order, so not to the same bits"
-        can["settings"].append(setting("ranks", 1.0, "-", doc))
+        can["settings"].append(setting("ranks", 1.0, "-", doc, least=1.0, most=1024.0, whole=True))
         return can
 
 

@@ -19,9 +19,9 @@ def effects_without_bottom():
     return {name: "optional" for name in EFFECTS} | {name: "never" for name in never}
 
 
-def setting(name, default, unit, doc):
-    """Of `capabilities`: a setting that takes any number."""
-    return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []}
+def setting(name, default, unit, doc, **limits):
+    """Of `capabilities`: a setting that takes any number >= 0, or within `least`, `most`, `whole`."""
+    return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []} | limits
 
 
 def demand_linear(law, kinds):

@@ -37,7 +37,7 @@ class Siconos:
             "settings": [
                 setting("dt", 5e-4, "s", "time step; 0: the case's"),
                 setting("tolerance", 1e-6, "-", "of the friction-contact problem's residual"),
-                setting("iterations", 200.0, "-", "most of its solver, in a step"),
+                setting("iterations", 200.0, "-", "most of its solver, in a step", least=1.0, whole=True),
             ],
         }
 

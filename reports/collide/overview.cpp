@@ -127,8 +127,10 @@ OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string&
 OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& engine,
                         bool besidePeer) {
   Tally all;
+  std::ptrdiff_t unknown = 0;
   forCurves(groups, engine.name,
             [&](const CollisionCurve& curve, const std::string&, const std::string&) {
+              unknown += std::ranges::count(curve.points.status, PairStatus::noLimit);
               const SweepOutcome outcome = outcomeOf(curve);
               all.held += outcome == SweepOutcome::held;
               all.model += outcome == SweepOutcome::modelDifference;
@@ -149,6 +151,7 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   }
   cell.value = all.held;
   cell.shown = fmt::format("{} of {}", all.held, all.judged());
+  if (unknown > 0) cell.shown += fmt::format(", {} points not judged", unknown);
   const int faults = (besidePeer ? 0 : all.fellShort) + all.failed;
   cell.state = faults > 0                      ? CellState::bad
                : all.model + all.fellShort > 0 ? CellState::modelDifference

@@ -274,7 +274,7 @@ Json scoreRows(const CaseGroup& group) {
                         {"verdict", first ? fmt::format("{} {}", mark, nameOf(outcome)) : ""},
                         {"class", first ? cssClass : ""},
                         {"own", first ? schemeCell(curve.ownScheme) : schemeCell({})},
-                        {"reason", cells.empty() ? curve.reason : ""},
+                        {"reason", first ? curve.reason : ""},
                         {"cells", std::move(cells)}});
       }
     }

@@ -61,14 +61,26 @@ std::size_t indexLength(std::string_view words) {
   return length;
 }
 
+/// Whether a _ or ^ at k marks what follows it. Below the line stands what follows a symbol of one
+/// letter, k_n or ΩR_i; words of several are names that people gave, spring_dashpot.
+bool isMark(std::string_view words, std::size_t k) {
+  if ((words[k] != '_' && words[k] != '^') || k == 0 || words[k - 1] == ' ') return false;
+  const auto before = [&](std::size_t back) {
+    return k >= back ? static_cast<unsigned char>(words[k - back])
+                     : static_cast<unsigned char>(' ');
+  };
+  const bool ofName = std::isalpha(before(1)) && (std::isalpha(before(2)) || before(2) == '_');
+  return words[k] == '^' || !ofName;
+}
+
 }  // namespace
 
 std::string mathHtml(std::string_view words) {
   const std::string plain = kainjow::mustache::html_escape(std::string(words));
   std::string html;
   for (std::size_t k = 0; k < plain.size(); ++k) {
-    const bool mark = (plain[k] == '_' || plain[k] == '^') && k > 0 && plain[k - 1] != ' ';
-    const std::size_t length = mark ? indexLength(std::string_view(plain).substr(k + 1)) : 0;
+    const std::size_t length =
+        isMark(plain, k) ? indexLength(std::string_view(plain).substr(k + 1)) : 0;
     if (length == 0) {
       html += plain[k];
       continue;
@@ -134,8 +146,7 @@ std::string spaced(std::string_view name) {
 std::string mathGnuplot(std::string_view words) {
   std::string text;
   for (std::size_t k = 0; k < words.size(); ++k) {
-    const bool mark = (words[k] == '_' || words[k] == '^') && k > 0 && words[k - 1] != ' ';
-    const std::size_t length = mark ? indexLength(words.substr(k + 1)) : 0;
+    const std::size_t length = isMark(words, k) ? indexLength(words.substr(k + 1)) : 0;
     text += words[k];
     if (length == 0) continue;
     text += fmt::format("{{{}}}", words.substr(k + 1, length));

@@ -24,7 +24,7 @@ std::string fieldAxis(std::string_view field);
 std::string headLabel(std::string_view name);
 
 /// Escaped text in which "σ_rφ" has a subscript and "r^p" a superscript: ASCII letters and digits,
-/// minus signs and Greek letters after a mark that follows a letter.
+/// minus signs and Greek letters after a mark that follows a symbol; "spring_dashpot" is none.
 std::string mathHtml(std::string_view words);
 
 /// Escaped text in which only symbols of one letter, "k_n" and "t_c", have what is below the line:

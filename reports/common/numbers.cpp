@@ -9,6 +9,9 @@ namespace crossgrain::reports {
 
 namespace {
 
+/// Of a value that an error stands beside: a smaller error has a power of ten of its own.
+constexpr int mostValueDigits = 6;
+
 /// The decimal exponent after rounding to that many digits: 9.996 has 1 with three of them.
 int exponentOf(double value, int digits) {
   if (value == 0.0) return 0;
@@ -87,7 +90,14 @@ std::string readable(std::optional<double> value, std::optional<double> error) {
   const int magnitude = exponentOf(std::max(std::abs(*value), std::abs(*error)), 3);
   const int shift = plain(magnitude) ? 0 : magnitude;
   const double scale = std::pow(10.0, shift);
-  const int decimals = std::min(1 - exponentOf(*error, 2) + shift, 6);
+  const int decimals = 1 - exponentOf(*error, 2) + shift;
+  if (const int most = mostValueDigits - 1 - magnitude + shift; decimals > most) {
+    const int own = exponentOf(*error, 2);
+    return fixed(*value / scale, most) + (shift == 0 ? "" : timesPowerOfTen(shift)) +
+           "\u00a0±\u00a0" +
+           (plain(own) ? fixed(*error, 1 - own)
+                       : fixed(*error / std::pow(10.0, own), 1) + timesPowerOfTen(own));
+  }
   const std::string both =
       fixed(*value / scale, decimals) + "\u00a0±\u00a0" + fixed(*error / scale, decimals);
   return shift == 0 ? both : "(" + both + ")" + timesPowerOfTen(shift);

@@ -26,7 +26,8 @@ std::string readableSetting(std::optional<double> value);
 /// A count, with spaces between thousands.
 std::string readableCount(std::optional<double> value);
 
-/// Value and standard error, both to the error's second digit: 0.242 ± 0.013.
+/// Value and standard error, both to the error's second digit: 0.242 ± 0.013; where the value would
+/// have more than six digits, the error by itself: 0.0183780 ± 2.0×10⁻¹⁰.
 std::string readable(std::optional<double> value, std::optional<double> error);
 
 /// The same with the sign always there, for differences.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "reports/conformance/report.hpp"
 
 namespace crossgrain::reports {
@@ -55,7 +57,12 @@ std::string conformancePage(const ConformanceResults& results, const Illustratio
   for (const ConformanceRow& row : results.rows)
     if (row.outcome == ConformanceOutcome::failed || row.outcome == ConformanceOutcome::brokeDown)
       view["sentences"].push_back(conformanceSentence(row));
-  if (!results.cause.empty()) view["sentences"].push_back("Most likely: " + results.cause + ".");
+  for (std::string sentence : {conformanceNotExamined(results), conformanceCause(results)})
+    if (!sentence.empty()) {
+      sentence.front() =
+          static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+      view["sentences"].push_back(sentence + ".");
+    }
   view["summary"] = results.engine.summary;
   view["parts"] = Json::array();
   for (const auto& [part, title] : {std::pair("suite", "The suite"),

@@ -6,11 +6,13 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview_marks.hpp"
 #include "reports/common/page.hpp"
 #include "reports/couette/agreement_entries.hpp"
 #include "reports/couette/compare_views.hpp"
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/figures.hpp"
+#include "reports/couette/overview.hpp"
 
 namespace crossgrain::reports {
 
@@ -18,16 +20,10 @@ namespace {
 
 using Engines = std::vector<EngineRuns>;
 
-/// Mark and class of style.css, in the order of Answer.
+/// Mark and class of style.css.
 struct Mark {
   const char *symbol, *style;
 };
-
-Mark markOf(Answer answer) {
-  static constexpr std::array<Mark, 5> marks = {
-      {{"✓", "agree"}, {"✓", "agree"}, {"≈", "borderline"}, {"✗", "disagree"}, {"?", "undecided"}}};
-  return marks[static_cast<std::size_t>(answer)];
-}
 
 /// Of a ring, which has no verdict: where its interval lies.
 Mark markOf(Verdict ring) {
@@ -36,19 +32,24 @@ Mark markOf(Verdict ring) {
   return marks[static_cast<std::size_t>(ring)];
 }
 
-Json answerCell(const EndpointRow* row) {
+/// The matrix' mark and colour of the same answer.
+Json answerCell(const CompareResults& results, const EndpointRow* row) {
   if (!row)
     return {{"verdict", ""}, {"symbol", ""}, {"word", absentText}, {"detail", ""}, {"more", ""}};
-  const Mark mark = markOf(row->answer);
+  const OverviewCell cell = endpointCell(results, *row);
+  const CellLook look = lookOf(cell.state);
   std::string more = carrierInWords(*row);
   if (const std::string needs = needsInWords(*row); !needs.empty())
     more += (more.empty() ? "" : "; ") + needs;
   if (row->lost > 0)
     more += fmt::format("{}{} lost", more.empty() ? "" : "; ",
                         counted(static_cast<std::size_t>(row->lost), "packing"));
-  return {{"verdict", mark.style},
-          {"symbol", mark.symbol},
-          {"word", wordOf(row->answer)},
+  std::string word = wordOf(row->answer);
+  if (cell.state == CellState::modelDifference) word += " by the declared law";
+  if (cell.state == CellState::notMeasured) word = "not judged";
+  return {{"verdict", look.cssClass},
+          {"symbol", look.mark},
+          {"word", std::move(word)},
           {"detail", distanceInWords(*row)},
           {"more", more}};
 }
@@ -67,13 +68,15 @@ std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
   return row->marginWhy.empty() ? size : size + ": " + row->marginWhy;
 }
 
-Json endpointRows(const Endpoints& endpoints, const std::string& reference,
-                  const std::vector<std::string>& peers, bool ofCell) {
+Json endpointRows(const CompareResults& results, const std::string& reference,
+                  const std::vector<std::string>& peers) {
+  const Endpoints& endpoints = results.endpoints.rows;
+  const bool ofCell = !results.region;
   Json rows = Json::array();
   for (const std::string& name : endpointsOf(endpoints)) {
     Json cells = Json::array();
     for (const std::string& peer : peers)
-      cells.push_back(answerCell(rowOf(endpoints, reference, peer, name)));
+      cells.push_back(answerCell(results, rowOf(endpoints, reference, peer, name)));
     rows.push_back({{"label", endpointLabel(name, ofCell)},
                     {"margin", marginInWords(endpoints, name)},
                     {"cells", std::move(cells)}});
@@ -81,25 +84,26 @@ Json endpointRows(const Endpoints& endpoints, const std::string& reference,
   return rows;
 }
 
-Json cellsOf(const Endpoints& endpoints, const std::string& a, const std::string& b) {
+Json cellsOf(const CompareResults& results, const std::string& a, const std::string& b) {
+  const Endpoints& endpoints = results.endpoints.rows;
   Json cells = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
-    cells.push_back(answerCell(rowOf(endpoints, a, b, name)));
+    cells.push_back(answerCell(results, rowOf(endpoints, a, b, name)));
   return cells;
 }
 
 /// Pairs of a kind, in the order of the results.
-Json pairRows(const Endpoints& endpoints, bool peers) {
+Json pairRows(const CompareResults& results, bool peers) {
   Json rows = Json::array();
   std::vector<std::pair<std::string, std::string>> seen;
-  for (const EndpointRow& row : endpoints) {
+  for (const EndpointRow& row : results.endpoints.rows) {
     if ((row.kind == PairKind::peer) != peers) continue;
     const std::pair pair(row.a, row.b);
     if (std::ranges::find(seen, pair) != seen.end()) continue;
     seen.push_back(pair);
     rows.push_back({{"pair", row.a + " – " + row.b},
                     {"what", row.kind == PairKind::mirrorModel ? "model" : "implementation"},
-                    {"cells", cellsOf(endpoints, row.a, row.b)}});
+                    {"cells", cellsOf(results, row.a, row.b)}});
   }
   return rows;
 }
@@ -149,14 +153,14 @@ void addAgreement(Json& view, const CompareResults& results, const Engines& engi
   const auto peers = peersOf(endpoints, engines);
   view["reference"] = reference;
   view["peerColumns"] = peers;
-  view["endpoints"] = endpointRows(endpoints, reference, peers, !results.region);
+  view["endpoints"] = endpointRows(results, reference, peers);
   view["hasAgreement"] = !endpoints.empty();
   view["endpointColumns"] = Json::array();
   for (const std::string& name : endpointsOf(endpoints))
     view["endpointColumns"].push_back(mathHtml(endpointSymbol(name, !results.region)));
-  view["pairwise"] = pairRows(endpoints, true);
+  view["pairwise"] = pairRows(results, true);
   view["hasPairwise"] = view["pairwise"].size() > peers.size();
-  view["mirrors"] = pairRows(endpoints, false);
+  view["mirrors"] = pairRows(results, false);
   view["hasMirrors"] = !view["mirrors"].empty();
   view["carried"] = sentencesOf(results.endpoints.carried);
   view["hasCarried"] = !results.endpoints.carried.empty();

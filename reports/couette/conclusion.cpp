@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
+#include <tuple>
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
@@ -134,13 +134,19 @@ std::string whatIsToBlame(const CompareResults& results, const Engines& engines)
   return "What parts them: " + words;
 }
 
-/// Packings that decide most of what is open, by the estimates of the rows.
-std::optional<int> mostNeeded(const std::vector<EndpointRow>& rows) {
-  std::optional<int> least;
-  for (const EndpointRow& row : rows)
-    if (row.kind == PairKind::peer && row.answer == Answer::undecided && row.needs)
-      least = std::min(least.value_or(*row.needs), *row.needs);
-  return least;
+/// Peers' undecided endpoint that takes the fewest packings, by the estimates of the rows: one
+/// against the reference, whose pairs the matrix shows, if any of them is open.
+const EndpointRow* nextToDecide(const CompareResults& results) {
+  const std::string& reference = results.engines.front().name;
+  const auto rank = [&](const EndpointRow& row) {
+    return std::tuple(row.a != reference && row.b != reference, !row.needs, row.needs.value_or(0));
+  };
+  const EndpointRow* next = nullptr;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::peer && row.answer == Answer::undecided &&
+        (!next || rank(row) < rank(*next)))
+      next = &row;
+  return next;
 }
 
 std::string nextStep(const CompareResults& results, const Engines& engines) {
@@ -158,12 +164,14 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
   };
   if (peersOf(results.endpoints.rows, engines).empty())
     return "Next: name two engines that run this scene.";
-  if (has(Answer::undecided)) {
-    const auto needed = mostNeeded(results.endpoints.rows);
+  if (const EndpointRow* const next = nextToDecide(results)) {
     const LooksFindings& looks = results.endpoints.looks;
     const bool planned = looks.taken < looks.planned.size();
     return fmt::format("Next: more packings{}; {}.",
-                       needed ? fmt::format(", about {} for the first that is open", *needed) : "",
+                       next->needs
+                           ? fmt::format(", about {} for the {} of {} against {}", *next->needs,
+                                         endpointWords(next->endpoint), next->b, next->a)
+                           : "",
                        planned ? "the same command with a larger --budget adds them"
                                : "the case plans no further look ([looks] in its file)");
   }
@@ -182,9 +190,10 @@ std::vector<std::string> compareConclusion(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   std::vector<std::string> sentences;
   if (engines.empty()) return sentences;
+  // Where nothing was judged, nobody is said to agree, or to be undecided.
   for (std::string& sentence :
-       std::vector{whoAgrees(results, engines), whatIsToBlame(results, engines),
-                   nextStep(results, engines)})
+       std::vector{results.nothingJudged ? std::string() : whoAgrees(results, engines),
+                   whatIsToBlame(results, engines), nextStep(results, engines)})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
   return sentences;
 }

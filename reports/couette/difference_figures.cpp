@@ -11,7 +11,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-constexpr double mostMargins = 5.0;  ///< of an axis: who is beyond it is beyond it
+constexpr double mostMargins = 5.0;  ///< of an axis: what lies beyond is marked at its end
 
 /// An engine minus the reference, ring by ring, in margins; bars are ± half the ring's interval.
 Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
@@ -39,6 +39,46 @@ std::optional<Range> marginRange(const Panel& panel) {
   return Range{-most, most};
 }
 
+/// Where a curve lies beyond the axis: a triangle at its end for each point, the farthest with its
+/// number. @param above  at the upper end, else at the lower
+std::optional<Curve> beyondTheAxis(const Panel& panel, const Curve& curve, bool above) {
+  constexpr int upward = 9, downward = 11;  // gnuplot's filled triangles
+  const double end = panel.yRange->high, sign = above ? 1.0 : -1.0;
+  Curve marks{"", curve.style, Draw::points, {}, curve.width};
+  marks.style.pointType = above ? upward : downward;
+  double farthest = 0.0;
+  std::size_t at = 0;
+  for (const Point& point : curve.points) {
+    const double distance = sign * point.y;
+    if (distance <= end) continue;
+    if (distance > farthest) at = marks.points.size();
+    farthest = std::max(farthest, distance);
+    marks.points.push_back({point.x,
+                            0.97 * sign * end,
+                            {},
+                            "",
+                            fmt::format("{}, beyond the axis: {}{} margins", point.place,
+                                        above ? "" : "−", readable(distance))});
+  }
+  if (marks.points.empty()) return std::nullopt;
+  marks.points[at].label = (above ? "" : "−") + readable(farthest);
+  return marks;
+}
+
+/// A curve of which nothing is within the panel is in the key by its marks.
+void markWhatIsBeyond(Panel& panel) {
+  const std::size_t engines = panel.curves.size();
+  for (std::size_t k = 0; k < engines; ++k) {
+    bool named = isSeen(panel, panel.curves[k]);
+    for (const bool above : {true, false})
+      if (auto marks = beyondTheAxis(panel, panel.curves[k], above)) {
+        if (!named) marks->name = panel.curves[k].name;
+        named = true;
+        panel.curves.push_back(std::move(*marks));
+      }
+  }
+}
+
 }  // namespace
 
 std::vector<Figure> differenceFigures(const CompareResults& results,
@@ -64,6 +104,8 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     panel.yRange = marginRange(panel);
     panel.band = Range{-1.0, 1.0};
     panel.level = 0.0;
+    const std::size_t engineCurves = panel.curves.size();
+    markWhatIsBeyond(panel);
     Figure figure;
     figure.name = "difference_" + field;
     figure.title = fmt::format("Difference of the {} from that of {}, in margins",
@@ -72,8 +114,9 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
         "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
         "that the {}'s colour rests on{}.",
         fieldWords(field), reference, binWord(results), binWord(results),
-        panel.yRange->high == mostMargins
-            ? fmt::format("; what lies beyond {:g} margins is off the axis", mostMargins)
+        panel.curves.size() > engineCurves
+            ? fmt::format(". Triangles: beyond {:g} margins; the number is an engine's farthest",
+                          mostMargins)
             : "");
     figure.caption[0] =
         static_cast<char>(std::toupper(static_cast<unsigned char>(figure.caption[0])));

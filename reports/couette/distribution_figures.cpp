@@ -50,8 +50,8 @@ Panel densityPanel(const Engines& engines, const std::string& quantity, std::opt
   panel.logY = logarithmic;
   panel.key = Key::none;
   for (const EngineRuns& engine : engines) {
-    Curve curve{engine.name, engine.style, Draw::linesAndPoints,
-                pointsOf(distributionOf(engine, quantity, ring), !logarithmic), 1.0};
+    Curve curve =
+        curveOf(engine, pointsOf(distributionOf(engine, quantity, ring), !logarithmic), 1.0);
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
   }
   return panel;
@@ -167,8 +167,9 @@ std::vector<Panel> directionPanels(const RingPlaces& rings, const Engines& engin
     panel.xRange = Range{-std::numbers::pi, std::numbers::pi};
     panel.level = 0.5 / std::numbers::pi;
     if (!panel.curves.empty()) {
-      const auto reference =
-          std::ranges::find(engines, panel.curves.front().name, &EngineRuns::name);
+      const auto reference = std::ranges::find_if(engines, [&](const EngineRuns& engine) {
+        return curveOf(engine).name == panel.curves.front().name;
+      });
       panel.curves.push_back({"", {}, Draw::lines, harmonics(*reference, ring), 1.0});
     }
     panels.push_back(std::move(panel));

@@ -32,9 +32,8 @@ std::vector<DigestValue> compareValues(const CompareResults& results) {
       values.push_back({reference, quantity, cellOf(*of, row.unit, CellState::figure)});
     const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
     if (!difference || other == results.engines.end()) continue;
-    values.push_back({row.b, quantity,
-                      cellOf(*of + *difference, row.unit,
-                             endpointCell(row, isModelDifference(results, *other)).state)});
+    values.push_back(
+        {row.b, quantity, cellOf(*of + *difference, row.unit, endpointCell(results, row).state)});
   }
   return values;
 }

@@ -25,11 +25,13 @@ std::string signedNumber(double value) {
   return fmt::format("{}{}", value < 0.0 ? "−" : "", readable(std::abs(value)));
 }
 
-/// Which endpoint of a canary lies farthest out, in units of the scatter.
+/// Which endpoint of a canary differs by most margins.
 const CanaryNumber* farthest(const std::vector<CanaryNumber>& canary) {
   const CanaryNumber* worst = nullptr;
   for (const CanaryNumber& number : canary)
-    if (number.chance && (!worst || *number.chance < *worst->chance)) worst = &number;
+    if (finite(number.difference) &&
+        (!worst || std::abs(*number.difference) > std::abs(*worst->difference)))
+      worst = &number;
   return worst;
 }
 

@@ -1,5 +1,9 @@
 #include "reports/couette/engine_runs.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "reports/common/engines.hpp"
 
 namespace crossgrain::reports {
@@ -60,6 +64,42 @@ std::vector<EngineRuns> engineRuns(const CouetteStudy& study,
     engines.push_back(std::move(engine));
   }
   return engines;
+}
+
+std::vector<EngineRuns> engineRuns(const CompareResults& results) {
+  std::vector<EngineRuns> engines = engineRuns(results, results.ensemble);
+  const bool means =
+      std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
+  for (EngineRuns& engine : engines) {
+    engine.isSingle = means && !engine.ensemble && !engine.finished.empty();
+    for (const CarriedEngine& own : results.endpoints.carried)
+      if (own.carried && own.engine == engine.name) engine.surrogate = own.mirror;
+  }
+  return engines;
+}
+
+namespace {
+
+/// Two thirds of the way to white.
+std::string paled(const std::string& colour) {
+  std::string pale = "#";
+  for (const std::size_t at : {1u, 3u, 5u}) {
+    const int part = std::stoi(colour.substr(at, 2), nullptr, 16);
+    pale += fmt::format("{:02x}", part + (255 - part) * 2 / 3);
+  }
+  return pale;
+}
+
+}  // namespace
+
+Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width) {
+  Curve curve{engine.name, engine.style, Draw::linesAndPoints, std::move(points), width};
+  if (!engine.isSingle) return curve;
+  curve.name += ", one run";
+  curve.style.colour = paled(curve.style.colour);
+  curve.draw = Draw::lines;
+  for (Point& point : curve.points) point.error.reset();
+  return curve;
 }
 
 Json columnsView(const std::vector<EngineRuns>& engines) {

@@ -15,6 +15,8 @@ struct EngineRuns : EngineRow {
   LineStyle style;                                ///< a mirror has its peer's, dashed and open
   std::vector<const CouetteRun*> runs, finished;  ///< in the order of the results
   const CouetteEnsemble* ensemble = nullptr;      ///< null with fewer than two finished runs
+  bool isSingle = false;       ///< one finished run beside means of others: it is drawn pale
+  std::string surrogate = {};  ///< the mirror whose runs its verdicts rest on; empty: its own runs
 
   /// Of the ensemble, else of the only finished run; empty without one.
   const std::vector<Profile>& profiles() const;
@@ -32,9 +34,11 @@ struct EngineRuns : EngineRow {
 /// In the results' order: the reference first. Runs with an effect switched off are left out.
 std::vector<EngineRuns> engineRuns(const CouetteStudy& study,
                                    const std::vector<CouetteEnsemble>& ensembles);
-inline std::vector<EngineRuns> engineRuns(const CompareResults& results) {
-  return engineRuns(results, results.ensemble);
-}
+/// The same with `isSingle` and `surrogate`.
+std::vector<EngineRuns> engineRuns(const CompareResults& results);
+
+/// What is drawn of an engine in its style; of a single run beside means a pale line without bars.
+Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
 
 /// {name, colour, dashed, hasData} for each.
 Json columnsView(const std::vector<EngineRuns>& engines);

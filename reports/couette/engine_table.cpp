@@ -48,6 +48,10 @@ Json whatRan(const Engines& engines) {
     rows.push_back(
         tableRow("mirrors", "", engines, [](const EngineRuns& engine) { return engine.mirrors; }));
   rows.push_back(tableRow("runs finished", "", engines, statusOf));
+  if (std::ranges::any_of(engines, [](const auto& e) { return !e.surrogate.empty(); }))
+    rows.push_back(tableRow("verdicts rest on the runs of", "", engines, [](const auto& engine) {
+      return engine.surrogate.empty() ? engine.name : engine.surrogate;
+    }));
   rows.push_back(tableRow("precision", "", engines, fromRealised(&Realised::precision)));
   rows.push_back(tableRow("integrator", "", engines, fromRealised(&Realised::integrator)));
   return rows;

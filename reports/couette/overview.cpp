@@ -83,13 +83,13 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
   const Endpoints& rows = results.endpoints.rows;
   if (const CarriedEngine* carried = carriedBy(results, engine.name)) {
     const EndpointRow* worst = gravestOf(rowsOf(rows, reference, carried->engine));
-    OverviewCell cell = worst ? endpointCell(*worst, true) : OverviewCell{};
+    OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
     cell.words = "its runs stand for " + carried->engine;
     return cell;
   }
   const EndpointRow* worst = gravestOf(rowsOf(rows, reference, engine.name));
   if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not held against it", {}};
-  OverviewCell cell = endpointCell(*worst, isModelDifference(results, engine));
+  OverviewCell cell = endpointCell(results, *worst);
   if (alarmed(results, engine.name)) {
     cell.state = CellState::bad;
     cell.words = "ALARM: " + cell.words;
@@ -156,6 +156,26 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
   if (cell.value)
     cell.shown =
         fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
+  return cell;
+}
+
+OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row) {
+  // Both sides have to be true to their laws; of what one of them does wrong no law is to blame.
+  const auto isTrue = [&](const std::string& name) {
+    if (name == results.engines.front().name) return true;
+    const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
+    return engine != results.engines.end() && isModelDifference(results, *engine);
+  };
+  const bool isModel = row.kind != PairKind::mirrorImplementation && isTrue(row.a) && isTrue(row.b);
+  OverviewCell cell = endpointCell(row, isModel);
+  const bool alarmed = std::ranges::any_of(results.endpoints.alarms, [&](const AlarmRow& alarm) {
+    return alarm.a == row.a && alarm.b == row.b;
+  });
+  if (alarmed && row.answer == Answer::disagree) cell.state = CellState::bad;
+  if (results.nothingJudged) {
+    cell.state = CellState::notMeasured;
+    cell.words += ", not judged";
+  }
   return cell;
 }
 

@@ -27,6 +27,10 @@ const EndpointRow* gravestOf(const std::vector<const EndpointRow*>& rows);
 /// That row as a cell. @param isModel  a disagreement is one of declared laws
 OverviewCell endpointCell(const EndpointRow& row, bool isModel);
 
+/// The same in a report: what parts two engines that are both true to their laws is their model,
+/// and nothing has a verdict where nothing was judged.
+OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row);
+
 /// Endpoints in which an engine and its own mirror disagree: no law parts these two.
 std::vector<std::string> partedFromItsMirror(const CompareResults& results,
                                              const std::string& engine);

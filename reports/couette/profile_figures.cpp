@@ -5,6 +5,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/state_view.hpp"
 
@@ -97,7 +98,7 @@ void addPoints(const CouetteFrame& frame, const EngineRuns& engine, const Profil
     if (x && plot.logX && inner > 0.0) *x /= inner;
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
-    if (error) point.error = *error * std::abs(factor);
+    if (error && !engine.isSingle) point.error = *error * std::abs(factor);
     point.place = fmt::format("{} {}", binWord(frame), ring + 1);
     curve.points.push_back(point);
     for (std::size_t k = 0; k < each.size(); ++k)
@@ -140,7 +141,7 @@ Panel profilePanel(const CouetteFrame& frame, const std::vector<EngineRuns>& eng
   panel.logX = plot.logX;
   panel.logY = plot.logY;
   for (const EngineRuns& engine : engines) {
-    Curve curve{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5};
+    Curve curve = curveOf(engine);
     addPoints(frame, engine, plot, scale.factor, curve);
     if (faint && faint(engine, plot.field)) makeFaint(curve);
     if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
@@ -234,21 +235,20 @@ std::optional<Range> rTildeRange(const CouetteFrame& frame) {
 }
 
 std::string barsInWords(const std::vector<EngineRuns>& engines) {
-  std::string single;
-  bool ensemble = false;
-  for (const EngineRuns& engine : engines) {
-    if (engine.finished.empty()) continue;
-    if (engine.ensemble)
-      ensemble = true;
-    else
-      single += (single.empty() ? "" : ", ") + engine.name;
-  }
-  const std::string within =
-      "± one standard error within the run: conditional on its one packing, it says nothing about "
-      "other packings";
-  if (!ensemble) return "Bars: " + within + ".";
+  std::vector<std::string> single;
+  for (const EngineRuns& engine : engines)
+    if (engine.isSingle)
+      single.push_back(engine.surrogate.empty() ? engine.name
+                                                : fmt::format("{} (its verdicts rest on {})",
+                                                              engine.name, engine.surrogate));
+  const bool ensemble =
+      std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
+  if (!ensemble)
+    return "Bars: ± one standard error within the run: conditional on its one packing, it says "
+           "nothing about other packings.";
   const std::string over = "Bars: ± one standard error of the mean over packings";
-  return single.empty() ? over + "." : fmt::format("{}; for {}: {}.", over, single, within);
+  return over +
+         (single.empty() ? "." : fmt::format("; pale, without: one run of {}.", listed(single)));
 }
 
 std::vector<Figure> profileFigures(const CouetteFrame& frame,

@@ -20,6 +20,8 @@ namespace {
 using Engines = std::vector<EngineRuns>;
 
 std::string leadOf(const CompareResults& results, const std::vector<const EndpointRow*>& rows) {
+  if (const auto& nothing = results.nothingJudged)
+    return fmt::format("Nothing was judged: {}.", nothing->reason);
   if (rows.empty()) return "No two engines could be compared.";
   std::string lead =
       fmt::format("Against {}: {}.", results.engines.front().name, countsInWords(rows));
@@ -88,10 +90,12 @@ void addSummary(Json& view, const CompareResults& results, const Engines& engine
   for (const std::string& peer : peersOf(endpoints, engines)) {
     const auto rows = rowsOf(endpoints, reference, peer);
     std::ranges::copy(rows, std::back_inserter(all));
-    sentences.push_back(fmt::format("{} against {}: {}.", peer, reference, countsInWords(rows)));
+    if (!results.nothingJudged)
+      sentences.push_back(fmt::format("{} against {}: {}.", peer, reference, countsInWords(rows)));
   }
   for (const EngineRuns& engine : engines)
-    if (const std::string split = splitInWords(endpoints, engine, reference); !split.empty())
+    if (const std::string split = splitInWords(endpoints, engine, reference);
+        !split.empty() && !results.nothingJudged)
       sentences.push_back(split);
   for (const EngineRuns& engine : engines)
     if (const std::string trouble = troubleInWords(engine); !trouble.empty())

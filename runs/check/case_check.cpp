@@ -9,6 +9,7 @@
 
 #include "averaging/fields.hpp"
 #include "cases/assembly_scene.hpp"
+#include "cases/case_keys.hpp"
 #include "cases/cautions.hpp"
 #include "cases/cell_estimates.hpp"
 #include "cases/collision_scene.hpp"
@@ -65,14 +66,14 @@ Asked askedOf(const Case& setup) {
   return couetteAsked(setup);
 }
 
-/// Beyond 2/ω, as the commands refuse it; hard cases may go there.
+/// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
 void requireStableStep(const Case& setup, const Disks& disks) {
   if (!hasFlow(setup)) return;
-  std::optional<double> lightest;  // the disks of an assembly are all in its case
-  if (setup.kind == CaseKind::couette) lightest = std::ranges::min(disks.mass) / 2.0;
-  const std::string why = whyUnstableStep(
-      setup, timeStep(setup), setup.run.dt ? "run.dt" : "run.steps_per_contact", lightest);
-  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  std::optional<LightestPair> lightest;  // the disks of an assembly are all in its case
+  if (setup.kind == CaseKind::couette) lightest = lightestPair(disks, true);
+  const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
+  const std::string why = whyUnstableStep(setup, timeStep(setup), key, lightest);
+  if (!why.empty()) throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
 }
 
 double stepsOf(const Case& setup, double dt) {

@@ -28,6 +28,7 @@ CollisionTable fineOracle(const Case& setup) {
   const auto parts = std::max<std::size_t>(1, 80 / psi.size());
   std::vector<CollisionStart> starts;
   Case one = setup;
+  one.collision.margins.clear();  // nothing is judged by it
   for (std::size_t k = 0; k < psi.size(); ++k)
     for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
       const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
@@ -35,7 +36,7 @@ CollisionTable fineOracle(const Case& setup) {
       one.collision.psi = {psi[k] + (next - psi[k]) * fraction};
       starts.push_back(collisionStarts(one).front());
     }
-  return tableOf(starts, outcomesOf(oracleCurve(setup, starts)));
+  return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
 }
 
 /// The engines of any of the cases, those named first. @throws BadInput
@@ -70,12 +71,11 @@ std::vector<std::string> effectNames(const CollisionCase& sweep) {
   return names;
 }
 
-/// Points that no engine is held against, and why.
+/// Points that no engine is compared with, and why.
 std::vector<NoLimitPoint> noLimitPoints(const CollisionCase& sweep) {
   std::vector<NoLimitPoint> points;
   for (std::size_t k = 0; k < sweep.starts.size(); ++k)
-    if (const std::string reason = noLimitReason(*sweep.setup, sweep.starts, sweep.oracle, k);
-        !reason.empty())
+    if (const std::string& reason = sweep.oracle.unsure[k]; !reason.empty() && sweep.oracle.ends[k])
       points.push_back(
           {sweep.starts[k].psi, sweep.starts[k].vn, sweep.oracle.ends[k]->psi, reason});
   return points;

@@ -18,6 +18,11 @@ ErrorUnit errorUnit(const std::vector<double>& oracle) {
                                  : ErrorUnit{ErrorUnitKind::range, range};
 }
 
+bool mostAreKnown(const Outcomes& outcomes) {
+  const auto known = std::ranges::count_if(outcomes, [](const auto& one) { return bool(one); });
+  return 2 * static_cast<std::size_t>(known) >= outcomes.size();
+}
+
 namespace {
 
 ErrorUnit errorUnitOf(const CollisionQuantity& quantity, const std::vector<double>& oracle) {
@@ -59,7 +64,7 @@ std::optional<QuantityScore> scoreQuantity(const Case& setup, const CollisionQua
   score.unit = unit.value;
   score.unitIs = unit.kind;
   const auto margin = setup.collision.margins.find(std::string(quantity.name));
-  if (margin == setup.collision.margins.end()) return score;
+  if (!mostAreKnown(oracle) || margin == setup.collision.margins.end()) return score;
   score.limit = margin->second.relative ? margin->second.value : margin->second.value / unit.value;
   score.held = score.max <= *score.limit;
   score.why = margin->second.why;

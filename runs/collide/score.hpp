@@ -24,9 +24,13 @@ struct ErrorUnit {
 /// zero throughout. (Energies are scored in units of the energy before, not by this.)
 ErrorUnit errorUnit(const std::vector<double>& oracle);
 
+/// Whether at least half of the outcomes are there: fewer are no curve to judge by.
+bool mostAreKnown(const Outcomes& outcomes);
+
 /// For each quantity that both the engine and the oracle have, its largest and rms error over the
 /// whole curve; and whether it held, within the case's margins, where there are any. A sweep holds
-/// where every quantity with a margin does and no pair is missing.
+/// where every quantity with a margin does and no pair is missing. Where the oracle lacks more than
+/// half of the collisions nothing is judged: the range of what is left is no unit either.
 /// @param units  a score whose units are taken, where it has them: margins are of the scene's curve
 CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
                       const Outcomes& found, const Outcomes& oracle,

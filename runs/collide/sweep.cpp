@@ -14,16 +14,64 @@
 
 namespace crossgrain::inline runs {
 
+namespace {
+
+/// The case's margin of Ψ_f [-]; absent without one.
+std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) {
+  const auto margin = setup.collision.margins.find("psi_f");
+  if (margin == setup.collision.margins.end()) return std::nullopt;
+  if (!margin->second.relative) return margin->second.value;
+  std::vector<double> psi;
+  for (const auto& end : oracle.ends)
+    if (end) psi.push_back(end->psi);
+  return margin->second.value * errorUnit(psi).value;
+}
+
+/// Where Ψ_f moves by more than three margins while Ψ_i moves by one. Sticking and sliding move it
+/// by one at most; the rest is room for what is steep but smooth in between.
+void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, OracleCurve& oracle) {
+  const auto margin = marginOfPsi(setup, oracle);
+  if (!margin || !setup.law.springs() || !setup.law.soft()) return;
+  constexpr double steepest = 3.0;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!oracle.ends[k] || !oracle.unsure[k].empty()) continue;
+    for (const double side : {-1.0, 1.0}) {
+      CollisionStart beside = starts[k];
+      beside.psi += side * *margin;
+      try {
+        const double there = oracleOutcome(setup.law, collidingPair(setup), beside).psi;
+        if (std::abs(there - oracle.ends[k]->psi) > steepest * *margin)
+          oracle.unsure[k] = fmt::format(
+              "the law jumps within the margin of psi_f: psi_f is {:.4g} here and {:.4g} at psi_i "
+              "= {:.4g}",
+              oracle.ends[k]->psi, there, beside.psi);
+      } catch (const std::invalid_argument&) {  // nothing is known beside it
+      }
+    }
+  }
+}
+
+}  // namespace
+
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
   OracleCurve curve;
   for (const CollisionStart& start : starts) {
+    std::string& unsure = curve.unsure.emplace_back();
     try {
-      curve.ends.emplace_back(oracleOutcome(setup.law, collidingPair(setup), start));
+      const CollisionEnd end = oracleOutcome(setup.law, collidingPair(setup), start);
+      curve.ends.emplace_back(end);
+      if (end.noLimit)
+        unsure = jumpsAtTouch(setup.law, collidingPair(setup), start)
+                     ? "no limit of small time steps: the law jumps at this psi_i = mu gn/gt, "
+                       "sticking from the first touch on, and slipping, end elsewhere"
+                     : "no limit of small time steps: a slip ends while its bound falls, and the "
+                       "outcome goes on varying with log(dt), however small dt is";
     } catch (const std::exception& none) {
       curve.ends.emplace_back();
-      curve.reason = none.what();
+      unsure = curve.reason = none.what();
     }
   }
+  findJumps(setup, starts, curve);
   return curve;
 }
 
@@ -89,19 +137,9 @@ Outcomes outcomesOf(const OracleCurve& oracle) {
 
 Outcomes referenceOf(const OracleCurve& oracle) {
   Outcomes outcomes = outcomesOf(oracle);
-  for (auto& outcome : outcomes)
-    if (outcome && outcome->end.noLimit) outcome.reset();
+  for (std::size_t k = 0; k < outcomes.size(); ++k)
+    if (!oracle.unsure[k].empty()) outcomes[k].reset();
   return outcomes;
-}
-
-std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
-                          const OracleCurve& oracle, std::size_t k) {
-  if (!oracle.ends[k] || !oracle.ends[k]->noLimit) return {};
-  return jumpsAtTouch(setup.law, collidingPair(setup), starts[k])
-             ? "no limit of small time steps: the law jumps at this psi_i = mu gn/gt, sticking "
-               "from the first touch on, and slipping, end elsewhere"
-             : "no limit of small time steps: a slip ends while its bound falls, and the outcome "
-               "goes on varying with log(dt), however small dt is";
 }
 
 namespace {
@@ -173,11 +211,11 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
   declared.law = *law;
   const OracleCurve& oracle = oracles.of(declared, swept.starts);
   score.oracleReason = oracle.reason;
-  const bool known = std::ranges::any_of(oracle.ends, [](const auto& end) { return bool(end); });
+  const Outcomes reference = referenceOf(oracle);
+  const bool known = mostAreKnown(reference);
   if (known) {
     score.reference = DeclaredReference::oracle;
-    score.score =
-        scoreSweep(declared, swept.starts, swept.found, referenceOf(oracle), &swept.score);
+    score.score = scoreSweep(declared, swept.starts, swept.found, reference, &swept.score);
     if (score.score.verdict != CurveVerdict::fellShort) return score;
   }
   if (!entry.mirrors.empty()) {  // it would be held against itself
@@ -226,14 +264,17 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   curve.realised = realised;
   curve.stats = engine.stats();
   static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const std::string reason = noLimitReason(setup, starts, oracle, k);
-    curve.points.status.push_back(!found[k]        ? PairStatus::notParted
-                                  : reason.empty() ? PairStatus::parted
-                                                   : PairStatus::noLimit);
-    curve.points.reason.push_back(reason);
-  }
-  curve.score = scoreSweep(setup, starts, found, referenceOf(oracle));
+  for (std::size_t k = 0; k < found.size(); ++k)
+    curve.points.status.push_back(!found[k]                  ? PairStatus::notParted
+                                  : oracle.unsure[k].empty() ? PairStatus::parted
+                                                             : PairStatus::noLimit);
+  curve.points.reason = oracle.unsure;
+  const Outcomes reference = referenceOf(oracle);
+  if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });
+      unknown > 0)
+    curve.reason += fmt::format("{}{} of {} points have no reference", missing > 0 ? "; " : "",
+                                unknown, reference.size());
+  curve.score = scoreSweep(setup, starts, found, reference);
   if (declared)
     curve.declared = scoreDeclared(
         {setup, starts, asRun, realised, found, watch, curve.score}, entry,

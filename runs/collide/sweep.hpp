@@ -14,10 +14,15 @@
 
 namespace crossgrain::inline runs {
 
-/// What the oracle says of each start; absent where the law has no limit of small steps.
+/// What the oracle says of each start; absent where it has no outcome.
 struct OracleCurve {
   std::vector<std::optional<CollisionEnd>> ends;
   std::string reason;  ///< why there is none
+  /// Why there is no reference, in a clause; empty where there is one. The oracle has no outcome,
+  /// or the law no limit of small time steps there, or its outcome jumps nearer to this Ψ_i than
+  /// the case's margin of Ψ_f: an error of v_t that the margin allows after the contact decides,
+  /// within it, on which side of the jump a scheme finds itself.
+  std::vector<std::string> unsure;
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
 
@@ -38,13 +43,8 @@ double sweepEnd(const Case& setup, double dt, double engineStep);
 
 Outcomes outcomesOf(const OracleCurve& oracle);
 
-/// Those that an engine can be held against: where the law has no limit of small time steps there
-/// is none.
+/// Those that an engine can be compared with.
 Outcomes referenceOf(const OracleCurve& oracle);
-
-/// Why the law has no limit of small time steps at the k-th start, in a clause; empty where it has.
-std::string noLimitReason(const Case& setup, const std::vector<CollisionStart>& starts,
-                          const OracleCurve& oracle, std::size_t k);
 
 /// Ψ_i, v_n and all that is known of the outcomes, with as many digits as files have. Of the
 /// oracle's, `noLimit` marks points that have no limit of small time steps.

@@ -10,6 +10,7 @@
 #include "adapters/start_check.hpp"
 #include "adapters/suitability.hpp"
 #include "adapters/worker/pooled_engine.hpp"
+#include "cases/case_keys.hpp"
 #include "cases/stable_step.hpp"
 #include "runs/common/audited_engine.hpp"
 #include "runs/common/engine_step.hpp"
@@ -69,10 +70,12 @@ bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry) {
 }
 
 void checkEngineSections(const Case& setup) {
-  for (const auto& [name, settings] : setup.engines)
-    if (!findEngine(name))
-      throw BadInput(fmt::format("{}: [engines.{}]: there is no such engine{}", setup.file.string(),
-                                 name, suggestion(name, knownEngines())));
+  for (const auto& [name, settings] : setup.engines) {
+    const auto near = nearest(name, knownEngines());
+    if (!findEngine(name) && near)
+      throw BadInput(fmt::format("{}: [engines.{}]: there is no such engine (did you mean {}?)",
+                                 whereSaid(setup, "engines." + name), name, *near));
+  }
 }
 
 std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
@@ -137,13 +140,31 @@ void distrust(Engine& engine) {
   if (auto* const audited = dynamic_cast<AuditedEngine*>(&engine)) distrust(audited->inner());
 }
 
+namespace {
+
+bool isWithin(const SettingSpec& spec, double number) {
+  return std::isfinite(number) && spec.least <= number && number <= spec.most &&
+         (!spec.whole || number == std::floor(number));
+}
+
+std::string rangeOf(const SettingSpec& spec) {
+  const std::string kind = spec.whole ? "a whole number " : "";
+  if (std::isfinite(spec.most))
+    return fmt::format("{}from {:g} to {:g}", kind, spec.least, spec.most);
+  return fmt::format("{}>= {:g}", kind, spec.least);
+}
+
+}  // namespace
+
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
   Settings settings = settingsSaid(setup, engine);
   const auto section = setup.engines.find(engine);
   for (const auto& [name, value] : settings) {
     const bool ofCase = section != setup.engines.end() && section->second.contains(name);
-    const std::string where = ofCase ? fmt::format("{}: [engines.{}]", setup.file.string(), engine)
-                                     : fmt::format("{}: [settings] of its file:", engine);
+    const std::string where =
+        ofCase ? fmt::format("{}: [engines.{}]",
+                             whereSaid(setup, fmt::format("engines.{}.{}", engine, name)), engine)
+               : fmt::format("{}: [settings] of its file:", engine);
     const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
     if (spec == can.settings.end()) {
       std::vector<std::string> known;
@@ -154,8 +175,8 @@ Settings settingsFor(const Case& setup, const std::string& engine, const Capabil
     if (value.index() != spec->defaultValue.index())
       throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
                                  typeName(spec->defaultValue), typeName(value)));
-    if (const auto* number = std::get_if<double>(&value); number && !(*number >= 0.0))
-      throw BadInput(fmt::format("{} {} = {:g} must be >= 0", where, name, *number));
+    if (const auto* number = std::get_if<double>(&value); number && !isWithin(*spec, *number))
+      throw BadInput(fmt::format("{} {} = {:g} must be {}", where, name, *number, rangeOf(*spec)));
     if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
       if (std::ranges::find(spec->choices, *text) == spec->choices.end())
         throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
@@ -177,24 +198,29 @@ auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
   }
 }
 
-/// An engine's own time step, if it runs soft laws with it.
+/// An engine's own time step, if it runs soft laws with it. @param law  as it runs it
 void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
-                  const Settings& settings) {
+                  const ContactLaw& law, const Settings& settings) {
   const auto step = settings.find("dt");
   if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
   const auto normal = can.lawOptions.find("normal");
   if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
-  const std::string why = whyUnstableStep(setup, std::get<double>(step->second),
+  Case own = setup;
+  own.law = law;
+  const std::string why = whyUnstableStep(own, std::get<double>(step->second),
                                           fmt::format("[engines.{}] dt", entry.name));
-  if (!why.empty()) throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  if (!why.empty())
+    throw BadInput(
+        fmt::format("{}: {}", whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), why));
 }
 
 }  // namespace
 
 void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
                    const Scene& scene) {
-  checkOwnStep(can, entry, setup, settingsFor(setup, entry.name, can));
-  namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+  const Adapted adapted =
+      namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+  checkOwnStep(can, entry, setup, adapted.scene.law, settingsFor(setup, entry.name, can));
 }
 
 Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,

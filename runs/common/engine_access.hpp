@@ -25,7 +25,8 @@ std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names);
 /// Whether the user asked for this engine by its own name, so that a refusal is theirs to resolve.
 bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry);
 
-/// @throws BadInput for a section [engines.NAME] of an engine that does not exist
+/// @throws BadInput for a section [engines.NAME] that is a misspelt engine's. One that is like none
+/// may be of an engine of the user's own, which this command was not given.
 void checkEngineSections(const Case& setup);
 
 /// The mirrors in the registry whose peer is among `engines`.

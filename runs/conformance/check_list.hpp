@@ -26,6 +26,9 @@ std::span<const Check> checks();
 namespace collision {
 std::span<const Check> checks();
 }
+namespace laws {
+std::span<const Check> checks();
+}
 namespace symmetry {
 std::span<const Check> checks();
 }
@@ -33,6 +36,9 @@ namespace walls {
 std::span<const Check> checks();
 }
 namespace contacts {
+std::span<const Check> checks();
+}
+namespace reach {
 std::span<const Check> checks();
 }
 namespace refusal {

@@ -144,6 +144,7 @@ void contactsSayWhereTheyAre(Exam& it) {
   if (it.contactReport() == ContactReport::none) it.skip(said("shows no contacts"));
   const Scene scene = allKindsOfContact(it.law(), false);
   it.load(scene);
+  it.examined(it.can.instantContacts ? instantContacts : accumulatedContacts);
   const std::vector<Snapshot> seen = it.watch(2.0 * Encounter::end);
   const Film film(scene, seen);
   const Tolerance length = {it.byPrecision(1e-12, 1e-6, "").absolute * smallRadius, 0.0,
@@ -205,6 +206,7 @@ void forcesPointWhereTheySay(Exam& it) {
 
 void slidingFlagsMarkTheBound(Exam& it) {
   if (!it.can.slidingFlags) it.skip(said("has no sliding flags"));
+  it.examined(slidingFlags);
   ContactLaw cut = fullLaw();
   cut.conventions.tension = Tension::cut;  // where it can: then every convention's bound is µ f_n
   Encounter pair = crookedEncounter();
@@ -292,6 +294,59 @@ void contactForcesAreThoseThatAct(Exam& it) {
                     {relative * unit * smallRadius, 0.0, sum.why}),
               "the sum of torques over time against the change of angular momentum [kg m²/s]");
   }
+}
+
+/// Means over the time since the last look, times that, are what changed the momentum of a disk.
+void accumulatedContactsAreImpulses(Exam& it) {
+  it.needs(accumulatedContacts);
+  const Scene scene = encounterScene(crookedEncounter(), it.law(), steps);
+  it.load(scene);
+  it.examined(accumulatedContacts);
+  const auto look = [&](double t) {
+    it.engine().advance(t);
+    return it.engine().snapshot(ContactReport::accumulated);
+  };
+  const Snapshot start = look(0.0);
+  Snapshot last = start;
+  Vec2 impulse = Vec2::Zero();
+  // Twice a step: the normal shown is that of the end.
+  const double lapse = 2.0 * it.realised.dt;
+  for (double t = lapse; t < Encounter::end; t += lapse) {
+    last = look(t);
+    impulse += last.contactInterval * forceOn(last, 0);
+  }
+  const double turn = lapse * Encounter::speed / smallRadius;
+  const double unit = scene.disks.mass[0] * Encounter::speed;
+  const Vec2 change = scene.disks.mass[0] * (last.velocity[0] - start.velocity[0]);
+  it.above(change.norm(), 0.1 * unit, "the change of momentum by a collision [kg m/s]");
+  it.expect(close(impulse, change,
+                  {(it.byPrecision(1e-12, 1e-5, "").relative + 2.0 * turn) * unit, 0.0,
+                   "roundings, and a normal that turns"}),
+            "the sum of accumulated forces times their intervals [kg m/s]");
+}
+
+/// A closed account: what no term of the ledger accounts for is of the order of the scheme.
+void energyLedgerIsClosed(Exam& it) {
+  it.needs(energyLedger);
+  double left[2] = {};
+  for (const int k : {0, 1}) {
+    Scene scene = encounterScene(crookedEncounter(), it.law(), k == 0 ? 100.0 : 400.0);
+    scene.energyLedger = true;
+    it.load(scene);
+    it.examined(energyLedger);
+    const Snapshot after = it.at(Encounter::end);
+    it.require(after.ledger.has_value(), "it declares an energy ledger, and shows none");
+    const Tolerance rounding = it.byPrecision(1e-9, 1e-4, "roundings of the additions");
+    double kinetic = 0.0;
+    const std::vector<double> spins = spinsOf(scene, after);
+    for (std::size_t i = 0; i < spins.size(); ++i)
+      kinetic += 0.5 * scene.disks.mass[i] * after.velocity[i].squaredNorm() +
+                 0.5 * scene.disks.inertia[i] * spins[i] * spins[i];
+    it.expect(close(after.ledger->kinetic, kinetic, rounding), "its kinetic energy [J]");
+    left[k] = std::abs(residual(*after.ledger)) / after.ledger->initial;
+  }
+  it.atMost(left[0], 0.02, "part of the energy that it does not account for, at t_c/100");
+  it.atMost(left[1], std::max(0.5 * left[0], 1e-9), "the same at t_c/400, which is to be less");
 }
 
 /// A wall's force and torque are those of the contacts of its disks.
@@ -386,6 +441,10 @@ std::span<const Check> checks() {
             slidingFlagsMarkTheBound},
       Check{"ContactForcesAreThoseThatAct", "the forces shown are those that act",
             contactForcesAreThoseThatAct},
+      Check{"AccumulatedContactsAreImpulses", "accumulated contacts are the impulses that acted",
+            accumulatedContactsAreImpulses},
+      Check{"EnergyLedgerIsClosed", "its energy ledger accounts for all energy",
+            energyLedgerIsClosed},
       Check{"WallLoadsAreThoseOfTheirContacts",
             "a wall's force and torque are those of its contacts",
             wallLoadsAreThoseOfTheirContacts},

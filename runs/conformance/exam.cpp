@@ -105,6 +105,11 @@ void Exam::loadWithinLimits(const Scene& wanted) {
   skip(*why);
 }
 
+void Exam::needs(const std::string& capability) const {
+  const std::vector<std::string> declared = declaredBy(can);
+  if (std::ranges::find(declared, capability) == declared.end()) skip(undeclared(capability));
+}
+
 Snapshot Exam::at(double t) {
   engine_.advance(t);
   return engine_.snapshot(contactReport());

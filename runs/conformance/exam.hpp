@@ -4,14 +4,17 @@
 
 #include <concepts>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "adapters/registry.hpp"
 #include "runs/conformance/conformance_scenes.hpp"
+#include "runs/conformance/declared.hpp"
 #include "runs/conformance/tolerance.hpp"
 
 namespace crossgrain::conformance {
@@ -74,6 +77,9 @@ class Exam {
 
   [[noreturn]] void skip(std::string reason) const { throw Skipped{std::move(reason)}; }
 
+  /// A skip unless the engine declares it (declared.hpp). @throws Skipped
+  void needs(const std::string& capability) const;
+
   /// A fault unless it holds. @param otherwise  what is wrong then
   void expect(bool holds, const std::string& otherwise);
   /// @param what  was compared
@@ -112,10 +118,34 @@ class Exam {
   const std::vector<std::string>& faults() const { return faults_; }
   void fault(std::string what) { faults_.push_back(std::move(what)); }
 
+  /// The check asks for this of what the engine declares (declared.hpp), and would find a fault in
+  /// it.
+  void examined(const std::string& capability) { examined_.insert(capability); }
+  void examinedOption(const std::string& option, const std::string& value) {
+    examined(option + " = " + value);
+  }
+  const std::set<std::string>& examined() const { return examined_; }
+  /// Why it could not be asked for.
+  void refusedToo(const std::string& capability, const std::string& why) {
+    refused_.try_emplace(capability, why);
+  }
+  const std::map<std::string, std::string>& refusedToo() const { return refused_; }
+
+  /// What explains the faults found, sign and size; the first counts. Empty: nothing that was tried
+  /// does.
+  void suspect(std::string cause) {
+    if (!cause_) cause_ = std::move(cause);
+  }
+  bool soughtCause() const { return cause_.has_value(); }
+  std::string cause() const { return cause_.value_or(""); }
+
  private:
   Engine& engine_;
   const Start& start_;
   std::vector<std::string> faults_;
+  std::set<std::string> examined_;
+  std::map<std::string, std::string> refused_;
+  std::optional<std::string> cause_;
 };
 
 /// The law with each option that the engine lacks set to one that it has.

@@ -35,7 +35,8 @@ class Workers {
   int count_ = 0;
 };
 
-void judge(const Check& check, const EngineEntry& entry, Workers& workers, ConformanceRow& row) {
+void judge(const Check& check, const EngineEntry& entry, Workers& workers, ConformanceRow& row,
+           Examination& result) {
   const Exam::Start start = [&](const EngineEntry& of) { return workers.start(of); };
   Exam exam(workers.shared(), entry, start);
   try {
@@ -53,23 +54,27 @@ void judge(const Check& check, const EngineEntry& entry, Workers& workers, Confo
     exam.fault(error.what());
   }
   row.faults = exam.faults().size();
+  if (row.outcome != ConformanceOutcome::brokeDown)
+    result.examined.insert(exam.examined().begin(), exam.examined().end());
+  result.refused.insert(exam.refusedToo().begin(), exam.refusedToo().end());
   if (exam.faults().empty()) return;
   if (row.outcome != ConformanceOutcome::brokeDown) {
     row.outcome = ConformanceOutcome::failed;
     row.detail = exam.faults().front();
+    row.cause = exam.cause();
   }
 }
 
 }  // namespace
 
-std::vector<ConformanceRow> examine(
-    const EngineEntry& entry, const std::vector<Check>& checks,
-    const std::filesystem::path& scratch,
-    const std::function<void(const std::string&, double)>& progress) {
+Examination examine(const EngineEntry& entry, const std::vector<Check>& checks,
+                    const std::filesystem::path& scratch,
+                    const std::function<void(const std::string&, double)>& progress) {
   using Clock = std::chrono::steady_clock;
   Workers workers(entry, scratch);
-  workers.shared();
-  std::vector<ConformanceRow> rows;
+  Examination result;
+  result.declared = declaredBy(workers.shared().capabilities());
+  std::vector<ConformanceRow>& rows = result.rows;
   int breakdowns = 0;
   for (const Check& check : checks) {
     throwIfInterrupted();
@@ -84,14 +89,14 @@ std::vector<ConformanceRow> examine(
       continue;
     }
     const auto began = Clock::now();
-    judge(check, entry, workers, row);
+    judge(check, entry, workers, row, result);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     breakdowns += row.outcome == ConformanceOutcome::brokeDown;
     // It may have died of it; the next check is to have a sound one.
     if (row.outcome == ConformanceOutcome::brokeDown || row.outcome == ConformanceOutcome::failed)
       workers.end();
   }
-  return rows;
+  return result;
 }
 
 }  // namespace crossgrain::conformance

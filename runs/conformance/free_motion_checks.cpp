@@ -14,18 +14,21 @@ Scene oneDisk(const ContactLaw& law) {
 }
 
 void fliesStraight(Exam& it) {
-  const Scene scene = oneDisk(it.law());
-  it.load(scene);
-  const Snapshot after = it.at(flight);
-  const Vec2 flown = after.positionTime * scene.disks.velocity[0];
-  const Tolerance rounding =
-      it.byPrecision(1e-12, 1e-5, "roundings of the additions, of the distance");
-  it.expect(close(Vec2(after.position[0] - scene.disks.position[0]), flown, rounding),
-            "the way flown [m]");
-  it.expect(close(after.velocity[0], scene.disks.velocity[0], rounding), "the velocity [m/s]");
-  it.expect(close(spinsOf(scene, after)[0], 5.0, rounding), "the spin [rad/s]");
-  if (after.contacts) {
-    it.equal(after.contacts->size(), 0u, "contacts of a disk alone");
+  for (const Precision precision : it.can.precisions) {
+    Scene scene = oneDisk(it.law());
+    scene.precision = precision;
+    it.load(scene);
+    it.examined(precisionNamed(precision));
+    const Snapshot after = it.at(flight);
+    const Vec2 flown = after.positionTime * scene.disks.velocity[0];
+    const double allowed = precision == Precision::float32 ? 1e-5 : 1e-12;
+    const Tolerance rounding = {allowed, allowed, "roundings of the additions, of the distance"};
+    it.equal(it.realised.precision, toString(precision), "the precision");
+    it.expect(close(Vec2(after.position[0] - scene.disks.position[0]), flown, rounding),
+              "the way flown [m]");
+    it.expect(close(after.velocity[0], scene.disks.velocity[0], rounding), "the velocity [m/s]");
+    it.expect(close(spinsOf(scene, after)[0], 5.0, rounding), "the spin [rad/s]");
+    if (after.contacts) it.equal(after.contacts->size(), 0u, "contacts of a disk alone");
   }
 }
 
@@ -33,6 +36,7 @@ void fallsFreely(Exam& it) {
   Scene scene = oneDisk(it.law());
   scene.gravity = {1.5, -9.81};
   it.load(scene);
+  it.examined(toString(Effect::gravity));
   const Snapshot after = it.at(flight);
   const double t = after.positionTime;
   const Vec2 expected =
@@ -64,6 +68,7 @@ void bottomPlateBrakesADisk(Exam& it) {
     scene.disks.spin[0] = 30.0;
     scene.bottom = roughPlate(spin);
     it.load(scene);
+    it.examined(toString(spin ? Effect::bottomSpinFriction : Effect::bottomFriction));
     const double end = 0.02;
     const Snapshot after = it.at(end);
     const double lost = scene.bottom->mu * scene.bottom->gravity * after.velocityTime;

@@ -1,9 +1,11 @@
 // load, advance, snapshot, load again: what every run relies on.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "runs/conformance/check_list.hpp"
 #include "runs/conformance/exam.hpp"
+#include "support/scratch_folder.hpp"
 
 namespace crossgrain::conformance::lifecycle {
 namespace {
@@ -122,6 +124,69 @@ void workersAgreeBitForBit(Exam& it) {
   it.expect(sameBits(other->snapshot(it.contactReport()), here), "two workers");
 }
 
+/// Where a disk on a plane is when its contact is deepest, about [s].
+constexpr double inContact = Encounter::gap / 0.05 + 0.5 * smallContactTime;
+
+/// A run that another worker takes up from the middle goes on to the bit, and the one that wrote
+/// the checkpoint is none the other for it.
+/// @returns why the engine cannot be asked
+std::optional<std::string> expectTakenUp(Exam& it, const Scene& scene, double middle, double end) {
+  if (auto why = it.refused(scene)) return why;
+  const Snapshot whole = it.at(end);
+  it.load(scene);
+  const Snapshot half = it.at(middle);
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch.path / "checkpoint";
+  const auto other = it.another(it.entry);
+  try {
+    it.engine().checkpoint(file);
+    other->load(it.scene, it.entry.settings);
+    other->restore(file);
+  } catch (const EngineFailure& failure) {
+    it.fault(
+        said("it declares checkpoints, and one at t = ", middle, " s fails: ", failure.what()));
+    it.suspect("checkpoints are declared, and there are none that work");
+    throw GivenUp{};
+  }
+  it.expect(sameBits(it.at(end), whole), "the run that wrote a checkpoint, and one that did not");
+  it.expect(sameBits(other->snapshot(it.contactReport()), half), "what is restored, at once");
+  other->advance(end);
+  const Snapshot takenUp = other->snapshot(it.contactReport());
+  const Comparison same = sameBits(takenUp, whole);
+  it.expect(same, said("taken up from a checkpoint at t = ", middle, " s, and in one go"));
+  if (same.difference.empty()) return std::nullopt;
+  if (!scene.bodies.empty() && scene.bodies.front().motion.kind != Motion::Kind::fixed)
+    return std::nullopt;
+  // A start from the same places and velocities has no springs.
+  Scene afresh = it.scene;
+  afresh.disks.position = half.position;
+  afresh.disks.velocity = half.velocity;
+  afresh.disks.spin = spinsOf(scene, half);
+  if (it.refused(afresh)) return std::nullopt;
+  const Snapshot forgot = it.at(end - middle);
+  const auto apart = [](const Snapshot& one, const Snapshot& two) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < one.velocity.size(); ++i)
+      most = std::max(most, (one.velocity[i] - two.velocity[i]).norm());
+    return most;
+  };
+  if (apart(takenUp, forgot) < 0.1 * apart(takenUp, whole))
+    it.suspect(
+        "checkpoints lose the springs of contacts: what is restored goes on as a start "
+        "without them does");
+  return std::nullopt;
+}
+
+void checkpointsGoOnToTheBit(Exam& it) {
+  it.needs(checkpoints);
+  it.examined(checkpoints);
+  // Without planes only the heap; whoever refuses that is asked nothing.
+  expectTakenUp(it, landingScene(it.law(), 50.0), inContact, Encounter::end);
+  if (const auto why =
+          expectTakenUp(it, it.simplified(busyScene(it.law())), 0.5 * busyEnd, busyEnd))
+    it.skip(*why);
+}
+
 }  // namespace
 std::span<const Check> checks() {
   static constexpr std::array list = {
@@ -132,6 +197,8 @@ std::span<const Check> checks() {
             halfwayStopsChangeNothing},
       Check{"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
       Check{"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
+      Check{"CheckpointsGoOnToTheBit", "a run taken up from a checkpoint goes on to the bit",
+            checkpointsGoOnToTheBit},
       Check{"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
   };
   return list;

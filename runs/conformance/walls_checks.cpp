@@ -72,21 +72,29 @@ constexpr const char* closedForm = "the closed form, rounded";
 
 void rotatingWallPushes(Exam& it) {
   it.load(pushingWall(it.law(), Motion::Kind::rotating));
+  it.examined(wallMotion(Motion::Kind::rotating));
+  it.examined(toString(Effect::movingWalls));
   expectPush(it, it.scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
 void translatingWallPushes(Exam& it) {
   it.load(pushingWall(it.law(), Motion::Kind::translating));
+  it.examined(wallMotion(Motion::Kind::translating));
+  it.examined(toString(Effect::movingWalls));
   expectPush(it, it.scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
 void oscillatingWallPushes(Exam& it) {
   it.load(pushingWall(it.law(), Motion::Kind::oscillating));
+  it.examined(wallMotion(Motion::Kind::oscillating));
+  it.examined(toString(Effect::movingWalls));
   expectPush(it, it.scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
 void shrinkingWallPushes(Exam& it) {
   it.load(pushingWall(it.law(), Motion::Kind::radial));
+  it.examined(wallMotion(Motion::Kind::radial));
+  it.examined(toString(Effect::movingWalls));
   expectPush(it, it.scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
@@ -127,6 +135,18 @@ void turningPlanePushes(Exam& it) {
   scene.bodies[0].motion = motionOf(Motion::Kind::rotating);
   addDisk(scene, smallRadius, smallMass, {arm, smallRadius + Encounter::gap}, Vec2::Zero());
   it.loadWithinLimits(scene);
+  it.examined(planeMotion(Motion::Kind::rotating));
+  expectPush(it, scene, it.byPrecision(1e-12, 1e-5, closedForm));
+}
+
+void oscillatingPlanePushes(Exam& it) {
+  it.needs(planeMotion(Motion::Kind::oscillating));
+  Scene scene = emptyScene(it.law(), 200.0);
+  scene.bodies = {planeWall(Vec2::Zero(), {0.0, 1.0})};
+  scene.bodies[0].motion = motionOf(Motion::Kind::oscillating);
+  addDisk(scene, smallRadius, smallMass, {0.0, smallRadius + Encounter::gap}, Vec2::Zero());
+  it.loadWithinLimits(scene);
+  it.examined(planeMotion(Motion::Kind::oscillating));
   expectPush(it, scene, it.byPrecision(1e-12, 1e-5, closedForm));
 }
 
@@ -198,6 +218,8 @@ std::span<const Check> checks() {
             wheelKeepsItsAngle},
       Check{"TurningPlanePushes", "a turning plane moves as prescribed and pushes",
             turningPlanePushes},
+      Check{"OscillatingPlanePushes", "an oscillating plane moves as prescribed and pushes",
+            oscillatingPlanePushes},
       Check{"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
             planeComesFromAfar},
       Check{"TurningWheelDragsADisk", "a turning wheel drags a disk along", turningWheelDragsADisk},

@@ -24,7 +24,7 @@ namespace crossgrain::inline runs {
 
 namespace {
 
-void requireStable(const Case& setup, double dt, std::optional<double> lightest = {}) {
+void requireStable(const Case& setup, double dt, std::optional<LightestPair> lightest = {}) {
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
   if (const std::string why = whyUnstableStep(setup, dt, key, lightest); !why.empty())
     throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
@@ -138,7 +138,7 @@ void Campaign::preparePackings(int count) {
   std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
   if (setup_.particles.file)  // its disks may be lighter than the case says
     for (const Packing& packing : packings_)
-      requireStable(setup_, dt_, std::ranges::min(packing.disks.mass) / 2.0);
+      requireStable(setup_, dt_, lightestPair(packing.disks, true));
   if (there == 0) store_.begin();
 }
 

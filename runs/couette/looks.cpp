@@ -159,7 +159,7 @@ class Sequence {
 
   std::string whyNoFurther() const {
     const std::size_t taken = findings_.looks.taken;
-    if (open_.empty()) return "every endpoint is decided";
+    if (open_.empty()) return whyNoneIsOpen();
     if (open_.size() < 2) return "no two engines are left that finish their runs";
     if (taken == plan_.packings.size())
       return fmt::format("{} packings are the most", plan_.packings.back());
@@ -168,6 +168,19 @@ class Sequence {
           "the next look, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
     return {};
+  }
+
+  /// Decided is what was compared and came out, nothing else.
+  std::string whyNoneIsOpen() const {
+    const auto isOpen = [](const EndpointRow& row) {
+      return row.answer == Answer::undecided || row.answer == Answer::borderline;
+    };
+    if (std::ranges::find(findings_.rows, PairKind::peer, &EndpointRow::kind) ==
+        findings_.rows.end())
+      return "there was nothing to compare between two engines that were named";
+    return std::ranges::any_of(findings_.rows, isOpen)
+               ? "no engine is left that finishes its runs"
+               : "every endpoint that was compared is decided";
   }
 
   /// Seconds that the next look takes, by the runs so far.

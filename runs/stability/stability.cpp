@@ -104,17 +104,19 @@ class Suite {
     std::vector<std::string> failures(engines_.size());
     std::vector<Task> tasks;
     for (std::size_t e = 0; e < engines_.size(); ++e)
-      tasks.push_back({1.0, [this, e, &failures] {
-                         const EngineEntry& entry = engines_[e];
-                         try {
-                           versions_[e] =
-                               startEngine(entry, store_.scratch("ask-" + entry.name), 60.0)
-                                   ->capabilities()
-                                   .version;
-                         } catch (const EngineFailure& failure) {
-                           failures[e] = failure.what();  // its runs will tell, one by one
-                         }
-                       }});
+      tasks.push_back(
+          {1.0, [this, e, &failures] {
+             const EngineEntry& entry = engines_[e];
+             try {
+               const Capabilities can =
+                   startEngine(entry, store_.scratch("ask-" + entry.name), 60.0)->capabilities();
+               versions_[e] = can.version;
+               for (const Case& setup : cases_)
+                 settingsFor(setup, entry.name, can);  // throws for one that is wrong
+             } catch (const EngineFailure& failure) {
+               failures[e] = failure.what();  // its runs will tell, one by one
+             }
+           }});
     runTasks(tasks, command_.jobs);
     for (const std::string& failure : failures)
       if (!failure.empty()) progress_.say(failure);

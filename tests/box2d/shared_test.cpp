@@ -1,6 +1,11 @@
 // What both Box2D engines must do alike.
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
 #include "tests/box2d/scenes.hpp"
 
 namespace crossgrain::test {
@@ -104,6 +109,63 @@ TEST_P(BothBox2dEngines, ForceOfARestingDiskIsItsWeight) {
   ASSERT_EQ(at.contacts->size(), 1u);
   EXPECT_NEAR(at.contacts->normalForce[0], weight, 0.01 * weight);
   EXPECT_EQ(at.contacts->j[0], 1);  // no wall disks: the first plane follows the disks
+}
+
+/// Disks go each way on a floor without friction, far beyond the scene that they start in; and a
+/// belt runs away under one that stays.
+TEST_P(BothBox2dEngines, PlanesHaveNoEnd) {
+  for (const double beltSpeed : {0.0, 3.0}) {
+    Scene scene = empty();
+    scene.law.mu = 0.0;
+    scene.law.tangential = TangentialLaw::none;
+    scene.law.kt = scene.law.gt = 0.0;
+    scene.gravity = Vec2(0, -9.81);
+    for (const double side : {1.0, -1.0})
+      addDisk(scene, smallRadius, smallMass, Vec2(0.01 * side, smallRadius),
+              Vec2(beltSpeed > 0.0 ? 0.0 : 2.0 * side, 0.0));
+    scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitY())};
+    if (beltSpeed > 0.0) {
+      scene.bodies[0].motion.kind = Motion::Kind::translating;
+      scene.bodies[0].motion.velocity = Vec2(beltSpeed, 0.0);
+    }
+    const auto e = engine();
+    const Snapshot after = runTo(*e, scene, 1.0);
+    for (const std::size_t k : {0u, 1u}) {
+      EXPECT_NEAR(after.position[k].y(), smallRadius, 0.01 * smallRadius) << beltSpeed;
+      const Vec2 way = after.position[k] - scene.disks.position[k];
+      EXPECT_NEAR(way.x(), scene.disks.velocity[k].x(), 1e-3) << beltSpeed;
+    }
+    EXPECT_EQ(after.contacts->size(), 2u);
+  }
+}
+
+/// In place of an assertion inside Box2D, or a mass that is taken for 1 where it is rounded to 0.
+TEST_P(BothBox2dEngines, RefusesWhatBox2dsFloatsCannotHold) {
+  const auto e = engine();
+  const std::pair<const char*, std::function<void(Scene&)>> faults[] = {
+      {"", [](Scene&) {}},
+      {"mass of disk 1", [](Scene& scene) { scene.disks.mass[1] = 1e308; }},
+      {"mass of disk 1", [](Scene& scene) { scene.disks.mass[1] = 1e-60; }},
+      {"inertia of disk 0", [](Scene& scene) { scene.disks.inertia[0] = 1e300; }},
+      {"radius of disk 1", [](Scene& scene) { scene.disks.radius[1] = 1e30; }},
+      {"v_x of disk 0", [](Scene& scene) { scene.disks.velocity[0].x() = 1e100; }},
+      {"y of disk 1", [](Scene& scene) { scene.disks.position[1].y() = -1e50; }},
+      {"spin of disk 0", [](Scene& scene) { scene.disks.spin[0] = 1e40; }},
+      {"gravity", [](Scene& scene) { scene.gravity.y() = -1e40; }}};
+  for (const auto& [name, change] : faults) {
+    Scene scene = empty();
+    addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());
+    addDisk(scene, smallRadius, smallMass, Vec2(1.0, 0.0), Vec2::Zero());
+    change(scene);
+    std::string refusal;
+    try {
+      e->load(scene, {});
+    } catch (const UnsupportedScene& refused) {
+      refusal = refused.what();
+    }
+    EXPECT_EQ(refusal.empty(), std::string_view(name).empty()) << name;
+    EXPECT_NE(refusal.find(name), std::string::npos) << refusal;
+  }
 }
 
 TEST_P(BothBox2dEngines, WheelIsWhereItShouldBe) {

@@ -88,7 +88,7 @@ TEST_F(Average, SaysWhatIsWrong) {
 }
 
 TEST_F(Average, StartsFromAFile) {
-  write("start.csv", "# made by hand\nx, y,radius,vy,fixed\n0,1,0.5,-2,0\r\n\n3,0,0.25,0,1\n");
+  write("start.csv", "# made by hand\nx, y,radius,vy,fixed\n+0.0,+1,0.5,-2,0\r\n\n3,0,0.25,0,1\n");
   const std::string start =
       scene.substr(0, scene.find("[[")) + "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\n";
   std::ofstream("case.toml") << start;
@@ -104,6 +104,7 @@ TEST_F(Average, StartsFromAFile) {
        {std::pair{"x,y,radius\n0,1,0.5\n0,1\n", "start.csv:3: has 2 values for 3 columns"},
         {"x,y,radius\n0,1,-1\n", "start.csv:2: radius = -1: must be > 0"},
         {"x,y,radius\n0,one,1\n", "start.csv:2: y = one: must be a number"},
+        {"x,y,radius\n0,+-1,1\n", "start.csv:2: y = +-1: must be a number"},
         {"x,y,radus\n0,1,1\n", "start.csv:1: \"radus\" is no column (did you mean radius?)"},
         {"x,y\n0,1\n", "start.csv:1: there is no column radius"},
         {"", "start.csv: has no line of column names"},

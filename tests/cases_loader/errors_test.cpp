@@ -280,6 +280,19 @@ TEST_F(LoaderErrors, AFileCutOffAnywhereLoadsOrGivesOneLine) {
   }
 }
 
+/// What it breaks may show in another line of the file, which says nothing wrong.
+TEST_F(LoaderErrors, WhatAnOverrideBreaksIsBlamedOnIt) {
+  write("case.toml", soundCase);
+  const std::string missing = messageOf("case.toml", {"law.normal=hertz"});
+  EXPECT_TRUE(missing.starts_with("--set law.normal=hertz: case.toml:3:1: law.young is missing"))
+      << missing;
+  const std::string of = messageOf("case.toml", {"law.mu=0.3", "cell.outer_radius=0.02"});
+  EXPECT_TRUE(of.starts_with("--set cell.outer_radius=0.02: ")) << of;
+  // What is wrong without it is the file's own.
+  write("case.toml", line(20, "small_radius = -0.0037"));
+  EXPECT_EQ(messageOf("case.toml", {"law.normal=hertz"}).find("case.toml:20:16:"), 0u);
+}
+
 TEST_F(LoaderErrors, OverridesNameThemselves) {
   write("case.toml", soundCase);
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{

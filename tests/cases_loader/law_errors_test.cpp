@@ -28,6 +28,25 @@ TEST_F(LoaderErrors, LawsNeedWhatTheyUseAndNothingElse) {
   });
 }
 
+TEST_F(LoaderErrors, TwoMaterials_OutsideACollision_AreRefused) {
+  const std::string assembly =
+      "[case]\nkind = \"assembly\"\n[assembly]\nduration = 1\n[[assembly.disks]]\n"
+      "position = [0, 0]\nradius = 1\nmass = 1\n[run]\ndt = 1e-6\n[law]\nnormal = \"hertz\"\n"
+      "tangential = \"none\"\ngn = 0\nyoung = 1e9\npoisson = 0.3\n";  // 15, 16
+  expectMessages({
+      {assembly, ""},
+      {withLine(assembly, 15, "young = [1e9, 1e9]"), ""},
+      {withLine(assembly, 15, "young = [1e6, 1e8]"),
+       "case.toml:15:9: law.young: the values of two bodies belong to a "
+       "collision; here all disks and walls are of one material: give one value"},
+  });
+  for (const std::string& other : {withLine(assembly, 15, "young = [1e9, inf]"),
+                                   withLine(assembly, 16, "poisson = [0.3, 0.2]")}) {
+    write("case.toml", other);
+    EXPECT_NE(messageOf("case.toml").find("of one material"), std::string::npos);
+  }
+}
+
 TEST_F(LoaderErrors, LawsThatStiffenHaveTheirOwnKeys) {
   const std::string hertz =
       "[case]\nkind = \"collision\"\n[collision]\npsi = 1\nvn = 1\nradius = 1\nmass = 1\n[law]\n"

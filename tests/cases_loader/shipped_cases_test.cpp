@@ -123,7 +123,9 @@ TEST(ShippedCases, Figure43HasFourLawsWithAndWithoutTension) {
     EXPECT_EQ(c.collision.psi.back(), 4.0);
     EXPECT_EQ(c.variant, lawOptionValue(c.law, "tangential") +
                              (c.law.conventions.tension == Tension::cut ? "-cut" : "-tension"));
-    EXPECT_NEAR(collisionTimeSteps(c)[0], smallContactTime / 50, 0.1e-6);
+    // A spring stretched after the force lags by more than the margin at t_c/50.
+    const double coarsest = c.law.tangential == TangentialLaw::spring ? 200.0 : 50.0;
+    EXPECT_NEAR(collisionTimeSteps(c)[0], smallContactTime / coarsest, 0.1e-6);
     EXPECT_NEAR(collisionTimeSteps(c).back(), smallContactTime / 2000, 0.005e-6);
   }
   EXPECT_EQ(cases[0].law.tangential, TangentialLaw::coulomb);

@@ -34,6 +34,15 @@ std::span<const ExpectedSkip> expectedSkips() {
                    "its peer has another normal law"},
       ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerThroughAHeap",
                    "lets contacts collide one by one"},
+      ExpectedSkip{"grain", "ConventionsAreThoseDeclared", "is the in-house engine"},
+      ExpectedSkip{"grain-as-yade", "ConventionsAreThoseDeclared", "is the in-house engine"},
+      ExpectedSkip{"grain-as-lammps", "ConventionsAreThoseDeclared", "is the in-house engine"},
+      ExpectedSkip{"grain-as-box2d-penalty", "ConventionsAreThoseDeclared",
+                   "is the in-house engine"},
+      ExpectedSkip{"grain-as-box2d-impulse", "ConventionsAreThoseDeclared",
+                   "is the in-house engine"},
+      ExpectedSkip{"grain-stiff", "ConventionsAreThoseDeclared", "is the in-house engine"},
+      ExpectedSkip{"box2d-impulse", "ConventionsAreThoseDeclared", "no convention of a soft law"},
   };
   return table;
 }

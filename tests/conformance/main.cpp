@@ -23,6 +23,7 @@ int writeTests(const std::string& program, const std::string& file) {
   };
   for (const EngineEntry& entry : engineRegistry()) write(entry.name, "*/" + testName(entry.name));
   write("expected-skips", "ExpectedSkips.*");
+  write("planted-faults", "*PlantedFault*");
   out.close();
   return out ? 0 : 1;
 }

@@ -53,13 +53,18 @@ def _statements(cause):
         statement = statement.split(": ", 1)[-1] if ": " in statement else statement
         statement = statement.removeprefix("its ").removeprefix("it has ")
         statement = re.sub(r" \(leaves .*|, and declares .*| off the case's$", "", statement)
+        statement = re.sub(r"(%), (?:at|of) .*", r"\1", statement)  # the place
         change = re.search(r"(?: is)? ([+−-])([\d.]+)(?:×10([⁻⁰¹²³⁴-⁹]+))? %$", statement)
         if not change:
             yield statement, None
             continue
         power = (change[3] or "").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
         size = float(change[2]) * 10.0 ** int(power or 0) / 100.0
-        yield statement[: change.start()], size if change[1] == "+" else -size
+        size = size if change[1] == "+" else -size
+        name = statement[: change.start()]
+        if name == "torque" and size > -1.0:  # f times the torque and 1/f of the inertia are one motion
+            name, size = "inertia", 1.0 / (1.0 + size) - 1.0
+        yield name, size
 
 
 def term_of(command, results, engine):

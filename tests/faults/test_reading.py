@@ -47,6 +47,10 @@ class Named(unittest.TestCase):
         self.assertEqual("rightly", self.named("conformance", conformance("", "HeadOnCollision"), KN))
         self.assertEqual("", self.named("conformance", conformance("", "FliesStraight"), KN))
 
+    def test_a_place_is_no_part_of_a_term_and_torque_is_inertia(self):
+        self.assertEqual([("k_n", 0.01)], list(reading._statements("k_n +1 %, at planes, 2 s after load")))
+        self.assertEqual([("inertia", 1.0)], list(reading._statements("torque -50 %, of two disks")))
+
     def test_what_is_said_of_a_run_that_broke_down_counts(self):
         self.assertEqual("rightly", self.named("lockstep", lockstep(None, failure="contact 0 is not there"), LOST))
         self.assertEqual("", self.named("lockstep", lockstep(None, failure="it died"), LOST))

@@ -19,6 +19,14 @@ namespace crossgrain::test {
 /// "garbage"   answers what is no JSON
 /// "short"     shows one disk too few
 /// "slippery"  loses 98 % of the friction, and its springs
+///
+/// Others misbehave from the start, each in one thing that is declared:
+///
+/// "no-checkpoints"    has none
+/// "forgetful"         its checkpoints do not hold the springs of contacts
+/// "hertz-radius"      its law of Hertz lacks √R₁₂ (of the first pair, in SI units)
+/// "impulse-planes"    impulses restore 0.8 e_n where there are planes
+/// "impulse-sizes"     the same where disks are of several sizes
 EngineEntry misbehavingEntry(const std::string& mischief, std::uint64_t step);
 
 /// Those that end a run; the others go on as if nothing were.

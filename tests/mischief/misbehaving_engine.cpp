@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -23,16 +24,35 @@ void speedUp(Snapshot& snapshot, double factor) {
   if (snapshot.ledger) snapshot.ledger->kinetic *= factor * factor;
 }
 
+/// The scene with the law that the engine has in place of it.
+Scene otherwise(const std::string& mischief, Scene scene) {
+  const Disks& disks = scene.disks;
+  if (mischief == "hertz-radius" && scene.law.normal == NormalLaw::hertz) {
+    const double first = disks.radius.front();
+    const double reduced = scene.planeCount() > 0 ? first
+                           : scene.wallDiskCount() > 0
+                               ? 0.5 * first
+                               : first * disks.radius[1] / (first + disks.radius[1]);
+    for (double* const constant : {&scene.law.kn, &scene.law.kt}) *constant /= std::sqrt(reduced);
+  }
+  if (scene.law.soft()) return scene;
+  const auto [least, most] = std::ranges::minmax(disks.radius);
+  if ((mischief == "impulse-planes" && scene.planeCount() > 0) ||
+      (mischief == "impulse-sizes" && least != most))
+    scene.law.en *= 0.8;
+  return scene;
+}
+
 }  // namespace
 
 Capabilities MisbehavingEngine::capabilities() const {
   Capabilities can = engine_->capabilities();
-  can.checkpoints = false;
+  can.checkpoints = mischief_ == "no-checkpoints" || mischief_ == "forgetful";
   return can;
 }
 
 Realised MisbehavingEngine::load(const Scene& scene, const Settings& settings) {
-  Realised realised = engine_->load(scene, settings);
+  Realised realised = engine_->load(otherwise(mischief_, scene), settings);
   scene_ = scene;
   dt_ = realised.dt;
   behind_ = 0.0;
@@ -41,10 +61,20 @@ Realised MisbehavingEngine::load(const Scene& scene, const Settings& settings) {
   return realised;
 }
 
-void MisbehavingEngine::loseFriction() {
+void MisbehavingEngine::checkpoint(const std::filesystem::path& file) {
+  if (mischief_ == "no-checkpoints") Engine::checkpoint(file);
+  engine_->checkpoint(file);
+}
+
+void MisbehavingEngine::restore(const std::filesystem::path& file) {
+  engine_->restore(file);
+  beginAnew(1.0);
+}
+
+void MisbehavingEngine::beginAnew(double friction) {
   const Snapshot now = engine_->snapshot(ContactReport::none);
   Scene scene = scene_;
-  scene.law.mu *= 0.02;  // not zero: disks go on to have spins
+  scene.law.mu *= friction;
   scene.disks.position = now.position;
   scene.disks.velocity = now.velocity;
   if (now.spin) scene.disks.spin = *now.spin;
@@ -63,9 +93,10 @@ double MisbehavingEngine::advance(double t) {
   if (mischief_ == "slippery") {
     if (t < until || behind_ > 0.0) return engine_->advance(t - behind_) + behind_;
     engine_->advance(until);
-    loseFriction();
+    beginAnew(0.02);  // not zero: disks go on to have spins
     return engine_->advance(t - behind_) + behind_;
   }
+  if (step_ == 0) return engine_->advance(t - behind_) + behind_;
   if (t < until || mischief_ == "pump" || mischief_ == "nan" || mischief_ == "short")
     return engine_->advance(t);
   engine_->advance(until);
@@ -90,7 +121,7 @@ Snapshot MisbehavingEngine::snapshot(ContactReport contacts) {
     *time += behind_;
   for (std::size_t k = 0; k < turned_.size(); ++k) snapshot.bodies[k].angle += turned_[k];
   const std::uint64_t steps = engine_->stats().steps;
-  if (steps < step_) return snapshot;
+  if (steps < step_ || step_ == 0) return snapshot;
   if (mischief_ == "nan") snapshot.position.front().x() = std::numeric_limits<double>::quiet_NaN();
   if (mischief_ == "short") snapshot.position.pop_back();
   if (mischief_ == "pump") speedUp(snapshot, 1.0 + 0.01 * static_cast<double>(steps - step_));

@@ -20,10 +20,12 @@ class MisbehavingEngine final : public Engine {
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;
+  void checkpoint(const std::filesystem::path& file) override;
+  void restore(const std::filesystem::path& file) override;
 
  private:
-  /// Begins anew from here, nearly without friction and without springs.
-  void loseFriction();
+  /// Begins anew from here without springs, and with that part of the friction.
+  void beginAnew(double friction);
 
   std::unique_ptr<Engine> engine_;
   std::string mischief_;

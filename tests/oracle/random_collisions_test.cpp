@@ -108,6 +108,27 @@ TEST(RandomCollisions, OfTheLinearLawHaveOneRestitutionWhateverTheSpeed) {
   }
 }
 
+/// Of undamped springs stretched after the force, too, whose outcome jumps where v_t vanishes just
+/// before the bound begins to fall.
+TEST(RandomCollisions, Oracle_EveryConvention_IsWhatSmallStepsGive) {
+  Draw draw(3);
+  test::AgainstSmallSteps small;
+  for (int k = 0; k < 300; ++k) {
+    SCOPED_TRACE(k);
+    Case setup = randomCase(draw);
+    ContactLaw& law = setup.law;
+    law.mu = draw.uniform(0.05, 1.0);
+    law.tangential = draw.oneOf({TangentialLaw::spring, TangentialLaw::springDashpot});
+    drawConventions(draw, law.conventions);
+    if (draw.uniform(0.0, 1.0) < 0.25) law.gn = law.gt = 0.0;
+    const CollidingPair pair = collidingPair(setup);
+    small.expect(law, pair, randomStart(draw, setup), contactTime(law, pair.reducedMass()));
+  }
+  EXPECT_EQ(small.compared, 300);
+  EXPECT_LT(small.noLimit, 20);
+  EXPECT_LT(small.unsettled, 40);
+}
+
 /// A sweep of random starts of one random case in one scene of the in-house engine.
 struct EngineSweep {
   static constexpr int laws = 200, pairs = 50;  ///< 10⁴ collisions

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "cases/case.hpp"
+#include "plain_integration.hpp"
 #include "tests/support/draw.hpp"
 
 namespace crossgrain::test {
@@ -13,5 +19,47 @@ inline void drawPair(Draw& draw, Collision& to) {
   to.mass[1] = 1e-4 * draw.logarithmic(1.0, 1000.0);
   to.inertiaFactor = draw.uniform(0.4, 0.5);
 }
+
+/// Every convention with which a law has a limit of small steps.
+inline void drawConventions(Draw& draw, LawConventions& how) {
+  how.tension = draw.oneOf({Tension::allow, Tension::cut});
+  how.coulombBound = draw.oneOf({CoulombBound::compression, CoulombBound::magnitude});
+  how.springUpdate =
+      draw.oneOf({SpringUpdate::after, SpringUpdate::before, SpringUpdate::midpoint});
+  how.springReset = draw.oneOf({SpringReset::total, SpringReset::springOnly});
+  how.leverArm = draw.oneOf({LeverArm::radius, LeverArm::contactPoint});
+  how.history = draw.oneOf({History::displacement, History::force});
+}
+
+/// Random collisions against plain integrations, and how they came out.
+struct AgainstSmallSteps {
+  int compared = 0, noLimit = 0, unsettled = 0;
+
+  /// The oracle lies among what small steps give, but for their own spread and first-order error;
+  /// and where it says that there is no limit they are apart.
+  void expect(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
+              double contactTime) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double steps : {4000.0, 12000.0})
+      for (const double phase : {0.2, 0.7}) {
+        const double psi = PlainIntegration::run(law, pair, start, contactTime, steps, phase).psi;
+        ASSERT_TRUE(std::isfinite(psi)) << "does not part";
+        low = std::min(low, psi);
+        high = std::max(high, psi);
+      }
+    const CollisionEnd end = oracleOutcome(law, pair, start);
+    ++compared;
+    noLimit += end.noLimit;
+    constexpr double firstOrder = 2e-3, apart = 1e-5;
+    unsettled += high - low > firstOrder;
+    if (end.noLimit) {
+      EXPECT_GT(high - low, apart) << "small steps agree on " << low;
+    } else {
+      const double slack = firstOrder + (high - low);
+      EXPECT_GT(end.psi, low - slack);
+      EXPECT_LT(end.psi, high + slack);
+    }
+  }
+};
 
 }  // namespace crossgrain::test

@@ -112,4 +112,27 @@ TEST(RandomStiffening, OfTheEngineMeetTheOracle) {
   }
 }
 
+/// Also where friction goes on under tension, to the last.
+TEST(RandomStiffening, Oracle_EveryConvention_IsWhatSmallStepsGive) {
+  Draw draw(13);
+  test::AgainstSmallSteps small;
+  for (int k = 0; k < 200; ++k) {
+    SCOPED_TRACE(k);
+    Case setup = randomStiffeningCase(draw);
+    ContactLaw& law = setup.law;
+    law.mu = draw.uniform(0.05, 1.0);
+    law.tangential = draw.oneOf({TangentialLaw::spring, TangentialLaw::springDashpot});
+    drawConventions(draw, law.conventions);
+    if (law.normal == NormalLaw::hertz && law.conventions.history == History::displacement)
+      law.conventions.springReset = SpringReset::total;  // else there is no oracle
+    const CollidingPair pair = collidingPair(setup);
+    const CollisionStart start = randomStart(draw, setup);
+    small.expect(law, pair, start,
+                 impactTime(law, {pair.reducedMass(), pair.reducedRadius(), start.vn}));
+  }
+  EXPECT_EQ(small.compared, 200);
+  EXPECT_LT(small.noLimit, 20);
+  EXPECT_LT(small.unsettled, 30);
+}
+
 }  // namespace

@@ -28,6 +28,12 @@ TEST(Numbers, ErrorsHaveTwoDigitsAndTheValueStopsWithThem) {
   EXPECT_EQ(readable(1.234e-5, 4.8e-7), "(1.234\u00a0±\u00a00.048)×10⁻⁵");
   EXPECT_EQ(readable(0.5, std::nullopt), "0.500");
   EXPECT_EQ(readable(std::nullopt, 0.5), "–");
+  // An error far below the value has digits of its own: never ± 0.
+  EXPECT_EQ(readable(0.018378, 2.04e-10), "0.0183780\u00a0±\u00a02.0×10⁻¹⁰");
+  EXPECT_EQ(readable(0.018378, 4.2e-7), "0.0183780\u00a0±\u00a04.2×10⁻⁷");
+  EXPECT_EQ(readable(-3.2e-7, 1.1e-19), "−3.20000×10⁻⁷\u00a0±\u00a01.1×10⁻¹⁹");
+  EXPECT_EQ(readable(123456.0, 0.012), "123\u202f456\u00a0±\u00a00.012");
+  EXPECT_EQ(readable(1e-12, 0.5), "0.00\u00a0±\u00a00.50");
   EXPECT_EQ(readableDifference(0.24178, 0.0131), "+0.242\u00a0±\u00a00.013");
   EXPECT_EQ(readableDifference(-0.24178, 0.0131), "−0.242\u00a0±\u00a00.013");
 }
@@ -65,6 +71,8 @@ TEST(Labels, KnownFieldsHaveSymbolsAndOthersAreEscaped) {
   EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ<sub>rφ</sub>");
   EXPECT_EQ(fieldLabel("my_<field>"), "my &lt;field&gt;");
   EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");
+  EXPECT_EQ(mathHtml("spring_dashpot-cut, Ψ_i, 2R_i, ΩR_i"),
+            "spring_dashpot-cut, Ψ<sub>i</sub>, 2R<sub>i</sub>, ΩR<sub>i</sub>");
   EXPECT_EQ(mathHtml("σ_φr·2πr²h"), "σ<sub>φr</sub>·2πr²h");
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <sstream>
 
 #include "reports/collide/overview.hpp"
@@ -13,6 +15,7 @@
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/overview.hpp"
+#include "reports/couette/report.hpp"
 #include "reports/diff/overview.hpp"
 #include "reports/effects/overview.hpp"
 #include "reports/lockstep/overview.hpp"
@@ -217,11 +220,11 @@ TEST(CompareOverview, SaysWhatToDoNext) {
   results.endpoints.rows[1].answer = Answer::undecided;
   results.endpoints.rows[1].needs = 12;
   EXPECT_EQ(compareConclusion(results).back(),
-            "Next: more packings, about 12 for the first that is open; the case plans no further "
-            "look ([looks] in its file).");
+            "Next: more packings, about 12 for the coordination of theirs against ours; the case "
+            "plans no further look ([looks] in its file).");
   results.endpoints.looks.planned = {{8, 0.01}};
   EXPECT_TRUE(
-      has(compareConclusion(results).back(), "open; the same command with a larger --budget"));
+      has(compareConclusion(results).back(), "ours; the same command with a larger --budget"));
   for (EndpointRow& row : results.endpoints.rows) row.answer = Answer::noDifference;
   EXPECT_EQ(compareConclusion(results),
             (std::vector<std::string>{"Against ours: theirs agreed on both endpoints.",
@@ -231,6 +234,174 @@ TEST(CompareOverview, SaysWhatToDoNext) {
             "Next: see the alarm on theirs: all disks are gone.");
   results.nothingJudged = NothingJudged{"the case has no margins", false};
   EXPECT_EQ(compareConclusion(results).back(), "Nothing was judged: the case has no margins.");
+}
+
+/// Some of the endpoints of some pairs, answered at random; sometimes nothing was judged.
+CompareResults randomResults(std::mt19937& random) {
+  const auto upTo = [&](int most) { return std::uniform_int_distribution(0, most)(random); };
+  const auto margins = [&] { return std::uniform_real_distribution(-6.0, 6.0)(random); };
+  CompareResults results;
+  for (const char* name : {"ours", "second", "third"})
+    results.engines.push_back({name, "", "", "", EngineStatus::ran, ""});
+  if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of both engines", false};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = a + 1; b < 3; ++b)
+      for (const char* endpoint : {"pressure", "coordination", "mean_spin", "spin_at_wheel"}) {
+        if (upTo(4) == 0) continue;
+        EndpointRow row;
+        row.a = results.engines[a].name;
+        row.b = results.engines[b].name;
+        row.endpoint = endpoint;
+        row.answer = results.nothingJudged ? Answer::undecided : static_cast<Answer>(upTo(4));
+        row.distance = margins();
+        if (row.answer == Answer::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
+        results.endpoints.rows.push_back(row);
+      }
+  CarriedEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
+  for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
+    own.canary.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100)});
+  results.endpoints.carried = {own};
+  return results;
+}
+
+TEST(CompareSentences, TheFarthestEndpointIsNamed) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const CarriedEngine& own = results.endpoints.carried.front();
+    const auto farthest = std::ranges::max_element(
+        own.canary, {}, [](const CanaryNumber& number) { return std::abs(*number.difference); });
+    EXPECT_TRUE(has(sentenceOf(own), "margins of " + spaced(farthest->endpoint)))
+        << sentenceOf(own);
+  }
+}
+
+TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
+  std::mt19937 random(2);
+  int named = 0;
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const std::string next = compareConclusion(results).back();
+    const auto isOpen = [](const EndpointRow& row) { return row.answer == Answer::undecided; };
+    const bool shownIsOpen =
+        std::ranges::any_of(results.endpoints.rows,
+                            [&](const EndpointRow& row) { return isOpen(row) && row.a == "ours"; });
+    if (!has(next, ", about ")) continue;
+    ++named;
+    const auto row = std::ranges::find_if(results.endpoints.rows, [&](const EndpointRow& each) {
+      return each.needs &&
+             has(next, fmt::format("about {} for the {} of {} against {};", *each.needs,
+                                   endpointWords(each.endpoint), each.b, each.a));
+    });
+    ASSERT_NE(row, results.endpoints.rows.end()) << next;
+    EXPECT_TRUE(isOpen(*row)) << next;
+    EXPECT_EQ(shownIsOpen, row->a == "ours") << next;
+    rowOf(compareOverview(results), row->b);  // throws where the matrix does not have it
+  }
+  EXPECT_GT(named, 100);
+}
+
+TEST(CompareSentences, HeadLinesDoNotContradictEachOther) {
+  std::mt19937 random(3);
+  int judgedNothing = 0;
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const Overview overview = compareOverview(results);
+    const std::string head = fmt::format("{}", fmt::join(overview.conclusion, " "));
+    const bool open = std::ranges::any_of(results.endpoints.rows, [](const EndpointRow& row) {
+      return row.answer == Answer::undecided;
+    });
+    EXPECT_FALSE(open && has(head, "Nothing is left to decide")) << head;
+    if (!results.nothingJudged) {
+      EXPECT_FALSE(has(head, "Nothing was judged")) << head;
+      continue;
+    }
+    ++judgedNothing;
+    EXPECT_TRUE(has(head, "Nothing was judged")) << head;
+    for (const char* verdict : {"agree", "undecided", "borderline"})
+      EXPECT_FALSE(has(head, verdict)) << head;
+    for (const OverviewRow& row : overview.rows)
+      EXPECT_TRUE(row.cells[1].state == CellState::notMeasured ||
+                  row.cells[1].state == CellState::notApplicable);
+  }
+  EXPECT_GT(judgedNothing, 30);
+}
+
+TEST(CompareOverview, TheTableHasTheMatrixMarkOfTheSameAnswer) {
+  CompareResults results = disagreeing();
+  results.lockstep.emplace();
+  results.lockstep->rules.yardstick = "kn";
+  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  const std::vector<Figure> figures;
+  const std::vector<Picture> pictures;
+  const std::string page = comparePage(results, {figures, pictures, {}, "no plots here"});
+  EXPECT_TRUE(has(page, "<td class=\"cell model\""));
+  EXPECT_TRUE(has(page, "<td class=\"verdict model\"><b>≠ disagree by the declared law</b>"));
+  EXPECT_FALSE(has(page, "<td class=\"verdict bad\">"));
+}
+
+TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
+  CompareResults results = disagreeing();
+  results.rings.rTilde = {0.5, 1.5, 2.5};
+  AgreementRow row;
+  row.a = "ours";
+  row.b = "theirs";
+  row.field = "spin";
+  for (const double margins : {0.5, 87.0, -6.0}) {
+    AgreementRing ring;
+    ring.ring = row.rings.size();
+    ring.difference = 2.0 * margins;
+    ring.margin = 2.0;
+    row.rings.push_back(ring);
+  }
+  results.agreement = {row};
+  const Figure figure = differenceFigures(results, engineRuns(results)).at(0);
+  const Panel& panel = figure.panels.at(0);
+  ASSERT_EQ(panel.curves.size(), 3u);
+  EXPECT_EQ(panel.curves[1].points.at(0).label, "87.0");
+  EXPECT_EQ(panel.curves[2].points.at(0).label, "−6.00");
+  for (const std::size_t k : {1u, 2u}) EXPECT_TRUE(isSeen(panel, panel.curves[k]));
+  EXPECT_TRUE(has(figure.caption, "beyond 5 margins"));
+}
+
+TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
+  CompareResults results = disagreeing();
+  results.rings.rTilde = {0.5, 1.5};
+  results.engines.push_back({"mirror", "", "", "theirs", EngineStatus::ran, ""});
+  Profile profile;
+  profile.method = "slicing";
+  profile.field = "spin";
+  profile.mean = {1.0, 0.5};
+  profile.standardError = {0.1, 0.1};
+  for (const auto& [name, runs] : {std::pair("ours", 2), std::pair("theirs", 1), {"mirror", 2}}) {
+    for (int k = 0; k < runs; ++k) {
+      CouetteRun run;
+      run.engine = name;
+      run.packing = k;
+      run.profiles = {profile};
+      results.runs.push_back(run);
+    }
+    if (runs > 1) {
+      CouetteEnsemble mean;
+      mean.engine = name;
+      mean.profiles = {profile};
+      results.ensemble.push_back(mean);
+    }
+  }
+  results.endpoints.carried = {{"theirs", "mirror", 1e-4, 16, 0, {}, {}, true}};
+  const auto engines = engineRuns(results);
+  const auto figures = profileFigures(results, engines);
+  const auto figure = std::ranges::find(figures, "profile_spin", &Figure::name);
+  ASSERT_NE(figure, figures.end());
+  const auto& curves = figure->panels.at(0).curves;
+  ASSERT_EQ(curves.size(), 3u);
+  EXPECT_EQ(curves[1].name, "theirs, one run");
+  EXPECT_NE(curves[1].style.colour, engines[1].style.colour);
+  EXPECT_FALSE(curves[1].points.at(0).error);
+  EXPECT_EQ(curves[2].name, "mirror");
+  EXPECT_EQ(curves[2].style.colour, engines[2].style.colour);
+  EXPECT_TRUE(curves[2].points.at(0).error);
+  EXPECT_TRUE(has(barsInWords(engines), "theirs (its verdicts rest on mirror)"));
 }
 
 TEST(CollideOverview, TellsTheLargestShareOfALimitAndByWhichLaw) {

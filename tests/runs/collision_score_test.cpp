@@ -68,6 +68,22 @@ TEST(Score, HoldsWhereEveryQuantityWithAMarginDoes) {
   EXPECT_EQ(verdict(one), CurveVerdict::fellShort);  // a pair that did not part
 }
 
+TEST(Score, MostReferencesMissing_NothingIsJudged) {
+  Case setup = test::smallPairCase();
+  setup.collision.margins["psi_f"] = {0.11, false, "in its own unit", ""};
+  const std::vector<CollisionStart> starts(4, {1.0, 0.1, Approach::spin});
+  const Outcomes found = outcomes({0.0, 2.1, 3.0, 9.0}, 1e-6);
+  Outcomes oracle = outcomes({0.0, 2.0, 2.0, 2.0}, 1e-6);
+  oracle[2].reset();
+  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, CurveVerdict::fellShort);
+  oracle[3].reset();
+  EXPECT_EQ(scoreSweep(setup, starts, found, oracle).verdict, CurveVerdict::held);
+  oracle[0].reset();  // the one that is left is off by 0.1 of nothing
+  const CurveScore score = scoreSweep(setup, starts, found, oracle);
+  EXPECT_EQ(score.verdict, CurveVerdict::notJudged);
+  EXPECT_FALSE(score.of[QuantityId::psiF].value().held);
+}
+
 CollisionCurve curve(double dt, double psi, double en) {
   CollisionCurve curve;
   curve.engine = "a";

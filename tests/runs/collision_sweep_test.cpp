@@ -68,6 +68,25 @@ TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
   EXPECT_EQ(judged.score.verdict, CurveVerdict::held) << jsonOf(judged.score).dump();
 }
 
+/// The spring law of figure 4.3 jumps at Ψ_i = 0.51: at 0.5 a scheme whose v_t is off by what the
+/// margin allows may find itself on either side.
+TEST(CollisionSweep, StartBesideAJump_WithinTheMargin_IsNotJudged) {
+  Case setup = test::smallPairCase();
+  setup.law.tangential = TangentialLaw::spring;
+  setup.law.conventions.tension = Tension::cut;
+  setup.collision.psi = {0.4, 0.5, 3.0};
+  setup.collision.vn = {0.01};
+  const auto unsure = [&](double margin) {
+    setup.collision.margins["psi_f"] = {margin, false, "because", ""};
+    return oracleCurve(setup, collisionStarts(setup)).unsure;
+  };
+  const auto wide = unsure(0.03);
+  EXPECT_EQ(wide[0], "");
+  EXPECT_NE(wide[1].find("jumps"), std::string::npos) << wide[1];
+  EXPECT_EQ(wide[2], "");
+  EXPECT_EQ(unsure(0.003), std::vector<std::string>(3));
+}
+
 TEST(CollisionSweep, OfOneStartWithoutALimitNothingIsJudged) {
   Case setup = test::smallPairCase();
   setup.collision.psi = {setup.law.mu * setup.law.gn / setup.law.gt};

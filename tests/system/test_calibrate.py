@@ -136,6 +136,54 @@ class Inverse(Calibrate):
         self.assertEqual(8, len(re.findall(r"(?m)^# i-j ", text)))
 
 
+class RoundTrip(Calibrate):
+    """What is printed of a case's law loads, and is that law."""
+
+    def lawAndRows(self, name, law):
+        text = self.calibrate(self.write(name, COLLISION_OF_TWO.format(law=law)))
+        head, _, rest = text.partition("\n")
+        table = rest[: rest.index("\n\n")]
+        return tomllib.loads(table)["law"], table, rest[len(table) :]
+
+    def test_every_law_and_damper(self):
+        normals = {
+            "linear": "kn = 1e4\n",
+            "hertz": "young = [7e7, 2e8]\npoisson = [0.25, 0.4]\n",
+            "polynomial": "k2 = 1e8\nk3 = -1e9\n",
+        }
+        dampers = {"constant": 0.05, "viscoelastic": 1e-5, "critical": 0.4}
+        for normal, stiffness in normals.items():
+            for damper, gn in dampers.items():
+                for tangential in ("none", "coulomb", "viscous", "spring", "spring_dashpot"):
+                    for more in ("", 'tension = "cut"\nlever_arm = "contact_point"\nhistory = "force"\n'):
+                        with self.subTest(f"{normal} {damper} {tangential} {more}"):
+                            law = f'[law]\nnormal = "{normal}"\ndamper = "{damper}"\n'
+                            law += f'tangential = "{tangential}"\n{stiffness}gn = {gn}\n{more}'
+                            if tangential != "none":
+                                law += f"mu = 0.3\ngt = {gn / 2}\n"
+                                law += "kt = 8e3\n" if normal != "hertz" else ""
+                            first, table, rows = self.lawAndRows("asked.toml", law)
+                            again, _, same = self.lawAndRows("pasted.toml", table)
+                            self.assertEqual(rows, same)
+                            self.assertEqual(first.keys(), again.keys())
+                            self.assertEqual((normal, gn), (first["normal"], first["gn"]))
+                            self.assertEqual(damper, first.get("damper", "constant"))
+                            for key, value in first.items():
+                                if isinstance(value, str):
+                                    self.assertEqual(value, again[key])
+                                else:
+                                    self.assertAlmostEqual(1.0, (again[key] or 1.0) / (value or 1.0), 12)
+
+    def test_critical_damper_gives_every_pair_what_was_asked(self):
+        for stiffness in ('normal = "linear"\nkn = 1e4', 'normal = "hertz"\nyoung = 7e7\npoisson = 0.25'):
+            law = f'[law]\n{stiffness}\ndamper = "critical"\ntangential = "none"\n'
+            _, table, rows = self.lawAndRows("asked.toml", law + "e_n = 0.6\n")
+            self.assertRegex(rows, r"(?m)^# i-j .* 0\.6000 ")
+            heavy = COLLISION_OF_TWO.format(law=table).replace("mass = 1e-3", "mass = 1.0")
+            self.assertRegex(self.calibrate(self.write("heavy.toml", heavy)), r"(?m)^# i-j .* 0\.6000 ")
+            self.assertNotIn("restitutions are not", rows)
+
+
 class Refused(SystemTest):
     def test_one_line_each(self):
         inputs = {

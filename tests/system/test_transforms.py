@@ -7,7 +7,7 @@ import pathlib
 import sys
 import unittest
 
-from harness import BAD_INPUT, CASES, COUETTE, FELL_SHORT, HELD, SystemTest
+from harness import BAD_INPUT, CASES, COUETTE, FELL_SHORT, HELD, PROGRAM, SystemTest
 
 PLANTED = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/faults/planted_engine"
 TRANSFORMS = [
@@ -107,6 +107,20 @@ class Transforms(SystemTest):
         for row in refused:
             self.assertNotEqual("", row["reason"])
             self.assertEqual("", row["value"])
+
+    def test_a_worker_gets_absolute_paths_from_a_relative_output_folder(self):
+        """It may work in a folder of its own."""
+        worker = self.folder / "elsewhere.sh"
+        worker.write_text(f'#!/bin/sh\ncd /\nexec "{PROGRAM}" __serve grain\n')
+        worker.chmod(0o755)
+        engine = self.write("elsewhere.toml", f'name = "elsewhere"\nsummary = "a test"\ncommand = ["{worker}"]\n')
+        done = self.run_program(
+            "stability", "--transforms", SLIDING, "--engines", engine, "--out", "o",
+        )  # fmt: skip
+        self.assert_status(done, HELD)
+        with open(self.folder / "o/stability.csv", encoding="utf-8", newline="") as file:
+            verdicts = {row["variant"]: row["verdict"] for row in csv.DictReader(file)}
+        self.assertEqual("stable", verdicts["restarted"])
 
     def test_finished_runs_are_taken_up(self):
         self.transform("grain", SLIDING, status=HELD)

@@ -172,10 +172,13 @@ void Simulation::addPlanes() {
         }
         const Vector foot = w.position[i] - height * plane.normal;
         const bool flipped = faults_.flippedWalls == static_cast<double>(i + 1);
-        const Vector wall = seenOfWall(w.bodies[b].velocityAt(foot));
+        Vector wall = seenOfWall(w.bodies[b].velocityAt(foot));
+        const double along = dot(wall, turned(plane.normal));
+        wall = wall + ((faults_.planeBelt - 1.0) * along) * turned(plane.normal);
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
-        const Contact c = contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
-                                  seenVelocity_[i] - wall, lever * seenSpin_[i], spring);
+        const Contact c =
+            contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap, seenVelocity_[i] - wall,
+                    faults_.planeSpin * lever * seenSpin_[i], spring);
         push(b, foot, c, 0.0);
       }
       ++springs;
@@ -200,6 +203,8 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   const bool wall = j >= world_.disks;
   double mu = law.mu * (wall ? faults_.wallMu : 1.0);
   if (i % 2 == 1) mu *= faults_.muOdd;
+  if (dot(world_.position[i], world_.position[i]) > 1.0) mu *= faults_.muFar;
+  if (now() > 1.0) mu *= faults_.muLate;
   const double gn = law.gn * (wall ? faults_.wallGn : 1.0);
   const double slip = dot(relative, turned(n)) - rim;
   if (slip > 0.0) mu *= faults_.muAnticlockwise;
@@ -246,7 +251,8 @@ Contact Simulation::contact(std::size_t i, std::size_t j, Vector n, double overl
   const double lever = !wall || j < world_.radius.size()
                            ? arm(i, overlap)
                            : world_.radius[i] - (faults_.leverMiddle != 0.0 ? overlap : 0.0);
-  torque_[i] -= faults_.torque * lever * c.ft;
+  const double share = faults_.torque * (j >= world_.radius.size() ? faults_.planeTorque : 1.0);
+  torque_[i] -= share * lever * c.ft;
   contacts_.push_back(c);
   return c;
 }

@@ -21,8 +21,11 @@ struct Faults {
   double plateMu = 1.0;    ///< friction with the plate
   double plateSpin = 1.0;  ///< its torque; −1: it spins disks up
   double wallGn = 1.0, wallMu = 1.0;
-  double wallVelocity = 1.0, wallSpin = 1.0;         ///< that contacts see; places are right
-  double torque = 1.0;                               ///< of all contacts
+  double wallVelocity = 1.0, wallSpin = 1.0;  ///< that contacts see; places are right
+  double planeSpin = 1.0;    ///< of the disk's spin in the slip at planes; −1: the wrong sign
+  double planeTorque = 1.0;  ///< of contacts with planes
+  double planeBelt = 1.0;    ///< of planes' velocity along themselves that contacts see
+  double torque = 1.0;       ///< of all contacts
   double torqueOfSecond = 1.0, forceOnSecond = 1.0;  ///< of the partner with the higher id
   double listReach = 1.0;  ///< how far disks go before the list of neighbours is made anew
 
@@ -52,6 +55,10 @@ struct Faults {
   double wallVelocityY = 1.0;    ///< of the y component of walls' velocity that contacts see
   double muOdd = 1.0;            ///< of contacts of disks with odd numbers
   double muAnticlockwise = 1.0;  ///< of contacts with positive slip
+
+  // Right here and soon.
+  double muFar = 1.0;   ///< of contacts of disks farther than 1 m from the origin
+  double muLate = 1.0;  ///< of contacts later than 1 s after load
 
   // What is answered; the motion is right.
   double showFloat = 0.0;          ///< positions rounded to float32
@@ -91,6 +98,9 @@ inline constexpr auto faultNames = std::to_array<std::pair<std::string_view, dou
      {"wall_mu", &Faults::wallMu},
      {"wall_velocity", &Faults::wallVelocity},
      {"wall_spin", &Faults::wallSpin},
+     {"plane_spin", &Faults::planeSpin},
+     {"plane_torque", &Faults::planeTorque},
+     {"plane_belt", &Faults::planeBelt},
      {"torque", &Faults::torque},
      {"torque_of_second", &Faults::torqueOfSecond},
      {"force_on_second", &Faults::forceOnSecond},
@@ -118,6 +128,8 @@ inline constexpr auto faultNames = std::to_array<std::pair<std::string_view, dou
      {"wall_velocity_y", &Faults::wallVelocityY},
      {"mu_odd", &Faults::muOdd},
      {"mu_anticlockwise", &Faults::muAnticlockwise},
+     {"mu_far", &Faults::muFar},
+     {"mu_late", &Faults::muLate},
      {"show_float", &Faults::showFloat},
      {"show_late", &Faults::showLate},
      {"show_swapped_places", &Faults::showSwappedPlaces},
