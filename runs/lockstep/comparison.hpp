@@ -29,7 +29,8 @@ bool hasTerm(const LockstepRow& row);
 /// Holds one engine against its mirror, from each of the states.
 /// @param engine  started; that of `entry`
 /// @param dt      the case's [s]
-/// @returns not measured, with the reason, where the engine refuses the scene or has no mirror in it
+/// @returns not measured, with the reason, where the engine refuses the scene or has no mirror in
+/// it
 /// @throws Interrupted, BadInput
 LockstepRow holdAgainstMirror(Engine& engine, const EngineEntry& entry, const Case& setup,
                               const std::vector<FlowState>& states, double dt,
