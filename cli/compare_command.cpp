@@ -94,7 +94,10 @@ int compare(const CommandLine& line, bool strict, const std::optional<std::strin
                                              &LockstepRow::verdict) > 0;
   const bool alarmed =
       std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
-  const bool open = any(Answer::undecided) || any(Answer::borderline) || refused;
+  const bool open =
+      any(Answer::undecided) || any(Answer::borderline) || refused ||
+      (results.lockstep && std::ranges::count(results.lockstep->rows, LockstepVerdict::undecided,
+                                              &LockstepRow::verdict) > 0);
   if (differs || alarmed || any(Answer::disagree) || (strict && open)) return exitFellShort;
   return judged;
 }

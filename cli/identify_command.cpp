@@ -14,15 +14,16 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-std::string namesOrNothing(const std::vector<std::string>& names) {
-  return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
+std::string namesOr(const std::vector<std::string>& names, const char* none) {
+  return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
 }
 
 void printOption(const FoundOption& option) {
   const std::string found = fmt::format("{}", fmt::join(option.values, " | "));
-  const std::string declared =
-      option.declared.empty() ? "nothing" : fmt::format("{}", fmt::join(option.declared, " | "));
-  fmt::print("{:<17} {:<34} declares {}{}\n", option.name, found, declared,
+  const std::string declared = option.declared.empty()
+                                   ? "does not declare this option"
+                                   : fmt::format("declares {}", fmt::join(option.declared, " | "));
+  fmt::print("{:<17} {:<34} {}{}\n", option.name, found, declared,
              option.contradicts() ? "   <- not what was found" : "");
 }
 
@@ -36,8 +37,11 @@ void print(const std::string& engine, const Identification& found) {
       fmt::print("{:<17} {:+.4g} % of the case's   <- not the case's\n", constant.name,
                  100.0 * constant.change);
     if (!found.missing.empty() || !found.declaredMissing.empty())
-      fmt::print("{:<17} {:<34} declares {}{}\n", "does not simulate",
-                 namesOrNothing(found.missing), namesOrNothing(found.declaredMissing),
+      fmt::print("{:<17} {:<34} {}{}\n", "does not simulate",
+                 namesOr(found.missing, "(simulates all)"),
+                 found.declaredMissing.empty()
+                     ? "declares that it simulates all"
+                     : fmt::format("declares {}", fmt::join(found.declaredMissing, ", ")),
                  found.missing == found.declaredMissing ? "" : "   <- not what was found");
   }
   fmt::print("largest separation: {:.2e} d from the case's own law, {:.2e} d from the {}\n",

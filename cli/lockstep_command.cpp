@@ -27,11 +27,12 @@ std::size_t startsOf(const std::optional<double>& given, bool quick) {
   return static_cast<std::size_t>(*given);
 }
 
-int statusOf(const CommandLine& line, const LockstepResults& results) {
+int statusOf(const CommandLine& line, const LockstepResults& results, bool strict) {
   bool judged = false, differs = false, failed = false;
   for (const LockstepRow& row : results.lockstep.rows) {
     judged |= row.verdict != LockstepVerdict::notMeasured;
-    differs |= row.verdict == LockstepVerdict::differs;
+    differs |= row.verdict == LockstepVerdict::differs ||
+               (strict && row.verdict == LockstepVerdict::undecided);
     if (row.failure.empty()) continue;
     printFailure(row.failure);
     failed = true;
@@ -41,7 +42,7 @@ int statusOf(const CommandLine& line, const LockstepResults& results) {
   return differs ? exitFellShort : exitHeld;
 }
 
-int lockstep(const CommandLine& line, const std::optional<double>& given) {
+int lockstep(const CommandLine& line, const std::optional<double>& given, bool strict) {
   const std::size_t starts = startsOf(given, line.quick);
   const Case setup = onlyFlow(line, "lockstep");
   RunStore store(line.run, "lockstep", soleCase(setup));
@@ -57,7 +58,7 @@ int lockstep(const CommandLine& line, const std::optional<double>& given) {
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
   }
   printRefusals(line, results.engines);
-  return statusOf(line, results);
+  return statusOf(line, results, strict);
 }
 
 Action declareLockstep(CLI::App& app, CommandLine& line) {
@@ -67,7 +68,11 @@ Action declareLockstep(CLI::App& app, CommandLine& line) {
   const auto starts = std::make_shared<std::optional<double>>();
   addNumber(app, "--starts", *starts,
             "states of the flow to start from; 16 unless given, 4 with --quick");
-  return [&line, starts] { return resumably(line.run, [&] { return lockstep(line, *starts); }); };
+  const auto strict = std::make_shared<bool>(false);
+  addFlag(app, "--strict", *strict, "an engine that is undecided counts as one that differs");
+  return [&line, starts, strict] {
+    return resumably(line.run, [&] { return lockstep(line, *starts, *strict); });
+  };
 }
 
 }  // namespace

@@ -17,11 +17,12 @@ enum class DiffVerdict {
   sameBits,
   sameToRounding,
   sameLaw,
+  undecided,
   differs
 };
 constexpr auto namesOf(DiffVerdict) {
-  return std::array<std::string_view, 5>{"not_measured", "same_bits", "same_to_rounding",
-                                         "same_law", "differs"};
+  return std::array<std::string_view, 6>{"not_measured", "same_bits", "same_to_rounding",
+                                         "same_law",     "undecided", "differs"};
 }
 
 /// Something that an engine declares: its step, an option, a constant of a kind of pair.

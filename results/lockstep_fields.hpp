@@ -10,6 +10,7 @@ void fields(auto& io, LockstepRules& rules) {
   io("same_law", rules.sameLaw);
   io("yardstick", rules.yardstick);
   io("yardstick_change", rules.yardstickChange);
+  io("stray_share", rules.strayShare);
 }
 
 void fields(auto& io, LockstepStart& start) {
@@ -25,6 +26,12 @@ void fields(auto& io, LockstepSeparation& separation) {
   io("yardstick", separation.yardstick);
   io("rounding", separation.rounding);
   io("equivalent", separation.equivalent);
+}
+
+void fields(auto& io, StartReading& reading) {
+  io("equivalent", reading.equivalent);
+  io("until_s", reading.until);
+  io("beyond", reading.beyond);
 }
 
 void fields(auto& io, ContactKinds& kinds) {
@@ -64,6 +71,12 @@ void fields(auto& io, LockstepRow& row) {
   io("verdict", row.verdict);
   io("reason", row.reason);
   io("equivalent", row.equivalent);
+  io("equivalent_low", row.equivalentLow);
+  io("equivalent_high", row.equivalentHigh);
+  io("readings", row.readings);
+  io("read", row.read);
+  io("beyond", row.beyond);
+  io("share_high", row.shareHigh);
   io("resolution", row.resolution);
   io("starts", row.starts);
   io("same_to_its_precision", row.precise);

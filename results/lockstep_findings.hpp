@@ -19,20 +19,23 @@ enum class LockstepVerdict {
   /// Not double precision is declared, and no disk ever leaves the mirror's by more than rounding
   /// to what is declared, once in every step, may do: LockstepSeparation::rounding.
   sameToPrecision,
-  sameLaw,  ///< what is left is less than a change of the yardstick by sameLaw would do
-  differs
+  sameLaw,    ///< from no start beyond the rule, or from a share of starts shown to be small
+  differs,    ///< beyond the rule from a share of starts shown to be larger than strayShare
+  undecided,  ///< neither is shown; the reason says why
 };
 constexpr auto namesOf(LockstepVerdict) {
-  return std::array<std::string_view, 5>{"not_measured", "same_to_rounding",
-                                         "same_to_its_precision", "same_law", "differs"};
+  return std::array<std::string_view, 6>{
+      "not_measured", "same_to_rounding", "same_to_its_precision",
+      "same_law",     "differs",          "undecided"};
 }
 
 /// What the verdicts rest on.
 struct LockstepRules {
   double rounding = 0.0;         ///< [d]
   double sameLaw = 0.0;          ///< change of the yardstick, as a fraction of it
-  double yardstickChange = 0.0;  ///< by which it was changed to see what that does, likewise
+  double yardstickChange = 0.0;  ///< largest by which it was changed to see what that does
   std::string yardstick;         ///< the constant: "kn"
+  double strayShare = 0.0;       ///< of starts that may be beyond sameLaw by chance
 };
 
 /// One of the states that all engines start from.
@@ -52,8 +55,18 @@ struct LockstepSeparation {
   /// What rounding to the declared precision may do, the median over the starts [d]; absent of
   /// double precision.
   std::optional<double> rounding;
-  /// ε_eq, the largest over the starts; absent: nothing moved, or nothing is beyond `rounding`.
+  /// ε_eq, the median over the starts that can be read then; absent: none can, or nothing is beyond
+  /// `rounding`.
   std::optional<double> equivalent;
+};
+
+/// What one start says.
+struct StartReading {
+  /// ε_eq, the largest over the times that can be read; absent: none can, or nothing is beyond what
+  /// the declared precision explains.
+  std::optional<double> equivalent;
+  double until = 0.0;   ///< the last time that can be read, since the start [s]; 0: none can
+  bool beyond = false;  ///< ε_eq is above LockstepRules::sameLaw, or disks that touch nothing part
 };
 
 /// Contacts of the mirror that the windows came upon, each counted once a window and kind.
@@ -93,8 +106,15 @@ struct NamedTerm {
 struct LockstepRow {
   std::string engine;
   LockstepVerdict verdict = LockstepVerdict::notMeasured;
-  std::string reason;                ///< of not measured
-  std::optional<double> equivalent;  ///< ε_eq, over all times and starts
+  std::string reason;  ///< of not measured and undecided
+  /// ε_eq, the median over the starts that can be read, and the interval of that median between two
+  /// of them (95 %; of fewer than 6 starts the least and the largest).
+  std::optional<double> equivalent, equivalentLow, equivalentHigh;
+  std::vector<StartReading> readings;  ///< by start, of those followed to the end
+  std::size_t read = 0;                ///< of those, that can be read
+  std::size_t beyond = 0;              ///< of those read, beyond the rule
+  /// Upper bound of the share of all states that are beyond the rule, at 95 %.
+  std::optional<double> shareHigh;
   /// Of same to its precision: the smallest change of the yardstick that would show beyond
   /// rounding; absent: none of those tried.
   std::optional<double> resolution;

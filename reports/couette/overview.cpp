@@ -200,7 +200,8 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!partedFromItsMirror(results, engine.name).empty()) return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured)
+      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured &&
+          row.verdict != LockstepVerdict::undecided)
         return row.verdict != LockstepVerdict::differs;
   const Endpoints& endpoints = results.endpoints.rows;
   const std::string& reference = results.engines.front().name;
@@ -226,7 +227,7 @@ Overview compareOverview(const CompareResults& results) {
   overview.columns = {
       {"own law",
        "Is the engine the law that it declares? Side by side with its mirror, step by "
-       "step; the change of a constant that would part the mirror from itself as far.",
+       "step; how far it is from it, in units of the limit.",
        results.lockstep ? "lockstep" : ""},
       {closed ? "closed forms" : "averages against " + reference,
        closed ? "The endpoint farthest from its expected value, in margins."

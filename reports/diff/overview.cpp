@@ -9,6 +9,7 @@
 #include "reports/common/sentences.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/diff/words.hpp"
+#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/words.hpp"
 #include "results/json_fields.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 CellState stateOf(DiffVerdict verdict) {
   if (verdict == DiffVerdict::notMeasured) return CellState::notMeasured;
+  if (verdict == DiffVerdict::undecided) return CellState::undecided;
   return verdict == DiffVerdict::differs ? CellState::bad : CellState::good;
 }
 
@@ -32,11 +34,9 @@ OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
     cell.value = 0.0;
     cell.shown = "same bits";
   } else if (row.windows && row.windows->equivalent) {
-    cell.value = 100.0 * *row.windows->equivalent;
-    cell.shown = fmt::format(
-        "{} of {}",
-        *row.windows->equivalent > 1.0 ? "more than all" : percentInWords(*row.windows->equivalent),
-        plainSymbol(rules.yardstick));
+    const OverviewCell windows = lockstepCell(&*row.windows, rules, false);
+    cell.value = windows.value;
+    cell.shown = windows.shown;
   }
   return cell;
 }

@@ -34,17 +34,20 @@ std::string windowsInWords(const DiffRow& row, const LockstepRules& rules) {
     text += fmt::format("    after {:>7} {:>12} d", fmt::format("{} ms", readable(1e3 * at.time)),
                         readable(at.largest));
     if (at.equivalent && at.largest > 0.0)
-      text += fmt::format(", as {} of {} moved it", percentInWords(*at.equivalent),
+      text += fmt::format(", {} times what the limit, {} of {}, moves it",
+                          readable(*at.equivalent / rules.sameLaw), percentInWords(rules.sameLaw),
                           constantSymbol(rules.yardstick));
     text += '\n';
   }
+  if (const std::string reading = readingInWords(windows, rules); !reading.empty())
+    text += fmt::format("  {}\n", reading);
   if (const std::string first = firstInWords(windows); !first.empty())
     text += fmt::format("  first beyond {} d: {}\n", readableSetting(rules.rounding), first);
   if (const std::string term = termInWords(windows); !term.empty())
-    text += fmt::format("  what is off: {}\n", term);
+    text += fmt::format("  deviation found: {}\n", term);
   else if (windows.verdict == LockstepVerdict::differs)
-    text += row.mirrored ? "  what is off: no single change of the mirror does that\n"
-                         : "  what is off: not told: no mirror stands for it in this scene\n";
+    text += row.mirrored ? "  deviation found: none: no single change of the mirror does that\n"
+                         : "  deviation found: none: no mirror stands for it in this scene\n";
   return text;
 }
 

@@ -31,7 +31,8 @@ std::string lineOf(const LockstepRow& row, const LockstepSeparation* at) {
       of(row.forces, &LockstepForces::normal), of(row.forces, &LockstepForces::tangential),
       row.term ? row.term->name : "", row.term ? row.term->amount : Number(),
       of(row.term, &NamedTerm::unexplained), row.failure.empty() ? row.reason : row.failure,
-      measured ? Number(row.wallSeconds) : Number());
+      measured ? Number(row.wallSeconds) : Number(), row.equivalentLow, row.equivalentHigh,
+      count(row.read), count(row.beyond), row.shareHigh);
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ std::string lockstepCsv(const LockstepResults& results) {
       "engine,verdict,equivalent,time_s,median_d,largest_d,yardstick_d,equivalent_then,starts,"
       "sticking,sliding,new,opening,wall,first_after_s,first_until_s,first_disk,first_partner,"
       "first_contact,forces_missing,forces_extra,normal_force_difference,"
-      "tangential_force_difference,term,term_amount,term_unexplained,reason,wall_s\n";
+      "tangential_force_difference,term,term_amount,term_unexplained,reason,wall_s,"
+      "equivalent_low,equivalent_high,read,beyond,share_high\n";
   for (const LockstepRow& row : results.lockstep.rows) {
     for (const LockstepSeparation& at : row.separations) table += lineOf(row, &at);
     if (row.separations.empty()) table += lineOf(row, nullptr);

@@ -24,6 +24,8 @@ CellState stateOf(const LockstepRow& row, const LockstepRules& rules) {
       return CellState::good;
     case LockstepVerdict::differs:
       return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
+    case LockstepVerdict::undecided:
+      return CellState::undecided;
     case LockstepVerdict::notMeasured:
       break;
   }
@@ -82,14 +84,18 @@ std::string blameOf(const LockstepFindings& findings) {
 }
 
 std::string nextOf(const LockstepFindings& findings) {
-  std::vector<std::string> differ, open;
+  std::vector<std::string> differ, open, undecided;
   for (const LockstepRow& row : findings.rows) {
+    if (row.verdict == LockstepVerdict::undecided) undecided.push_back(row.engine);
     if (stateOf(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
     if (row.verdict == LockstepVerdict::notMeasured) open.push_back(row.engine);
   }
   if (!differ.empty())
     return fmt::format("Next: look at the first contact that parts {}, in the table below.",
                        listed(differ));
+  if (!undecided.empty())
+    return fmt::format("Next: more starts for {}, e.g. --starts {}.", listed(undecided),
+                       4 * findings.starts.size());
   if (open.size() == findings.rows.size())
     return "Next: a scene whose contacts have a mirror; the reasons are in the table below.";
   return "Next: compare the averages; what begins later than these windows escapes them.";
@@ -107,6 +113,7 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
     return cell;
   }
   cell.words = spaced(nameOf(row->verdict));
+  if (row->verdict == LockstepVerdict::undecided) cell.words += ": " + row->reason;
   if (row->verdict == LockstepVerdict::differs && cell.state == CellState::borderline)
     cell.words = "parts only where the law leaves the order of impacts open";
   // What would just have shown is what can be said of an engine that stays within its rounding.
@@ -114,9 +121,17 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
   const auto size = bounded ? row->resolution : row->equivalent;
   if (!size) return cell;
   cell.value = 100.0 * *size;
-  const std::string figure = *size > 1.0 ? "more than all" : percentInWords(*size);
-  cell.shown =
-      fmt::format("{}{} of {}", bounded ? "below " : "", figure, plainSymbol(rules.yardstick));
+  // A percentage of the constant is a statement on it: only where it explains the difference.
+  const bool explains = row->term && row->term->name == rules.yardstick && row->term->amount;
+  if (bounded || explains) {
+    const double share = bounded ? *size : std::abs(*row->term->amount);
+    cell.value = 100.0 * share;
+    cell.shown = fmt::format("{}{} of {}", bounded ? "below " : "",
+                             share > 1.0 ? "more than all" : percentInWords(share),
+                             plainSymbol(rules.yardstick));
+  } else {
+    cell.shown = fmt::format("{} × limit", readable(*size / rules.sameLaw));
+  }
   return cell;
 }
 
@@ -125,13 +140,13 @@ Overview lockstepOverview(const LockstepResults& results) {
   Overview overview;
   overview.columns = {
       {"its own law",
-       "Is it the law that it declares? The change of a constant that would part "
-       "its mirror from itself as far.",
+       "Is it the law that it declares? How far it is from its mirror, in units of the limit: of "
+       "what a change of the yardstick by 0.1 % does.",
        evidence},
       {"forces", "Largest difference of a contact's force on one state.", evidence},
       {"early", "Largest separation from its mirror at the first look, in diameters.", "over-time"},
       {"late", "Largest separation from its mirror at the last look, in diameters.", "over-time"},
-      {"what is off", "The single change of the mirror that leaves least of the separation.",
+      {"deviation found", "The single change of the mirror that leaves least of the separation.",
        evidence}};
   for (const LockstepRow& row : findings.rows)
     overview.rows.push_back(

@@ -9,7 +9,7 @@ namespace crossgrain::reports {
 /// @param row  null: nobody held it against a mirror
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror);
 
-/// An engine per row; its law, forces on one state, how far it parts, what is off.
+/// An engine per row; its law, forces on one state, how far it parts, the deviation found.
 Overview lockstepOverview(const LockstepResults& results);
 
 }  // namespace crossgrain::reports

@@ -19,6 +19,8 @@ const char* markOf(LockstepVerdict verdict) {
       return "✓";
     case LockstepVerdict::differs:
       return "✗";
+    case LockstepVerdict::undecided:
+      return "?";
     case LockstepVerdict::notMeasured:
       break;
   }
@@ -33,6 +35,7 @@ const char* classOf(LockstepVerdict verdict) {
       return "agree";
     case LockstepVerdict::differs:
       return "disagree";
+    case LockstepVerdict::undecided:
     case LockstepVerdict::notMeasured:
       break;
   }
@@ -80,13 +83,14 @@ Json rowsOf(const LockstepFindings& findings, std::size_t times) {
                  {"equivalent", readable(row.equivalent)},
                  {"separations", separationCells(row, times)},
                  {"starts", readableCount(static_cast<double>(row.starts))},
+                 {"reading", mathHtml(readingInWords(row, findings.rules))},
                  {"kinds", kindCells(row)},
                  {"first", orDash(firstInWords(row))},
                  {"resolution", mathHtml(resolutionInWords(row, findings.rules))},
                  {"open", openInLaw(row, findings.rules)},
                  {"forces", forcesInWords(row)},
                  {"term", mathHtml(orDash(termInWords(row)))},
-                 {"reason", row.verdict == LockstepVerdict::notMeasured ? row.reason : ""}};
+                 {"reason", row.reason}};
     rows.push_back(std::move(view));
   }
   return rows;
@@ -105,7 +109,7 @@ void addLockstep(Json& view, const LockstepFindings& findings) {
                       {"columns", times},
                       {"timeCount", fmt::format("{}", std::max<std::size_t>(times.size(), 1))},
                       {"starts", readableCount(starts)},
-                      {"bound", readable(3.0 / starts)},
+                      {"stray", readableSetting(100.0 * findings.rules.strayShare)},
                       {"rounding", readableSetting(findings.rules.rounding)},
                       {"sameLaw", readableSetting(100.0 * findings.rules.sameLaw)},
                       {"change", readableSetting(100.0 * findings.rules.yardstickChange)},

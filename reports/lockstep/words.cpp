@@ -54,10 +54,28 @@ std::string constantWords(const std::string& constant) {
 
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules) {
   if (row.verdict != LockstepVerdict::differs) return spaced(nameOf(row.verdict));
-  const double equivalent = row.equivalent.value_or(NAN);
-  return fmt::format("differs, like {} of {}",
-                     equivalent > 1.0 ? "more than all" : percentInWords(equivalent),
-                     constantSymbol(rules.yardstick));
+  if (row.term && row.term->name == rules.yardstick && row.term->amount)
+    return fmt::format("differs, like {} of {}", percentInWords(std::abs(*row.term->amount)),
+                       constantSymbol(rules.yardstick));
+  if (row.equivalent.value_or(0.0) > rules.sameLaw)
+    return fmt::format("differs, {} times the limit", readable(*row.equivalent / rules.sameLaw));
+  return fmt::format("differs from {} of {} starts", row.beyond, row.read);
+}
+
+std::string readingInWords(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.read == 0) return {};
+  std::string words;
+  if (row.equivalent)
+    words = fmt::format("ε_eq {}{}, limit {}; ", readable(*row.equivalent),
+                        row.equivalentLow < row.equivalentHigh
+                            ? fmt::format(" ({} to {})", readable(*row.equivalentLow),
+                                          readable(*row.equivalentHigh))
+                            : "",
+                        readableSetting(rules.sameLaw));
+  words += fmt::format("read from {} starts, beyond the limit from {}", row.read, row.beyond);
+  if (row.shareHigh && *row.shareHigh < 1.0)
+    words += fmt::format(" (at most {} of all states)", percentInWords(*row.shareHigh));
+  return words;
 }
 
 std::string termInWords(const LockstepRow& row) {
@@ -103,18 +121,20 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
     return fmt::format("{}: not measured: {}.", row.engine, row.reason);
   std::string words =
       fmt::format("{}: {} over {} starts", row.engine, verdictInWords(row, rules), row.starts);
+  if (row.verdict == LockstepVerdict::undecided) words += ": " + row.reason;
   if (row.separations.size() > 1)
     words += fmt::format(
-        "; largest separation {} d after {}, {} d after {}", readable(row.separations[1].largest),
-        milliseconds(row.separations[1].time), readable(row.separations.back().largest),
+        "; largest separation {} d after {}, {} d after {}", readable(row.separations[0].largest),
+        milliseconds(row.separations[0].time), readable(row.separations.back().largest),
         milliseconds(row.separations.back().time));
-  if (row.verdict == LockstepVerdict::sameLaw)
-    words += fmt::format(" (as {} of {} would)", percentInWords(row.equivalent.value_or(NAN)),
-                         constantSymbol(rules.yardstick));
+  if (const std::string reading = readingInWords(row, rules);
+      !reading.empty() && row.verdict != LockstepVerdict::sameToRounding &&
+      row.verdict != LockstepVerdict::sameToPrecision)
+    words += "; " + reading;
   if (const std::string resolution = resolutionInWords(row, rules); !resolution.empty())
     words += fmt::format(" ({})", resolution);
   if (const std::string term = termInWords(row); !term.empty())
-    words += fmt::format("; what is off: {}", term);
+    words += fmt::format("; deviation found: {}", term);
   else if (row.verdict == LockstepVerdict::differs)
     words += "; no single term accounts for it";
   if (row.verdict != LockstepVerdict::sameToPrecision && row.precise > 0)
@@ -129,16 +149,19 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
 }
 
 std::string leadOf(const LockstepFindings& findings) {
-  std::vector<std::string> same, differ, ordered, open;
+  std::vector<std::string> same, differ, ordered, open, undecided;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == LockstepVerdict::notMeasured)
       open.push_back(row.engine);
+    else if (row.verdict == LockstepVerdict::undecided)
+      undecided.push_back(row.engine);
     else if (row.verdict == LockstepVerdict::differs && !openInLaw(row, findings.rules).empty())
       ordered.push_back(row.engine);
     else
       (row.verdict == LockstepVerdict::differs ? differ : same).push_back(row.engine);
   }
-  if (same.empty() && differ.empty() && ordered.empty()) return "Nothing was measured.";
+  if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
+    return "Nothing was measured.";
   std::vector<std::string> parts;
   const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
     if (!names.empty())
@@ -148,6 +171,7 @@ std::string leadOf(const LockstepFindings& findings) {
   add(differ, "is another law than it declares", "are other laws than they declare");
   add(ordered, "parts from its mirror where disks touch several at once",
       "part from their mirrors where disks touch several at once");
+  add(undecided, "is undecided", "are undecided");
   add(open, "was not measured", "were not measured");
   return fmt::format("{}.", fmt::join(parts, "; "));
 }

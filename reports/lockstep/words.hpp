@@ -19,8 +19,9 @@ std::string constantWords(const std::string& constant);
 /// "2.10 %"
 std::string percentInWords(double fraction);
 
-/// "same to rounding", "same law", "same to its precision", "differs, like 2.1 % of k_n", "not
-/// measured". No engine is off by more than all of a constant: beyond that it is "more than all".
+/// "same to rounding", "same law", "same to its precision", "undecided", "not measured". What
+/// differs is "differs, like 2.1 % of k_n" only where that change of k_n explains it, else
+/// "differs, 24 times the limit" or "differs from 5 of 16 starts".
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules);
 
 /// "k_n, +0.01 % (leaves 0.3 % of the separation)"; empty: no term was named.
@@ -32,6 +33,10 @@ std::string firstInWords(const LockstepRow& row);
 /// What that contact says of the cause, where the law leaves something open: rigid disks that touch
 /// several at once. Empty: nothing.
 std::string openInLaw(const LockstepRow& row, const LockstepRules& rules);
+
+/// How many starts could be read, ε_eq with its interval and what share of states these starts do
+/// not exclude; empty where none was read.
+std::string readingInWords(const LockstepRow& row, const LockstepRules& rules);
 
 /// Of same to its precision: "0.51 % of k_n would show". Empty of other verdicts.
 std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules);

@@ -154,7 +154,7 @@ BaselineWindow readWindow(const Arrays& in, std::size_t disks) {
       if (const double torque = walls[3 * b + 2]; std::isfinite(torque)) body.torque = torque;
     }
   }
-  const std::size_t changes = yardstickChanges.size();
+  const std::size_t changes = yardstickChanges.size() * disks;
   const std::vector<double> responses = in.read("yardstick", lockstepTimes.size() * changes);
   for (std::size_t k = 0; k < lockstepTimes.size(); ++k) {
     const auto from = responses.begin() + static_cast<std::ptrdiff_t>(k * changes);

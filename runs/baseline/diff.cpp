@@ -155,9 +155,7 @@ class WindowsDiff {
     found.engine = row.engine;
     found.realised = realised_;
     row.mirrored = hasNormalLaw(before_.can, caseBefore_.law);
-    if (row.mirrored &&
-        (found.verdict == LockstepVerdict::sameLaw || found.verdict == LockstepVerdict::differs))
-      found.term = termOf(found);
+    if (row.mirrored && hasTerm(found)) found.term = termOf(found);
     row.reason = found.reason;
     row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
     row.forces = forces_;
@@ -202,16 +200,19 @@ class WindowsDiff {
         return DiffVerdict::sameLaw;
       case LockstepVerdict::differs:
         return DiffVerdict::differs;
+      case LockstepVerdict::undecided:
+        return DiffVerdict::undecided;
     }
     return DiffVerdict::notMeasured;
   }
 
-  /// Which change of the mirror of what was kept does what the engine now does.
+  /// Which change of the mirror of what was kept does what the engine now does; none where no
+  /// mirror has its time stepping.
   std::optional<NamedTerm> termOf(const LockstepRow& row) {
     const EngineEntry* const known = findEngine(before_.name);
     const EngineEntry entry = known ? *known : EngineEntry{before_.name, "", {}, {}, {}, ""};
     const std::vector<std::size_t> frames = framesForTerms(common_.told);
-    const auto mirror = engineRegistry().front().make();
+    std::unique_ptr<Engine> mirror;
     const double dt = before_.realised->dt;
     TermSearch search;
     search.diameter = diameter_;
@@ -225,7 +226,13 @@ class WindowsDiff {
     for (std::size_t s = 0; s < row.starts; ++s) {
       const Scene scene =
           couetteScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
-      search.scenes.push_back(sceneOfMirror(before_.can, entry, caseBefore_, scene, dt));
+      try {
+        search.scenes.push_back(
+            sceneOfMirror(before_.can, entry, caseBefore_, scene, *before_.realised));
+        if (!mirror) mirror = mirrorOf(before_.can, entry, caseBefore_, scene, *before_.realised);
+      } catch (const UnsupportedScene&) {
+        return std::nullopt;
+      }
       mirror->load(search.scenes.back(), {});
       const auto unchanged = runs::follow(*mirror, dt, steps);
       for (std::size_t k = 0; k < steps.size(); ++k)
@@ -343,8 +350,7 @@ DiffResults diffAgainst(const std::filesystem::path& file,
   results.baseline = file.string();
   results.baselineVersion = baseline.version;
   results.changedKeys = changedKeys(casesOf(baseline, file, {}), cases);
-  results.rules = {lockstepRounding, lockstepSameLaw, yardstickChanges.back(),
-                   yardstickOf(cases.front().law)};
+  results.rules = lockstepRules(cases.front().law);
   for (const FlowState& state : baseline.starts) results.starts.push_back(state.start);
   Progress progress(command.quiet);
   progress.begin("doing the same again", std::vector<double>(engines.size(), 1.0));

@@ -117,13 +117,12 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
   }
   const LockstepRow found = holdAgainstMirror(
       *engine, entry, setup, flowOf(setup, quickLockstepStarts), timeStep(setup), [](double) {});
-  const LockstepRules rules = {lockstepRounding, lockstepSameLaw, yardstickChanges.back(),
-                               yardstickOf(setup.law)};
-  row.detail = reports::sentenceOf(found, rules);
+  row.detail = reports::sentenceOf(found, lockstepRules(setup.law));
   if (!found.failure.empty()) {
     row.outcome = ConformanceOutcome::brokeDown;
     row.detail = found.failure;
-  } else if (found.verdict == LockstepVerdict::notMeasured) {
+  } else if (found.verdict == LockstepVerdict::notMeasured ||
+             found.verdict == LockstepVerdict::undecided) {
     row.outcome = ConformanceOutcome::skipped;
   } else if (found.verdict == LockstepVerdict::differs) {
     row.outcome = ConformanceOutcome::failed;

@@ -34,7 +34,7 @@ double AverageBounds::predictedReference(std::size_t engine) const {
   const double contacts = windowTimes(study_.setup).back() / costContactTime(study_.setup);
   // The engine at its step and at twice that; the in-house one as it is and with k_n changed.
   const double own = 1.5 * contacts * cost.boundReference * timed.step + 2.0 * timed.load;
-  const double inHouse = (1.0 + 2.0 * static_cast<double>(yardstickChanges.size())) * contacts *
+  const double inHouse = (1.0 + static_cast<double>(yardstickChanges.size())) * contacts *
                          cost.averageReference * study_.inHouseStep;
   return quickLockstepStarts * (own + inHouse);
 }

@@ -1,5 +1,8 @@
 #include "runs/lockstep/account.hpp"
 
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <functional>
 #include <optional>
@@ -18,22 +21,67 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-void judge(LockstepRow& row) {
-  for (const LockstepSeparation& separation : row.separations)
-    if (separation.equivalent)
-      row.equivalent = std::max(row.equivalent.value_or(0.0), *separation.equivalent);
-  if (std::ranges::max(row.track) < lockstepRounding)
-    row.verdict = LockstepVerdict::sameToRounding;
-  else if (row.precise == row.starts)
-    row.verdict = LockstepVerdict::sameToPrecision;
-  else if (row.equivalent)
-    row.verdict =
-        *row.equivalent < lockstepSameLaw ? LockstepVerdict::sameLaw : LockstepVerdict::differs;
-  else
-    row.reason = "the yardstick moves nothing here";
+/// Ranks, from 0, of the order statistics of n values between which their median lies at 95 %: each
+/// end is wrong with 2.5 % at most.
+std::pair<std::size_t, std::size_t> ranksOfMedian(std::size_t n) {
+  unsigned low = 0;
+  while (gsl_cdf_binomial_P(low + 1, 0.5, static_cast<unsigned>(n)) <= 0.025) ++low;
+  return {low, n - 1 - low};
+}
+
+void readMedian(LockstepRow& row) {
+  std::vector<double> values;
+  for (const StartReading& reading : row.readings)
+    if (reading.equivalent) values.push_back(*reading.equivalent);
+  if (values.empty()) return;
+  std::ranges::sort(values);
+  const auto [low, high] = ranksOfMedian(values.size());
+  row.equivalent = medianOf(values);
+  row.equivalentLow = values[low];
+  row.equivalentHigh = values[high];
 }
 
 }  // namespace
+
+void judge(LockstepRow& row, bool moved) {
+  readMedian(row);
+  for (const StartReading& reading : row.readings) {
+    row.read += reading.until > 0.0;
+    row.beyond += reading.beyond;
+  }
+  const auto read = static_cast<unsigned>(row.read), beyond = static_cast<unsigned>(row.beyond);
+  if (read > 0)
+    row.shareHigh = beyond == read ? 1.0
+                                   : gsl_cdf_beta_Pinv(shareConfidence, beyond + 1.0,
+                                                       static_cast<double>(read - beyond));
+  const ContactKinds& kinds = row.kinds;
+  const bool touched = kinds.sticking + kinds.sliding + kinds.made + kinds.opened > 0;
+  row.verdict = LockstepVerdict::undecided;
+  if (beyond > 1 && gsl_cdf_binomial_Q(beyond - 1, strayShare, read) < 1.0 - shareConfidence)
+    row.verdict = LockstepVerdict::differs;
+  else if (!moved && !touched)
+    row.reason = "nothing touches in these windows: no law was compared";
+  else if (std::ranges::max(row.track) < lockstepRounding)
+    row.verdict = LockstepVerdict::sameToRounding;
+  else if (row.precise == row.starts)
+    row.verdict = LockstepVerdict::sameToPrecision;
+  else if (!moved)
+    row.reason = "a change of the law's constant moves nothing here";
+  else if (row.read < std::min(leastRead, row.starts))
+    row.reason = fmt::format(
+        "from {} of {} starts only is there a time at which a change of the law's constant acts in "
+        "proportion",
+        row.read, row.starts);
+  else if (beyond == 0)
+    row.verdict = row.precise > 0 ? LockstepVerdict::sameToPrecision : LockstepVerdict::sameLaw;
+  else if (*row.shareHigh < strayShare)
+    row.verdict = LockstepVerdict::sameLaw;
+  else
+    row.reason = fmt::format(
+        "from {} of {} starts the difference is beyond the limit, which chance may do from {:g} % "
+        "of starts: more starts decide",
+        row.beyond, row.read, 100.0 * strayShare);
+}
 
 SeparationAccount::SeparationAccount(double diameter, std::vector<double> times,
                                      std::vector<std::size_t> told)
@@ -49,6 +97,9 @@ void SeparationAccount::add(std::size_t start, const LockstepWindow& window,
     track.push_back(farthest(window.engine[k], window.mirror[k], diameter_).distance);
     row_.track[k] = std::max(row_.track[k], track.back());
   }
+  auto& apart = apart_.emplace_back();
+  for (const std::size_t frame : told_)
+    apart.push_back(distances(window.engine[frame], window.mirror[frame], diameter_));
   responses_.push_back(responses);
   if (!limits.empty()) {
     limits_.push_back(limits);
@@ -73,34 +124,61 @@ void SeparationAccount::add(std::size_t start, const LockstepWindow& window,
   ++row_.starts;
 }
 
-/// Each start speaks for itself; one where the yardstick moves nothing says nothing.
+bool SeparationAccount::explained(std::size_t start, std::size_t which) const {
+  const std::size_t frame = told_[which];
+  return !limits_.empty() && tracks_[start][frame] <= limits_[start][frame];
+}
+
+std::optional<double> SeparationAccount::equivalentAt(std::size_t start, std::size_t which) const {
+  return explained(start, which) ? std::nullopt
+                                 : equivalentChange(apart_[start][which], responses_[start][which]);
+}
+
+StartReading SeparationAccount::readingOf(std::size_t start) const {
+  StartReading reading;
+  for (std::size_t which = 0; which < told_.size(); ++which) {
+    const double separation = tracks_[start][told_[which]];
+    const std::vector<double>& moved = responses_[start][which];
+    const bool nothingTouches = std::ranges::max(moved) <= lockstepRounding;
+    const bool parts = nothingTouches && separation > visibleMotion && !explained(start, which);
+    if (!parts && proportionalRates(moved).empty()) continue;
+    reading.until = times_[told_[which]];
+    reading.beyond |= parts;
+    if (const auto equivalent = equivalentAt(start, which))
+      reading.equivalent = std::max(reading.equivalent.value_or(0.0), *equivalent);
+  }
+  reading.beyond |= reading.equivalent.value_or(0.0) > lockstepSameLaw;
+  return reading;
+}
+
 LockstepSeparation SeparationAccount::separationAt(std::size_t which) const {
   const std::size_t frame = told_[which];
   LockstepSeparation separation;
   separation.time = times_[frame];
-  std::vector<double> own, moved, explained;
+  std::vector<double> own, moved, rounding, equivalents;
   for (std::size_t s = 0; s < tracks_.size(); ++s) {
     own.push_back(tracks_[s][frame]);
-    moved.push_back(responses_[s][which].back());
-    if (!limits_.empty()) explained.push_back(limits_[s][frame]);
-    if (!explained.empty() && own.back() <= explained.back()) continue;
-    if (const auto equivalent = equivalentChange(own.back(), responses_[s][which]))
-      separation.equivalent = std::max(separation.equivalent.value_or(0.0), *equivalent);
+    moved.push_back(std::ranges::max(responses_[s][which]));
+    if (!limits_.empty()) rounding.push_back(limits_[s][frame]);
+    if (const auto equivalent = equivalentAt(s, which)) equivalents.push_back(*equivalent);
   }
   separation.median = medianOf(own);
   separation.largest = std::ranges::max(own);
   separation.yardstick = medianOf(moved);
-  if (!explained.empty()) separation.rounding = medianOf(explained);
+  if (!rounding.empty()) separation.rounding = medianOf(rounding);
+  if (!equivalents.empty()) separation.equivalent = medianOf(equivalents);
   return separation;
 }
 
-/// What exceeds the limit from any start at any time told is seen.
+/// What exceeds the limit from any start at any time that can be read is seen.
 std::optional<double> SeparationAccount::resolution() const {
   std::optional<double> smallest;
   for (std::size_t s = 0; s < limits_.size(); ++s)
     for (std::size_t which = 0; which < told_.size(); ++which)
-      if (const auto seen = equivalentChange(limits_[s][told_[which]], responses_[s][which]))
-        smallest = std::min(smallest.value_or(*seen), *seen);
+      if (const auto rates = proportionalRates(responses_[s][which]); !rates.empty()) {
+        const double seen = limits_[s][told_[which]] / std::ranges::max(rates);
+        smallest = std::min(smallest.value_or(seen), seen);
+      }
   return smallest;
 }
 
@@ -112,7 +190,12 @@ LockstepRow SeparationAccount::row() const {
   }
   row.trackTime = times_;
   for (std::size_t k = 0; k < told_.size(); ++k) row.separations.push_back(separationAt(k));
-  judge(row);
+  for (std::size_t s = 0; s < tracks_.size(); ++s) row.readings.push_back(readingOf(s));
+  bool moved = false;
+  for (const Responses& responses : responses_)
+    for (const std::vector<double>& then : responses)
+      moved |= std::ranges::max(then) > lockstepRounding;
+  judge(row, moved);
   if (row.verdict == LockstepVerdict::sameToPrecision) row.resolution = resolution();
   return row;
 }

@@ -9,9 +9,13 @@
 
 namespace crossgrain::inline runs {
 
-/// What changes of the yardstick do from one start: the larger of both signs, by the times told and
-/// yardstickChanges [d].
+/// How far yardstickChanges move each disk from one start, by the times told; change by change [d].
 using Responses = std::vector<std::vector<double>>;
+
+/// The verdict and what it rests on, from readings and what else a row has: track, kinds, starts,
+/// precise.
+/// @param moved  whether the yardstick moves anything from any start
+void judge(LockstepRow& row, bool moved);
 
 /// Adds up what windows show of an engine and of what it is held against, start by start.
 class SeparationAccount {
@@ -31,12 +35,18 @@ class SeparationAccount {
 
  private:
   LockstepSeparation separationAt(std::size_t which) const;
+  /// Whether the declared precision explains how far it is then.
+  bool explained(std::size_t start, std::size_t which) const;
+  std::optional<double> equivalentAt(std::size_t start, std::size_t which) const;
+  StartReading readingOf(std::size_t start) const;
   std::optional<double> resolution() const;
 
   double diameter_;
   std::vector<double> times_;
   std::vector<std::size_t> told_;
   std::vector<std::vector<double>> tracks_;  ///< by start and frame [d]
+  /// By start, time told and disk [d].
+  std::vector<std::vector<std::vector<double>>> apart_;
   std::vector<Responses> responses_;         ///< by start
   std::vector<std::vector<double>> limits_;  ///< by start and frame [d]; none of double precision
   LockstepRow row_;

@@ -26,8 +26,9 @@ struct TermSearch {
   std::vector<MirrorChange> more = {};  ///< to be tried besides changesOf()
 };
 
-/// Tries every change of the mirror from every start. @returns the one that leaves least at one of
-/// the looks, if any leaves little enough
+/// Tries every change of the mirror from every start, and those constants that explain most to
+/// first order with the amount that they would have. @returns the one that leaves least at one of
+/// the looks, in the mirror itself, if that is less than termUnexplained
 /// @throws Interrupted
 std::optional<NamedTerm> closestTerm(Engine& mirror, const TermSearch& search);
 

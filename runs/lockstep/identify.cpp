@@ -49,7 +49,7 @@ namespace {
 
 /// First what acts at once, while no contact is made or broken at another step; then what takes
 /// contacts to open.
-constexpr std::array identifyTimes = {lockstepTimes[0], lockstepTimes[1]};  // [s]
+constexpr std::array identifyTimes = {1e-3, 10e-3};  // [s]
 
 /// What fits worse than the best by less than this part of it fits alike.
 constexpr double alike = 0.01;
@@ -158,13 +158,29 @@ class Search {
     return true;
   }
 
+  /// Undoes every convention and missing effect without which the mirror is as near: it was taken
+  /// while something else was still amiss.
+  void undoNeedless() {
+    for (std::size_t k = applied_.size(); k-- > 0;) {
+      if (applied_[k].change.isConstant) continue;
+      const AppliedChange one = applied_[k];
+      const auto place = applied_.begin() + static_cast<std::ptrdiff_t>(k);
+      applied_.erase(place);
+      const auto without = distanceWith({});
+      if (without && *without <= best_ * (1.0 + alike) + lockstepRounding)
+        best_ = *without;
+      else
+        applied_.insert(applied_.begin() + static_cast<std::ptrdiff_t>(k), one);
+    }
+  }
+
   /// Takes that constant, and as much of it, as leaves least, if that is half or less of what there
   /// is. @returns whether there is one
   bool takeBestConstant() {
     const auto now = *framesWith({});
     const auto separation = *separationWith({});
     std::optional<AppliedChange> best;
-    double unexplained = termUnexplained;
+    double unexplained = termWorthTrying;
     for (const MirrorChange& change : candidates()) {
       if (!change.isConstant) continue;
       const auto moved = framesWith({{change, termChange}});
@@ -285,6 +301,7 @@ Identification identify(Engine& engine, const EngineEntry& entry, const Case& se
       progress(1.0 - 1.0 / static_cast<double>(search.applied().size() + 2));
     }
   }
+  search.undoNeedless();
   found.left = search.largest();
 
   std::map<std::string, double> constants;

@@ -80,8 +80,7 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
   for (const LockstepEngine& engine : engines)
     tasks.push_back(taskOf(engine, setup, states, plan.dt, store));
   LockstepFindings findings;
-  findings.rules = {lockstepRounding, lockstepSameLaw, yardstickChanges.back(),
-                    yardstickOf(setup.law)};
+  findings.rules = lockstepRules(setup.law);
   for (const FlowState& state : states) findings.starts.push_back(state.start);
   findings.rows = doOrTakeUp(tasks, store, progress, "lockstep", plan.jobs);
   return findings;

@@ -8,7 +8,7 @@
 
 namespace crossgrain::inline runs {
 
-/// How far changes of the yardstick take an engine from what it does without, from one start.
+/// How far yardstickChanges take an engine from what it does without, from one start.
 /// @param unchanged  what it does, at the times told
 /// @param load       has the engine load the start's scene, the yardstick changed by that part of
 ///                   itself; returns the engine's time step [s]

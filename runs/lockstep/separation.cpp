@@ -94,13 +94,19 @@ std::string kindInWords(const Pair& pair, const LockstepFrame* before, const Loc
 
 }  // namespace
 
+std::vector<double> distances(const LockstepFrame& one, const LockstepFrame& other,
+                              double diameter) {
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i)
+    apart.push_back((one.position[i] - other.position[i]).norm() / diameter);
+  return apart;
+}
+
 Farthest farthest(const LockstepFrame& one, const LockstepFrame& other, double diameter) {
-  Farthest worst;
-  for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i) {
-    const double distance = (one.position[i] - other.position[i]).norm() / diameter;
-    if (distance > worst.distance) worst = {i, distance};
-  }
-  return worst;
+  const std::vector<double> apart = distances(one, other, diameter);
+  if (apart.empty()) return {};
+  const auto worst = std::ranges::max_element(apart);
+  return {static_cast<std::size_t>(worst - apart.begin()), *worst};
 }
 
 std::vector<double> separationVector(const LockstepFrame& one, const LockstepFrame& other,

@@ -16,6 +16,11 @@ struct Farthest {
   std::size_t disk = 0;
   double distance = 0.0;  ///< [d]
 };
+
+/// By disk [d].
+std::vector<double> distances(const LockstepFrame& one, const LockstepFrame& other,
+                              double diameter);
+
 Farthest farthest(const LockstepFrame& one, const LockstepFrame& other, double diameter);
 
 /// All components of the separation as one vector: positions in d, and spins by the angle of a

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "adapters/law_options.hpp"
@@ -94,22 +95,59 @@ std::string yardstickOf(const ContactLaw& law) {
   return law.soft() ? "kn" : "en";
 }
 
+LockstepRules lockstepRules(const ContactLaw& law) {
+  return {lockstepRounding, lockstepSameLaw, std::ranges::max(yardstickChanges), yardstickOf(law),
+          strayShare};
+}
+
 void changeYardstick(ContactLaw& law, double by) {
   (law.soft() ? law.kn : law.en) *= 1.0 + by;
 }
 
-std::optional<double> equivalentChange(double separation, std::vector<double> responses) {
-  for (std::size_t k = 1; k < responses.size(); ++k)
-    responses[k] = std::max(responses[k], responses[k - 1]);
-  if (responses.empty() || !(responses.back() > lockstepRounding)) return std::nullopt;
-  std::size_t above = 0;
-  while (above < responses.size() && responses[above] < separation) ++above;
-  if (above == responses.size()) return separation / responses.back() * yardstickChanges.back();
-  if (above == 0) return separation / responses.front() * yardstickChanges.front();
-  const double low = std::max(responses[above - 1], 1e-300), high = responses[above];
-  const double part = std::log(separation / low) / std::log(high / low);
-  return yardstickChanges[above - 1] *
-         std::pow(yardstickChanges[above] / yardstickChanges[above - 1], part);
+std::vector<double> proportionalRates(const std::vector<double>& responses) {
+  const std::size_t disks = responses.size() / yardstickChanges.size();
+  std::vector<double> rates(disks, 0.0);
+  std::size_t moved = 0, alike = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < disks; ++i) {
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0, sum = 0.0, most = 0.0;
+    for (std::size_t c = 0; c < yardstickChanges.size(); ++c) {
+      const double response = responses[c * disks + i];
+      const double rate = response / std::abs(yardstickChanges[c]);
+      slowest = std::min(slowest, rate);
+      fastest = std::max(fastest, rate);
+      most = std::max(most, response);
+      sum += rate;
+    }
+    if (!(most > lockstepRounding)) continue;
+    ++moved;
+    if (!(fastest <= responsesAlike * slowest)) continue;
+    ++alike;
+    largest = std::max(largest, most);
+    rates[i] = sum / static_cast<double>(yardstickChanges.size());
+  }
+  if (moved == 0 || 2 * alike < moved || !(largest < largestResponse)) return {};
+  return rates;
+}
+
+std::optional<double> equivalentChange(const std::vector<double>& apart,
+                                       const std::vector<double>& responses) {
+  const std::vector<double> rates = proportionalRates(responses);
+  if (rates.empty() || rates.size() != apart.size()) return std::nullopt;
+  const std::size_t disks = rates.size();
+  double own = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < disks; ++i) {
+    double distance = apart[i];
+    if (rates[i] == 0.0) {
+      double event = 0.0;
+      for (std::size_t c = 0; c < yardstickChanges.size(); ++c)
+        event = std::max(event, responses[c * disks + i]);
+      distance = std::max(0.0, distance - event);
+    }
+    own += distance * distance;
+    moved += rates[i] * rates[i];
+  }
+  return std::sqrt(own / moved);
 }
 
 NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,

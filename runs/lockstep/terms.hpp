@@ -26,16 +26,26 @@ std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can)
 /// The constant that deviations are expressed in: k_n, of rigid disks e_n.
 std::string yardstickOf(const ContactLaw& law);
 
+/// What verdicts in a scene of that law rest on.
+LockstepRules lockstepRules(const ContactLaw& law);
+
 /// Changes it by that part of itself.
 void changeYardstick(ContactLaw& law, double by);
 
+/// By disk, how far a unit of change of the yardstick moves it; 0 of a disk whose responses are not
+/// in proportion (responsesAlike), or that does not move.
+/// @param responses  how far each of yardstickChanges moves each disk, change by change [d]
+/// @returns empty where they cannot be read: nothing moves, fewer than half of the disks that do
+/// are in proportion, or one of these moves by largestResponse
+std::vector<double> proportionalRates(const std::vector<double>& responses);
+
 /// ε_eq: the change of the yardstick that parts the mirror from itself as far as the engine is from
-/// it. Between the changes tried on a straight line of the logarithms, which is exact where
-/// separations are proportional to the change; beyond them in proportion.
-/// @param responses  separations by yardstickChanges [any unit]; a larger change counts for no less
-/// than a smaller one
-/// @returns nothing where even the largest change moves nothing
-std::optional<double> equivalentChange(double separation, std::vector<double> responses);
+/// it, root mean squares over the disks in proportion. A disk that is not counts with what is
+/// beyond the largest of its responses: so far an event may have taken it.
+/// @param apart  by disk [d]
+/// @returns nothing where it cannot be read, likewise
+std::optional<double> equivalentChange(const std::vector<double>& apart,
+                                       const std::vector<double>& responses);
 
 /// How much of a separation a change accounts for: for a constant the amount that fits best, in
 /// least squares; another convention or a missing effect as it is.

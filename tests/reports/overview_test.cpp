@@ -166,17 +166,17 @@ TEST(CompareOverview, BlamesTheLawOnlyWhereThatIsShown) {
             "parts theirs.");
 
   results.lockstep.emplace();
-  results.lockstep->rules.yardstick = "kn";
+  results.lockstep->rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
   const Overview same = compareOverview(results);
-  EXPECT_EQ(told(rowOf(same, "theirs").cells[0]), "good 0.00100 % of kₙ");
+  EXPECT_EQ(told(rowOf(same, "theirs").cells[0]), "good 0.0100 × limit");
   EXPECT_EQ(told(rowOf(same, "theirs").cells[1]), "model_difference 3.00 margins");
   EXPECT_EQ(same.conclusion[1], "What parts them: theirs differs by the law that it declares.");
 
   results.lockstep->rows = {lockstepRow(LockstepVerdict::differs)};
   results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
   const Overview other = compareOverview(results);
-  EXPECT_EQ(told(rowOf(other, "theirs").cells[0]), "bad 2.00 % of kₙ");
+  EXPECT_EQ(told(rowOf(other, "theirs").cells[0]), "bad 20.0 × limit");
   EXPECT_EQ(told(rowOf(other, "theirs").cells[1]), "bad 3.00 margins");
   EXPECT_EQ(other.conclusion[1],
             "What parts them: theirs is not the law that it declares, off in the tangential "
@@ -524,11 +524,13 @@ TEST(EffectsOverview, HasAnEffectPerRow) {
 TEST(LockstepOverview, TellsWhatIsOff) {
   LockstepResults results;
   results.engines = {{"theirs", "", "", "", EngineStatus::ran, ""}};
-  results.lockstep.rules.yardstick = "kn";
+  results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep.rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep.rows[0].term = NamedTerm{"kn", -0.02, 0.1};
+  EXPECT_EQ(told(lockstepOverview(results).rows[0].cells[0]), "bad 2.00 % of kₙ");
   results.lockstep.rows[0].term = NamedTerm{"mu", -0.02, 0.1};
   const Overview overview = lockstepOverview(results);
-  EXPECT_EQ(told(overview.rows[0].cells[0]), "bad 2.00 % of kₙ");
+  EXPECT_EQ(told(overview.rows[0].cells[0]), "bad 20.0 × limit");
   EXPECT_EQ(told(overview.rows[0].cells[4]), "bad −2.00 %");
   EXPECT_EQ(overview.conclusion[0], "theirs is another law than it declares.");
   EXPECT_EQ(overview.conclusion.size(), 3u);

@@ -10,7 +10,12 @@ LockstepRow row(const std::string& engine, LockstepVerdict verdict, double equiv
   row.engine = engine;
   row.verdict = verdict;
   row.equivalent = equivalent;
-  row.starts = 16;
+  row.equivalentLow = 0.5 * equivalent;
+  row.equivalentHigh = 2.0 * equivalent;
+  row.starts = row.read = 16;
+  row.readings.assign(16, {equivalent, 0.01, verdict == LockstepVerdict::differs});
+  row.beyond = verdict == LockstepVerdict::differs ? 16 : 0;
+  row.shareHigh = verdict == LockstepVerdict::differs ? 1.0 : 0.17;
   for (const double time : {0.001, 0.01, 0.05, 0.1})
     row.separations.push_back(
         {time, 1e-4 * time * equivalent, time * equivalent, 1e-3 * time, {}, equivalent});
@@ -28,7 +33,7 @@ LockstepResults lockstepResults() {
   results.head = resultsHead("lockstep", "quick");
   results.engines = {engineRow("yade", "YADE's viscoelastic law"), engineRow("odd-one", awkward),
                      engineRow("rigid", "another normal law")};
-  results.lockstep.rules = {1e-10, 1e-3, 0.1, "kn"};
+  results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep.starts.assign(16, {0, 0.1, 0.1});
   results.lockstep.rows = {row("yade", LockstepVerdict::sameLaw, 1e-5),
                            row("odd-one", LockstepVerdict::differs, 0.02),

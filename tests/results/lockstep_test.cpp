@@ -14,12 +14,16 @@ LockstepResults measured() {
   results.head.kind = "lockstep";
   results.elapsed = 9.5;
   results.engines = {{"yade", "", "1", "", EngineStatus::ran, ""}};
-  results.lockstep.rules = {1e-10, 1e-3, 0.01, "kn"};
+  results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
   results.lockstep.starts = {{1, 0.25, 3.5}};
   LockstepRow row;
   row.engine = "yade";
   row.verdict = LockstepVerdict::sameLaw;
   row.equivalent = 1.2e-5;
+  row.equivalentLow = 1e-5;
+  row.readings = {{1.2e-5, 0.02, false}, {{}, 0.0, false}};
+  row.read = 1;
+  row.shareHigh = 0.95;
   row.starts = 16;
   row.separations = {{1e-3, 2.5e-10, 1e-9, 4e-5, {}, 1.8e-7}, {0.01, 2e-8, 1e-7, {}, 3e-7, {}}};
   row.trackTime = {4e-5};

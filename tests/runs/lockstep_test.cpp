@@ -56,7 +56,7 @@ class Lockstep : public testing::Test {
 
   /// As reports/curated/lockstep/README.md has it.
   static void printLeg(const char* what, const LockstepRow& row) {
-    const LockstepRules rules{lockstepRounding, lockstepSameLaw, yardstickChanges.back(), "kn"};
+    const LockstepRules rules = lockstepRules(flow_->setup.law);
     fmt::print("| {} | {} | {:.1e} |", what, reports::verdictInWords(row, rules),
                row.equivalent.value_or(NAN));
     for (const LockstepSeparation& at : row.separations) fmt::print(" {:.1e} |", at.largest);
@@ -225,6 +225,111 @@ TEST_F(Lockstep, AnEngineThatBlowsUpFails) {
   EXPECT_EQ(row.verdict, LockstepVerdict::notMeasured);
   EXPECT_NE(row.failure.find("overlap"), std::string::npos) << row.failure;
   EXPECT_EQ(row.reason, row.failure);
+}
+
+/// Beside the rule of a tenth of a per cent that is the same law, whatever number of starts there
+/// is.
+TEST_F(Lockstep, ATenthOfTheRuleIsTheSameLawFromAnyNumberOfStarts) {
+  const auto row = rowOf([](Scene& scene) { scene.law.kn *= 1.0001; });
+  EXPECT_EQ(row.verdict, LockstepVerdict::sameLaw);
+  EXPECT_EQ(row.beyond, 0u);
+  EXPECT_EQ(row.read, row.starts);
+  EXPECT_NEAR(*row.equivalent / 1e-4, 1.0, 0.5);
+  EXPECT_LE(*row.equivalentLow, *row.equivalent);
+  EXPECT_LE(*row.equivalent, *row.equivalentHigh);
+}
+
+/// What k_n does not explain has no equivalent in it, and no term that only resembles it is named.
+TEST_F(Lockstep, NamesNothingThatOnlyResembles) {
+  const LockstepRow hot = rowOf([](Scene& scene) {
+    for (Vec2& velocity : scene.disks.velocity) velocity *= 1.1;
+  });
+  EXPECT_EQ(hot.verdict, LockstepVerdict::differs);
+  EXPECT_FALSE(hot.term) << hot.term->name;
+  EXPECT_EQ(reports::verdictInWords(hot, lockstepRules(flow_->setup.law)).find("k_n"),
+            std::string::npos);
+  // The sign of the plate's torque: no negative coefficient of friction stands for it.
+  const LockstepRow plate = rowOf([](Scene& scene) { scene.bottom->tauM *= -1.0; });
+  if (plate.term) {
+    EXPECT_EQ(plate.term->name, "plate tau_m");
+  }
+}
+
+/// A fault at one start of four is no share that is shown.
+TEST_F(Lockstep, OneStartOfFourDecidesNothing) {
+  int loads = 0;
+  const LockstepRow row = rowOf([&](Scene& scene) {
+    if (++loads == 2) scene.law.kn *= 1.1;
+  });
+  EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
+  EXPECT_EQ(row.beyond, 1u);
+  EXPECT_TRUE(row.readings[1].beyond);
+}
+
+/// Moves disks with the velocities that it has, then finds contacts and kicks, as Chipmunk does.
+class DriftsFirst : public test::PlantedEngine {
+ public:
+  explicit DriftsFirst(double declaredLag)
+      : PlantedEngine([](Scene& scene) {
+          scene.law.conventions.integrator = Integrator::semiImplicitEuler;
+          for (std::size_t i = 0; i < scene.disks.size(); ++i)
+            scene.disks.position[i] += scene.dt * scene.disks.velocity[i];
+        }),
+        declaredLag_(declaredLag) {}
+  Realised load(const Scene& scene, const Settings& settings) override {
+    Realised realised = PlantedEngine::load(scene, settings);
+    dt_ = realised.dt;
+    realised.velocityLag = declaredLag_ * dt_;
+    return realised;
+  }
+  double advance(double t) override { return PlantedEngine::advance(t - dt_) + dt_; }
+  Snapshot snapshot(ContactReport contacts) override {
+    Snapshot now = PlantedEngine::snapshot(contacts);
+    for (double* time : {&now.positionTime, &now.velocityTime, &now.contactTime}) *time += dt_;
+    return now;
+  }
+
+ private:
+  double declaredLag_, dt_ = 0.0;
+};
+
+/// Two disks that fall on a plane.
+class FallingBall : public testing::Test {
+ protected:
+  LockstepRow rowOf(double declaredLag) {
+    Case setup = test::twoDisks();
+    setup.law.conventions.integrator = Integrator::semiImplicitEuler;
+    setup.law.kn = 1e4;
+    setup.assembly.gravity = {0.0, -9.81};
+    setup.assembly.disks.front().velocityRms = 0.05;
+    WallGroup floor;
+    floor.planes = {{{0.0, 0.0}, Vec2::UnitY()}};
+    setup.assembly.walls = {floor};
+    setup.average.emplace();
+    const auto none = std::unique_ptr<Engine>();
+    const double dt = 1e-3;
+    const std::vector<Packing> one = {flowPacking(setup, 0, dt, *none, [](double) {})};
+    const auto states = statesAlongTheFlow(setup, one, dt, 4, [](double) {});
+    DriftsFirst engine(declaredLag);
+    const EngineEntry entry{"drifts", "", makeGrain, {}, {}, ""};
+    return holdAgainstMirror(engine, entry, setup, states, dt, [](double) {});
+  }
+};
+
+TEST_F(FallingBall, HasAMirrorThatMovesBeforeItKicksWhereThatIsDeclared) {
+  const LockstepRow row = rowOf(-0.5);
+  ASSERT_EQ(row.starts, 4u) << row.reason;
+  EXPECT_LT(std::ranges::max(row.track), lockstepRounding) << row.reason;
+  // Under another declaration it is another motion, by g n dt².
+  const LockstepRow other = rowOf(0.5);
+  ASSERT_EQ(other.starts, 4u) << other.reason;
+  EXPECT_GT(std::ranges::max(other.track), visibleMotion);
+}
+
+TEST_F(FallingBall, HasNoMirrorWhereNoSchemeFits) {
+  const LockstepRow row = rowOf(-0.25);
+  EXPECT_EQ(row.verdict, LockstepVerdict::notMeasured);
+  EXPECT_NE(row.reason.find("no mirror has its time stepping"), std::string::npos) << row.reason;
 }
 
 /// An engine that dies is told, with what it did until then.

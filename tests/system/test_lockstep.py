@@ -43,7 +43,7 @@ class Lockstep(SystemTest):
         """25 times as stiff as the case, at a fifth of its step."""
         done = self.lockstep(engines="grain-stiff")
         self.assert_status(done, FELL_SHORT)
-        self.assertIn("grain-stiff: differs, like", done.stdout)
+        self.assertIn("grain-stiff: differs, ", done.stdout)
 
     def test_rigid_disks(self):
         """Single precision is told as such, and by rule; where disks meet several at once the law leaves the order open."""
@@ -62,7 +62,7 @@ class Lockstep(SystemTest):
 
         done = self.run_program(*lockstep, "--fresh", "--set=particles.small=180")
         self.assert_status(done, FELL_SHORT)
-        self.assertRegex(done.stdout, "differs, like .* of e_n")
+        self.assertRegex(done.stdout, "box2d-impulse: differs")
         self.assertRegex(done.stdout, "one of the two touches [2-6] at once, and in which order they collide")
 
     def test_it_goes_on_and_its_report_can_be_made_again(self):

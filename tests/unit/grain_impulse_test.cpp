@@ -306,7 +306,9 @@ TEST(GrainImpulse, AHeapComesToRest) {
       const double energy = 24.0 * test::smallMass * 9.81 * 0.02;
       simulation.advance(8000);
       EXPECT_LT(simulation.kineticEnergy(), 1e-8 * energy) << restitution << " " << friction;
-      if (friction == 0.0) EXPECT_EQ(simulation.unfinishedImpacts(), 0u) << restitution;
+      if (friction == 0.0) {
+        EXPECT_EQ(simulation.unfinishedImpacts(), 0u) << restitution;
+      }
     }
 }
 
