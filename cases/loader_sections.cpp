@@ -161,9 +161,9 @@ void readLooks(Reader& in, Looks& looks) {
   in.finish();
 }
 
-/// No program answers in less than some milliseconds; what is longer than some years is none, and
-/// no clock holds it [s].
-constexpr double shortestTimeout = 0.01, longestTimeout = 1e9;
+/// Answers are waited for in whole milliseconds, and no clock holds what is longer than some years
+/// [s].
+constexpr double shortestTimeout = 1e-3, longestTimeout = 1e9;
 
 void readRun(Reader& in, RunOptions& run) {
   static const std::vector<std::string> handovers = {"cold", "warm"};
