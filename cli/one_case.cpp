@@ -98,8 +98,8 @@ std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view comm
 void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to) {
   const std::vector<std::string> keys = keysWithoutUse(setup, command);
   if (!keys.empty())
-    fmt::print(to, "{}{}: {} does not use {}\n", to == stdout ? "" : "note: ", setup.file.string(),
-               command, fmt::join(keys, ", "));
+    fmt::print(to, "{}{}: {} does not use {}\n",
+               to == stdout ? "# " : "note: ", setup.file.string(), command, fmt::join(keys, ", "));
 }
 
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to) {

@@ -31,7 +31,8 @@ std::vector<std::string> quickOverrides(const Case& setup, double rotations = 0.
 /// that it does not know among them; else none for `check`, which reads all of it.
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command);
 
-/// One line with them, if there are any: nothing that a user said is ignored in silence.
+/// One line with them, if there are any: nothing that a user said is ignored in silence. On stdout
+/// a comment, so that what is printed to be pasted loads.
 void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to);
 /// The same of many cases, once for each file.
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to);

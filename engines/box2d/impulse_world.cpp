@@ -102,8 +102,12 @@ void ImpulseWorld::actBeforeTheKick(const Touching& touch) {
   const auto along = [&](const Motion& wall, Vector at) {
     return dot(wall.velocity + wall.spin * perpendicular(at), touch.normal);
   };
+  // Of a wall disk the centre goes round; its surface only slides past when it spins.
+  const Vector radius = members_.isPlane(touch.j)
+                            ? Vector{}
+                            : members_.radius[static_cast<std::size_t>(touch.j)] * touch.normal;
   const double ahead = along(ahead_[w], arm);
-  const double behind = along(behind_[w], turned(-behind_[w].spin * dt_, arm));
+  const double behind = along(behind_[w], turned(-behind_[w].spin * dt_, arm - radius));
   const double disk = dot(world_.toMetres(world_.disk(i).GetLinearVelocity()), touch.normal);
   const double before = disk - behind;
   const double kicked = disk + dt_ * dot(gravity_, touch.normal) - ahead;

@@ -87,11 +87,13 @@ std::string readableCount(std::optional<double> value) {
 
 std::string readable(std::optional<double> value, std::optional<double> error) {
   if (!finite(value) || !finite(error) || *error == 0.0) return readable(value);
-  const int magnitude = exponentOf(std::max(std::abs(*value), std::abs(*error)), 3);
+  const double larger = std::max(std::abs(*value), std::abs(*error));
+  const int magnitude = exponentOf(larger, 3);
   const int shift = plain(magnitude) ? 0 : magnitude;
   const double scale = std::pow(10.0, shift);
   const int decimals = 1 - exponentOf(*error, 2) + shift;
-  if (const int most = mostValueDigits - 1 - magnitude + shift; decimals > most) {
+  if (const int most = mostValueDigits - 1 - exponentOf(larger, mostValueDigits) + shift;
+      decimals > most) {
     const int own = exponentOf(*error, 2);
     return fixed(*value / scale, most) + (shift == 0 ? "" : timesPowerOfTen(shift)) +
            "\u00a0±\u00a0" +

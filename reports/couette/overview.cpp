@@ -168,9 +168,9 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
 OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row) {
   // Both sides have to be true to their laws; of what one of them does wrong no law is to blame.
   const auto isTrue = [&](const std::string& name) {
-    if (name == results.engines.front().name) return true;
     const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
-    return engine != results.engines.end() && isModelDifference(results, *engine);
+    if (engine == results.engines.end()) return false;
+    return engine == results.engines.begin() || isModelDifference(results, *engine);
   };
   const bool isModel = row.kind != PairKind::mirrorImplementation && isTrue(row.a) && isTrue(row.b);
   OverviewCell cell = endpointCell(row, isModel);

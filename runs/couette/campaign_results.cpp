@@ -37,8 +37,9 @@ CouetteStudy Campaign::study(std::string_view kind) const {
     if (all && entry.missing && !entry.missing().empty())
       study.notes.push_back(
           fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
-  if (const EngineRow& first = study.engines.front();
-      !all && first.name != command_.engines.front() && first.mirrors.empty())
+  if (const EngineRow& first = study.engines.front(); !all && !command_.engines.empty() &&
+                                                      first.name != command_.engines.front() &&
+                                                      first.mirrors.empty())
     study.notes.push_back(
         fmt::format("{} was named first and cannot run the case: the reference is {}.",
                     command_.engines.front(), first.name));

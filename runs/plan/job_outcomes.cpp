@@ -31,6 +31,7 @@ JobResults resultsIn(const fs::path& folder) {
   if (document.at("kind") != kindCompare)
     throw BadInput(fmt::format("results.json is of {}, not of compare",
                                document.at("kind").get<std::string>()));
+  if (!document.contains("case")) throw BadInput("results.json has no case");
   const CompareResults results = understood(file, [&] { return compareFromJson(document); });
   JobResults found;
   found.setup = setupFingerprint(results.head.setup.toml);

@@ -139,6 +139,7 @@ TEST(CompareResults, RoundTrip) {
   AgreementRow row;
   row.a = "one";
   row.b = "two";
+  row.field = "spin";
   row.margin = 0.25;
   row.marginRelative = true;
   row.rings = {ring};

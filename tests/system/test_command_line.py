@@ -176,7 +176,7 @@ class Mistakes(SystemTest):
             [PROGRAM, b"check", b"caf\xe9.toml"], capture_output=True, check=False, cwd=self.folder
         )
         self.assertEqual(BAD_INPUT, done.returncode)
-        self.assertRegex(done.stderr, rb"^crossgrain: .*no such file.*\n$")
+        self.assertRegex(done.stderr, rb"^crossgrain: argument 2 .*is not UTF-8.*\n$")
 
 
 class Surroundings(SystemTest):

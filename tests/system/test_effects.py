@@ -9,7 +9,6 @@ from harness import (
     BAD_INPUT,
     COLLISION,
     COUETTE,
-    ENGINE_FAILED,
     HELD,
     INTERRUPTED,
     SystemTest,
@@ -146,7 +145,7 @@ class BadInput(EffectsTest):
 
     def test_threads_are_a_whole_number(self):
         done = self.effects("--set=engines.grain.threads=1.5", "--quiet", *SHORT)
-        self.assert_status(done, ENGINE_FAILED)
+        self.assert_status(done, BAD_INPUT)
         self.assertIn("threads = 1.5 must be a whole number", done.error_lines()[0])
 
     def test_unknown_setting(self):
