@@ -139,7 +139,7 @@ std::string endpointsCsv(const CompareResults& results) {
   std::string table =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
       "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ\n";
+      "regimes_differ,reach\n";
   for (const EndpointRow& entry : results.endpoints.rows) {
     const auto margin = entry.marginRelative && entry.reference
                             ? std::optional(entry.margin * std::abs(*entry.reference))
@@ -150,7 +150,7 @@ std::string endpointsCsv(const CompareResults& results) {
                  std::optional<double>(entry.look), static_cast<std::size_t>(entry.packings),
                  static_cast<std::size_t>(entry.lost), std::optional<double>(entry.needs),
                  std::optional<double>(entry.needsAtMost), entry.carrierA, entry.carrierB,
-                 entry.bound, regimesDiffer(results.regimes, entry.a, entry.b));
+                 entry.bound, regimesDiffer(results.regimes, entry.a, entry.b), entry.reach);
   }
   return table;
 }

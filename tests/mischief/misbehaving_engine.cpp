@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "adapters/grain.hpp"
+
 namespace crossgrain::test {
 namespace {
 
@@ -42,9 +44,10 @@ Realised MisbehavingEngine::load(const Scene& scene, const Settings& settings) {
 }
 
 void MisbehavingEngine::loseFriction() {
-  const Snapshot now = engine_->snapshot(ContactReport::none);
+  const bool worn = mischief_ == "worn";
+  const Snapshot now = engine_->snapshot(ContactReport::instant);
   Scene scene = scene_;
-  scene.law.mu *= 0.02;  // not zero: disks go on to have spins
+  scene.law.mu *= worn ? 0.7 : 0.02;  // not zero: disks go on to have spins
   scene.disks.position = now.position;
   scene.disks.velocity = now.velocity;
   if (now.spin) scene.disks.spin = *now.spin;
@@ -53,6 +56,7 @@ void MisbehavingEngine::loseFriction() {
     for (Vec2& place : body.diskPosition) place = *wall++;
   stepsBehind_ = engine_->stats().steps;
   engine_->load(scene, {});
+  if (worn) stretchSprings(*engine_, *now.contacts);
   behind_ = now.positionTime;
   turned_.clear();
   for (const BodySnapshot& body : now.bodies) turned_.push_back(body.angle);
@@ -60,7 +64,7 @@ void MisbehavingEngine::loseFriction() {
 
 double MisbehavingEngine::advance(double t) {
   const double until = static_cast<double>(step_) * dt_;
-  if (mischief_ == "slippery") {
+  if (mischief_ == "slippery" || mischief_ == "worn") {
     if (t < until || behind_ > 0.0) return engine_->advance(t - behind_) + behind_;
     engine_->advance(until);
     loseFriction();

@@ -22,7 +22,7 @@ class MisbehavingEngine final : public Engine {
   Stats stats() const override;
 
  private:
-  /// Begins anew from here, nearly without friction and without springs.
+  /// Goes on from here with less friction: nearly without, and without springs, or somewhat worn.
   void loseFriction();
 
   std::unique_ptr<Engine> engine_;
