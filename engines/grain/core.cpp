@@ -187,13 +187,9 @@ void Core<Real>::stretchSprings(const std::vector<Contact>& forces) {
   if (steps_ > 0 || ledger_)
     throw std::logic_error("springs are stretched at the start, where no ledger is kept");
   if (!lists_.springs()) return;
-  // One that slips is to slip here, too, which leaves ξ as the law resets it, whatever it was: at
-  // the bound itself rounding would decide.
-  constexpr double beyondBound = 1.5;
-  std::map<std::pair<std::int32_t, std::int32_t>, double> wanted, springs;
-  for (const Contact& contact : forces)
-    wanted[{contact.i, contact.j}] =
-        contact.tangentialForce * (contact.sliding ? beyondBound : 1.0);
+  std::map<std::pair<std::int32_t, std::int32_t>, const Contact*> wanted;
+  std::map<std::pair<std::int32_t, std::int32_t>, double> springs;
+  for (const Contact& contact : forces) wanted[{contact.i, contact.j}] = &contact;
   kick(static_cast<Real>(halfKick_));  // to the velocities of the start, which the law sees
   const std::uint64_t evaluations = contactEvaluations_;
   constexpr int mostRounds = 30;
@@ -202,13 +198,24 @@ void Core<Real>::stretchSprings(const std::vector<Contact>& forces) {
     for (const Contact& contact : contacts()) {
       const auto found = wanted.find({contact.i, contact.j});
       if (found == wanted.end()) continue;
-      const double now = contact.tangentialForce, want = found->second;
+      const double now = contact.tangentialForce, want = found->second->tangentialForce;
       const double unit = forcePerStretch(contact);
-      const bool atBound = contact.sliding && now * want >= 0.0 && std::abs(now) <= std::abs(want);
-      if (atBound || !(unit > 0.0)) continue;
+      if (!(unit > 0.0)) continue;
       double& spring = springs[found->first];
-      if (std::abs(now - want) <= 1e-12 * (std::abs(want) + unit * std::abs(spring))) continue;
-      spring += (now - want) / unit;
+      if (found->second->sliding) {
+        // It is to slip here, too, which leaves ξ as the law resets it, whatever it was: at the
+        // bound itself rounding would decide, and a dashpot outside of the bound does not help.
+        // Where it carries nothing, as in tension, any stretch is beyond the bound.
+        if (contact.sliding && now * want >= 0.0) continue;
+        constexpr double least = 1e-30;  // [N]
+        spring = spring == 0.0 ? -(want == 0.0 ? least : 2.0 * want) / unit : 2.0 * spring;
+      } else {
+        const bool beyondBound =
+            contact.sliding && now * want >= 0.0 && std::abs(now) <= std::abs(want);
+        const double scale = std::abs(want) + unit * std::abs(spring);
+        if (beyondBound || std::abs(now - want) <= 1e-12 * scale) continue;
+        spring += (now - want) / unit;
+      }
       settled = false;
     }
     if (settled) break;
