@@ -30,4 +30,9 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
 /// its root like the contact time.
 std::unique_ptr<Engine> makeStiffGrain(double factor);
 
+/// Has the in-house engine or a mirror, which has loaded a scene and not yet advanced, begin with
+/// springs that are stretched for the tangential forces of these contacts, as another engine shows
+/// them in the middle of a run. @throws std::invalid_argument of any other engine
+void stretchSprings(Engine& inHouse, const Contacts& contacts);
+
 }  // namespace crossgrain

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/fingerprint.hpp"
 
 namespace grain {
@@ -159,6 +160,16 @@ void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
 template <class Real>
 void Core<Real>::start() {
   renumber();
+  addForcesOfStart();
+  if (ledger_) ledger_->begin();
+  if (integrator_ == Integrator::positionVerlet) {
+    halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
+    kick(static_cast<Real>(-halfKick_));
+  }
+}
+
+template <class Real>
+void Core<Real>::addForcesOfStart() {
   MotionConstants<Real> still = motionConstants_;
   still.kick = still.drift = still.ahead = Real(0);
   std::swap(still, motionConstants_);
@@ -167,11 +178,91 @@ void Core<Real>::start() {
   const Real halfStep = std::exchange(law_.halfStep, Real(0));
   addForces(true);
   law_.halfStep = halfStep;
-  if (ledger_) ledger_->begin();
-  if (integrator_ == Integrator::positionVerlet) {
-    halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
-    kick(static_cast<Real>(-halfKick_));
+}
+
+/// While a contact sticks, f_t falls by k_t with every unit of ξ: one step of Newton's method is
+/// exact. Where the dashpot alone takes it beyond the bound, each brings it nearer by a bound.
+template <class Real>
+void Core<Real>::stretchSprings(const std::vector<Contact>& forces) {
+  if (steps_ > 0 || ledger_)
+    throw std::logic_error("springs are stretched at the start, where no ledger is kept");
+  if (!lists_.springs()) return;
+  std::map<std::pair<std::int32_t, std::int32_t>, const Contact*> wanted;
+  std::map<std::pair<std::int32_t, std::int32_t>, double> springs;
+  for (const Contact& contact : forces) wanted[{contact.i, contact.j}] = &contact;
+  kick(static_cast<Real>(halfKick_));  // to the velocities of the start, which the law sees
+  const std::uint64_t evaluations = contactEvaluations_;
+  constexpr int mostRounds = 30;
+  for (int round = 0; round < mostRounds; ++round) {
+    bool settled = true;
+    for (const Contact& contact : contacts()) {
+      const auto found = wanted.find({contact.i, contact.j});
+      if (found == wanted.end()) continue;
+      const double now = contact.tangentialForce, want = found->second->tangentialForce;
+      const double unit = forcePerStretch(contact);
+      if (!(unit > 0.0)) continue;
+      double& spring = springs[found->first];
+      if (found->second->sliding) {
+        // It is to slip here, too, which leaves ξ as the law resets it, whatever it was: at the
+        // bound itself rounding would decide, and a dashpot outside of the bound does not help.
+        // Where it carries nothing, as in tension, any stretch is beyond the bound.
+        if (contact.sliding && now * want >= 0.0) continue;
+        constexpr double least = 1e-30;  // [N]
+        spring = spring == 0.0 ? -(want == 0.0 ? least : 2.0 * want) / unit : 2.0 * spring;
+      } else {
+        const bool beyondBound =
+            contact.sliding && now * want >= 0.0 && std::abs(now) <= std::abs(want);
+        const double scale = std::abs(want) + unit * std::abs(spring);
+        if (beyondBound || std::abs(now - want) <= 1e-12 * scale) continue;
+        spring += (now - want) / unit;
+      }
+      settled = false;
+    }
+    if (settled) break;
+    setSprings(springs);
+    known_.reset();
+    std::ranges::fill(plateSpring_, Vec<Real>{});
+    addForcesOfStart();
   }
+  contactEvaluations_ = evaluations;
+  kick(static_cast<Real>(-halfKick_));
+}
+
+/// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1.
+template <class Real>
+double Core<Real>::forcePerStretch(const Contact& contact) const {
+  if (law_.history == History::force) return 1.0;
+  const auto place = [this](std::int32_t number) {
+    const auto n = static_cast<std::size_t>(number);
+    return n < moving_ ? static_cast<std::size_t>(placeOf_[n]) : n;
+  };
+  ContactMotion<Real> motion{};
+  motion.overlap = static_cast<Real>(contact.overlap);
+  motion.radius = pairRadius(place(contact.i), place(contact.j));
+  return static_cast<double>(tangentialStiffness(law_, motion));
+}
+
+/// @param springs  ξ by numbers i < j; all others are relaxed
+template <class Real>
+void Core<Real>::setSprings(
+    const std::map<std::pair<std::int32_t, std::int32_t>, double>& springs) {
+  std::vector<CarriedSpring> pairs;
+  for (PlacedPlane& placed : placedPlanes_) std::ranges::fill(placed.spring, Real(0));
+  for (const auto& [numbers, spring] : springs) {
+    auto i = placeOf_[static_cast<std::size_t>(numbers.first)];
+    auto j = numbers.second;
+    if (static_cast<std::size_t>(j) >= position_.size()) {
+      placedPlanes_[static_cast<std::size_t>(j) - position_.size()]
+          .spring[static_cast<std::size_t>(i)] = static_cast<Real>(spring);
+      continue;
+    }
+    if (static_cast<std::size_t>(j) < moving_) j = placeOf_[static_cast<std::size_t>(j)];
+    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
+    pairs.push_back({std::min(i, j), std::max(i, j), spring});
+  }
+  lists_.restoreSprings(std::move(pairs), places(), travel(), team_);
+  findReachedWallDisks();
+  rememberChoice();
 }
 
 template <class Real>

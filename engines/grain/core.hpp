@@ -1,10 +1,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engines/grain/impacts.hpp"
@@ -27,6 +29,7 @@ class Core {
 
   /// @param record  whether contacts() is to know this step's forces
   void step(bool record);
+  void stretchSprings(const std::vector<Contact>& forces);
   void findNeighbours();
 
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -91,6 +94,9 @@ class Core {
   void buildWalls(std::vector<Wall> walls);
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
+  void addForcesOfStart();
+  double forcePerStretch(const Contact& contact) const;
+  void setSprings(const std::map<std::pair<std::int32_t, std::int32_t>, double>& springs);
 
   // Housekeeping.
   void renumber();

@@ -31,6 +31,10 @@ void Simulation::advance(std::uint64_t steps) {
   });
 }
 
+void Simulation::stretchSprings(const std::vector<Contact>& forces) {
+  with(core_, [&](auto& core) { core.stretchSprings(forces); });
+}
+
 void Simulation::findNeighbours() {
   with(core_, [](auto& core) { core.findNeighbours(); });
 }

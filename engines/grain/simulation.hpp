@@ -35,6 +35,13 @@ class Simulation {
   void step() { advance(1); }
   void advance(std::uint64_t steps);
 
+  /// Stretches springs so that contacts have these tangential forces; those of other contacts are
+  /// relaxed. A force that the law's bound does not allow slips at it. What goes on from a state of
+  /// another engine begins so.
+  /// @pre no step is done, and no ledger is kept
+  /// @param forces  i < j, the tangential force and whether it slides; nothing else is read
+  void stretchSprings(const std::vector<Contact>& forces);
+
   /// Lists the neighbours anew, as the step does by itself where needed. The contacts of the last
   /// step are no longer known then.
   void findNeighbours();

@@ -7,6 +7,7 @@
 
 #include "cases/endpoints.hpp"
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -57,8 +58,7 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
                            row.starts,
                            canaryPacking,
                            {},
-                           {},
-                           false});
+                           {}});
   }
   return carried;
 }
@@ -78,6 +78,27 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
     own.alarm = alarmOf(setup, own.canary, 1.0 - setup.averaging.confidence);
     own.carried = own.alarm.empty() && !own.canary.empty();
   }
+}
+
+void judgeLateWindows(CarriedEngine& engine, LateWindows late) {
+  engine.late = std::move(late);
+  const LateWindows& found = engine.late;
+  const auto beyond = std::ranges::find_if(
+      found.equivalents, [](const EquivalentChange& one) { return !(one.change <= lateLimit); });
+  if (!found.failure.empty())
+    engine.alarm = fmt::format("no windows late in its own run: {}", found.failure);
+  else if (beyond != found.equivalents.end())
+    engine.alarm = fmt::format(
+        "{} windows within its own run of packing {} differ from it as {:.2g} % of {} would "
+        "({:g} % are the most)",
+        found.times.size(), found.packing, 100.0 * beyond->change, beyond->constant,
+        100.0 * lateLimit);
+  else if (found.forces && !(*found.forces <= lateLimit))
+    engine.alarm = fmt::format(
+        "forces within its own run of packing {} differ from the mirror's by up to {:.2g} % of the "
+        "largest ({:g} % are the most)",
+        found.packing, 100.0 * *found.forces, 100.0 * lateLimit);
+  engine.carried = engine.carried && engine.alarm.empty();
 }
 
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,

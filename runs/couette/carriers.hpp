@@ -27,10 +27,14 @@ std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaig
                                                 const std::vector<ChangedCase>& changed,
                                                 std::span<const CouetteRun> runs, int packings);
 
-/// Holds the whole run of each against its mirror's on the same packing, where chaos is as the
-/// responses show it. Sets `carried`, or the alarm.
+/// The first part of the spot check: compares the averaged run of each with its mirror's on the
+/// same packing, where chaos is as the responses show it. Sets `carried`, or the alarm.
 void judgeCanaries(const Case& setup, const Campaign& campaign,
                    const std::vector<EndpointResponse>& responses,
                    std::vector<CarriedEngine>& engines);
+
+/// The second: what windows late in a run of its own show. An engine that they show to be further
+/// from its mirror than lateLimit is carried no more, and that is the alarm.
+void judgeLateWindows(CarriedEngine& engine, LateWindows late);
 
 }  // namespace crossgrain::inline runs

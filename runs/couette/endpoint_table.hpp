@@ -16,8 +16,8 @@ namespace crossgrain::inline runs {
 struct EndpointPair {
   std::string a, b;
   PairKind kind = PairKind::peer;
-  std::string runsOfA, runsOfB;  ///< a and b themselves, or mirrors that carry their packings
-  double equivalent = 0.0;       ///< ε_eq of those mirrors, together
+  std::string runsOfA, runsOfB;        ///< a and b themselves, or mirrors that carry their packings
+  std::vector<CarriedEngine> by = {};  ///< what is known of those mirrors
 };
 
 /// The looks of a case: at its packings, and as many more each time.
@@ -28,8 +28,16 @@ LookPlan looksOf(const Case& setup);
 /// allow; the endpoints of a pair are one family.
 ///
 /// Where mirrors stand for engines, their averages follow under the assumption that averages
-/// respond linearly to so small a change: they differ by at most B = ε_eq/change × bound of the
-/// response, over the constants tried. Without responses there is no bound and no row.
+/// respond linearly to so small a change, and to whatever separates trajectories as far as a
+/// constant's change no more than to that. Each differs from its mirror by at most
+///
+///     B = (ε_eq R + max over constants c of ε_late,c R_c) / change,   R = max R_c
+///
+/// R_c the upper end of the response's interval to that change, ε_eq what lockstep's windows at
+/// the beginning show, ε_late,c what windows late in a run of the engine's own do: with them the
+/// bound holds of the whole run, but for what acts between the windows alone. The second term is
+/// what the followed run of the spot check could have missed. Without responses, or late windows,
+/// there is no bound and no row.
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const CouetteRun> runs,
                                       const std::vector<EndpointPair>& pairs, const LookPlan& plan,
                                       int available,

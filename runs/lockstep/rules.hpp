@@ -67,6 +67,13 @@ inline constexpr double leastNamed = 1e-6;  // of the yardstick
 inline constexpr std::size_t lockstepStarts = 16;
 inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
+/// Windows within an engine's own run that the yardstick is applied to: as many as starts.
+inline constexpr std::size_t lateWindowsMeasured = lockstepStarts;
+
+/// A separation beyond that of the largest change tried is outside of what was measured, so no
+/// bound on averages follows from it. Forces that differ by more move a stress by more.
+inline constexpr double lateLimit = yardstickChanges.back();  // of the constant; of the force
+
 /// Every engine runs seven windows from each start of a baseline, and a start takes some megabytes.
 inline constexpr std::size_t baselineStarts = 8;
 

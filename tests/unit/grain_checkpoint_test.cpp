@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
 
 #include "tests/unit/grain_packed.hpp"
@@ -162,6 +165,80 @@ TEST(Checkpoints, OfASceneWithOtherConstantsAreRefused) {
   EXPECT_EQ(changed([](auto& s) { s.disks.radius[3] *= 1.01; }), another);
   EXPECT_EQ(changed([](auto& s) { s.disks.mass[3] *= 1.01; }), another);
   EXPECT_EQ(changed([](auto& s) { s.integrator = Integrator::velocityVerlet; }), another);
+}
+
+/// Where two simulations have come to, of those of one setup [m].
+double apart(const Simulation& one, const Simulation& other) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < one.movingCount(); ++i)
+    most = std::max(most, std::hypot(one.x(i) - other.x(i), one.y(i) - other.y(i)));
+  return most;
+}
+
+/// Its walls stand still: they are where they were at the beginning.
+Setup packedAtRest() {
+  Setup setup = test::packed(10, 3);
+  setup.walls.pop_back();  // the wheel
+  for (Wall& wall : setup.walls) {
+    wall.moves = false;
+    wall.motion = [](double) { return WallState{}; };
+  }
+  return setup;
+}
+
+/// A run begun from what can be seen of another, its springs stretched for the forces or relaxed.
+Simulation begunFrom(const Simulation& seen, Setup setup, bool stretched) {
+  for (std::size_t i = 0; i < seen.movingCount(); ++i) {
+    setup.disks.x[i] = seen.x(i);
+    setup.disks.y[i] = seen.y(i);
+    setup.disks.vx[i] = seen.velocityX(i);
+    setup.disks.vy[i] = seen.velocityY(i);
+    setup.disks.spin[i] = seen.spin(i);
+  }
+  Simulation begun(std::move(setup));
+  if (stretched) begun.stretchSprings(seen.contacts());
+  return begun;
+}
+
+/// Semi-implicit Euler has no half steps to be lost at the seam; rounding is left.
+TEST(StretchedSprings, TakeARunOnFromItsForces) {
+  for (const Stretch stretch : {Stretch::after, Stretch::before, Stretch::midpoint})
+    for (const bool hertz : {false, true})
+      for (const bool outside : {false, true}) {
+        grain::Setup setup = packedAtRest();
+        setup.integrator = Integrator::semiImplicitEuler;
+        setup.law.damping = Damping::lagged;
+        setup.law.stretch = stretch;
+        setup.law.dashpotOutsideBound = outside;
+        setup.law.history = outside ? History::force : History::displacement;
+        if (hertz) {
+          setup.law.normal = Normal::hertz;
+          setup.law.kn *= 1e3;
+          setup.law.kt *= 1e3;
+        }
+        Simulation whole(setup);
+        whole.advance(500);
+        Simulation warm = begunFrom(whole, setup, true), cold = begunFrom(whole, setup, false);
+        for (Simulation* run : {&whole, &warm, &cold}) run->advance(25);
+        EXPECT_LT(apart(warm, whole), 1e-13) << static_cast<int>(stretch) << hertz << outside;
+        EXPECT_GT(apart(cold, whole), 1e-8);
+      }
+}
+
+/// What Verlet's half steps leave is far below what relaxed springs do.
+TEST(StretchedSprings, TakeVerletOnToItsHalfSteps) {
+  const grain::Setup setup = packedAtRest();
+  Simulation whole(setup);
+  whole.advance(500);
+  Simulation warm = begunFrom(whole, setup, true), cold = begunFrom(whole, setup, false);
+  for (Simulation* run : {&whole, &warm, &cold}) run->advance(25);
+  EXPECT_LT(apart(warm, whole), 1e-2 * apart(cold, whole));
+}
+
+TEST(StretchedSprings, BelongToTheStart) {
+  Simulation run(test::packed(6, 3));
+  run.step();
+  EXPECT_THROW(run.stretchSprings({}), std::logic_error);
 }
 
 }  // namespace
