@@ -274,7 +274,7 @@ class GrainEngine : public Engine {
     }
   }
 
-  void stretchSprings(const Contacts& contacts) {
+  void beginUnderWay(const Contacts& contacts) {
     std::vector<grain::Contact> forces(contacts.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       forces[k].i = contacts.i[k];
@@ -286,7 +286,7 @@ class GrainEngine : public Engine {
                               ? std::abs(forces[k].tangentialForce) >= (1.0 - 1e-6) * bound
                               : contacts.sliding[k] != 0;
     }
-    simulation_->stretchSprings(forces);
+    simulation_->beginUnderWay(forces);
   }
 
   Stats stats() const override {
@@ -344,10 +344,11 @@ std::unique_ptr<Engine> makeStiffGrain(double factor) {
   return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
 }
 
-void stretchSprings(Engine& inHouse, const Contacts& contacts) {
+void beginUnderWay(Engine& inHouse, const Contacts& contacts) {
   auto* const own = dynamic_cast<GrainEngine*>(&inHouse);
-  if (!own) throw std::invalid_argument("springs are stretched in the in-house engine alone");
-  own->stretchSprings(contacts);
+  if (!own)
+    throw UnsupportedScene("no mirror with its time stepping begins in the middle of a run");
+  own->beginUnderWay(contacts);
 }
 
 EngineEntry grainEngine() {

@@ -32,7 +32,7 @@ struct EndpointRow {
   std::optional<int> needsAtMost;  ///< and at most so many; absent: no telling
   std::string carrierA, carrierB;  ///< the mirror whose runs stand for a, for b; empty: its own
   std::optional<double> bound;     ///< B of those mirrors, in margins
-  std::optional<double> reach;  ///< part of B: what the followed runs could have missed, likewise
+  std::optional<double> reach;     ///< part of B: what the followed runs could have missed
 };
 
 /// One look as planned.
@@ -81,12 +81,9 @@ struct LateWindows {
   int packing = 0;            ///< index
   std::vector<double> times;  ///< at which they begin, since the hand-over [s]
   double length = 0.0;        ///< of each [s]
-  /// Of each constant that endpoints' responses are known to, over all windows; none where one of
-  /// the constants moves nothing.
+  /// Of each constant that endpoints' responses are known to: the mean over all windows, upper end
+  /// of its interval (95 %); none where one of the constants moves nothing.
   std::vector<EquivalentChange> equivalents;
-  /// Largest difference of a contact's forces a millisecond after a window's beginning, in units of
-  /// the largest normal force then; absent where the engine has no forces of an instant.
-  std::optional<double> forces;
   std::string failure;  ///< why there are none; empty: there are
 };
 
@@ -95,7 +92,7 @@ struct LateWindows {
 /// compared with the mirror's, one is followed by late windows.
 struct CarriedEngine {
   std::string engine, mirror;
-  double equivalent = 0.0;  ///< ε_eq
+  double equivalent = 0.0;  ///< ε_eq, the upper end of its interval
   std::size_t starts = 0;   ///< that lockstep followed
   int canaryPacking = 0;    ///< index
   std::vector<CanaryNumber> canary;

@@ -75,7 +75,6 @@ void fields(auto& io, LateWindows& late) {
   io("times_s", late.times);
   io("length_s", late.length);
   io("equivalents", late.equivalents);
-  io("forces", late.forces);
   io("failure", late.failure);
 }
 

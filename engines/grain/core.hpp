@@ -29,7 +29,7 @@ class Core {
 
   /// @param record  whether contacts() is to know this step's forces
   void step(bool record);
-  void stretchSprings(const std::vector<Contact>& forces);
+  void beginUnderWay(const std::vector<Contact>& forces);
   void findNeighbours();
 
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -94,9 +94,15 @@ class Core {
   void buildWalls(std::vector<Wall> walls);
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
-  void addForcesOfStart();
+  void addForcesOfStart(bool underWay);
+  /// By numbers i < j.
+  template <class T>
+  using PairMap = std::map<std::pair<std::int32_t, std::int32_t>, T>;
+  void addMissing(const PairMap<const Contact*>& wanted);
+  bool stretch(const PairMap<const Contact*>& wanted, PairMap<double>& springs) const;
+  std::size_t placeOf(std::int32_t number) const;
   double forcePerStretch(const Contact& contact) const;
-  void setSprings(const std::map<std::pair<std::int32_t, std::int32_t>, double>& springs);
+  void setSprings(const PairMap<double>& springs);
 
   // Housekeeping.
   void renumber();

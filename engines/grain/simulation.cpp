@@ -31,8 +31,8 @@ void Simulation::advance(std::uint64_t steps) {
   });
 }
 
-void Simulation::stretchSprings(const std::vector<Contact>& forces) {
-  with(core_, [&](auto& core) { core.stretchSprings(forces); });
+void Simulation::beginUnderWay(const std::vector<Contact>& forces) {
+  with(core_, [&](auto& core) { core.beginUnderWay(forces); });
 }
 
 void Simulation::findNeighbours() {

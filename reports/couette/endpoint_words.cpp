@@ -122,8 +122,8 @@ std::string sentenceOf(const CarriedEngine& own) {
     for (const EquivalentChange& one : own.late.equivalents)
       changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
     parts.push_back(fmt::format(
-        "{} windows of {} within its own run of packing {} differ from the mirror by no more than "
-        "{} would make",
+        "{} windows of {} over its own run of packing {} differ from the mirror as at most {} "
+        "would",
         own.late.times.size(), shortDuration(own.late.length), own.late.packing,
         fmt::join(changes, " or ")));
   }

@@ -1,6 +1,7 @@
 #include "runs/couette/carriers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,13 +49,13 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
   for (const LockstepRow& row : found.rows) {
     const bool same =
         row.verdict == LockstepVerdict::sameToRounding || row.verdict == LockstepVerdict::sameLaw;
-    if (!same || !row.failure.empty() || !row.equivalent) continue;
+    if (!same || !row.failure.empty() || !row.equivalentHigh) continue;
     for (std::size_t e = 0; e < campaign.engines().size(); ++e)
       if (campaign.engines()[e].mirrors == row.engine && campaign.refusal(e).empty() &&
           !isNamed(names, campaign.engines()[e]))
         carried.push_back({row.engine,
                            campaign.engines()[e].name,
-                           *row.equivalent,
+                           *row.equivalentHigh,
                            row.starts,
                            canaryPacking,
                            {},
@@ -80,24 +81,25 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
   }
 }
 
-void judgeLateWindows(CarriedEngine& engine, LateWindows late) {
+void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& responses,
+                      LateWindows late, CarriedEngine& engine) {
   engine.late = std::move(late);
   const LateWindows& found = engine.late;
-  const auto beyond = std::ranges::find_if(
-      found.equivalents, [](const EquivalentChange& one) { return !(one.change <= lateLimit); });
   if (!found.failure.empty())
-    engine.alarm = fmt::format("no windows late in its own run: {}", found.failure);
-  else if (beyond != found.equivalents.end())
-    engine.alarm = fmt::format(
-        "{} windows within its own run of packing {} differ from it as {:.2g} % of {} would "
-        "({:g} % are the most)",
-        found.times.size(), found.packing, 100.0 * beyond->change, beyond->constant,
-        100.0 * lateLimit);
-  else if (found.forces && !(*found.forces <= lateLimit))
-    engine.alarm = fmt::format(
-        "forces within its own run of packing {} differ from the mirror's by up to {:.2g} % of the "
-        "largest ({:g} % are the most)",
-        found.packing, 100.0 * *found.forces, 100.0 * lateLimit);
+    engine.alarm = fmt::format("its own run cannot be followed: {}", found.failure);
+  double farthest = largestReach;
+  for (const auto& [name, margin] : setup.averaging.endpoints)
+    if (const auto reach = reachOf(name, found, responses); reach && !(*reach <= farthest)) {
+      farthest = *reach;
+      std::vector<std::string> changes;
+      for (const EquivalentChange& one : found.equivalents)
+        changes.push_back(fmt::format("{:.2g} % of {}", 100.0 * one.change, one.constant));
+      engine.alarm = fmt::format(
+          "{} windows of its own run of packing {} differ from the mirror as {} would, by which {} "
+          "may differ by {:.2g} margins ({:g} is the most)",
+          found.times.size(), found.packing, fmt::join(changes, " or "),
+          endpointSpec(setup, name).words, *reach, largestReach);
+    }
   engine.carried = engine.carried && engine.alarm.empty();
 }
 

@@ -33,8 +33,9 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
                    const std::vector<EndpointResponse>& responses,
                    std::vector<CarriedEngine>& engines);
 
-/// The second: what windows late in a run of its own show. An engine that they show to be further
-/// from its mirror than lateLimit is carried no more, and that is the alarm.
-void judgeLateWindows(CarriedEngine& engine, LateWindows late);
+/// The second: what windows within a run of its own show. Where they leave more than largestReach
+/// of an endpoint open, the mirror does not stand for the engine, and that is the alarm.
+void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& responses,
+                      LateWindows late, CarriedEngine& engine);
 
 }  // namespace crossgrain::inline runs

@@ -94,17 +94,13 @@ std::optional<Bound> boundOf(std::string_view endpoint, const std::vector<Carrie
                              const std::vector<EndpointResponse>& responses) {
   Bound bound;
   for (const CarriedEngine& mirror : mirrors) {
-    std::optional<double> start, late;
-    for (const EndpointResponse& response : responses) {
-      if (response.endpoint != endpoint || !response.bound) continue;
-      const double perChange = *response.bound / response.change;
-      start = std::max(start.value_or(0.0), mirror.equivalent * perChange);
-      for (const EquivalentChange& found : mirror.late.equivalents)
-        if (found.constant == response.constant)
-          late = std::max(late.value_or(0.0), found.change * perChange);
-    }
-    if (!start || !late) return std::nullopt;
-    bound.all += *start + *late;
+    const auto late = reachOf(endpoint, mirror.late, responses);
+    if (!late) return std::nullopt;
+    double start = 0.0;
+    for (const EndpointResponse& response : responses)
+      if (response.endpoint == endpoint && response.bound)
+        start = std::max(start, mirror.equivalent / response.change * *response.bound);
+    bound.all += start + *late;
     bound.late += *late;
   }
   return bound;
@@ -238,11 +234,13 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, const LookPlan& plan) {
   for (JudgedEndpoint& one : judged) {
     const Pooled& pooled = scatter[one.tested.endpoint.name];
     if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
-    const double margin = one.tested.sample.margin - one.tested.sample.bias;
-    const bool toAgree = std::abs(one.found->difference) < margin;
-    const auto range =
-        packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof), pooled.dof,
-                    margin, toAgree ? plan.agreeAlpha : plan.alpha.back());
+    const double margin = one.tested.sample.margin, bias = one.tested.sample.bias;
+    const double distance = std::abs(one.found->difference);
+    const bool toAgree = distance < margin - bias;
+    if (!toAgree && distance < margin + bias) continue;  // what a mirror leaves open, none decide
+    const auto range = packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof),
+                                   pooled.dof, toAgree ? margin - bias : margin + bias,
+                                   toAgree ? plan.agreeAlpha : plan.alpha.back());
     if (!range) continue;
     const int more = one.row.packings + 1;
     one.row.needs = std::max(range->low, more);
@@ -374,6 +372,16 @@ std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const Couette
     judge(pair, familyOf(setup, runs, pair, responses), plan, available, judged);
   }
   return rowsOf(std::move(judged), plan);
+}
+
+std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
+                              const std::vector<EndpointResponse>& responses) {
+  std::optional<double> reach;
+  for (const EndpointResponse& response : responses)
+    for (const EquivalentChange& found : late.equivalents)
+      if (response.endpoint == endpoint && response.bound && response.constant == found.constant)
+        reach = std::max(reach.value_or(0.0), found.change / response.change * *response.bound);
+  return reach;
 }
 
 EndpointResponse responseTo(const Case& setup, std::span<const CouetteRun> runs,

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "averaging/looks.hpp"
@@ -34,10 +35,9 @@ LookPlan looksOf(const Case& setup);
 ///     B = (ε_eq R + max over constants c of ε_late,c R_c) / change,   R = max R_c
 ///
 /// R_c the upper end of the response's interval to that change, ε_eq what lockstep's windows at
-/// the beginning show, ε_late,c what windows late in a run of the engine's own do: with them the
-/// bound holds of the whole run, but for what acts between the windows alone. The second term is
-/// what the followed run of the spot check could have missed. Without responses, or late windows,
-/// there is no bound and no row.
+/// the beginning show and ε_late,c what windows over a whole run of the engine's own do, the upper
+/// ends of their intervals. The second term is what the followed run of the spot check could have
+/// missed. Without responses, or late windows, there is no bound and no row.
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const CouetteRun> runs,
                                       const std::vector<EndpointPair>& pairs, const LookPlan& plan,
                                       int available,
@@ -66,6 +66,10 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
 /// ratio, for which all values of the reference need one sign. @param margin  the case's
 PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
                             Numbers other);
+
+/// max over constants c of ε_late,c R_c / change, in margins; absent where nothing is known of it.
+std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
+                              const std::vector<EndpointResponse>& responses);
 
 /// What the change of a constant does to an endpoint: runs with it against runs without, packing by
 /// packing.

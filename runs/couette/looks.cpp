@@ -124,8 +124,8 @@ class Sequence {
     std::vector<LateWindows> late = lateWindowsOf(campaign_, setup_, command_, engines);
     for (std::size_t k = 0; k < engines.size(); ++k)
       judgeLateWindows(
-          *std::ranges::find(findings_.carried, nameOf(engines[k]), &CarriedEngine::engine),
-          std::move(late[k]));
+          setup_, findings_.responses, std::move(late[k]),
+          *std::ranges::find(findings_.carried, nameOf(engines[k]), &CarriedEngine::engine));
   }
 
   /// Without the first look there is no answer at all, so it is taken even so: who cannot wait is

@@ -7,7 +7,8 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
-#include "adapters/registry.hpp"
+#include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/flow.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/lockstep/account.hpp"
@@ -21,29 +22,6 @@
 
 namespace crossgrain::inline runs {
 namespace {
-
-/// An engine in the middle of its run; times count from there.
-class GoingOn final : public Engine {
- public:
-  GoingOn(Engine& engine, double since) : engine_(engine), since_(since) {}
-
-  Capabilities capabilities() const override { return engine_.capabilities(); }
-  Realised load(const Scene& scene, const Settings& settings) override {
-    return engine_.load(scene, settings);
-  }
-  double advance(double t) override { return engine_.advance(since_ + t) - since_; }
-  Snapshot snapshot(ContactReport contacts) override {
-    Snapshot seen = engine_.snapshot(contacts);
-    for (double* const time : {&seen.positionTime, &seen.velocityTime, &seen.contactTime})
-      *time -= since_;
-    return seen;
-  }
-  Stats stats() const override { return engine_.stats(); }
-
- private:
-  Engine& engine_;
-  double since_;
-};
 
 /// Positions, velocities and, if asked for, contacts of one instant, whatever an engine staggers.
 /// It may be a step further afterwards. @throws EngineFailure
@@ -80,90 +58,117 @@ class LateComparison {
         packing_(packing),
         scene_(flowScene(setup, packing, dt)),
         can_(engine.capabilities()),
-        mirror_(engineRegistry().front().make()) {
-    step_ = loadScene(engine, entry, setup, scene_).dt;
-    const ContactLaw law = sceneOfMirror(can_, entry, setup, scene_, step_).law;
+        realised_(loadScene(engine, entry, setup, scene_)),
+        mirror_(mirrorOf(can_, entry, setup, scene_, realised_)) {
+    const ContactLaw law = sceneOfMirror(can_, entry, setup, scene_, realised_).law;
     const bool slips = law.mu > 0.0 && law.tangential != TangentialLaw::none;
     springs_ =
         law.soft() && slips &&
         (law.tangential == TangentialLaw::spring || law.tangential == TangentialLaw::springDashpot);
-    for (const double time : lockstepTimes) steps_.push_back(stepsUntil(time, step_));
+    std::vector<std::size_t> all;
+    for (const double time : lockstepTimes) {
+      all.push_back(steps_.size());
+      steps_.push_back(stepsUntil(time, realised_.dt));
+    }
     for (const ChangedCase& changed : changedCases(setup)) {
       if (changed.constant == "mu" && !slips) continue;  // the engine has none of it
       constants_.push_back(changed.constant);
-      accounts_.emplace_back(flowDiameter(setup), timesOf(steps_, step_),
-                             std::vector<std::size_t>{0, 1, 2, 3});
+      accounts_.emplace_back(flowDiameter(setup), timesOf(steps_, realised_.dt), all);
     }
   }
 
-  double length() const { return static_cast<double>(steps_.back()) * step_; }
+  double length() const { return static_cast<double>(steps_.back()) * realised_.dt; }
   double reached() const { return reached_; }
 
   /// @param measured  whether the yardstick is applied even where both are the same to rounding
-  /// @throws EngineFailure
-  void window(double t, bool measured, LateWindows& found) {
+  /// @return when it began [s] @throws EngineFailure, UnsupportedScene
+  double window(double t, bool measured) {
     if (springs_ && !can_.instantContacts)
       throw EngineFailure("it has no contact forces of an instant, from which springs could go on");
     engine_.advance(t);
-    const Snapshot now = stateOf(engine_, step_, springs_);
+    const Snapshot now = stateOf(engine_, realised_.dt, springs_);
     Scene mirrored =
         sceneOfMirror(can_, entry_, setup_,
-                      flowScene(setup_, packingAt(packing_, scene_, now), scene_.dt), step_);
+                      flowScene(setup_, packingAt(packing_, scene_, now), scene_.dt), realised_);
     mirrored.energyLedger = false;
     const auto begin = [&](const Scene& scene) {
       mirror_->load(scene, {});
-      if (springs_) stretchSprings(*mirror_, *now.contacts);
+      // As the case begins, no spring is stretched and no step is under way.
+      if (scene.law.soft() && now.positionTime > 0.0)
+        beginUnderWay(*mirror_, springs_ ? *now.contacts : Contacts());
+      return realised_.dt;
     };
     begin(mirrored);
-    GoingOn own(engine_, now.positionTime);
-    const LockstepWindow window = followBoth(own, *mirror_, step_, steps_, can_.instantContacts);
+    const LockstepWindow window =
+        followBoth(engine_, *mirror_, realised_.dt, steps_, can_.instantContacts, now.positionTime);
     reached_ = now.positionTime + length();
-    const std::size_t start = found.times.size();
-    found.times.push_back(now.positionTime);
-    const LockstepWindow early = {{window.engine.front()}, {window.mirror.front()}};
-    if (const auto forces = forcesOfFirstStep(early))
-      found.forces =
-          std::max(found.forces.value_or(0.0), std::max(forces->normal, forces->tangential));
+    bool alike = true;
     for (std::size_t k = 0; k < steps_.size(); ++k)
-      measured =
-          measured || farthest(window.engine[k], window.mirror[k], flowDiameter(setup_)).distance >
-                          lockstepRounding;
-    for (std::size_t c = 0; measured && c < constants_.size(); ++c)
-      accounts_[c].add(start, window,
+      alike =
+          alike && farthest(window.engine[k], window.mirror[k], flowDiameter(setup_)).distance <=
+                       lockstepRounding;
+    if (alike && !measured) {
+      ++unmeasured_;
+      return now.positionTime;
+    }
+    for (std::size_t c = 0; c < constants_.size(); ++c)
+      accounts_[c].add(alike_.size(), window,
                        yardstickResponses(*mirror_, window.mirror, flowDiameter(setup_),
                                           [&](double change) {
                                             Scene changed = mirrored;
                                             changeConstant(changed.law, constants_[c], change);
-                                            begin(changed);
-                                            return step_;
+                                            return begin(changed);
                                           }),
                        mirrored.disks.size());
+    alike_.push_back(alike);
+    return now.positionTime;
   }
 
+  /// Empty where some constant moves nothing in any window.
   std::vector<EquivalentChange> equivalents() const {
     std::vector<EquivalentChange> found;
     for (std::size_t c = 0; c < constants_.size(); ++c) {
-      const auto equivalent = accounts_[c].row().equivalent;
-      if (!equivalent) return {};
-      found.push_back({constants_[c], *equivalent});
+      const auto mean = meanOf(accounts_[c].row().readings);
+      if (!mean) return {};
+      found.push_back({constants_[c], *mean});
     }
     return found;
   }
 
  private:
+  /// Over all windows, the upper end of its interval. One that cannot be read counts as the largest
+  /// that can, one alike and not measured as the largest that is alike and was.
+  std::optional<double> meanOf(const std::vector<StartReading>& readings) const {
+    double largest = -1.0, largestAlike = 0.0;
+    for (std::size_t k = 0; k < readings.size(); ++k)
+      if (const auto& read = readings[k].equivalent) {
+        largest = std::max(largest, *read);
+        if (alike_[k]) largestAlike = std::max(largestAlike, *read);
+      }
+    if (largest < 0.0) return std::nullopt;
+    Numbers all(unmeasured_, largestAlike);
+    for (const StartReading& reading : readings)
+      all.push_back(reading.equivalent.value_or(largest));
+    const EnsembleMean found = *ensembleMean(all);
+    if (!found.standardError) return found.mean;
+    return found.mean + studentQuantile(shareConfidence, found.packings - 1) * *found.standardError;
+  }
+
   Engine& engine_;
   const EngineEntry& entry_;
   const Case& setup_;
   const Packing& packing_;
   Scene scene_;  ///< the case's, as the run begins
   Capabilities can_;
-  bool springs_ = false;  ///< contacts remember a tangential force
+  Realised realised_;
   std::unique_ptr<Engine> mirror_;
-  double step_ = 0.0;                 ///< the engine's [s]
-  double reached_ = 0.0;              ///< of its run [s]
+  bool springs_ = false;              ///< contacts remember a tangential force
+  double reached_ = 0.0;              ///< of the engine's run [s]
   std::vector<std::uint64_t> steps_;  ///< of lockstepTimes
   std::vector<std::string> constants_;
-  std::vector<SeparationAccount> accounts_;  ///< by constant
+  std::vector<SeparationAccount> accounts_;  ///< by constant, of the windows measured
+  std::vector<bool> alike_;                  ///< to rounding, by window measured
+  std::size_t unmeasured_ = 0;               ///< windows that are not, as they are alike
 };
 
 }  // namespace
@@ -183,7 +188,7 @@ LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& set
       const double t = flowRestart(setup, static_cast<double>(k) * found.length);
       if (t < comparison.reached() - 0.5 * found.length)
         continue;  // swinging walls begin again later
-      comparison.window(t, k % stride == 0, found);
+      found.times.push_back(comparison.window(t, k % stride == 0));
       progress(static_cast<double>(k + 1) / static_cast<double>(room));
     }
     found.equivalents = comparison.equivalents();

@@ -85,7 +85,7 @@ void MisbehavingEngine::beginAnew(double friction, bool springs) {
     for (Vec2& place : body.diskPosition) place = *wall++;
   stepsBehind_ = engine_->stats().steps;
   engine_->load(scene, {});
-  if (springs) stretchSprings(*engine_, *now.contacts);
+  if (springs) beginUnderWay(*engine_, *now.contacts);
   behind_ = now.positionTime;
   turned_.clear();
   for (const BodySnapshot& body : now.bodies) turned_.push_back(body.angle);

@@ -163,7 +163,7 @@ TEST(CompareResults, RoundTrip) {
                          {{"pressure", 0.5, 1.0, {}, 3.9}},
                          "",
                          true,
-                         {1, {0.0, 0.1}, 0.1, {{"mu", 1e-4}}, 1e-6, ""}}},
+                         {1, {0.0, 0.1}, 0.1, {{"mu", 1e-4}}, ""}}},
                        {{"pressure", "kn", 0.1, 0.2, 0.5, 0.3, 8}}};
   const Json there = toJson(results);
   EXPECT_EQ(there["endpoints"]["rows"][0]["answer"], "borderline");
