@@ -82,7 +82,7 @@ struct LateWindows {
   std::vector<double> times;  ///< at which they begin, since the hand-over [s]
   double length = 0.0;        ///< of each [s]
   /// Of each constant that endpoints' responses are known to: the mean over all windows, upper end
-  /// of its interval (95 %); none where one of the constants moves nothing.
+  /// of its interval (95 %). A constant that moves nothing has none.
   std::vector<EquivalentChange> equivalents;
   std::string failure;  ///< why there are none; empty: there are
 };

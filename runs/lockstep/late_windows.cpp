@@ -124,13 +124,18 @@ class LateComparison {
     return now.positionTime;
   }
 
-  /// Empty where some constant moves nothing in any window.
+  /// Of constants that move anything. Empty where the yardstick does not, or where engine and
+  /// mirror part in a window in which it does not.
   std::vector<EquivalentChange> equivalents() const {
     std::vector<EquivalentChange> found;
     for (std::size_t c = 0; c < constants_.size(); ++c) {
-      const auto mean = meanOf(accounts_[c].row().readings);
-      if (!mean) return {};
-      found.push_back({constants_[c], *mean});
+      const std::vector<StartReading> readings = accounts_[c].row().readings;
+      const auto mean = meanOf(readings);
+      const bool parts = std::ranges::any_of(readings, [](const StartReading& reading) {
+        return reading.beyond && !reading.equivalent;
+      });
+      if (c == 0 && (parts || !mean)) return {};
+      if (mean) found.push_back({constants_[c], *mean});
     }
     return found;
   }
@@ -192,7 +197,8 @@ LateWindows followLate(Engine& engine, const EngineEntry& entry, const Case& set
       progress(static_cast<double>(k + 1) / static_cast<double>(room));
     }
     found.equivalents = comparison.equivalents();
-    if (found.equivalents.empty()) found.failure = "no change of a constant moves anything in them";
+    if (found.equivalents.empty())
+      found.failure = "no change of a constant accounts for what it differs by";
   } catch (const EngineFailure& failure) {
     found.failure = failure.what();
   } catch (const UnsupportedScene& refusal) {

@@ -1,5 +1,6 @@
 // Endpoints of runs, and answers on them where a mirror carries the packings.
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/couette/carriers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -143,6 +144,25 @@ TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
        {byMirror(0.05, {{"kn", 1e-4}}), byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}})})
     EXPECT_EQ(endpointRows(setup, runs, {loose}, looksOf(setup), 4, responses)[0].answer,
               Answer::undecided);
+}
+
+TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
+  const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4}};
+  const auto judged = [&](const LateWindows& late) {
+    CarriedEngine own;
+    own.carried = true;
+    judgeLateWindows(setup, responses, late, own);
+    return own;
+  };
+  // 10 % of k_n do two margins at most: 4.9 % of it 0.98, 5.1 % 1.02.
+  LateWindows late{1, {0.0}, 0.1, {{"kn", 0.049}}, ""};
+  EXPECT_TRUE(judged(late).carried);
+  EXPECT_EQ(judged(late).alarm, "");
+  late.equivalents[0].change = 0.051;
+  EXPECT_FALSE(judged(late).carried);
+  EXPECT_NE(judged(late).alarm.find("1 margins"), std::string::npos) << judged(late).alarm;
+  EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).carried);
 }
 
 TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
