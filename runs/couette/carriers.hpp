@@ -27,10 +27,15 @@ std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaig
                                                 const std::vector<ChangedCase>& changed,
                                                 std::span<const CouetteRun> runs, int packings);
 
-/// Holds the whole run of each against its mirror's on the same packing, where chaos is as the
-/// responses show it. Sets `carried`, or the alarm.
+/// The first part of the spot check: compares the averaged run of each with its mirror's on the
+/// same packing, where chaos is as the responses show it. Sets `carried`, or the alarm.
 void judgeCanaries(const Case& setup, const Campaign& campaign,
                    const std::vector<EndpointResponse>& responses,
                    std::vector<CarriedEngine>& engines);
+
+/// The second: what windows within a run of its own show. Where they leave more than largestReach
+/// of an endpoint open, the mirror does not stand for the engine, and that is the alarm.
+void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& responses,
+                      LateWindows late, CarriedEngine& engine);
 
 }  // namespace crossgrain::inline runs

@@ -59,7 +59,14 @@ std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& 
   campaign.askEngines();
   requireTwo(campaign, command.engines);
   campaign.lookForPackings();
-  return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), store, command);
+  std::string head = campaign.planHead();
+  if (std::ranges::any_of(campaign.engines(),
+                          [](const EngineEntry& entry) { return !entry.mirrors.empty(); }))
+    head +=
+        "an engine that lockstep finds to be its mirror runs two packings, its spot check: one is "
+        "averaged, one followed, beside which the in-house engine runs as long as three packings "
+        "(nine where no window is the same to rounding)\n";
+  return dryRunInWords(head, campaign.plan(campaign.wholeCase()), store, command);
 }
 
 CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store,

@@ -5,7 +5,10 @@
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
+#include "results/endpoints_fields.hpp"
 #include "results/schema.hpp"
+#include "runs/common/kept_task.hpp"
+#include "runs/lockstep/late_windows.hpp"
 #include "runs/lockstep/lockstep.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/lockstep/starts.hpp"
@@ -25,6 +28,39 @@ LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunComm
   return holdAgainstMirrors(engines, setup,
                             {campaign.packings(), campaign.dt(), starts, command.jobs},
                             campaign.store(), campaign.progress());
+}
+
+std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
+                                       const RunCommand& command,
+                                       const std::vector<std::size_t>& engines) {
+  const int packing = campaign.packings().size() > 1 ? 1 : 0;
+  std::vector<KeptTask<LateWindows>> tasks;
+  for (const std::size_t e : engines) {
+    const EngineEntry& entry = campaign.engines()[e];
+    KeptTask<LateWindows> task;
+    task.name = "late-" + entry.name;
+    task.label = entry.name;
+    task.key = campaign.keyOf(e, packing, "late windows");
+    task.work = [&campaign, &setup, &entry, packing](const std::function<void(double)>& progress) {
+      LateWindows found;
+      try {
+        const auto worker =
+            startAudited(entry, campaign.store().scratch("late-" + entry.name), setup.run.timeout);
+        found = followLate(*worker, entry, setup,
+                           campaign.packings()[static_cast<std::size_t>(packing)], packing,
+                           campaign.dt(), lateWindowsMeasured, progress);
+      } catch (const EngineFailure& failure) {
+        found.failure = failure.what();
+      }
+      const bool finished = found.failure.empty();
+      const std::string line =
+          finished ? fmt::format("{} windows", found.times.size()) : found.failure;
+      return KeptTask<LateWindows>::Outcome{std::move(found), finished, line};
+    };
+    tasks.push_back(std::move(task));
+  }
+  return doOrTakeUp(tasks, campaign.store(), campaign.progress(), "windows late in own runs",
+                    command.jobs);
 }
 
 LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,

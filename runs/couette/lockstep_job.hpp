@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "results/endpoints.hpp"
 #include "results/lockstep.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/lockstep/identify.hpp"
@@ -14,6 +16,13 @@ namespace crossgrain::inline runs {
 LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunCommand& command,
                             std::size_t starts,
                             const std::function<bool(const EngineEntry&)>& takesPart);
+
+/// Late windows in a run of each of these engines of its own, on the packing after the one that
+/// spot checks average, where there is one; they stay in the store.
+/// @param engines  indices into Campaign::engines()
+std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
+                                       const RunCommand& command,
+                                       const std::vector<std::size_t>& engines);
 
 /// Holds each engine named against its mirror.
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case), OutputError,
