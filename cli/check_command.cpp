@@ -12,7 +12,7 @@
 #include "cli/option_groups.hpp"
 #include "runs/check/case_check.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cli {

@@ -14,7 +14,7 @@
 #include "reports/report.hpp"
 #include "runs/collide/collide.hpp"
 #include "runs/collide/folder.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
 
 namespace CLI {
 class App;

@@ -15,7 +15,7 @@
 #include "reports/couette/overview.hpp"
 #include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/compare.hpp"
 #include "runs/lockstep/rules.hpp"
 

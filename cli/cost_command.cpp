@@ -12,7 +12,7 @@
 #include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/cost/advice.hpp"
 #include "runs/cost/cost.hpp"
 #include "support/bad_input.hpp"

@@ -8,7 +8,7 @@
 #include "cli/outcome.hpp"
 #include "reports/effects/overview.hpp"
 #include "reports/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/effects/effects.hpp"
 
 namespace crossgrain::inline cli {

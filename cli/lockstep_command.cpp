@@ -9,7 +9,7 @@
 #include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/words.hpp"
 #include "reports/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "support/bad_input.hpp"

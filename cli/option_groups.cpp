@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "cases/engine_file.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"
 #include "support/data_folder.hpp"

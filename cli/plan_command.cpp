@@ -11,7 +11,7 @@
 #include "cli/option_groups.hpp"
 #include "cli/units.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
 #include "runs/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"

@@ -13,7 +13,7 @@
 #include "reports/report.hpp"
 #include "reports/scale/overview.hpp"
 #include "reports/scale/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/scale/scale.hpp"
 #include "support/bad_input.hpp"
 

@@ -16,7 +16,7 @@
 #include "reports/stability/overview.hpp"
 #include "results/json_fields.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/stability/stability.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"

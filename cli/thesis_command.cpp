@@ -12,7 +12,7 @@
 #include "reports/report.hpp"
 #include "reports/thesis/overview.hpp"
 #include "reports/thesis/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/thesis/thesis.hpp"
 #include "support/data_folder.hpp"
 

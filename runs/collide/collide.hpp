@@ -5,7 +5,6 @@
 
 #include "cases/case.hpp"
 #include "results/collision.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {

@@ -8,7 +8,6 @@
 #include "cases/cost_knobs.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 

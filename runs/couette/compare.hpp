@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 
 #include "cases/case.hpp"
 #include "results/compare.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {
@@ -21,5 +22,11 @@ CompareResults compareEngines(const Case& setup, const RunCommand& command, RunS
 /// What that would run, for people. Engines are asked what they can do; nothing is computed.
 /// @throws BadInput, UnsupportedScene, Interrupted
 std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& store);
+
+/// Of a comparison: fewer than two engines, no margins, no endpoint of two engines, or fewer
+/// packings than a verdict needs. Absent where any test was made, undecided or not.
+/// @param named  engines that the user named, without the mirrors that came along
+std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const EndpointRow> rows,
+                                           std::size_t named);
 
 }  // namespace crossgrain::inline runs

@@ -9,7 +9,7 @@
 
 #include "averaging/profiles.hpp"
 #include "results/schema.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/couette/frame.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/snapshot_file.hpp"

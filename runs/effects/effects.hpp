@@ -5,7 +5,6 @@
 #include "cases/case.hpp"
 #include "cases/effect_switch.hpp"
 #include "results/effects.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/effects/step_times.hpp"
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "results/scale.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/scale/plan.hpp"
 

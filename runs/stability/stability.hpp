@@ -8,7 +8,6 @@
 #include "adapters/registry.hpp"
 #include "cases/case.hpp"
 #include "results/stability.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {

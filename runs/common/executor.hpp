@@ -1,17 +1,57 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "results/json_fields.hpp"
-#include "runs/common/progress.hpp"
 #include "runs/common/run_store.hpp"
 #include "support/task_pool.hpp"
 
 namespace crossgrain::inline runs {
+
+/// How long work goes on at its speed so far, in words: "12 s left". Nothing is foretold of the
+/// first second and of the first hundredth.
+/// @param fraction  of the work that is done
+/// @param elapsed  since it began [s]
+std::string timeLeft(double fraction, double elapsed);
+
+/// What is done of some pieces of work, shown on standard error: one line that is redrawn with the
+/// time left on a terminal, a plain line per finished piece elsewhere. Safe to call from all
+/// threads.
+class Progress {
+ public:
+  /// @param quiet  shows nothing
+  explicit Progress(bool quiet);
+  ~Progress();
+
+  /// A new stage of work; weights [any unit] say how long each of its pieces takes.
+  void begin(const std::string& stage, std::vector<double> weights);
+
+  /// Piece `index` is done to that fraction; label is shown while it runs.
+  void update(std::size_t index, const std::string& label, double fraction);
+  /// Piece `index` is over; `line` says how it ended.
+  void finish(std::size_t index, const std::string& line);
+  /// A line of its own.
+  void say(const std::string& line);
+
+ private:
+  void draw();
+  void erase();
+
+  bool quiet_, terminal_;
+  std::mutex mutex_;
+  std::string stage_;
+  std::vector<double> weights_, fractions_;
+  std::size_t finished_ = 0;
+  std::vector<std::string> running_;
+  std::chrono::steady_clock::time_point started_, drawn_;
+  bool lineOpen_ = false;
+};
 
 /// A piece of work whose result stays in the store, so that it is done once.
 /// @tparam Result  has fields(); or is JSON
@@ -63,5 +103,25 @@ std::vector<Result> doOrTakeUp(const std::vector<KeptTask<Result>>& tasks, const
   runTasks(open, jobs);
   return results;
 }
+
+/// What an engine has to do for a command, as far as can be told without computing anything.
+struct PlannedWork {
+  std::string engine;
+  std::string what;  ///< "runs", "cases"
+  std::string refusal = {};
+  std::size_t total = 0, finished = 0;
+  double seconds = 0.0;  ///< that the finished ones took, where they say
+};
+
+/// Counts a piece of work, and what it took if its result is there.
+void count(PlannedWork& work, const std::optional<nlohmann::json>& kept);
+
+/// One line for an engine: "grain   4 runs: 2 finished, 2 to do, about 3.1 s".
+std::string inWords(const PlannedWork& work);
+
+/// All that `--dry-run` prints.
+/// @param head  what is to be run, a line or more
+std::string dryRunInWords(const std::string& head, const std::vector<PlannedWork>& works,
+                          const RunStore& store, const RunCommand& command);
 
 }  // namespace crossgrain::inline runs
