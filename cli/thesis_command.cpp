@@ -8,7 +8,6 @@
 #include "adapters/registry.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "cli/units.hpp"
 #include "reports/report.hpp"
 #include "reports/thesis/overview.hpp"
 #include "reports/thesis/report.hpp"

@@ -155,15 +155,20 @@ namespace {
 
 /// @throws BadInput if it is not installed
 WorkerPool::Kind workerOf(const EngineEntry& entry) {
-  if (entry.missing)
-    if (const std::string why = entry.missing(); !why.empty())
-      throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+  requireInstalled({entry});
   return {entry.name, entry.command
                           ? entry.command()
                           : std::vector<std::string>{ownProgram(), "__serve", entry.name}};
 }
 
 }  // namespace
+
+void requireInstalled(const std::vector<EngineEntry>& engines) {
+  for (const EngineEntry& entry : engines)
+    if (entry.missing)
+      if (const std::string why = entry.missing(); !why.empty())
+        throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+}
 
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout) {

@@ -41,6 +41,9 @@ bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law);
 /// selectEngines() and checkEngineSections()
 std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names);
 
+/// @throws BadInput for the first that is not installed, saying why
+void requireInstalled(const std::vector<EngineEntry>& engines);
+
 /// This program's path, which serves engines as workers, too.
 std::string ownProgram();
 

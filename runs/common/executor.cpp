@@ -107,8 +107,14 @@ using nlohmann::json;
 
 namespace {
 
-/// Wall time that an engine took for a run, of whatever kind [s]; 0 where it does not say.
+/// Wall time that an engine took for a run, of whatever kind, or for each of some [s]; 0 where it
+/// does not say.
 double wallSeconds(const json& kept) {
+  if (kept.is_array()) {
+    double sum = 0.0;
+    for (const json& each : kept) sum += wallSeconds(each);
+    return sum;
+  }
   const json stats = kept.is_object() ? kept.value("stats", json()) : json();
   return stats.is_object() ? stats.value("wall_s", 0.0) : 0.0;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <compare>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -53,6 +56,14 @@ class Progress {
   bool lineOpen_ = false;
 };
 
+/// What a run is: whose, of which case or change of it, from which packing. Results are looked up
+/// by it.
+struct RunId {
+  std::string engine, variant = {};
+  int packing = 0;
+  auto operator<=>(const RunId&) const = default;
+};
+
 /// A piece of work whose result stays in the store, so that it is done once.
 /// @tparam Result  has fields(); or is JSON
 template <typename Result>
@@ -71,6 +82,7 @@ struct KeptTask {
   std::function<Outcome(const std::function<void(double)>& progress)> work;
   /// Where all tasks have one, the highest start first, however long they take.
   std::optional<double> priority = {};
+  RunId of = {};
 };
 
 /// Takes up the results that are there and does the rest, `jobs` at a time. All that are there are
@@ -115,6 +127,30 @@ struct PlannedWork {
 
 /// Counts a piece of work, and what it took if its result is there.
 void count(PlannedWork& work, const std::optional<nlohmann::json>& kept);
+
+/// The work of tasks, engine by engine in the order of tasks.
+/// @param what  a piece of it: "runs", "cases"
+template <typename Result>
+std::vector<PlannedWork> plannedWork(const std::vector<KeptTask<Result>>& tasks,
+                                     const std::string& what, const RunStore& store) {
+  std::vector<PlannedWork> works;
+  for (const auto& task : tasks) {
+    auto work = std::ranges::find(works, task.of.engine, &PlannedWork::engine);
+    if (work == works.end()) work = works.insert(works.end(), {task.of.engine, what});
+    count(*work, store.find(task.name, task.key));
+  }
+  return works;
+}
+
+/// The results of tasks by what they are.
+/// @param results  of doOrTakeUp()
+template <typename Result>
+std::map<RunId, Result> byId(const std::vector<KeptTask<Result>>& tasks,
+                             std::vector<Result> results) {
+  std::map<RunId, Result> all;
+  for (std::size_t k = 0; k < tasks.size(); ++k) all[tasks[k].of] = std::move(results[k]);
+  return all;
+}
 
 /// One line for an engine: "grain   4 runs: 2 finished, 2 to do, about 3.1 s".
 std::string inWords(const PlannedWork& work);

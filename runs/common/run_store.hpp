@@ -104,7 +104,10 @@ CaseKeys keysThatMatter(const Case& setup);
 /// The case of a command that runs one: another one there is that case changed.
 std::map<std::string, CaseKeys> soleCase(const Case& setup);
 
-/// Cases of a command that runs many: by name and variant.
+/// "quick", or "quick without-friction" of a variant.
+std::string fullName(const Case& setup);
+
+/// Cases of a command that runs many: by fullName().
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases);
 
 /// What else a run depends on: the engine, its version (empty: it did not answer) and settings, and

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include "results/schema.hpp"
+#include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
 
@@ -100,6 +103,60 @@ int resumably(const RunCommand& command, const std::function<int()>& work) {
     if (interrupted()) throw stopped;
     throw;
   }
+}
+
+namespace {
+
+/// A positive number and one of some units. @throws BadInput
+double numberWithUnit(const std::string& option, const std::string& text,
+                      const std::map<std::string, double>& units, const char* example) {
+  std::size_t end = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const auto unit = units.find(text.substr(end));
+  if (end == 0 || unit == units.end() || !(value > 0.0) || !std::isfinite(value))
+    throw BadInput(fmt::format("{} {}: must be like {}", option, text, example));
+  return value * unit->second;
+}
+
+}  // namespace
+
+double wholeNumberOf(const std::string& option, double value, double least, double most) {
+  if (value != std::floor(value) || !(value >= least && value <= most))
+    throw BadInput(fmt::format("{}: {:g} must be a whole number from {:g} to {:g}", option, value,
+                               least, most));
+  return value;
+}
+
+double secondsOf(const std::string& budget) {
+  return numberWithUnit("--budget", budget, {{"", 1.0}, {"s", 1.0}, {"m", 60.0}, {"h", 3600.0}},
+                        "90s, 10m or 1h");
+}
+
+double fractionOf(const std::string& target) {
+  return numberWithUnit("--want", target, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
+}
+
+Outcome notJudged(std::string why, bool byRequest) {
+  return {byRequest ? exitHeld : exitFellShort, {}, std::move(why)};
+}
+
+std::vector<std::string> refusals(const std::vector<EngineRow>& engines,
+                                  const std::vector<std::string>& named) {
+  std::vector<std::string> lines;
+  for (const EngineRow& engine : engines)
+    if (engine.status == EngineStatus::refused &&
+        std::ranges::find(named, engine.name) != named.end())
+      lines.push_back(engine.reason);
+  return lines;
+}
+
+EngineRow engineRow(const EngineEntry& entry, const std::string& version) {
+  return {entry.name, entry.summary, version, entry.mirrors, EngineStatus::ran, ""};
 }
 
 }  // namespace crossgrain::inline runs
