@@ -169,7 +169,7 @@ void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
   app.add_flag("--dry-run", line.run.dryRun,
                "say what would run, and what is finished; compute and write nothing");
   app.add_flag_function(
-      "--resume", [](std::int64_t) {}, "take up what is finished in --out: what happens anyway");
+      "--resume", [](std::int64_t) {}, "load what is finished in --out: what happens anyway");
 }
 
 void addQuiet(CLI::App& app, CommandLine& line) {

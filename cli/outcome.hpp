@@ -18,7 +18,7 @@ bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engine
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
 void printOverview(const Overview& overview);
 
-/// Prints what --dry-run tells. @returns an ExitStatus
+/// Prints the plan of --dry-run. @returns an ExitStatus
 int told(const std::string& plan);
 
 /// The line "nothing was judged: …", on standard output, or on standard error where that holds a

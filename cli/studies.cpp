@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,9 +8,11 @@
 #include <memory>
 
 #include "cases/effect_switch.hpp"
+#include "cases/engine_file.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/collide/overview.hpp"
+#include "reports/conformance/report.hpp"
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/effects/overview.hpp"
@@ -21,13 +24,19 @@
 #include "reports/stability/overview.hpp"
 #include "results/collision_outcome.hpp"
 #include "runs/collide/collide.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/mirrors.hpp"
 #include "runs/common/study_cases.hpp"
+#include "runs/conformance/conformance.hpp"
 #include "runs/couette/compare.hpp"
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/couette/rev.hpp"
 #include "runs/effects/effects.hpp"
+#include "runs/lockstep/identify.hpp"
 #include "runs/scale/scale.hpp"
 #include "runs/stability/stability.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -45,14 +54,16 @@ struct Terminal {
 template <typename Options, typename Results>
 int runStudy(const Study<Options, Results>& study, const CommandLine& line, Options own,
              const Terminal<Results>& terminal) {
-  using Keeps = typename Study<Options, Results>::Keeps;
   const std::vector<Case> cases = study.cases(line, own);
   RunStore store(line.run, study.name,
                  study.keeps == Keeps::eachCase  ? keysOfEach(cases)
                  : study.keeps == Keeps::oneCase ? soleCase(cases.front())
                                                  : std::map<std::string, CaseKeys>());
   const StudyWork work{line, cases, store};
-  if (line.run.dryRun) return told(study.plan(work, own));
+  if (line.run.dryRun) {
+    fmt::print("{}", study.plan(work, own));
+    return exitHeld;
+  }
   const Results results = study.run(work, own);
   store.begin();
   writeReport(results, line.run.out);
@@ -68,8 +79,7 @@ Action declareStudy(CLI::App& app, CommandLine& line, const Study<Options, Resul
   addStudy(app, line, study.takes, study.options(*own, line), study.exclusions);
   return [&study, &line, own, terminal] {
     if (!study.takes.jobs) line.run.jobs = 1;
-    if (study.keeps == Study<Options, Results>::Keeps::nothing)
-      return runStudy(study, line, *own, terminal);
+    if (study.keeps == Keeps::nothing) return runStudy(study, line, *own, terminal);
     return resumably(line.run, [&] { return runStudy(study, line, *own, terminal); });
   };
 }
@@ -116,7 +126,7 @@ std::string collideText(const CollideResults& results, const std::vector<Case>&)
                           count);
   const CollideCount count = countOf(results);
   return text +
-         fmt::format("{} curves held, {} differ by their model, {} fell short, {} not judged\n",
+         fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
                      count.held, count.modelDifference, count.fellShort, count.notJudged);
 }
 
@@ -196,6 +206,109 @@ std::string averagedText(const Results& results, const std::vector<Case>&) {
   return fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
 }
 
+struct ConformanceOptions {
+  std::string engine;
+  std::optional<std::string> out;
+};
+
+EngineEntry entryOf(const std::string& engine) {
+  if (namesEngineFile(engine)) return *findEngine(addStranger(loadEngineFile(engine)));
+  if (engine == "all") throw BadInput("conformance takes one engine: a name or an engine file");
+  return selectEngines({engine}).front();
+}
+
+void print(const ConformanceResults& results) {
+  using enum ConformanceOutcome;
+  fmt::print("{}\n", reports::conformanceLead(results));
+  for (const auto outcome : {brokeDown, failed, skipped})
+    for (const ConformanceRow& row : results.rows)
+      if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
+  for (const ConformanceRow& row : results.rows)
+    if (row.part == "lockstep" && row.outcome == passed) fmt::print("  {}\n", row.detail);
+  for (const std::string& line :
+       {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
+    if (!line.empty()) fmt::print("{}\n", line);
+}
+
+int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {
+  const EngineEntry entry = entryOf(options.engine);
+  if (options.out) makeDirectory(*options.out);  // before minutes of work that it is to hold
+  const ConformanceResults results =
+      runConformance({entry, line.only, line.run.quiet, line.run.commandLine});
+  if (options.out) writeReport(results, *options.out);
+  if (line.json)
+    fmt::print("{}\n", toJson(results).dump());
+  else
+    print(results);
+  if (options.out && !line.json) fmt::print("report: {}/report.html\n", *options.out);
+  return printOutcome(line, outcomeOf(results));
+}
+
+Action declareConformance(CLI::App& app, CommandLine& line) {
+  const auto options = std::make_shared<ConformanceOptions>();
+  addArgument(app, "engine", options->engine, "engine file of your own, or the name of an engine",
+              "ENGINE.toml|NAME");
+  addText(app, "--out", options->out,
+          "folder for results.json, junit.xml and report.html; what is there is written anew",
+          "FOLDER");
+  addText(app, "-k", line.only, "only checks with this in their name");
+  addFlag(app, "--json", line.json, "print results.json in place of words");
+  addQuiet(app, line);
+  return [&line, options] { return conformanceOf(line, *options); };
+}
+
+std::string orNone(const std::vector<std::string>& names, const char* none) {
+  return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
+}
+
+void printOption(const FoundOption& option) {
+  const std::string found = fmt::format("{}", fmt::join(option.values, " | "));
+  const std::string declared = option.declared.empty()
+                                   ? "does not declare this option"
+                                   : fmt::format("declares {}", fmt::join(option.declared, " | "));
+  fmt::print("{:<17} {:<34} {}{}\n", option.name, found, declared,
+             option.contradicts() ? "   <- not what was found" : "");
+}
+
+/// A plain sentence in place of tables where there is no mirror.
+void print(const std::string& engine, const Identification& found) {
+  fmt::print("{}: from {} starts, followed for {:.3g} ms\n", engine, found.starts,
+             1e3 * found.time);
+  if (found.closeEnough()) {
+    for (const FoundOption& option : found.options) printOption(option);
+    for (const FoundConstant& constant : found.constants)
+      fmt::print("{:<17} {:+.4g} % of the case's   <- not the case's\n", constant.name,
+                 100.0 * constant.change);
+    if (!found.missing.empty() || !found.declaredMissing.empty())
+      fmt::print("{:<17} {:<34} {}{}\n", "does not simulate",
+                 orNone(found.missing, "(simulates all)"),
+                 found.declaredMissing.empty()
+                     ? "declares that it simulates all"
+                     : fmt::format("declares {}", fmt::join(found.declaredMissing, ", ")),
+                 found.missing == found.declaredMissing ? "" : "   <- not what was found");
+  }
+  fmt::print("largest separation: {:.2e} d from the case's own law, {:.2e} d from the {}\n",
+             found.before, found.left,
+             found.closeEnough() ? "closest mirror" : "nearest mirror tried, which is none");
+}
+
+int identifyEngine(const CommandLine& line) {
+  if (line.run.engines.size() != 1 || line.run.engines.front() == "all")
+    throw BadInput("identify takes one engine: --engines NAME");
+  const Case setup = onlyCase(line, "identify");
+  const Identification found = runIdentify(setup, line.run);
+  print(line.run.engines.front(), found);
+  return found.contradicts() ? exitFellShort : exitHeld;
+}
+
+Action declareIdentify(CLI::App& app, CommandLine& line) {
+  addCase(app, line);
+  addEngines(app, line);
+  addOverrides(app, line);
+  addQuiet(app, line);
+  return [&line] { return identifyEngine(line); };
+}
+
 }  // namespace
 
 extern const Command compareCommand = {
@@ -270,5 +383,15 @@ extern const Command revCommand = {
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, revStudy, {averagedText<RevResults>, reports::revOverview});
     }};
+
+extern const Command conformanceCommand = {
+    "conformance", "whether one engine does what it declares: suite, lockstep, collisions",
+    "crossgrain conformance examples/python/engine.toml --out out/conformance\n"
+    "crossgrain conformance yade -k Contacts",
+    declareConformance};
+
+extern const Command identifyCommand = {
+    "identify", "which conventions and constants an engine really has, found from outside",
+    "crossgrain identify cases/couette/quick.toml --engines yade", declareIdentify};
 
 }  // namespace crossgrain::inline cli

@@ -12,7 +12,6 @@
 #include "results/collision_fields.hpp"
 #include "results/collision_outcome.hpp"
 #include "results/schema.hpp"
-#include "runs/collide/law_words.hpp"
 #include "runs/collide/own_scheme.hpp"
 #include "runs/collide/sweep.hpp"
 #include "runs/common/engine_access.hpp"
@@ -39,7 +38,7 @@ struct CollisionCase {
 using VersionedEngines = std::vector<std::pair<EngineEntry, std::string>>;
 
 /// The curves of each engine in each case, step by step; none where it takes no part.
-using Curves = std::map<RunId, std::vector<CollisionCurve>>;
+using CollisionCurves = std::map<RunId, std::vector<CollisionCurve>>;
 
 RunId idOf(const EngineEntry& entry, const Case& setup) {
   return {entry.name, fullName(setup)};
@@ -146,7 +145,7 @@ std::vector<KeptTask<std::vector<CollisionCurve>>> tasksOf(const std::vector<Col
 
 /// Why an engine can run no variant at all; empty where it can run any.
 std::string whyAllRefused(const EngineEntry& entry, const std::vector<Case>& variants,
-                          const Curves& curves) {
+                          const CollisionCurves& curves) {
   std::string reason;
   for (const Case& setup : variants)
     if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
@@ -160,7 +159,7 @@ std::string whyAllRefused(const EngineEntry& entry, const std::vector<Case>& var
 /// Engines that were named and can run no variant at all were asked for in vain, all of them.
 /// @throws UnsupportedScene
 void requireAnyRun(const VersionedEngines& engines, const std::vector<std::string>& named,
-                   const std::vector<Case>& variants, const Curves& curves) {
+                   const std::vector<Case>& variants, const CollisionCurves& curves) {
   std::string refusal;
   for (const auto& [entry, version] : engines) {
     if (!isNamed(named, entry)) continue;
@@ -172,7 +171,8 @@ void requireAnyRun(const VersionedEngines& engines, const std::vector<std::strin
 }
 
 /// How an engine came through all cases.
-EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants, const Curves& curves) {
+EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
+                const CollisionCurves& curves) {
   EngineRow row = engineRow(entry, "");
   // Refusing some variants is no failure; the curves say which.
   if (const std::string why = whyAllRefused(entry, variants, curves); !why.empty()) {
@@ -320,7 +320,8 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
     cases.push_back(std::move(each));
   }
   const auto tasks = tasksOf(cases, engines, command.engines, store);
-  const Curves curves = byId(tasks, doOrTakeUp(tasks, store, progress, "collisions", command.jobs));
+  const CollisionCurves curves =
+      byId(tasks, doOrTakeUp(tasks, store, progress, "collisions", command.jobs));
   requireAnyRun(engines, command.engines, variants, curves);
 
   CollideResults results;
@@ -349,11 +350,10 @@ CollideResults collideEngines(const std::vector<Case>& variants, const RunComman
 const Study<CollideOptions, CollideResults> collideStudy = {
     "collide",
     {.inputIs = "case file or folder of case files", .selection = true},
-    Study<CollideOptions, CollideResults>::Keeps::eachCase,
+    Keeps::eachCase,
     [](CollideOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
-          {"--strict",
-           "engines must hold to the scene's law, not only to the one that they declare",
+          {"--strict", "engines must follow the scene's law, not only the one that they declare",
            &own.strict}};
     },
     casesToCollide,

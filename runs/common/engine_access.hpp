@@ -52,10 +52,10 @@ std::string ownProgram();
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
 
-/// A new process that is nobody else's, where the process itself is looked at: what it is asked
+/// A new process that is nobody else's, where the process itself matters: what it is asked
 /// first, how long it takes to start, the memory that it holds, what it does after another one's
 /// end. @throws likewise
-/// @param listener  is told every request and answer
+/// @param listener  gets every request and answer
 std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
                                  double timeout, ExchangeListener listener = {});
 
@@ -132,7 +132,7 @@ std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
 /// What the case says under [engines.NAME], and where it is silent the engine's own file.
 Settings settingsSaid(const Case& setup, const std::string& engine);
 
-/// The settings with the rule above spelt out: an engine with a default of its own is told to take
+/// The settings with the rule above spelt out: an engine with a default of its own is set to take
 /// the scene's step where the case gives one.
 Settings withStep(Settings settings, const Case& setup, const Capabilities& can);
 

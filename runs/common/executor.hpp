@@ -17,8 +17,8 @@
 
 namespace crossgrain::inline runs {
 
-/// How long work goes on at its speed so far, in words: "12 s left". Nothing is foretold of the
-/// first second and of the first hundredth.
+/// How long work goes on at its speed so far, in words: "12 s left". Nothing is predicted within
+/// the first second and the first hundredth.
 /// @param fraction  of the work that is done
 /// @param elapsed  since it began [s]
 std::string timeLeft(double fraction, double elapsed);
@@ -78,15 +78,15 @@ struct KeptTask {
   std::string label;    ///< for people
   CaseKeys key;         ///< what it depends on
   double weight = 1.0;  ///< how long it is likely to take; the longest start first
-  /// @param progress  to be told the fraction done, 0 … 1
+  /// @param progress  to be called with the fraction done, 0 … 1
   std::function<Outcome(const std::function<void(double)>& progress)> work;
   /// Where all tasks have one, the highest start first, however long they take.
   std::optional<double> priority = {};
   RunId of = {};
 };
 
-/// Takes up the results that are there and does the rest, `jobs` at a time. All that are there are
-/// looked at before anything is done, so that what stands in the way does so at once.
+/// Loads the results that are there and does the rest, `jobs` at a time. All that are there are
+/// read before anything is done, so that what stands in the way does so at once.
 /// @returns the results in the order of the tasks
 /// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
 template <typename Result>
@@ -116,7 +116,7 @@ std::vector<Result> doOrTakeUp(const std::vector<KeptTask<Result>>& tasks, const
   return results;
 }
 
-/// What an engine has to do for a command, as far as can be told without computing anything.
+/// What an engine has to do for a command, as far as is known without computing anything.
 struct PlannedWork {
   std::string engine;
   std::string what;  ///< "runs", "cases"

@@ -36,7 +36,8 @@ std::string addStranger(EngineEntry entry);
 /// "all", for each of them that can be started.
 void addMirrorOfShelved(const std::string& name);
 
-/// Conventions as such a mirror's worker is told them, "lever_arm=radius,contact_point", and back.
+/// Conventions on the command line of such a mirror's worker, "lever_arm=radius,contact_point", and
+/// back.
 std::vector<std::string> conventionsInWords(const LawConventionSets& conventions);
 LawConventionSets conventionsFromWords(const std::vector<std::string>& words);
 

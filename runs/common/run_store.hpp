@@ -15,7 +15,7 @@
 
 namespace crossgrain::inline runs {
 
-/// What every command that runs engines is told on its command line.
+/// What every command that runs engines has on its command line.
 struct RunCommand {
   std::vector<std::string> engines;  ///< names, "all" allowed
   std::filesystem::path out;
@@ -29,7 +29,7 @@ struct RunCommand {
 extern const char* const programVersion;
 
 /// The source that this was built from, as far as git could tell when it was configured: runs of
-/// another build are not taken up.
+/// another build are not loaded.
 extern const char* const programBuild;
 
 /// "0.3.0 (7902f0e)"
@@ -37,19 +37,19 @@ std::string thisProgram();
 
 /// The output folder of one command, with a file for each finished run, so that nothing computed is
 /// ever lost. A folder belongs to one command, one build of the program and one version of each
-/// case; what is finished there is taken up, and nothing else may be put on top of it.
+/// case; what is finished there is loaded, and nothing else may be put on top of it.
 ///
-///   RunStore ── begin ── find, keep …      held against other processes for as long as it lives
+///   RunStore ── begin ── find, keep …      locked against other processes for as long as it lives
 class RunStore {
  public:
   /// Opens the folder, which is made if need be; what is there stays. Of a dry run nothing is made
-  /// and nothing held.
+  /// and nothing locked.
   /// @param name   the command's: "compare"
   /// @param cases  what it is about to run, by name; none for commands that keep no runs
   /// @throws OutputError if it cannot be written to
   /// @throws BadInput, saying what differs, if it holds another command's results, or finished runs
   ///         of another build or of cases that have changed; if another process holds it; if it
-  ///         holds files of strangers. `command.fresh` lifts the first two.
+  ///         holds files of others. `command.fresh` lifts the first two.
   RunStore(const RunCommand& command, std::string name, std::map<std::string, CaseKeys> cases);
   /// A folder that was made for a command that could not begin goes with it.
   ~RunStore();

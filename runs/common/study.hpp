@@ -79,6 +79,9 @@ struct StudyWork {
   const Case& setup() const { return cases.front(); }
 };
 
+/// What finished runs in a study's output folder depend on.
+enum class Keeps { nothing, oneCase, eachCase };
+
 /// A question about engines, as data: from the options of its command to what came of it. All else
 /// is the same for all studies (cli/studies.cpp): cases are loaded once; what is finished in the
 /// output folder is loaded, the rest is run; results are written, reported and printed; the exit
@@ -87,9 +90,6 @@ struct StudyWork {
 ///   options ── cases ── plan (--dry-run) | run: tasks (executor.hpp) → results ── outcome
 template <typename Options, typename Results>
 struct Study {
-  /// What finished runs in its output folder depend on.
-  enum class Keeps { nothing, oneCase, eachCase };
-
   const char* name;  ///< of its command
   SharedOptions takes;
   Keeps keeps;

@@ -217,7 +217,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   ConformanceResults results;
   results.head = headOf(kindConformance, Case{}, task.commandLine);
   results.head.setup.name = entry.name;
-  results.engine = {entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
+  results.engine = engineRow(entry, "");
   const Capabilities can = startNew(entry, scratch.path / "hello", 60.0)->capabilities();
   results.engine.version = can.version;
   settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
@@ -257,6 +257,13 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     }
   results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return results;
+}
+
+Outcome outcomeOf(const ConformanceResults& results) {
+  using enum ConformanceOutcome;
+  if (results.count(brokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
+  if (results.count(failed) > 0) return {exitFellShort};
+  return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
 }  // namespace crossgrain::inline runs

@@ -53,7 +53,7 @@ CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& 
 const Study<AverageOptions, CompareResults> averageStudy = {
     "average",
     {.input = SharedOptions::Input::snapshots, .engines = false},
-    Study<AverageOptions, CompareResults>::Keeps::nothing,
+    Keeps::nothing,
     [](AverageOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
     [](const CommandLine& line, AverageOptions&) { return std::vector{onlyCase(line, "average")}; },
     nullptr,

@@ -27,7 +27,7 @@ ComparedPair byRuns(const EndpointPair& pair) {
   return {pair.runsOfA, pair.runsOfB, pair.kind, ""};
 }
 
-/// What is told of runs as told of the engines that they stand for.
+/// What runs show, under the names of the engines that they stand for.
 void nameEngines(auto& rows, const EndpointPair& pair) {
   for (auto& row : rows) {
     row.a = pair.a;
@@ -182,11 +182,11 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
 const Study<CompareOptions, CompareResults> compareStudy = {
     "compare",
     {.packings = true},
-    Study<CompareOptions, CompareResults>::Keeps::oneCase,
+    Keeps::oneCase,
     [](CompareOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--budget",
-           "no further look at more packings begins that would end later, e.g. 90s, 10m, 1h "
+           "no interim analysis of more packings begins that would end later, e.g. 90s, 10m, 1h "
            "(default: looks.budget of the case)",
            &own.budget, "TIME"},
           {"--strict",

@@ -124,7 +124,7 @@ Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& lin
 const Study<LockstepOptions, LockstepResults> lockstepStudy = {
     "lockstep",
     {.packings = true},
-    Study<LockstepOptions, LockstepResults>::Keeps::oneCase,
+    Keeps::oneCase,
     [](LockstepOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--starts", "states of the flow to start from; 16 unless given, 4 with --quick",

@@ -169,7 +169,7 @@ RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
 const Study<AverageOptions, RevResults> revStudy = {
     "rev",
     {.input = SharedOptions::Input::snapshots, .engines = false},
-    Study<AverageOptions, RevResults>::Keeps::nothing,
+    Keeps::nothing,
     [](AverageOptions&, CommandLine& line) {
       return std::vector<StudyOption>{{"--quiet", "no progress", &line.run.quiet}};
     },

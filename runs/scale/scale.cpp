@@ -20,7 +20,6 @@
 #include "runs/common/executor.hpp"
 #include "runs/common/study.hpp"
 #include "runs/common/study_cases.hpp"
-#include "runs/scale/plan.hpp"
 #include "runs/scale/timing.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -352,7 +351,7 @@ Outcome outcomeOfScale(const ScaleResults& results, const CommandLine&, const Sc
 const Study<ScaleOptions, ScaleResults> scaleStudy = {
     "scale",
     {.input = SharedOptions::Input::none, .inHouse = true, .jobs = false},
-    Study<ScaleOptions, ScaleResults>::Keeps::oneCase,
+    Keeps::oneCase,
     [](ScaleOptions& own, CommandLine& line) {
       return std::vector<StudyOption>{
           {"--disks",

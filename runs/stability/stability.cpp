@@ -306,13 +306,13 @@ const Study<StabilityOptions, StabilityResults> stabilityStudy = {
     {.input = SharedOptions::Input::anyCases,
      .inputIs = "case files or folders of them (default: cases/hard)",
      .selection = true},
-    Study<StabilityOptions, StabilityResults>::Keeps::eachCase,
+    Keeps::eachCase,
     [](StabilityOptions& own, CommandLine& line) {
       return std::vector<StudyOption>{
           {"--quick", "only cases marked as quick", &line.quick},
           {"--long", "also cases marked as long", &own.longCases},
           {"--transforms",
-           "whether any case, turned, mirrored, told in other units, renumbered, restarted and in "
+           "whether any case, turned, mirrored, in other units, renumbered, restarted and in "
            "one go, does the same",
            &own.transforms},
           {"--budget",

@@ -1,5 +1,5 @@
 // Which timings `scale` takes, by hand, and what its lists of numbers may be.
-#include "runs/scale/plan.hpp"
+#include "runs/scale/timing.hpp"
 
 #include <gtest/gtest.h>
 
