@@ -5,14 +5,13 @@
 #include <optional>
 
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "cli/units.hpp"
 #include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/cost/advice.hpp"
 #include "runs/cost/cost.hpp"
 #include "support/bad_input.hpp"

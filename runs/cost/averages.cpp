@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/audit.hpp"
 #include "averaging/agreement.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/advance.hpp"
-#include "runs/common/audited_looks.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/engine_running.hpp"
 #include "runs/cost/limits.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"
@@ -122,7 +123,8 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const double interval = setup.averaging.rotations * rotationTime(setup) / samples;
   const double end = settled + samples * interval;
   double now = 0.0;
-  const AuditedLooks audited(engine, entry, setup, scene, realised);
+  const Scene asRun = sceneFor(engine.capabilities(), entry, setup, scene).scene;
+  const AuditBasis basis = auditBasis(asRun, engine.capabilities(), realised);
   const auto advanceTo = [&](double time) {
     advanceInPieces(engine, realised, now, time);
     now = time;
@@ -131,7 +133,11 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const auto sample = [&] {
     Snapshot seen = engine.snapshot(report);
     if (const std::string wild = blowUp(setup, seen); !wild.empty()) throw EngineFailure(wild);
-    audited.require(seen, std::nullopt);
+    if (const std::string why = whyUnsound(seen, basis); !why.empty()) {
+      distrust(engine);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}",
+                                      entry.name, setup.name, seen.positionTime, why));
+    }
     return seen;
   };
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "results/cost.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/cost/advice.hpp"
 #include "runs/cost/settings.hpp"

@@ -7,8 +7,8 @@
 
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/advance.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/engine_running.hpp"
 #include "runs/cost/limits.hpp"
 
 namespace crossgrain::inline runs {
