@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -9,11 +8,9 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
-#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
-#include "runs/cost/advice.hpp"
 #include "runs/cost/cost.hpp"
 #include "support/bad_input.hpp"
 
@@ -21,43 +18,15 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-/// Every kind of error and some knobs, in seconds.
-const std::vector<std::string> quickCosts = {
-    "cost.timed=0.002",
-    "cost.psi_count=9",
-    "cost.collision_steps=[50, 10, 1.2]",
-    "cost.collision_reference=800",
-    "cost.trajectory_steps=[50, 10]",
-    "cost.trajectory_reference=400",
-    "cost.window_most=5",
-    "cost.growth_time=0.2",
-    "cost.average_steps=[50, 10]",
-    "cost.average_reference=100",
-    "cost.bound_steps=[200]",
-    "cost.bound_reference=400",
-    "cost.snapshots=[4]",
-    "cost.omega=[2]",
-    "cost.stiffness=[0.25]",
-};
-
 Case costCase(const CommandLine& line) {
   std::vector<std::string> overrides;
   if (line.quick) {
     overrides = quickOverrides(loadCase(line.inputs.front(), line.overrides).front(), 0.05);
-    overrides.insert(overrides.end(), quickCosts.begin(), quickCosts.end());
+    const std::vector<std::string> costs = quickCostOverrides();
+    overrides.insert(overrides.end(), costs.begin(), costs.end());
   }
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   return loadCase(line.inputs.front(), overrides).front();
-}
-
-/// "81 ran, 4 failed, 0 refused, 12 not measured"
-std::string countsInWords(const std::vector<CostPoint>& points) {
-  const auto count = [&](CostStatus status) {
-    return std::ranges::count(points, status, &CostPoint::status);
-  };
-  return fmt::format("{} ran, {} failed, {} refused, {} not measured", count(CostStatus::ran),
-                     count(CostStatus::failed), count(CostStatus::refused),
-                     count(CostStatus::notMeasured));
 }
 
 /// @param budget time that all may take [s]
@@ -67,7 +36,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
   const Case setup = costCase(line);
   CostRequest request{line.run, budget};
   if (!line.json && !line.run.quiet)
-    request.tellPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
+    request.printPlan = [](const std::string& plan) { fmt::print(stderr, "{}", plan); };
   if (target) request.targets.push_back(*target);
   RunStore store(line.run, "cost", soleCase(setup));
   if (line.run.dryRun) return told(costPlan(setup, request, store));
@@ -79,7 +48,7 @@ int cost(const CommandLine& line, double budget, std::optional<double> target) {
   else if (target)
     fmt::print("{}", adviceAsToml(advice(results.points, {*target}), results.points));
   else {
-    fmt::print("{}{}\n", reports::costAccuracyText(results), countsInWords(results.points));
+    fmt::print("{}", reports::costText(results));
     printOverview(reports::costOverview(results));
     fmt::print("report: {}\n", (line.run.out / "report.html").string());
     if (!line.run.quiet) printTimeSpent();
@@ -111,7 +80,7 @@ Action declareCost(CLI::App& app, CommandLine& line) {
 }  // namespace
 
 extern const Command costCommand = {
-    "cost", "error against time, for every engine and every knob that trades one for the other",
+    "cost", "error against time, for every engine and every setting that trades one for the other",
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
     declareCost};

@@ -7,18 +7,20 @@
 #include "results/cost.hpp"
 #include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
-#include "runs/cost/advice.hpp"
-#include "runs/cost/settings.hpp"
+#include "runs/cost/analysis.hpp"
 
 namespace crossgrain::inline runs {
 
 struct CostRequest {
   RunCommand run;
   double budget = 720.0;  ///< for all that is measured [s]
-  /// Told the plan before anything of it runs.
-  std::function<void(const std::string&)> tellPlan = {};
-  std::vector<double> targets = usualTargets();  ///< accuracies to find settings for
+  /// Prints the plan before anything of it runs.
+  std::function<void(const std::string&)> printPlan = {};
+  std::vector<double> targets = usualTargets();  ///< accuracies to find advice for
 };
+
+/// What --quick changes of [cost]: every kind of error and some knobs, in seconds.
+std::vector<std::string> quickCostOverrides();
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
 /// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in the store
