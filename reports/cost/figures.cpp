@@ -158,7 +158,7 @@ std::vector<Figure> costFigures(const CostResults& results) {
     Figure figure;
     figure.name = "cost_" + toString(kind);
     figure.title = "Error against time: " + toString(kind);
-    for (const CostMeasure& measure : measuresDrawn(results.points))
+    for (const CostMeasure& measure : measuresIn(results.points))
       if (measure.kind == kind) figure.panels.push_back(panelOf(results, measure));
     std::erase_if(figure.panels, [](const Panel& panel) { return !hasPoints(panel); });
     if (figure.panels.empty()) continue;

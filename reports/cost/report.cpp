@@ -7,6 +7,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
@@ -14,6 +16,7 @@
 #include "reports/common/overview.hpp"
 #include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
+#include "reports/cost/page_blocks.hpp"
 
 namespace crossgrain::reports {
 
@@ -55,7 +58,7 @@ std::string intervalText(double value, double low, double high) {
 }
 
 /// A point's error with what it lies between, or why it has none.
-[[maybe_unused]] std::string errorText(const CostPoint& point) {
+std::string errorText(const CostPoint& point) {
   if (point.status == CostStatus::notMeasured) return "not measured";
   if (!point.ran()) return std::string(nameOf(point.status));
   if (!point.error) return absentText;
@@ -159,11 +162,9 @@ std::vector<CostKind> kindsIn(const Points& points) {
   return kinds;
 }
 
-std::vector<CostMeasure> measuresDrawn(const Points& points) {
+std::vector<CostMeasure> measuresIn(const Points& points) {
   std::vector<CostMeasure> measures;
-  for (const CostPoint& point : points)
-    if (point.kind != CostKind::averages || !isOwn(point.measure))
-      addOnce(measures, CostMeasure{point.kind, point.measure});
+  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
   return measures;
 }
 
@@ -178,8 +179,8 @@ std::vector<OtherSetting> otherSettings(const Points& points) {
 std::string costCsv(const CostResults& results) {
   std::string table =
       "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
-      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,"
-      "low,high,equivalent,bound\n";
+      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
+      "equivalent,bound\n";
   std::vector<bool> onFront(results.points.size(), false);
   for (const Front& front : results.fronts)
     for (const std::size_t place : front.points)
@@ -256,37 +257,13 @@ std::string finestReached(const CostResults& results) {
                      listed(parts));
 }
 
-/// Whose law is off the case's by more than an accuracy that is wanted, in what, by how much.
-std::string modelDifferences(const CostResults& results) {
-  std::vector<std::string> parts;
-  for (const std::string& engine : enginesIn(results)) {
-    const CostModel* worst = nullptr;
-    for (const CostCell& cell : results.cells)
-      if (const CostModel* one = modelOf(results, cell);
-          one && cell.engine == engine && (!worst || one->error > worst->error))
-        worst = one;
-    if (worst)
-      parts.push_back(fmt::format("{} by {} in {}", engine, percentText(worst->error),
-                                  measureText(withoutOwn(worst->measure))));
-  }
-  if (parts.empty()) return {};
-  return fmt::format("No time step removes a model difference: {}.", listedShortly(parts, 3));
-}
-
 std::string nextStep(const CostResults& results) {
-  const std::size_t left = results.count(CostStatus::notMeasured);
-  if (left > 0 && results.budgetForTheRest)
+  if (const std::size_t left = results.count(CostStatus::notMeasured))
     return fmt::format(
         "Next: the same command with --budget {:.0f}s measures the {} that did not fit into the "
         "budget.",
-        std::ceil(*results.budgetForTheRest / 10.0) * 10.0, counted(left, "point"));
-  if (std::ranges::any_of(results.cells, [](const CostCell& cell) {
-        return cell.basis == CostBasis::scene && cell.verdict == CostVerdict::undecided;
-      }))
-    return "Next: what is undecided takes more packings or longer runs; the table below says "
-           "which.";
-  if (left > 0) return fmt::format("{} were not measured.", counted(left, "point"));
-  return "Next: take the fragment of the setting that you need from the end of this page.";
+        std::ceil(results.budgetForTheRest.value_or(0.0) / 10.0) * 10.0, counted(left, "point"));
+  return "Next: take the setting that you need from the end of this page.";
 }
 
 }  // namespace
@@ -302,9 +279,9 @@ Overview costOverview(const CostResults& results) {
         shown.replace(at, 1, "\u00a0");
       overview.columns.push_back(
           {fmt::format("{} {}", kindText(kind), shown),
-           fmt::format("Which setting brings the error of {} below {} for the least time? Time of "
-                       "{}.",
-                       kindText(kind), targetText(target), timeUnit(kind)),
+           fmt::format(
+               "Which setting brings the error of {} below {} for the least time? Time of {}.",
+               kindText(kind), targetText(target), timeUnit(kind)),
            "kind-" + toString(kind)});
     }
   for (const std::string& engine : enginesIn(results)) {
@@ -315,18 +292,247 @@ Overview costOverview(const CostResults& results) {
             overviewCell(results, cellAt(results, engine, kind, CostBasis::scene, target)));
     overview.rows.push_back(std::move(row));
   }
-  for (std::string& sentence :
-       std::vector{finestReached(results), modelDifferences(results), nextStep(results)})
-    if (!sentence.empty()) overview.conclusion.push_back(std::move(sentence));
+  overview.conclusion = {finestReached(results), nextStep(results)};
   return overview;
 }
 
+namespace costpage {
+namespace {
+
+/// A verdict's cell: its mark, its colour, and notes below.
+Cell verdictCell(CostVerdict verdict, std::string text, std::vector<std::string> notes) {
+  constexpr std::array states = {CellState::good, CellState::undecided, CellState::bad,
+                                 CellState::notMeasured};
+  return {std::move(text), std::move(notes), states[static_cast<std::size_t>(verdict)], true};
+}
+
+std::string decidesText(const std::string& decides) {
+  return decides.empty() ? "" : "would decide: " + decides;
+}
+
+/// Per kind of error, basis, engine and target: the setting that reaches it for the least time.
+Table accuracyTable(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "accuracy",
+               "setting",
+               {"time", Column::Kind::number},
+               {"error", Column::Kind::remark}},
+              {}};
+  for (const CostKind kind : kindsIn(results.points))
+    for (const CostBasis basis : costBases) {
+      std::string group = fmt::format(
+          "{}, compared with {}; time of {}", kindText(kind),
+          basis == CostBasis::own ? "the engine's own limit" : "the case's law", timeUnit(kind));
+      for (const CostCell& cell : results.cells) {
+        if (cell.kind != kind || cell.basis != basis) continue;
+        const bool reached = cell.verdict == CostVerdict::reached;
+        const CostModel* model = modelOf(results, cell);
+        const CostPoint* point = pointAt(results, cell.point);
+        const std::string setting = settingText(cell.knob, cell.setting);
+        std::string error;
+        if (model)
+          error =
+              fmt::format("{}: its limit of small steps is off by {}", measureText(model->measure),
+                          intervalText(model->error, model->low, model->high));
+        else if (point)
+          error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)), errorText(*point));
+        table.rows.push_back(
+            {{cell.engine, targetText(cell.target),
+              verdictCell(cell.verdict, reached ? setting : std::string(nameOf(cell.verdict)),
+                          {reached || setting.empty() ? "" : "best: " + setting}),
+              readableDuration(cell.wallSeconds), Cell(error, {decidesText(cell.decides)})},
+             std::exchange(group, {})});
+      }
+    }
+  table.note =
+      "In all measures of a kind of error, with the measure that decides and the interval of its "
+      "error. Its own limit: the engine's small steps, or the oracle of the law that it declares; "
+      "what is left is discretisation. The case's law: the model difference is included. Reached: "
+      "the upper end of the interval is below. Not reached: every setting tried is shown to lie "
+      "above, or the engine's limit of small steps does and no setting comes nearer. Undecided: "
+      "the interval holds the accuracy. Only measured settings: nothing is interpolated.";
+  return table;
+}
+
+/// Per engine and target the recommended setting, with its fragment to paste.
+Blocks adviceBlocks(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "accuracy",
+               "setting",
+               {"time", Column::Kind::number},
+               {"averages", Column::Kind::remark}},
+              {}};
+  Blocks fragments;
+  for (const Advice& one : results.advice) {
+    const bool reached = one.verdict == CostVerdict::reached;
+    const std::string setting = settingText(one.knob, one.setting);
+    const CostPoint* obstacle = pointAt(results, one.obstacle);
+    Cell what = verdictCell(one.verdict, reached ? setting : std::string(nameOf(one.verdict)),
+                            {setting.empty() || reached ? "" : "best: " + setting,
+                             one.cheapest ? "the cheapest engine" : ""});
+    std::string time = absentText;
+    if (one.wallSeconds && one.costKind())
+      time = fmt::format("{} for {}", readableDuration(one.wallSeconds), timeUnit(*one.costKind()));
+    Cell rest(obstacle ? fmt::format("{}, {}: {}", toString(obstacle->kind),
+                                     measureText(obstacle->measure), errorText(*obstacle))
+                       : "",
+              {decidesText(one.decides)});
+    table.rows.push_back({{one.engine, targetText(one.target), std::move(what), time, rest}});
+    if (!reached) continue;
+    fragments.push_back(
+        Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target), setting)});
+    fragments.push_back(Code{one.fragment.empty() ? "# the case as it is" : one.fragment});
+  }
+  table.note =
+      "The cheapest setting that collisions show to reach the accuracy of the case's law and that "
+      "averages do not contradict; the last column has what stands in the way, or an average whose "
+      "scatter cannot decide.";
+  if (fragments.empty()) fragments = {Paragraph{"No engine is shown to reach any accuracy."}};
+  fragments.insert(fragments.begin(), std::move(table));
+  return fragments;
+}
+
+/// Settings other than time steps: their time and errors.
+Table settingTable(const CostResults& results) {
+  Table table{{{"number", Column::Kind::number},
+               {"engine", Column::Kind::engines},
+               "setting",
+               "error of",
+               {"time", Column::Kind::number},
+               {"error", Column::Kind::remark}},
+              {}};
+  const auto settings = otherSettings(results.points);
+  for (const CostPoint& point : results.points) {
+    const auto place = std::ranges::find(settings, OtherSetting{point.knob, point.setting});
+    if (place == settings.end()) continue;
+    table.rows.push_back({{fmt::to_string(place - settings.begin() + 1), point.engine,
+                           settingText(point.knob, point.setting),
+                           toString(point.kind) + ", " + measureText(point.measure),
+                           readableDuration(point.wallSeconds), errorText(point)}});
+  }
+  table.note = "The number is that in the plots.";
+  return table;
+}
+
+/// What failed, was refused or did not fit, alike reasons together.
+Table notRunTable(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "error",
+               "setting",
+               "status",
+               {"reason", Column::Kind::remark},
+               "measures"},
+              {}};
+  const CostPoint* last = nullptr;
+  const auto key = [](const CostPoint& point) {
+    return std::tie(point.engine, point.kind, point.knob, point.setting, point.status,
+                    point.reason);
+  };
+  for (const CostPoint& point : results.points) {
+    if (point.ran()) continue;
+    if (last && key(*last) == key(point)) {
+      table.rows.back().cells.back().text += "; " + measureText(point.measure);
+      continue;
+    }
+    last = &point;
+    table.rows.push_back(
+        {{point.engine, toString(point.kind), settingText(point.knob, point.setting),
+          errorText(point), point.reason, measureText(point.measure)}});
+  }
+  return table;
+}
+
+Table referenceTable(const CostResults& results) {
+  Table table{{"error", "reference", "setting", {"its own error", Column::Kind::number}, "note"},
+              {}};
+  for (const CostReference& reference : results.references)
+    table.rows.push_back({{toString(reference.kind), reference.engine, reference.setting,
+                           percentText(reference.error), reference.note}});
+  for (const Startup& startup : results.startup)
+    table.rows.push_back(
+        {{"start-up", startup.engine, "", "",
+          fmt::format("started in {}, loaded the scene in {}, which is no part of any other time",
+                      readableDuration(startup.start), readableDuration(startup.load))}});
+  return table;
+}
+
+/// What became of the points, and which engines refused.
+std::vector<std::string> sentencesOf(const CostResults& results) {
+  std::string counts = fmt::format(
+      "{} points: {} ran, {} failed, {} refused, {} not measured", results.points.size(),
+      results.count(CostStatus::ran), results.count(CostStatus::failed),
+      results.count(CostStatus::refused), results.count(CostStatus::notMeasured));
+  if (results.count(CostStatus::notMeasured) > 0 && results.budgetForTheRest)
+    counts += fmt::format(
+        ", for they did not fit into the budget of {}; they would with --resume and a budget of "
+        "about {}",
+        readableDuration(results.budget),
+        readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
+  std::vector<std::string> sentences = {decidedText(results), counts + "."};
+  for (const EngineRow& engine : results.engines)
+    if (engine.status == EngineStatus::refused)
+      sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
+  return sentences;
+}
+
+constexpr std::array whatErrorsAre = {
+    "Two disks collide, over a whole curve of Ψ_i; the error is the root mean square distance from "
+    "the oracle, in units of the range of its curve.",
+    "One packing over a time short against its chaos; the error is the root mean square distance "
+    "of the disks, in diameters, from a run at a much smaller step.",
+    "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
+    "mean paired difference, in units of the profile's largest value."};
+
+std::vector<Section> sectionsOf(const CostResults& results) {
+  std::vector<Section> sections;
+  const auto section = [&](const std::string& id, const std::string& title) -> Section& {
+    return sections.emplace_back(Section{id, title, {}});
+  };
+  section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
+      accuracyTable(results)};
+  for (const CostKind kind : kindsIn(results.points))
+    section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
+        Paragraph{whatErrorsAre[static_cast<std::size_t>(kind)]},
+        Drawings{"cost_" + toString(kind)}};
+  const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
+    if (!table.rows.empty()) section(id, title).blocks = {std::move(table)};
+  };
+  addTable("others", "What other settings change", settingTable(results));
+  addTable("references", "References and start-up", referenceTable(results));
+  addTable("notrun", "What did not run", notRunTable(results));
+  section("reading", "How to read it").blocks = {
+      List{{{"Three kinds of error",
+             "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "
+             "the same piece of work; those of different kinds cannot be compared."},
+            {"Time", "the wall time of the advance alone, one run at a time."},
+            {"The Pareto front", "the points that no other beats in both time and error."},
+            {"Intervals",
+             "an error lies between itself less and plus its statistical error and the uncertainty "
+             "of its reference. A setting is recommended only if the upper end meets the accuracy. "
+             "A point below one of its two uncertainties may be chance; it counts, and is drawn "
+             "(▽), at its upper end."},
+            {"Averages",
+             "have a systematic part, which belongs to the setting, and a statistical part, which "
+             "falls with the root of the simulated time and of the number of packings. Packings "
+             "scatter them by more than most settings change them."},
+            {"Not measured",
+             "what was too slow for the budget; its reason says how long it would take."}}}};
+  section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
+  return sections;
+}
+
+}  // namespace
+}  // namespace costpage
+
 std::string costPage(const CostResults& results, const Illustrations& shown) {
   nlohmann::json view = commonView(results.head, results.elapsed, results.notes, shown);
-  view["lead"] = decidedText(results);
+  const std::vector<std::string> sentences = costpage::sentencesOf(results);
+  view["lead"] = symbolsHtml(sentences.front());
   view["sentences"] = nlohmann::json::array();
+  for (std::size_t k = 1; k < sentences.size(); ++k)
+    view["sentences"].push_back(symbolsHtml(sentences[k]));
   addOverview(view, costOverview(results), results.engines);
-  view["figures"] = figureViews(shown, "cost_");
+  view["sections"] = costpage::viewOf(costpage::sectionsOf(results), shown);
   view["files"] = "Beside this page: results.json (everything) and cost.csv (every point).";
   return render("report_cost.html", view);
 }

@@ -47,10 +47,9 @@ struct CostMeasure {
   bool has(const CostPoint& point) const { return point.kind == kind && point.measure == name; }
 };
 
-/// In the order of the points: kinds, and measures with panels and columns (of averages not also
-/// those against engines' own limits).
+/// In the order of the points.
 std::vector<CostKind> kindsIn(const std::vector<CostPoint>& points);
-std::vector<CostMeasure> measuresDrawn(const std::vector<CostPoint>& points);
+std::vector<CostMeasure> measuresIn(const std::vector<CostPoint>& points);
 
 /// A setting that is no time step and has an error somewhere: what the numbers in plots stand for,
 /// from 1.

@@ -14,10 +14,9 @@
 #include "runs/common/advance.hpp"
 #include "runs/common/audited_looks.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/kept_task.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"
-#include "runs/lockstep/lockstep.hpp"
-#include "support/task_pool.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -52,15 +51,8 @@ std::map<std::string, std::vector<std::optional<double>>> numbersOf(
   return numbers;
 }
 
-}  // namespace
-
-const std::vector<std::string>& averageMeasures() {
-  static const std::vector<std::string> names = {"azimuthal_velocity", "stress_rr",
-                                                 "volume_fraction",    "shear_band_width",
-                                                 "wall_slip",          "stress_level"};
-  return names;
-}
-
+/// Averages one packing on one engine over the case's rotations, after settling.
+/// @throws EngineFailure (also of a packing that blew up), UnsupportedScene, BadInput, Interrupted
 AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
                                const Packing& packing,
                                const std::function<void(double)>& progress) {
@@ -112,8 +104,6 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
           .contactEvaluations = perRotation(after.contactEvaluations - before.contactEvaluations),
           .numbers = numbersOf(setup, profiles.profiles())};
 }
-
-namespace {
 
 /// A measure at a ring; absent where the run has none.
 std::optional<double> valueAt(const AveragedPacking& run, const std::string& measure,
@@ -172,229 +162,135 @@ std::optional<PairedError> pairedError(const std::vector<AveragedPacking>& runs,
 
 namespace {
 
-/// Settling and averaging [s].
-double lengthOf(const Case& setup) {
-  return (setup.averaging.settleRotations + setup.averaging.rotations) * rotationTime(setup);
-}
+class AverageErrors final : public ErrorKind {
+ public:
+  using ErrorKind::ErrorKind;
 
-/// By what the reference's runs with the case's law are kept.
-constexpr const char* sceneLaw = "in-house";
+  CostKind kind() const override { return CostKind::averages; }
 
-std::string referenceName(const std::string& name, std::size_t packing) {
-  return fmt::format("reference-averages-{}-p{}", name, packing);
-}
+  std::vector<std::string> measures() const override {
+    return {"azimuthal_velocity", "stress_rr", "volume_fraction",
+            "shear_band_width",   "wall_slip", "stress_level"};
+  }
 
-std::string ofPacking(const std::string& point, std::size_t packing) {
-  return fmt::format("{}-p{}", point, packing);
-}
+  double predicted(std::size_t engine, const CostSetting& setting) const override {
+    const TimedEngine& timed = study_.engines[engine];
+    const Averaging& averaging = setting.setup.averaging;
+    constexpr double sample = 1e-3;
+    return study_.packingCount() *
+           (duration() / study_.stepOf(engine, setting.setup) * timed.step + timed.load +
+            sample * averaging.rotations * averaging.snapshotsPerRotation);
+  }
 
-/// Whether two scenes differ at most in how time is stepped.
-bool sameInTheLimit(const Scene& one, const Scene& other) {
-  ContactLaw law = one.law;
-  law.conventions.integrator = other.law.conventions.integrator;
-  law.conventions.dampingVelocity = other.law.conventions.dampingVelocity;
-  law.conventions.springUpdate = other.law.conventions.springUpdate;
-  return law == other.law && one.bottom == other.bottom && one.gravity == other.gravity &&
-         one.rotation == other.rotation;
-}
+  double commonTime() const override {
+    const Cost& cost = study_.setup.cost;
+    int missing = 0;
+    for (std::size_t k = 0; k < packings().size(); ++k)
+      missing += !study_.campaign.store().find(referenceName(k), referenceKey(k));
+    return duration() * cost.averageReference / costContactTime(study_.setup) * study_.inHouseStep *
+           missing / std::min<double>(study_.jobs, study_.packingCount());
+  }
+
+  double ownTime(std::size_t) const override { return 0.0; }
+
+  /// Runs are kept packing by packing, so that more packings may follow.
+  bool keepsPoints() const override { return false; }
+  bool isKept(const PlannedPoint& point) const override {
+    const std::size_t last = packings().size() - 1;
+    return ErrorKind::isKept(point) ||
+           study_.campaign.store().find(nameOf(point, last), keyOf(point, last)).has_value();
+  }
+
+  void makeReferences() override {
+    const EngineEntry& entry = study_.inHouse;
+    const Case setup = atSteps(study_.setup, entry.name, study_.inHouseEngine->capabilities(),
+                               study_.setup.cost.averageReference);
+    std::vector<KeptTask<AveragedPacking>> tasks;
+    for (std::size_t k = 0; k < packings().size(); ++k)
+      tasks.push_back({referenceName(k), fmt::format("packing {}", k), referenceKey(k), 1.0,
+                       [&, k](const std::function<void(double)>& progress) {
+                         const auto engine = entry.make();
+                         return KeptTask<AveragedPacking>::Outcome{
+                             averagePacking(*engine, entry, setup, packings()[k], progress), true,
+                             "done"};
+                       }});
+    reference_ = doOrTakeUp(tasks, study_.campaign.store(), study_.campaign.progress(),
+                            "references of the averages", study_.jobs);
+  }
+
+  std::vector<CostPoint> measure(const PlannedPoint& planned) override {
+    const CostSetting& setting = study_.settingOf(planned);
+    const EngineEntry& entry = study_.entryOf(planned.engine);
+    std::vector<AveragedPacking> runs;
+    for (std::size_t k = 0; k < packings().size(); ++k)
+      runs.push_back(keptOr(study_.campaign.store(), nameOf(planned, k), keyOf(planned, k), [&] {
+        return averagePacking(study_.workerOf(planned.engine), entry, setting.setup, packings()[k],
+                              [](double) {});
+      }));
+    CostPoint row = pointOf(entry.name, setting, kind(), runs.front().dt);
+    row.wallSeconds = row.cpuSeconds = std::numeric_limits<double>::infinity();
+    std::uint64_t steps = 0, contactEvaluations = 0;
+    for (const AveragedPacking& run : runs) {
+      row.wallSeconds = std::min(*row.wallSeconds, run.wallSeconds);
+      row.cpuSeconds = std::min(*row.cpuSeconds, run.cpuSeconds);
+      steps += run.steps / runs.size();
+      contactEvaluations += run.contactEvaluations / runs.size();
+    }
+    countWork(row, steps, contactEvaluations);
+    const double alpha =
+        (1.0 - study_.setup.averaging.confidence) / static_cast<double>(measures().size());
+    std::vector<CostPoint> points;
+    for (const std::string& measure : measures()) {
+      CostPoint& point = points.emplace_back(row);
+      point.measure = measure;
+      const auto error = pairedError(runs, reference_, measure, alpha);
+      if (!error) continue;
+      point.error = error->error;
+      point.statistical = error->statistical;
+      point.systematic = error->systematic;
+      point.intervalLow = error->low;
+      point.intervalHigh = error->high;
+    }
+    return points;
+  }
+
+  void addTo(CostResults& results) const override {
+    if (!reference_.empty())
+      results.references.push_back(
+          {.kind = kind(),
+           .engine = study_.inHouse.name,
+           .setting = fmt::format("t_c/{:g}", study_.setup.cost.averageReference),
+           .note = fmt::format("{} packings, paired: its statistical error is part of each point's",
+                               reference_.size())});
+  }
+
+ private:
+  const std::vector<Packing>& packings() const { return study_.campaign.packings(); }
+  /// Of settling and averaging [s].
+  double duration() const {
+    const Averaging& averaging = study_.setup.averaging;
+    return (averaging.settleRotations + averaging.rotations) * rotationTime(study_.setup);
+  }
+  std::string nameOf(const PlannedPoint& point, std::size_t packing) const {
+    return fmt::format("{}-p{}", study_.nameOf(point), packing);
+  }
+  CaseKeys keyOf(const PlannedPoint& point, std::size_t packing) const {
+    return study_.keyOf(point, static_cast<int>(packing));
+  }
+  std::string referenceName(std::size_t packing) const {
+    return fmt::format("reference-averages-p{}", packing);
+  }
+  CaseKeys referenceKey(std::size_t packing) const {
+    return study_.inHouseKey(packing, "cost: reference averages");
+  }
+
+  std::vector<AveragedPacking> reference_;  ///< by packing
+};
 
 }  // namespace
 
-std::vector<std::string> AverageErrors::measures() const {
-  std::vector<std::string> names;
-  for (const std::string& measure : averageMeasures()) {
-    names.push_back(measure);
-    names.push_back(ownOf(measure));
-  }
-  return names;
-}
-
-double AverageErrors::predicted(std::size_t engine, const CostSetting& setting) const {
-  const TimedEngine& timed = study_.engines[engine];
-  const Case& setup = setting.setup;
-  constexpr double sample = 1e-3;
-  return study_.packingCount() *
-         (lengthOf(setup) / study_.stepOf(engine, setup) * timed.step + timed.load +
-          sample * setup.averaging.rotations * setup.averaging.snapshotsPerRotation);
-}
-
-double AverageErrors::commonTime() const {
-  return referenceSeconds(sceneLaw);
-}
-
-double AverageErrors::ownTime(std::size_t engine) const {
-  const OwnReference own = ownReferenceOf(engine);
-  return own.mirror ? referenceSeconds(own.mirror->name) : 0.0;
-}
-
-bool AverageErrors::isKept(const PlannedPoint& point) const {
-  const auto last = static_cast<int>(study_.campaign.packings().size()) - 1;
-  return ErrorKind::isKept(point) ||
-         study_.campaign.store()
-             .find(ofPacking(study_.nameOf(point), static_cast<std::size_t>(last)),
-                   study_.keyOf(point, last))
-             .has_value();
-}
-
-double AverageErrors::referenceSeconds(const std::string& name) const {
-  const Case& setup = study_.setup;
-  int missing = 0;
-  for (std::size_t k = 0; k < study_.campaign.packings().size(); ++k)
-    if (!study_.campaign.store().find(referenceName(name, k), referenceKey(name, k))) ++missing;
-  return lengthOf(setup) * setup.cost.averageReference / costContactTime(setup) *
-         study_.inHouseStep * missing / std::min<double>(study_.jobs, study_.packingCount());
-}
-
-CaseKeys AverageErrors::referenceKey(const std::string& name, std::size_t packing) const {
-  return study_.inHouseKey(packing, "cost: reference " + name);
-}
-
-std::vector<AveragedPacking> AverageErrors::referenceRuns(
-    const std::string& name, const EngineEntry& entry, const Case& setup,
-    const std::function<void(std::size_t packing, double fraction)>& progress) const {
-  const std::vector<Packing>& packings = study_.campaign.packings();
-  std::vector<AveragedPacking> runs(packings.size());
-  std::vector<Task> tasks;
-  for (std::size_t k = 0; k < packings.size(); ++k)
-    tasks.push_back({1.0, [&, k] {
-                       runs[k] = keptOr(study_.campaign.store(), referenceName(name, k),
-                                        referenceKey(name, k), [&] {
-                                          const auto engine = entry.make();
-                                          return averagePacking(*engine, entry, setup, packings[k],
-                                                                [&](double f) { progress(k, f); });
-                                        });
-                     }});
-  runTasks(tasks, study_.jobs);
-  return runs;
-}
-
-Case AverageErrors::fine(const std::string& engine, const Capabilities& can) const {
-  return atSteps(study_.setup, engine, can, study_.setup.cost.averageReference);
-}
-
-void AverageErrors::makeReferences() {
-  Progress& progress = study_.campaign.progress();
-  progress.begin("references of the averages",
-                 std::vector<double>(study_.campaign.packings().size(), 1.0));
-  reference_ = referenceRuns(sceneLaw, study_.inHouse,
-                             fine(study_.inHouse.name, study_.inHouseEngine->capabilities()),
-                             [&](std::size_t packing, double fraction) {
-                               const std::string label = fmt::format("packing {}", packing);
-                               if (fraction < 1.0)
-                                 progress.update(packing, label, fraction);
-                               else
-                                 progress.finish(packing, label + ": done");
-                             });
-}
-
-AverageErrors::OwnReference AverageErrors::ownReferenceOf(std::size_t engine) const {
-  const EngineEntry& entry = study_.entryOf(engine);
-  const Capabilities& can = study_.canOf(engine);
-  const Scene scene =
-      couetteScene(study_.setup, study_.campaign.packings().front(), study_.campaign.dt());
-  OwnReference own;
-  try {
-    own.isTheScenes = sameInTheLimit(sceneFor(can, entry, study_.setup, scene).scene, scene);
-  } catch (const UnsupportedScene& refusal) {
-    own.reason = refusal.what();
-  }
-  if (own.isTheScenes || !own.reason.empty()) return own;
-  own.reason = whyNoMirror(entry, can, study_.setup);
-  if (!own.reason.empty()) return own;
-  for (const EngineEntry& mirror : engineRegistry())
-    if (mirror.mirrors == entry.name && standsForItsPeer(mirror, study_.setup.law))
-      own.mirror = &mirror;
-  if (!own.mirror) own.reason = "no mirror has the law that it declares";
-  return own;
-}
-
-std::vector<AveragedPacking> AverageErrors::ownRuns(std::size_t engine,
-                                                    const OwnReference& own) const {
-  if (own.isTheScenes) return reference_;
-  if (!own.mirror) return {};
-  return referenceRuns(own.mirror->name, *own.mirror,
-                       fine(study_.entryOf(engine).name, study_.canOf(engine)),
-                       [](std::size_t, double) {});
-}
-
-std::vector<CostPoint> AverageErrors::measure(const PlannedPoint& planned) {
-  const CostSetting& setting = study_.settingOf(planned);
-  const EngineEntry& entry = study_.entryOf(planned.engine);
-  std::vector<AveragedPacking> runs;
-  for (std::size_t k = 0; k < study_.campaign.packings().size(); ++k)
-    runs.push_back(keptOr(study_.campaign.store(), ofPacking(study_.nameOf(planned), k),
-                          study_.keyOf(planned, static_cast<int>(k)), [&] {
-                            return averagePacking(study_.workerOf(planned.engine), entry,
-                                                  setting.setup, study_.campaign.packings()[k],
-                                                  [](double) {});
-                          }));
-  CostPoint row = pointOf(entry.name, setting, kind(), runs.front().dt);
-  row.wallSeconds = row.cpuSeconds = std::numeric_limits<double>::infinity();
-  std::uint64_t steps = 0, contactEvaluations = 0;
-  for (const AveragedPacking& run : runs) {
-    row.wallSeconds = std::min(*row.wallSeconds, run.wallSeconds);
-    row.cpuSeconds = std::min(*row.cpuSeconds, run.cpuSeconds);
-    steps += run.steps / runs.size();
-    contactEvaluations += run.contactEvaluations / runs.size();
-  }
-  countWork(row, steps, contactEvaluations);
-
-  const OwnReference own = ownReferenceOf(planned.engine);
-  const std::vector<AveragedPacking> ownLaw = ownRuns(planned.engine, own);
-  const auto against = [&](const std::vector<AveragedPacking>& reference,
-                           const std::string& measure) {
-    CostPoint point = row;
-    const auto error = pairedError(runs, reference, measure, alpha());
-    if (!error) return point;
-    point.error = error->error;
-    point.statistical = error->statistical;
-    point.systematic = error->systematic;
-    point.intervalLow = error->low;
-    point.intervalHigh = error->high;
-    return point;
-  };
-  std::vector<CostPoint> points;
-  for (const std::string& measure : averageMeasures()) {
-    points.push_back(against(reference_, measure));
-    points.back().measure = measure;
-    points.push_back(against(ownLaw, measure));
-    points.back().measure = ownOf(measure);
-    if (own.reason.empty()) continue;
-    points.back().status = CostStatus::refused;
-    points.back().reason = "averages of its own law are not known: " + own.reason;
-  }
-  return points;
-}
-
-double AverageErrors::alpha() const {
-  return (1.0 - study_.setup.averaging.confidence) / static_cast<double>(averageMeasures().size());
-}
-
-void AverageErrors::addTo(CostResults& results) const {
-  if (reference_.empty()) return;
-  const auto add = [&](const std::string& engine) {
-    results.references.push_back(
-        {.kind = kind(),
-         .engine = engine,
-         .setting = fmt::format("t_c/{:g}", study_.setup.cost.averageReference),
-         .note = fmt::format("{} packings, paired: its statistical error is part of each point's",
-                             reference_.size())});
-  };
-  add(study_.inHouse.name);
-  for (std::size_t e = 0; e < study_.engines.size(); ++e) {
-    const std::string& name = study_.entryOf(e).name;
-    const bool measured = std::ranges::any_of(results.points, [&](const CostPoint& point) {
-      return point.engine == name && point.kind == kind() && point.measured();
-    });
-    if (!measured) continue;
-    const OwnReference own = ownReferenceOf(e);
-    if (!own.mirror) continue;
-    add(own.mirror->name);
-    const std::vector<AveragedPacking> runs = ownRuns(e, own);
-    for (const std::string& measure : averageMeasures())
-      if (const auto model = pairedError(runs, reference_, measure, alpha()); model && model->low)
-        results.models.push_back({name, kind(), measure, model->error, *model->low, *model->high});
-  }
+std::unique_ptr<ErrorKind> averageErrors(CostStudy& study) {
+  return std::make_unique<AverageErrors>(study);
 }
 
 }  // namespace crossgrain::inline runs

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,14 +31,6 @@ void fields(auto& io, AveragedPacking& run) {
   io("numbers", run.numbers);
 }
 
-/// Names of all measures.
-const std::vector<std::string>& averageMeasures();
-
-/// Averages one packing on one engine over the case's rotations, after settling.
-/// @throws EngineFailure (also of a packing that blew up), UnsupportedScene, BadInput, Interrupted
-AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
-                               const Packing& packing, const std::function<void(double)>& progress);
-
 /// An error of averages with its parts, all relative to the measure's scale: the largest value of
 /// the reference's profile; of slip 1.
 struct PairedError {
@@ -58,43 +50,7 @@ std::optional<PairedError> pairedError(const std::vector<AveragedPacking>& runs,
                                        const std::string& measure, double alpha);
 
 /// Averages of the sheared cell over all packings, packing by packing compared with those of the
-/// in-house engine at a smaller step with the case's law, and with the law that the engine
-/// declares.
-class AverageErrors final : public ErrorKind {
- public:
-  using ErrorKind::ErrorKind;
-  CostKind kind() const override { return CostKind::averages; }
-  std::vector<std::string> measures() const override;
-  double predicted(std::size_t engine, const CostSetting& setting) const override;
-  double commonTime() const override;
-  double ownTime(std::size_t engine) const override;
-  bool isKept(const PlannedPoint& point) const override;
-  void makeReferences() override;
-  bool keepsPoints() const override { return false; }
-  std::vector<CostPoint> measure(const PlannedPoint& point) override;
-  void addTo(CostResults& results) const override;
-
- private:
-  /// Whose runs show an engine's own law at small steps.
-  struct OwnReference {
-    bool isTheScenes = false;             ///< the law: they are the common reference's runs
-    const EngineEntry* mirror = nullptr;  ///< whose runs they are else
-    std::string reason = {};              ///< why there are none
-  };
-
-  OwnReference ownReferenceOf(std::size_t engine) const;
-  /// The case at the reference's steps of that engine.
-  Case fine(const std::string& engine, const Capabilities& can) const;
-  /// By packing, side by side; each is kept.
-  std::vector<AveragedPacking> referenceRuns(
-      const std::string& name, const EngineEntry& entry, const Case& setup,
-      const std::function<void(std::size_t packing, double fraction)>& progress) const;
-  std::vector<AveragedPacking> ownRuns(std::size_t engine, const OwnReference& own) const;
-  CaseKeys referenceKey(const std::string& name, std::size_t packing) const;
-  double referenceSeconds(const std::string& name) const;
-  double alpha() const;
-
-  std::vector<AveragedPacking> reference_;  ///< by packing
-};
+/// in-house engine at a smaller step.
+std::unique_ptr<ErrorKind> averageErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline runs

@@ -249,75 +249,94 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
   return points;
 }
 
-std::vector<std::string> CollisionErrors::measures() const {
-  std::vector<std::string> names;
-  for (const QuantityId measure : collisionMeasures) {
-    names.emplace_back(collisionQuantity(measure).name);
-    names.push_back(ownOf(names.back()));
+namespace {
+
+class CollisionErrors final : public ErrorKind {
+ public:
+  using ErrorKind::ErrorKind;
+
+  CostKind kind() const override { return CostKind::collision; }
+
+  std::vector<std::string> measures() const override {
+    std::vector<std::string> names;
+    for (const QuantityId measure : collisionMeasures) {
+      names.emplace_back(collisionQuantity(measure).name);
+      names.push_back(ownOf(names.back()));
+    }
+    return names;
   }
-  return names;
-}
 
-double CollisionErrors::predicted(std::size_t engine, const CostSetting& setting) const {
-  const TimedEngine& timed = study_.engines[engine];
-  const Cost& cost = study_.setup.cost;
-  const double dt = study_.stepOf(engine, setting.setup);
-  // 2.5 t_c and some steps, of fewer disks than the packing has: an upper bound.
-  const double once = (2.5 * costContactTime(setting.setup) / dt + 21.0) * timed.step;
-  return collisionPhases * once + cost.repeats * std::max(1.3 * cost.timed, once) +
-         (collisionPhases + cost.repeats) * timed.load;
-}
+  double predicted(std::size_t engine, const CostSetting& setting) const override {
+    const TimedEngine& timed = study_.engines[engine];
+    const Cost& cost = study_.setup.cost;
+    const double dt = study_.stepOf(engine, setting.setup);
+    // 2.5 t_c and some steps, of fewer disks than the packing has: an upper bound.
+    const double once = (2.5 * costContactTime(setting.setup) / dt + 21.0) * timed.step;
+    return collisionPhases * once + cost.repeats * std::max(1.3 * cost.timed, once) +
+           (collisionPhases + cost.repeats) * timed.load;
+  }
 
-double CollisionErrors::ownTime(std::size_t engine) const {
-  // 2.5 t_c at the reference's step and at twice that: what it takes where there is no oracle.
-  return 1.5 * 2.5 * study_.setup.cost.collisionReference * study_.engines[engine].step;
-}
+  double ownTime(std::size_t engine) const override {
+    // 2.5 t_c at the reference's step and at twice that: what it takes where there is no oracle.
+    return 1.5 * 2.5 * study_.setup.cost.collisionReference * study_.engines[engine].step;
+  }
 
-std::vector<CostPoint> CollisionErrors::measure(const PlannedPoint& point) {
-  return measureCollision(study_.workerOf(point.engine), study_.entryOf(point.engine),
-                          study_.settingOf(point), reference_, limitOf(point.engine));
-}
+  void makeReferences() override { reference_ = collisionReference(study_.setup); }
 
-std::string CollisionErrors::limitName(std::size_t engine) const {
-  return "limit-collision-" + study_.entryOf(engine).name;
-}
+  std::vector<CostPoint> measure(const PlannedPoint& point) override {
+    const EngineEntry& entry = study_.entryOf(point.engine);
+    const auto at = [&](double steps) {
+      return atSteps(study_.setup, entry.name, study_.canOf(point.engine), steps);
+    };
+    const auto [name, key] = limitOf(point.engine);
+    const CollisionLimit limit = keptOr(study_.campaign.store(), name, key, [&] {
+      const double steps = study_.setup.cost.collisionReference;
+      return collisionLimit(study_.workerOf(point.engine), entry, at(steps), at(steps / 2.0),
+                            reference_);
+    });
+    return measureCollision(study_.workerOf(point.engine), entry, study_.settingOf(point),
+                            reference_, limit);
+  }
 
-CaseKeys CollisionErrors::limitKey(std::size_t engine) const {
-  return study_.campaign.keyOf(engine, 0, "cost: collision limit");
-}
-
-CollisionLimit CollisionErrors::limitOf(std::size_t engine) {
-  const EngineEntry& entry = study_.entryOf(engine);
-  const auto at = [&](double steps) {
-    return atSteps(study_.setup, entry.name, study_.canOf(engine), steps);
-  };
-  return keptOr(study_.campaign.store(), limitName(engine), limitKey(engine), [&] {
-    const double steps = study_.setup.cost.collisionReference;
-    return collisionLimit(study_.workerOf(engine), entry, at(steps), at(steps / 2.0), reference_);
-  });
-}
-
-void CollisionErrors::addTo(CostResults& results) const {
-  results.references.push_back({.kind = kind(),
-                                .engine = "oracle",
-                                .setting = "the case's law",
-                                .note = reference_.oracle.reason.empty()
-                                            ? "planar two-body problem in continuous time, to 1e-9"
-                                            : reference_.oracle.reason});
-  for (std::size_t e = 0; e < study_.engines.size(); ++e) {
-    if (!study_.engines[e].takesPart) continue;
-    const auto limit = study_.campaign.store().findAs<CollisionLimit>(limitName(e), limitKey(e));
-    if (!limit) continue;
-    const std::string& name = study_.entryOf(e).name;
-    for (const auto& [measure, error] : limit->error)
-      results.references.push_back({kind(), name, limit->setting, error,
-                                    fmt::format("its own limit of small steps: {}", measure)});
-    for (const auto& [measure, model] : limit->model) {
-      const double unsure = limit->error.contains(measure) ? limit->error.at(measure) : 0.0;
-      results.models.push_back(
-          {name, kind(), measure, model, std::max(0.0, model - unsure), model + unsure});
+  void addTo(CostResults& results) const override {
+    results.references.push_back(
+        {.kind = kind(),
+         .engine = "oracle",
+         .setting = "the case's law",
+         .note = reference_.oracle.reason.empty()
+                     ? "planar two-body problem in continuous time, to 1e-9"
+                     : reference_.oracle.reason});
+    for (std::size_t e = 0; e < study_.engines.size(); ++e) {
+      if (!study_.engines[e].takesPart) continue;
+      const auto [file, key] = limitOf(e);
+      const auto limit = study_.campaign.store().findAs<CollisionLimit>(file, key);
+      if (!limit) continue;
+      const std::string& name = study_.entryOf(e).name;
+      for (const auto& [measure, error] : limit->error)
+        results.references.push_back({kind(), name, limit->setting, error,
+                                      fmt::format("its own limit of small steps: {}", measure)});
+      for (const auto& [measure, model] : limit->model) {
+        const double unsure = limit->error.contains(measure) ? limit->error.at(measure) : 0.0;
+        results.models.push_back(
+            {name, kind(), measure, model, std::max(0.0, model - unsure), model + unsure});
+      }
     }
   }
+
+ private:
+  /// Name and key of an engine's own limit, which is kept.
+  std::pair<std::string, CaseKeys> limitOf(std::size_t engine) const {
+    return {"limit-collision-" + study_.entryOf(engine).name,
+            study_.campaign.keyOf(engine, 0, "cost: collision limit")};
+  }
+
+  CollisionReference reference_;
+};
+
+}  // namespace
+
+std::unique_ptr<ErrorKind> collisionErrors(CostStudy& study) {
+  return std::make_unique<CollisionErrors>(study);
 }
 
 }  // namespace crossgrain::inline runs

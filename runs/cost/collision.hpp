@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,24 +73,6 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
 
 /// Two disks that collide, against the oracle of the case's law and against the engine's own limit
 /// of small steps.
-class CollisionErrors final : public ErrorKind {
- public:
-  using ErrorKind::ErrorKind;
-  CostKind kind() const override { return CostKind::collision; }
-  std::vector<std::string> measures() const override;
-  double predicted(std::size_t engine, const CostSetting& setting) const override;
-  double ownTime(std::size_t engine) const override;
-  void makeReferences() override { reference_ = collisionReference(study_.setup); }
-  std::vector<CostPoint> measure(const PlannedPoint& point) override;
-  void addTo(CostResults& results) const override;
-
- private:
-  std::string limitName(std::size_t engine) const;
-  CaseKeys limitKey(std::size_t engine) const;
-  /// Found when it is first needed, then kept.
-  CollisionLimit limitOf(std::size_t engine);
-
-  CollisionReference reference_;
-};
+std::unique_ptr<ErrorKind> collisionErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline runs

@@ -41,9 +41,9 @@ using Points = std::vector<CostPoint>;
 /// Those that the case wants, in their order.
 ErrorKinds errorKinds(CostStudy& study) {
   ErrorKinds kinds;
-  kinds.push_back(std::make_unique<CollisionErrors>(study));
-  kinds.push_back(std::make_unique<TrajectoryErrors>(study));
-  kinds.push_back(std::make_unique<AverageErrors>(study));
+  kinds.push_back(collisionErrors(study));
+  kinds.push_back(trajectoryErrors(study));
+  kinds.push_back(averageErrors(study));
   std::erase_if(kinds, [&](const auto& kind) {
     return std::ranges::find(study.setup.cost.kinds, kind->kind()) == study.setup.cost.kinds.end();
   });
@@ -123,12 +123,12 @@ std::optional<std::string> pastLimit(const CostStudy& study, const PlannedPoint&
   return fmt::format("{}: {}", beyondLimit, reason);
 }
 
-using Outcome = KeptTask<Points>::Outcome;
+using Measured = KeptTask<Points>::Outcome;
 
-Outcome measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned) {
+Measured measure(CostStudy& study, ErrorKind& kind, const PlannedPoint& planned) {
   const auto ended = [&](CostStatus status, const std::string& reason, bool isResult) {
-    return Outcome{without(study, kind, planned, status, reason), isResult,
-                   fmt::format("{}: {}", nameOf(status), reason)};
+    return Measured{without(study, kind, planned, status, reason), isResult,
+                    fmt::format("{}: {}", nameOf(status), reason)};
   };
   try {
     Points points = kind.measure(planned);
@@ -177,7 +177,7 @@ Points execute(const CostPlan& plan, CostStudy& study, const ErrorKinds& kinds) 
     else if (!point.notMeasured.empty())
       points = without(study, kind, point, CostStatus::notMeasured, point.notMeasured);
     if (!points.empty()) continue;
-    const auto work = [&, share = plan.shares[point.engine]](const auto&) -> Outcome {
+    const auto work = [&, share = plan.shares[point.engine]](const auto&) -> Measured {
       throwIfInterrupted();
       // Predictions may be off; an engine's share is not.
       if (double& so = spent[point.engine]; so + point.seconds > 1.2 * share + 5.0) {
@@ -185,7 +185,7 @@ Points execute(const CostPlan& plan, CostStudy& study, const ErrorKinds& kinds) 
         return {without(study, kind, point, CostStatus::notMeasured, reason), false, reason};
       }
       const auto start = std::chrono::steady_clock::now();
-      Outcome outcome = measure(study, kind, point);
+      Measured outcome = measure(study, kind, point);
       spent[point.engine] +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       return outcome;

@@ -89,9 +89,9 @@ TEST(CostPoint, AverageOfOnePacking_HasNoStatisticalError_CountsNowhere) {
 }
 
 TEST(CostFront, Points_NoneOtherBeatsInBoth_AreOnIt) {
-  const Points points = {at(0.1, 1.0),  at(0.2, 2.0), at(0.05, 2.0), at(0.05, 3.0),
-                         at(0.01, 4.0), at(0.5, 0.5), at(1e-6, {}),
-                         without(at(0.0, 0.1), CostStatus::failed, "NaN")};
+  const Points points = {
+      at(0.1, 1.0),  at(0.2, 2.0), at(0.05, 2.0), at(0.05, 3.0),
+      at(0.01, 4.0), at(0.5, 0.5), at(1e-6, {}),  without(at(0.0, 0.1), CostStatus::failed, "NaN")};
   EXPECT_EQ(paretoFront(points), (Places{5, 0, 2, 4}));
   EXPECT_EQ(paretoFront({at(0.1, 1.0), at(0.1, 1.0)}), (Places{0, 1}));  // equal in both
   EXPECT_EQ(paretoFront({at(0.3, 1.0), at(0.1, 1.0), at(0.2, 1.0)}), (Places{1}));
@@ -196,9 +196,7 @@ TEST(CostCells, SettingWithoutAMeasure_IsNotRecommended) {
 
 /// Discretisation falls as 4⁻ᵏ; a law that is 25 % off stays there.
 Points ofAnotherLaw() {
-  return {at(0.28, 1.0, "t_c/10"),
-          at(0.252, 4.0, "t_c/40"),
-          at(0.05, 1.0, "t_c/10", "psi_f_own"),
+  return {at(0.28, 1.0, "t_c/10"), at(0.252, 4.0, "t_c/40"), at(0.05, 1.0, "t_c/10", "psi_f_own"),
           at(0.004, 4.0, "t_c/40", "psi_f_own")};
 }
 

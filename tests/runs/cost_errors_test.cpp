@@ -195,8 +195,8 @@ AveragedPacking run(const std::vector<std::optional<double>>& stress, double sli
 TEST(CostAverages, PairedError_SplitsScatterAndBias) {
   // Differences in ring 1: 1, 3 (mean 2, error 1); in ring 2: 0, 0. Scale: the largest mean, 20.
   const std::vector<AveragedPacking> reference = {run({10.0, 20.0}, 0.1), run({10.0, 20.0}, 0.1)};
-  const auto found = pairedError({run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)}, reference,
-                                 "stress_rr", 0.05);
+  const auto found =
+      pairedError({run({11.0, 20.0}, 0.2), run({13.0, 20.0}, 0.2)}, reference, "stress_rr", 0.05);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->error, std::sqrt(4.0 / 2.0) / 20.0, 1e-12);
   EXPECT_NEAR(*found->statistical, std::sqrt(1.0 / 2.0) / 20.0, 1e-12);
@@ -206,8 +206,8 @@ TEST(CostAverages, PairedError_SplitsScatterAndBias) {
   EXPECT_EQ(*found->low, 0.0);
   EXPECT_NEAR(*found->high, 27.452 / std::sqrt(2.0) / 20.0, 1e-4);
   // 2 ± 0.01: from 2 − 0.2545 on
-  const auto narrow = pairedError({run({11.99, 20.0}, 0.2), run({12.01, 20.0}, 0.2)}, reference,
-                                  "stress_rr", 0.05);
+  const auto narrow =
+      pairedError({run({11.99, 20.0}, 0.2), run({12.01, 20.0}, 0.2)}, reference, "stress_rr", 0.05);
   EXPECT_NEAR(*narrow->low, 1.7455 / std::sqrt(2.0) / 20.0, 1e-5);
 }
 

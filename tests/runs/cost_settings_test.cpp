@@ -47,9 +47,9 @@ TEST(CostSettings, EveryKnob_HasSettingsInSomeKindOfError) {
   Case setup = test::costCase();
   for (const std::string_view knob : costKnobs) {
     setup.cost.knobs = {std::string(knob)};
-    EXPECT_TRUE(std::ranges::any_of(
-        costKinds, [&](CostKind kind) { return settingsOf(kind, setup).size() > 1; }))
-        << knob;
+    EXPECT_TRUE(std::ranges::any_of(costKinds, [&](CostKind kind) {
+      return settingsOf(kind, setup).size() > 1;
+    })) << knob;
   }
 }
 
@@ -129,8 +129,8 @@ TEST(CostSettings, HertzLaw_CountsStepsInAnImpactAtTheSpeedOfCollisions) {
 }
 
 TEST(CostSettings, LawWithoutConstantsInTheCase_IsRefused) {
-  const auto settings = settingsOf(CostKind::averages,
-                                   loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front());
+  const auto settings =
+      settingsOf(CostKind::averages, loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front());
   EXPECT_NE(find(settings, "tangential", "viscous").refusal.find("law.gt is missing"),
             std::string::npos);
   EXPECT_EQ(find(settings, "tangential", "coulomb").refusal, "");
@@ -171,11 +171,11 @@ TEST(CostPlan, Budget_IsSharedFairly) {
 
 /// 30 and 5 s of averages, 10 s of collisions.
 CostPlan planned(double ofCollisions, double ofAverages, double budget) {
-  CostPlan plan{.points = {{0, CostKind::averages, 0, 30.0},
-                           {0, CostKind::averages, 1, 5.0},
-                           {0, CostKind::collision, 0, 10.0}},
-                .references = {{{CostKind::collision, ofCollisions},
-                                {CostKind::averages, ofAverages}}}};
+  CostPlan plan{
+      .points = {{0, CostKind::averages, 0, 30.0},
+                 {0, CostKind::averages, 1, 5.0},
+                 {0, CostKind::collision, 0, 10.0}},
+      .references = {{{CostKind::collision, ofCollisions}, {CostKind::averages, ofAverages}}}};
   fitIntoBudget(plan, budget);
   return plan;
 }

@@ -70,9 +70,9 @@ class Results(CostTest):
                 self.assertGreater(point["statistical"], 0.0)
         results = self.results()
         cells = results["cells"]
-        self.assertEqual(3 * 2 * 3, len(cells))  # kinds, bases, accuracies
+        self.assertEqual((2 * 2 + 1) * 3, len(cells))  # kinds, bases, accuracies
         decided = [c for c in cells if c["basis"] == "own" and c["verdict"] in DECIDED]
-        self.assertIn(f"is decided for {len(decided)} of 9 against engines' own", done.stdout)
+        self.assertIn(f"is decided for {len(decided)} of 6 against engines' own", done.stdout)
         for cell in cells:
             if cell["verdict"] == "reached":
                 self.assertGreater(cell["wall_s"], 0.0)
