@@ -8,7 +8,7 @@
 #include "reports/conformance/report.hpp"
 #include "reports/report.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
 #include "runs/conformance/conformance.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/lockstep/identify.hpp"
 #include "support/bad_input.hpp"

@@ -15,7 +15,7 @@
 #include "cli/command.hpp"
 #include "cli/parse_errors.hpp"
 #include "cli/reference.hpp"
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
 #include "support/json_text.hpp"

@@ -7,7 +7,7 @@
 #include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {

@@ -38,6 +38,7 @@ void fields(auto& io, CostResults& results) {
   io("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("packings", results.packings);
+  io.present("want", results.target);
   io("budget_s", results.budget);
   io("budget_for_the_rest_s", results.budgetForTheRest);
   io("points", results.points);

@@ -52,7 +52,7 @@ struct CostPoint {
   /// Relative to a scale that the kind names (a curve's range, d, a profile's largest value) [-].
   std::optional<double> error;
   /// Of averages: the standard error in `error`, and |bias| with that part removed; absent where
-  /// they cannot be told apart [-].
+  /// they cannot be separated [-].
   std::optional<double> statistical, systematic;
   std::optional<double> referenceError;  ///< what the reference itself is uncertain by [-]
   /// Of averages: ends of the error's confidence interval, all rings and measures together [-].
@@ -218,8 +218,8 @@ struct Advice {
   /// Simulated time that makes the statistical part as small as the target, in units of what was
   /// simulated: (statistical/target)², of the measure that takes longest.
   std::optional<double> length;
-  /// The point that stands in the way, if it is not reached; if it is, an average that cannot tell
-  /// and has the largest upper end. `decides`: what would decide on it.
+  /// The point that stands in the way, if it is not reached; if it is, an average that does not
+  /// decide and has the largest upper end. `decides`: what would decide on it.
   std::optional<std::size_t> obstacle;
   std::string decides;
   bool cheapest = false;  ///< of the engines that reach this target in the same kinds
@@ -299,6 +299,7 @@ struct CostResults : CouetteFrame {
   std::vector<EngineRow> engines;
   std::vector<PackingRow> packings;
 
+  std::optional<double> target;            ///< --want: an accuracy asked for besides the usual
   std::optional<double> budget;            ///< for all that was measured [s]
   std::optional<double> budgetForTheRest;  ///< for what did not fit, all else kept [s]
   std::vector<CostPoint> points;           ///< by kind, engine and setting

@@ -90,17 +90,6 @@ const CostCell* cellAt(const CostResults& results, const std::string& engine, Co
   return nullptr;
 }
 
-/// The engine that reaches a target of the case's law for the least time; null: none does.
-const CostCell* cheapestOf(const CostResults& results, CostKind kind, double target) {
-  const CostCell* cheapest = nullptr;
-  for (const CostCell& cell : results.cells)
-    if (cell.kind == kind && cell.basis == CostBasis::scene && cell.target == target &&
-        cell.verdict == CostVerdict::reached && cell.wallSeconds &&
-        (!cheapest || *cell.wallSeconds < *cheapest->wallSeconds))
-      cheapest = &cell;
-  return cheapest;
-}
-
 /// Engines that have points, in the order of the results.
 std::vector<std::string> enginesIn(const CostResults& results) {
   std::vector<std::string> engines;
@@ -207,6 +196,46 @@ std::string costText(const CostResults& results) {
 
 namespace {
 
+std::string asToml(const Advice& one, const CostResults& results) {
+  std::string text =
+      fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target, nameOf(one.verdict));
+  const bool reached = one.verdict == CostVerdict::reached;
+  if (!one.setting.empty()) {
+    std::vector<std::string_view> kinds;
+    for (const CostKind kind : one.kinds) kinds.push_back(nameOf(kind));
+    text += reached                                   ? " by "
+            : one.verdict == CostVerdict::notMeasured ? " far enough; the best so far is "
+                                                      : "; the best is ";
+    text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
+    if (one.wallSeconds)
+      text +=
+          fmt::format(", {:.3g} s per {}", *one.wallSeconds,
+                      one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
+    text += fmt::format(" (measured in {}){}", fmt::join(kinds, " and "),
+                        one.cheapest ? "; the cheapest engine" : "");
+  }
+  text += "\n";
+  if (const CostPoint* point = pointAt(results, one.obstacle))
+    text += fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale{}\n", toString(point->kind),
+                        point->measure, point->low(), point->high(),
+                        reached ? ", which does not decide" : "");
+  if (!one.decides.empty()) text += "# what would decide: " + one.decides + "\n";
+  if (!reached) return text;
+  text += one.fragment.empty() ? "# the case as it is: nothing to change\n" : one.fragment;
+  return text.ends_with('\n') ? text : text + "\n";
+}
+
+}  // namespace
+
+std::string costToml(const CostResults& results) {
+  std::string text;
+  for (const Advice& one : results.advice)
+    if (one.target == results.target) text += (text.empty() ? "" : "\n") + asToml(one, results);
+  return text;
+}
+
+namespace {
+
 OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
   OverviewCell cell{CellState::notMeasured, {}, "s", {}, {}, "accuracy"};
   if (!cost || cost->verdict == CostVerdict::notMeasured) return cell;
@@ -244,8 +273,13 @@ std::string finestReached(const CostResults& results) {
   std::vector<std::string> parts;
   for (const CostKind kind : kindsIn(results.points)) {
     const CostCell* finest = nullptr;
-    for (const double target : targetsOf(results.cells))
-      if (const CostCell* cell = cheapestOf(results, kind, target)) finest = cell;
+    const auto rank = [](const CostCell& cell) {
+      return std::pair(cell.target, *cell.wallSeconds);
+    };
+    for (const CostCell& cell : results.cells)
+      if (cell.kind == kind && cell.basis == CostBasis::scene && cell.wallSeconds &&
+          cell.verdict == CostVerdict::reached && (!finest || rank(cell) < rank(*finest)))
+        finest = &cell;
     parts.push_back(finest ? fmt::format("{} {} by {} with {} ({} for {})", kindText(kind),
                                          targetText(finest->target), finest->engine,
                                          settingText(finest->knob, finest->setting),
@@ -500,23 +534,20 @@ std::vector<Section> sectionsOf(const CostResults& results) {
   addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
-  section("reading", "How to read it").blocks = {
-      List{{{"Three kinds of error",
-             "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "
-             "the same piece of work; those of different kinds cannot be compared."},
-            {"Time", "the wall time of the advance alone, one run at a time."},
-            {"The Pareto front", "the points that no other beats in both time and error."},
-            {"Intervals",
-             "an error lies between itself less and plus its statistical error and the uncertainty "
-             "of its reference. A setting is recommended only if the upper end meets the accuracy. "
-             "A point below one of its two uncertainties may be chance; it counts, and is drawn "
-             "(▽), at its upper end."},
-            {"Averages",
-             "have a systematic part, which belongs to the setting, and a statistical part, which "
-             "falls with the root of the simulated time and of the number of packings. Packings "
-             "scatter them by more than most settings change them."},
-            {"Not measured",
-             "what was too slow for the budget; its reason says how long it would take."}}}};
+  section("reading", "How to read it").blocks = {List{
+      {{"Three kinds of error",
+        "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of the "
+        "same piece of work; those of different kinds cannot be compared."},
+       {"The Pareto front", "the points that no other beats in both time and error."},
+       {"Intervals",
+        "an error lies between itself less and plus its statistical error and the uncertainty of "
+        "its reference. A setting is recommended only if the upper end meets the accuracy. A point "
+        "below one of its two uncertainties may be chance; it counts, and is drawn (▽), at its "
+        "upper end."},
+       {"Averages",
+        "have a systematic part, which belongs to the setting, and a statistical part, which falls "
+        "with the root of the simulated time and of the number of packings. Packings scatter them "
+        "by more than most settings change them."}}}};
   section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
   return sections;
 }

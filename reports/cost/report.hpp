@@ -18,6 +18,10 @@ Overview costOverview(const CostResults& results);
 /// For a terminal: how many accuracies are decided, and what became of the points.
 std::string costText(const CostResults& results);
 
+/// What --want prints, to be pasted: the fragment of each engine for the results' own target, all
+/// else as TOML comments.
+std::string costToml(const CostResults& results);
+
 /// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
 /// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound
 /// One row per point, those that did not run too; on_front is of the front over all engines;

@@ -7,7 +7,6 @@
 #include "adapters/registry.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -252,10 +251,12 @@ std::map<std::string, CaseKeys> soleCase(const Case& setup) {
 
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases) {
   std::map<std::string, CaseKeys> keys;
-  for (const Case& setup : cases)
-    keys[setup.variant.empty() ? setup.name : setup.name + " " + setup.variant] =
-        keysThatMatter(setup);
+  for (const Case& setup : cases) keys[fullName(setup)] = keysThatMatter(setup);
   return keys;
+}
+
+std::string fullName(const Case& setup) {
+  return setup.variant.empty() ? setup.name : setup.name + " " + setup.variant;
 }
 
 CaseKeys runKey(const Case& setup, const std::string& engine, const std::string& version) {

@@ -1,7 +1,6 @@
 #include "runs/cost/analysis.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +9,10 @@
 
 namespace crossgrain::inline runs {
 
-std::vector<double> usualTargets() {
-  return {0.1, 0.01, 1e-3, 1e-6};
-}
-
-void addCostAnalysis(CostResults& results, const std::vector<double>& targets) {
+void addCostAnalysis(CostResults& results) {
+  std::vector<double> targets = {0.1, 0.01, 1e-3, 1e-6};
+  if (results.target && std::ranges::find(targets, *results.target) == targets.end())
+    targets.push_back(*results.target);
   results.fronts = paretoFronts(results.points);
   results.advice = advice(results.points, targets);
   results.cells = costCells(results.points, results.models);
@@ -389,47 +387,6 @@ std::vector<CostCell> costCells(const Points& points, const std::vector<CostMode
                                  points, models));
       }
   return cells;
-}
-
-namespace {
-
-std::string asToml(const Advice& one, const Points& points) {
-  std::string text =
-      fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target, nameOf(one.verdict));
-  const bool reached = one.verdict == CostVerdict::reached;
-  if (!one.setting.empty()) {
-    std::vector<std::string_view> kinds;
-    for (const CostKind kind : one.kinds) kinds.push_back(nameOf(kind));
-    text += reached                                   ? " by "
-            : one.verdict == CostVerdict::notMeasured ? " far enough; the best so far is "
-                                                      : "; the best is ";
-    text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
-    if (one.wallSeconds)
-      text +=
-          fmt::format(", {:.3g} s per {}", *one.wallSeconds,
-                      one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
-    text += fmt::format(" (measured in {}){}", fmt::join(kinds, " and "),
-                        one.cheapest ? "; the cheapest engine" : "");
-  }
-  text += "\n";
-  if (one.obstacle) {
-    const CostPoint& point = points[*one.obstacle];
-    text += fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale{}\n", toString(point.kind),
-                        point.measure, point.low(), point.high(),
-                        reached ? ", which does not decide" : "");
-  }
-  if (!one.decides.empty()) text += "# what would decide: " + one.decides + "\n";
-  if (!reached) return text;
-  text += one.fragment.empty() ? "# the case as it is: nothing to change\n" : one.fragment;
-  return text.ends_with('\n') ? text : text + "\n";
-}
-
-}  // namespace
-
-std::string adviceAsToml(const std::vector<Advice>& advice, const Points& points) {
-  std::string text;
-  for (const Advice& one : advice) text += (text.empty() ? "" : "\n") + asToml(one, points);
-  return text;
 }
 
 }  // namespace crossgrain::inline runs

@@ -8,12 +8,9 @@
 /// What follows from the points of a study of cost.
 namespace crossgrain::inline runs {
 
-/// 10 %, 1 %, 0.1 % and 1e-6: of advice.
-std::vector<double> usualTargets();
-
-/// Sets fronts, advice and cells from points and models.
-/// @param targets  accuracies to find advice for
-void addCostAnalysis(CostResults& results, const std::vector<double>& targets = usualTargets());
+/// Sets fronts, advice and cells from points and models; advice for 10 %, 1 %, 0.1 %, 1e-6 and the
+/// results' own target.
+void addCostAnalysis(CostResults& results);
 
 /// The points that no other beats: none is at most as slow and at most as wrong, and less in one of
 /// both. By rising wall time; points that are equal in both stay together.
@@ -34,8 +31,5 @@ std::vector<Advice> advice(const std::vector<CostPoint>& points,
 std::vector<CostCell> costCells(const std::vector<CostPoint>& points,
                                 const std::vector<CostModel>& models,
                                 const std::vector<double>& targets = {0.1, 0.01, 1e-3});
-
-/// What `crossgrain cost --want` prints: one fragment per engine, all else as TOML comments.
-std::string adviceAsToml(const std::vector<Advice>& advice, const std::vector<CostPoint>& points);
 
 }  // namespace crossgrain::inline runs

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/audit.hpp"
 #include "averaging/agreement.hpp"
 #include "averaging/profiles.hpp"
 #include "averaging/statistics.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/advance.hpp"
-#include "runs/common/audited_looks.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
+#include "runs/common/engine_running.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/summary.hpp"
 
@@ -65,7 +65,8 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const double interval = setup.averaging.rotations * rotationTime(setup) / samples;
   const double end = settled + samples * interval;
   double now = 0.0;
-  const AuditedLooks audited(engine, entry, setup, scene, realised);
+  const Scene asRun = sceneFor(engine.capabilities(), entry, setup, scene).scene;
+  const AuditBasis basis = auditBasis(asRun, engine.capabilities(), realised);
   const auto advanceTo = [&](double time) {
     advanceInPieces(engine, realised, now, time);
     now = time;
@@ -74,11 +75,15 @@ AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const C
   const auto sample = [&] {
     Snapshot snapshot = engine.snapshot(report);
     requireSound(setup, snapshot);
-    audited.require(snapshot, std::nullopt);
+    if (const std::string why = whyUnsound(snapshot, basis); !why.empty()) {
+      distrust(engine);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}",
+                                      entry.name, setup.name, snapshot.positionTime, why));
+    }
     return snapshot;
   };
 
-  // What blows up does so soon: it need not settle for long to be seen.
+  // What blows up does so soon: long before it has settled.
   for (int k = 1; k <= 16; ++k) {
     advanceTo(settled * k / 16);
     sample();

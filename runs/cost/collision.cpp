@@ -52,7 +52,7 @@ double unitOf(const CollisionReference& reference, QuantityId quantity) {
   return errorUnit(known).value;
 }
 
-/// The law that the engine declares for the collision; absent where nobody can tell its constants.
+/// The law that the engine declares for the collision; absent where its constants are not known.
 std::optional<ContactLaw> lawDeclared(Engine& engine, const EngineEntry& entry, const Case& pair,
                                       double dt, const std::vector<CollisionStart>& starts) {
   const Scene scene = collisionScene(pair, starts, dt);

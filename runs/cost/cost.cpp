@@ -8,10 +8,12 @@
 #include <memory>
 #include <tuple>
 
+#include "cases/loader.hpp"
 #include "results/schema.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study_cases.hpp"
+#include "runs/cost/analysis.hpp"
 #include "runs/cost/averages.hpp"
 #include "runs/cost/collision.hpp"
 #include "runs/cost/trajectory.hpp"
@@ -21,19 +23,34 @@
 
 namespace crossgrain::inline runs {
 
-std::vector<std::string> quickCostOverrides() {
-  return {"cost.timed=0.002",
-          "cost.psi_count=9",
-          "cost.collision_steps=[50, 10, 1.2]",
-          "cost.collision_reference=800",
-          "cost.trajectory_steps=[50, 10]",
-          "cost.trajectory_reference=400",
-          "cost.window_most=5",
-          "cost.average_steps=[50, 10]",
-          "cost.average_reference=100"};
+namespace {
+
+/// What --quick makes of [cost]: every kind of error and some settings, in seconds.
+const std::vector<std::string> quickCosts = {"cost.timed=0.002",
+                                             "cost.psi_count=9",
+                                             "cost.collision_steps=[50, 10, 1.2]",
+                                             "cost.collision_reference=800",
+                                             "cost.trajectory_steps=[50, 10]",
+                                             "cost.trajectory_reference=400",
+                                             "cost.window_most=5",
+                                             "cost.average_steps=[50, 10]",
+                                             "cost.average_reference=100"};
+
+double costBudget(const CostOptions& options) {
+  return secondsOf(options.budget.value_or("12m"));
 }
 
-namespace {
+std::vector<Case> casesOfCost(const CommandLine& line, CostOptions& own) {
+  costBudget(own);  // what is misspelt is refused before anything runs
+  if (own.target) fractionOf(*own.target);
+  const Case setup = onlyCase(line, "cost");
+  if (!line.quick) return {setup};
+  std::vector<std::string> overrides =
+      quickOverrides(loadCase(line.inputs.front(), line.overrides).front(), 0.05);
+  overrides.insert(overrides.end(), quickCosts.begin(), quickCosts.end());
+  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
+  return loadCase(line.inputs.front(), overrides);
+}
 
 using ErrorKinds = std::vector<std::unique_ptr<ErrorKind>>;
 using Points = std::vector<CostPoint>;
@@ -224,17 +241,15 @@ void addEngines(CostResults& results, const CostStudy& study) {
       }
 }
 
-}  // namespace
-
-CostResults measureCost(const Case& setup, const CostRequest& request, RunStore& store) {
-  checkEngineNames(setup);
-  CostStudy study(setup, request.run, store);
+CostResults runCost(const StudyWork& work, const CostOptions& options) {
+  checkEngineNames(work.setup());
+  CostStudy study(work.setup(), work.line.run, work.store);
   const ErrorKinds kinds = errorKinds(study);
   study.prepare();
-  const CostPlan plan = planCost(study, kinds, request.budget);
+  const CostPlan plan = planCost(study, kinds, costBudget(options));
   std::vector<std::string> names;
   for (const EngineEntry& entry : study.campaign.engines()) names.push_back(entry.name);
-  if (request.printPlan) request.printPlan(planText(plan, names, request.budget));
+  study.campaign.progress().say(planText(plan, names, costBudget(options)));
 
   CostResults results;
   results.points = execute(plan, study, kinds);
@@ -243,35 +258,61 @@ CostResults measureCost(const Case& setup, const CostRequest& request, RunStore&
   results.elapsed = couette.elapsed;
   results.engines = std::move(couette.engines);
   results.packings = std::move(couette.packings);
-  results.budget = request.budget;
+  results.budget = costBudget(options);
   results.budgetForTheRest = plan.budgetForTheRest;
   for (const auto& kind : kinds) kind->addTo(results);
   addEngines(results, study);
-  addCostAnalysis(results, request.targets);
+  if (options.target) results.target = fractionOf(*options.target);
+  addCostAnalysis(results);
   return results;
 }
 
-std::string costPlan(const Case& setup, const CostRequest& request, RunStore& store) {
-  checkEngineNames(setup);
-  CostStudy study(setup, request.run, store);
+std::string planOfCost(const StudyWork& work, const CostOptions& options) {
+  checkEngineNames(work.setup());
+  CostStudy study(work.setup(), work.line.run, work.store);
   const ErrorKinds kinds = errorKinds(study);
   study.ask();
   std::vector<PlannedWork> works = study.campaign.plan({});  // engines that refuse
   for (std::size_t e = 0; e < study.engines.size(); ++e)
     for (const auto& kind : kinds) {
-      PlannedWork work{study.entryOf(e).name, "settings, " + toString(kind->kind())};
-      const std::vector<CostSetting>& settings = study.settingsOf(e, kind->kind());
-      for (std::size_t s = 0; s < settings.size(); ++s) {
-        if (!settings[s].refusal.empty()) continue;
-        ++work.total;
-        work.finished += kind->isKept({e, kind->kind(), s});
+      PlannedWork settings{study.entryOf(e).name, "settings, " + toString(kind->kind())};
+      const std::vector<CostSetting>& all = study.settingsOf(e, kind->kind());
+      for (std::size_t s = 0; s < all.size(); ++s) {
+        if (!all[s].refusal.empty()) continue;
+        ++settings.total;
+        settings.finished += kind->isKept({e, kind->kind(), s});
       }
-      if (work.total > 0) works.push_back(work);
+      if (settings.total > 0) works.push_back(settings);
     }
   return dryRunInWords(
       fmt::format("{}budget {:.0f} s; what fits into it is planned once steps have been timed\n",
-                  study.campaign.planHead(), request.budget),
-      works, study.campaign.store(), request.run);
+                  study.campaign.planHead(), costBudget(options)),
+      works, work.store, work.line.run);
 }
+
+Outcome outcomeOfCost(const CostResults& results, const CommandLine& line, const CostOptions&) {
+  Outcome outcome{results.engineFailures.empty() ? exitHeld : exitEngineFailed,
+                  refusals(results.engines, line.run.engines)};
+  outcome.failures.insert(outcome.failures.end(), results.engineFailures.begin(),
+                          results.engineFailures.end());
+  return outcome;
+}
+
+}  // namespace
+
+const Study<CostOptions, CostResults> costStudy = {
+    "cost",
+    {.packings = true},
+    Study<CostOptions, CostResults>::Keeps::oneCase,
+    [](CostOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--budget", "time that all may take, e.g. 90s, 10m, 1h (default: 12m)", &own.budget},
+          {"--want", "accuracy, e.g. 1% or 1e-3: prints the cheapest setting of each engine",
+           &own.target}};
+    },
+    casesOfCost,
+    planOfCost,
+    runCost,
+    outcomeOfCost};
 
 }  // namespace crossgrain::inline runs

@@ -71,28 +71,22 @@ void fitIntoBudget(CostPlan& plan, double budget) {
 }
 
 std::string planText(const CostPlan& plan, const std::vector<std::string>& engines, double budget) {
-  std::string text = fmt::format("plan for a budget of {:.3g} s:\n", budget);
-  double total = plan.common;
-  for (std::size_t e = 0; e < engines.size(); ++e)
-    for (const CostKind kind : costKinds) {
-      int count = 0, left = 0;
-      double seconds = 0.0;
-      for (const PlannedPoint& point : plan.points) {
-        if (point.engine != e || point.kind != kind) continue;
-        ++count;
-        left += !point.notMeasured.empty();
-        if (point.notMeasured.empty()) seconds += point.seconds;
-      }
-      if (seconds > 0.0) seconds += referenceTime(plan, e, kind);
-      total += seconds;
-      if (count > 0)
-        text += fmt::format("  {:<16} {:<11} {:3} settings, about {:6.1f} s{}\n", engines[e],
-                            toString(kind), count, seconds,
-                            left > 0 ? fmt::format("; {} do not fit", left) : "");
+  std::string text = fmt::format("plan for a budget of {:.3g} s, {:.3g} s of it for references",
+                                 budget, plan.common);
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    int count = 0, left = 0;
+    double seconds = 0.0;
+    for (const PlannedPoint& point : plan.points) {
+      if (point.engine != e) continue;
+      ++count;
+      left += !point.notMeasured.empty();
+      if (point.notMeasured.empty()) seconds += point.seconds;
     }
-  return text + fmt::format("  {:<28} {:22} {:6.1f} s\n  {:<28} {:22} {:6.1f} s\n",
-                            "references of the in-house engine", "", plan.common, "in all", "",
-                            total);
+    if (count > 0)
+      text += fmt::format("\n  {:<16} {:3} settings, about {:6.1f} s{}", engines[e], count, seconds,
+                          left > 0 ? fmt::format("; {} do not fit", left) : "");
+  }
+  return text;
 }
 
 }  // namespace crossgrain::inline runs

@@ -44,7 +44,7 @@ void fitIntoBudget(CostPlan& plan, double budget);
 /// "would take about 90 s, 8 s are left of the engine's share of 20 s"
 std::string doesNotFit(double seconds, double left, double share);
 
-/// The plan as lines: per engine and kind how many points, how many seconds, how many do not fit.
+/// The plan as lines: per engine how many points, how many seconds, how many do not fit.
 std::string planText(const CostPlan& plan, const std::vector<std::string>& engines, double budget);
 
 }  // namespace crossgrain::inline runs

@@ -11,7 +11,6 @@
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/engine_step.hpp"
 #include "runs/effects/effects.hpp"
 #include "support/bad_input.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "cases/case.hpp"
 #include "results/cost.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/cost/plan.hpp"
 #include "runs/cost/settings.hpp"
@@ -26,7 +25,7 @@ inline constexpr const char* beyondLimit = "beyond its stability limit";
 /// bears of an undamped oscillator.
 double pairLimit(const Case& setup);
 
-/// The smallest step at which a packing may be unstable [s]: 2/ω of a disk held by six others, six
+/// The smallest step at which a packing may be unstable [s]: 2/ω of a disk between six others, six
 /// times as stiff as a pair (Gershgorin: ω² ≤ 6 · 2 k_n/m).
 double packingLimit(const Case& setup);
 

@@ -8,8 +8,8 @@
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/advance.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/engine_running.hpp"
 
 namespace crossgrain::inline results {
 

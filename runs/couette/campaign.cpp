@@ -14,7 +14,7 @@
 #include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "results/couette_fields.hpp"
-#include "runs/common/brief_timing.hpp"
+#include "runs/common/engine_running.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

@@ -11,11 +11,8 @@
 #include "cases/case.hpp"
 #include "cases/flow.hpp"
 #include "results/compare.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {

@@ -9,6 +9,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
 #include "results/schema.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/effects/changes.hpp"
@@ -248,20 +249,42 @@ class EffectCampaign {
   std::map<const PlannedVariant*, StepTimes> times_;
 };
 
+TimingPlan timingOf(const CommandLine& line) {
+  TimingPlan plan;
+  if (line.quick) plan.seconds = 0.02;
+  return plan;
+}
+
+Outcome outcomeOfEffects(const EffectsResults& results, const CommandLine& line,
+                         const EffectsOptions&) {
+  Outcome outcome{exitHeld, refusals(results.engines, line.run.engines)};
+  for (const EffectVariant& variant : results.variants)
+    if (variant.status == EngineStatus::failed) {
+      outcome.failures.push_back(variant.reason);
+      outcome.status = exitEngineFailed;
+    }
+  return outcome;
+}
+
 }  // namespace
 
-EffectsResults measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
-                              const TimingPlan& plan) {
-  checkEngineSections(setup);
-  EffectCampaign campaign(setup, command, store, plan);
-  campaign.run();
-  return campaign.results();
-}
-
-std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
-                        const TimingPlan& plan) {
-  checkEngineSections(setup);
-  return EffectCampaign(setup, command, store, plan).plan(command);
-}
+const Study<EffectsOptions, EffectsResults> effectsStudy = {
+    "effects",
+    {.packings = true},
+    Study<EffectsOptions, EffectsResults>::Keeps::oneCase,
+    [](EffectsOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
+    [](const CommandLine& line, EffectsOptions&) { return std::vector{onlyCase(line, "effects")}; },
+    [](const StudyWork& work, const EffectsOptions&) {
+      checkEngineSections(work.setup());
+      return EffectCampaign(work.setup(), work.line.run, work.store, timingOf(work.line))
+          .plan(work.line.run);
+    },
+    [](const StudyWork& work, const EffectsOptions&) {
+      checkEngineSections(work.setup());
+      EffectCampaign campaign(work.setup(), work.line.run, work.store, timingOf(work.line));
+      campaign.run();
+      return campaign.results();
+    },
+    outcomeOfEffects};
 
 }  // namespace crossgrain::inline runs

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "runs/common/advance.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/worker_memory.hpp"
+#include "runs/common/engine_running.hpp"
 #include "runs/scale/plan.hpp"
 
 namespace crossgrain::inline runs {

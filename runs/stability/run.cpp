@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "results/stability_fields.hpp"
-#include "runs/common/advance.hpp"
-#include "runs/common/audited_engine.hpp"
-#include "runs/common/picture.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/engine_running.hpp"
+#include "runs/common/study.hpp"
 #include "runs/stability/recorder.hpp"
 #include "runs/stability/step_limit_run.hpp"
 #include "stability/measures.hpp"
@@ -137,7 +137,7 @@ void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene&
   advanceInPieces(engine, realised, middle, hard.duration);
   const Snapshot whole = engine.snapshot(ContactReport::none);
 
-  const auto second = std::make_unique<AuditedEngine>(
+  const auto second = audited(
       task.entry.name, startNew(task.entry, task.scratch / "second", task.setup->run.timeout));
   const Realised again = loadScene(*second, task.entry, *task.setup, hard.scene);
   second->restore(file);

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "results/stability_fields.hpp"
-#include "runs/common/audited_engine.hpp"
+#include "runs/common/engine_access.hpp"
 #include "runs/lockstep/separation.hpp"
 #include "runs/lockstep/window.hpp"
 #include "runs/stability/recorder.hpp"
@@ -207,9 +207,8 @@ class Trial {
       load(hard_.scene, {});
       engine_->advance(static_cast<double>(steps_[middle]) * dt_);
       engine_->checkpoint(file);
-      const auto second = std::make_unique<AuditedEngine>(
-          task_.entry.name,
-          startNew(task_.entry, task_.scratch / "second", task_.setup->run.timeout));
+      const auto second = audited(task_.entry.name, startNew(task_.entry, task_.scratch / "second",
+                                                             task_.setup->run.timeout));
       loadInto(*second, hard_.scene, {});
       second->restore(file);
       return follow(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},

@@ -126,6 +126,35 @@ TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
             "3 ran, 1 failed, 0 refused, 0 not measured\n");
 }
 
+TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
+  CostResults results = byHand();
+  results.target = 0.1;
+  Advice advice;
+  advice.engine = "a";
+  advice.target = 0.1;
+  advice.verdict = CostVerdict::reached;
+  advice.knob = "time_step";
+  advice.setting = "t_c/10";
+  advice.fragment = "[run]\nsteps_per_contact = 10\n";
+  advice.kinds = {CostKind::collision, CostKind::averages};
+  advice.wallSeconds = 800.0;
+  advice.cheapest = true;
+  results.advice = {advice};
+  EXPECT_EQ(costToml(results),
+            "# a, wanted 10 %: reached by t_c/10, 800 s per rotation (measured in collision and "
+            "averages); the cheapest engine\n[run]\nsteps_per_contact = 10\n");
+  results.advice[0].obstacle = 0;
+  results.advice[0].decides = "more packings";
+  EXPECT_TRUE(has(costToml(results),
+                  "# collision, psi_f: 0.1 to 0.1 of its scale, which does not decide\n"
+                  "# what would decide: more packings\n[run]\n"));
+  results.advice[0].verdict = CostVerdict::notMeasured;
+  EXPECT_TRUE(has(costToml(results), "not measured far enough; the best so far is t_c/10"));
+  EXPECT_FALSE(has(costToml(results), "[run]"));
+  results.target = 0.01;
+  EXPECT_EQ(costToml(results), "");
+}
+
 TEST(CostReport, Texts_OfSettingsAndMeasures) {
   EXPECT_EQ(settingText("integrator", "velocity_verlet, t_c/50"), "velocity verlet, t_c/50");
   EXPECT_EQ(settingText("precision", "float"), "precision float");

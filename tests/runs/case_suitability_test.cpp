@@ -1,4 +1,4 @@
-#include "runs/common/case_suitability.hpp"
+#include "runs/common/engine_access.hpp"
 
 #include <gtest/gtest.h>
 

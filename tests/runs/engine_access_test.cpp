@@ -8,7 +8,6 @@
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/engine_step.hpp"
 #include "support/bad_input.hpp"
 
 namespace {

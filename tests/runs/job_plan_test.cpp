@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,4 +1,4 @@
-#include "runs/common/mirror_scene.hpp"
+#include "runs/common/mirrors.hpp"
 
 #include <gtest/gtest.h>
 

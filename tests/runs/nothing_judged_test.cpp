@@ -1,5 +1,5 @@
 // Where a comparison judged nothing it says so, and why.
-#include "runs/common/nothing_judged.hpp"
+#include "runs/couette/compare.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 
 #include "adapters/effects.hpp"
 #include "cases/case.hpp"
-#include "cli/command.hpp"
+#include "runs/common/study.hpp"
 
-namespace crossgrain::inline cli {
+namespace crossgrain::inline runs {
 
 /// The one Couette case that a command was given, without variants; shortened by --quick.
 /// @throws BadInput
@@ -37,7 +37,10 @@ void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE
 /// The same of many cases, once for each file.
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to);
 
+/// What loads but is hardly meant, one line each on standard error.
+void printWarnings(const Case& setup);
+
 /// "effects called for: friction, rotation; left out: gravity"
 std::string effectsInWords(const Effects& called);
 
-}  // namespace crossgrain::inline cli
+}  // namespace crossgrain::inline runs

@@ -3,9 +3,14 @@
 #include <cstddef>
 #include <optional>
 
+#include "adapters/engine.hpp"
 #include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
+
+/// Advances in pieces that an engine can answer within its time-out; Ctrl-C is heard in between.
+/// @throws EngineFailure if it stops anywhere else, Interrupted
+void advanceInPieces(Engine& engine, const Realised& realised, double from, double to);
 
 /// What a step of an engine takes, from a brief look.
 struct BriefTiming {
@@ -19,5 +24,14 @@ struct BriefTiming {
 /// @throws UnsupportedScene, EngineFailure, BadInput
 BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
                         const Scene& scene);
+
+/// The most that an engine's worker and what it has started held in memory so far: the sum of
+/// VmHWM of /proc/PID/status (proc(5)) over those that still run [bytes]. Pages that several share
+/// count in each. Absent for an engine that is no worker, or has gone.
+std::optional<std::size_t> mostMemoryOf(const Engine& engine);
+
+/// What programs can still have without swapping: MemAvailable of /proc/meminfo [bytes]; absent
+/// where the kernel does not say.
+std::optional<std::size_t> availableMemory();
 
 }  // namespace crossgrain::inline runs

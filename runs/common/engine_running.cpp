@@ -1,17 +1,55 @@
-#include "runs/common/worker_memory.hpp"
+#include "runs/common/engine_running.hpp"
 
 #include <fmt/format.h>
 #include <sys/types.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "adapters/worker/worker_engine.hpp"
+#include "runs/common/engine_access.hpp"
+#include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
+
+void advanceInPieces(Engine& engine, const Realised& realised, double from, double to) {
+  const double piece = 2000.0 * realised.dt;
+  for (double now = from; now < to;) {
+    throwIfInterrupted();
+    const double next = std::min(to, now + piece);
+    const double reached = engine.advance(next);
+    if (!(std::abs(reached - next) <= realised.dt)) {
+      distrust(engine);
+      throw EngineFailure(fmt::format("{}: asked for t = {:g} s it stopped at {:g} s",
+                                      realised.engine, next, reached));
+    }
+    now = next;
+  }
+}
+
+BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
+                        const Scene& scene) {
+  constexpr double enough = 0.1;  // s of steps
+  constexpr int warmUp = 5, most = 2000;
+  BriefTiming timing;
+  timing.realised = loadScene(engine, entry, setup, scene);
+  const double dt = timing.realised.dt;
+  engine.advance(warmUp * dt);
+  const double before = engine.stats().wallSeconds;
+  double spent = 0.0;
+  for (int more = 5; timing.steps < most && spent < enough; more *= 2) {
+    timing.steps += more;
+    engine.advance((warmUp + timing.steps) * dt);
+    spent = engine.stats().wallSeconds - before;
+  }
+  timing.secondsPerStep = spent / timing.steps;
+  timing.memory = mostMemoryOf(engine);
+  return timing;
+}
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "cli/one_case.hpp"
+#include "runs/common/study_cases.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "cases/loader.hpp"
 #include "support/bad_input.hpp"
 
-namespace crossgrain::inline cli {
+namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
 
@@ -23,7 +23,7 @@ struct KeyUse {
   std::string_view key, commands;
 };
 
-constexpr std::string_view runs =
+constexpr std::string_view allRuns =
     "compare plan lockstep identify baseline record effects cost stability collide";
 
 constexpr std::string_view runsOrSteps =
@@ -53,7 +53,7 @@ constexpr KeyUse keyUses[] = {
     {"run.mirrors", "compare plan collide"},
     {"run.energy_ledger", "compare plan record stability effects cost scale"},
     {"run.keep_snapshots", "compare plan effects cost"},
-    {"collision", runs},
+    {"collision", allRuns},
     {"collision.radius", "calibrate baseline collide record stability"},
     {"collision.mass", "calibrate baseline collide record stability"},
     {"collision.inertia_factor", "calibrate baseline collide record stability"},
@@ -159,6 +159,10 @@ void refuseKind(const Case& setup, const fs::path& input, const char* command) {
                              input.string(), command, able));
 }
 
+void printWarnings(const Case& setup) {
+  for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
+}
+
 std::string effectsInWords(const Effects& called) {
   std::vector<std::string> in, out;
   for (const Effect effect : allEffects)
@@ -168,4 +172,4 @@ std::string effectsInWords(const Effects& called) {
                      out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
 }
 
-}  // namespace crossgrain::inline cli
+}  // namespace crossgrain::inline runs
