@@ -13,6 +13,7 @@
 #include "cli/outcome.hpp"
 #include "reports/collide/overview.hpp"
 #include "reports/conformance/report.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/effects/overview.hpp"
@@ -28,6 +29,7 @@
 #include "runs/common/mirrors.hpp"
 #include "runs/common/study_cases.hpp"
 #include "runs/conformance/conformance.hpp"
+#include "runs/cost/cost.hpp"
 #include "runs/couette/compare.hpp"
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/couette/rev.hpp"
@@ -48,6 +50,8 @@ struct Terminal {
   std::string (*text)(const Results&, const std::vector<Case>& cases);
   Overview (*overview)(const Results&);
   bool timeSpent = false;
+  /// What is printed in place of all that, to be pasted; empty: nothing is.
+  std::string (*paste)(const Results&) = nullptr;
 };
 
 /// From the folder to the exit status, the same for all studies.
@@ -67,8 +71,12 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
   const Results results = study.run(work, own);
   store.begin();
   writeReport(results, line.run.out);
-  printResults(line, line.json ? "" : terminal.text(results, cases), terminal.overview(results),
-               terminal.timeSpent);
+  const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
+  if (!paste.empty())
+    fmt::print("{}", paste);
+  else
+    printResults(line, line.json ? "" : terminal.text(results, cases), terminal.overview(results),
+                 terminal.timeSpent);
   return printOutcome(line, study.outcome(results, line, own));
 }
 
@@ -352,6 +360,18 @@ extern const Command lockstepCommand = {
     "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out/lockstep",
     [](CLI::App& app, CommandLine& line) {
       return declareStudy(app, line, lockstepStudy, {lockstepText, reports::lockstepOverview});
+    }};
+
+extern const Command costCommand = {
+    "cost", "error against time, for every engine and every setting that trades one for the other",
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, costStudy,
+                          {[](const CostResults& results, const std::vector<Case>&) {
+                             return reports::costText(results);
+                           },
+                           reports::costOverview, true, reports::costToml});
     }};
 
 extern const Command scaleCommand = {
