@@ -244,8 +244,14 @@ Settled settle(const Points& points, const Question& question) {
   for (Candidate& one : settings) judge(one, points, question);
   const auto rest = std::ranges::stable_partition(
       settings, [&](const Candidate& one) { return isComplete(one, points, measures); });
-  const bool open = std::ranges::any_of(
-      rest, [](const Candidate& one) { return one.standing != Standing::cannot; });
+  // Some settings are not measured in every kind of error; others lack a measure of a kind.
+  const bool open = std::ranges::any_of(rest, [&](const Candidate& one) {
+    return one.standing != Standing::cannot &&
+           std::ranges::all_of(measures, [&](const Measure& measure) {
+             return std::ranges::any_of(
+                 one.points, [&](std::size_t k) { return points[k].kind == measure.first; });
+           });
+  });
   settings.erase(rest.begin(), rest.end());
   if (settings.empty()) {
     if (!among.empty())
