@@ -325,7 +325,7 @@ class GrainEngine : public Engine {
   std::vector<WallBody> bodies_;
   bool rigid_ = false;
   double mu_ = 0.0;
-  bool spins_ = false;  ///< whether snapshots tell them; blocked ones are zero
+  bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
 };
