@@ -280,7 +280,7 @@ TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
   auto runs = heights("a", 2.05, 2.05);
   append(runs, heights("b", 2.3, 2.3));
   append(runs, heights("noisy", 2.0, 2.0 + 1e-15));
-  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b", 0.0};
+  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b"};
   const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].kind, PairKind::closedForm);
