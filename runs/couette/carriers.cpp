@@ -106,16 +106,21 @@ void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& re
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
                                                 const std::string& engine,
                                                 const std::vector<ChangedCase>& changed,
-                                                std::span<const CouetteRun> runs, int packings) {
+                                                const RunsById& runs, int packings) {
   const auto count = static_cast<std::size_t>(packings);
   std::vector<CouetteRun> own;
   for (const CouetteRun& run : campaign.runs())
     if (run.engine == engine && run.packing < packings) own.push_back(run);
   std::vector<EndpointResponse> responses;
-  for (std::size_t k = 0; k < changed.size(); ++k)
+  for (const ChangedCase& one : changed) {
+    std::vector<CouetteRun> with;
+    for (int k = 0; k < packings; ++k)
+      if (const auto run = runs.find({engine, one.name, k}); run != runs.end())
+        with.push_back(run->second);
     for (const auto& [endpoint, margin] : setup.averaging.endpoints)
-      responses.push_back(responseTo(setup, own, runs.subspan(k * count, count), endpoint,
-                                     changed[k].constant, responseChange, count));
+      responses.push_back(
+          responseTo(setup, own, with, endpoint, one.constant, responseChange, count));
+  }
   return responses;
 }
 

@@ -21,11 +21,11 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
 /// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ.
 /// @param engine   one that has run the first `packings` of the campaign with the case as it is
 /// @param changed  the case with its law changed
-/// @param runs     of that engine on as many packings with each of these in turn
+/// @param runs     among which are that engine's on as many packings with each of these
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
                                                 const std::string& engine,
                                                 const std::vector<ChangedCase>& changed,
-                                                std::span<const CouetteRun> runs, int packings);
+                                                const RunsById& runs, int packings);
 
 /// The first part of the spot check: compares the averaged run of each with its mirror's on the
 /// same packing, where chaos is as the responses show it. Sets `carried`, or the alarm.

@@ -99,10 +99,9 @@ class Sequence {
         {whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}};
     // The followed run of a spot check takes as long as the averaged one.
     sayWhetherBeyondBudget(campaign_.secondsOf(all) + campaign_.secondsOf({{canaries, {0, 1}}}));
-    std::vector<CouetteRun> runs = campaign_.runSome(all, "running engines");
-    const auto firstChanged = runs.end() - static_cast<std::ptrdiff_t>(cases.size()) * packings;
-    std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
-    runs.erase(firstChanged, runs.end());
+    RunsById runs = campaign_.runSome(all, "running engines"), ofChanged;
+    for (auto next = runs.begin(); next != runs.end();)
+      if (const auto run = next++; !run->first.variant.empty()) ofChanged.insert(runs.extract(run));
     campaign_.add(std::move(runs));
     if (canaries.empty()) return;
     if (!cases.empty()) respond(responding, cases, std::move(ofChanged));
@@ -147,7 +146,7 @@ class Sequence {
   /// How averages respond, by the first of these engines that finished its runs.
   /// @param ofChanged  the very first one's runs of the changed cases
   void respond(const std::vector<std::size_t>& engines, const std::vector<ChangedCase>& cases,
-               std::vector<CouetteRun> ofChanged) {
+               RunsById ofChanged) {
     const int packings = plan_.packings.front();
     for (const std::size_t e : engines) {
       if (finishedIn(nameOf(e)) == 0) continue;

@@ -11,7 +11,7 @@
 #include "reports/common/headings.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/cost/overview.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/overview.hpp"
