@@ -74,12 +74,12 @@ std::optional<RingStress> wheelRing(const std::vector<RingView>& views) {
 /// u(0) is chosen so that the model has the averages' velocity in the ring next to the wheel.
 CosseratOutcome matchedAtTheWheel(CosseratParameters parameters,
                                   const std::vector<Point>& velocities) {
-  CosseratOutcome outcome = solveByShooting(parameters);
+  CosseratOutcome outcome = solveCosserat(parameters);
   if (!outcome.solution || velocities.empty()) return outcome;
   const double there = outcome.solution->at(velocities.front().x).u;
   if (!(velocities.front().y > 0.0 && there > 0.0)) return outcome;
   parameters.wheelVelocity = velocities.front().y / there;
-  return solveByShooting(parameters);
+  return solveCosserat(parameters);
 }
 
 std::vector<ModelCurve> modelCurves(const ThesisLeg& leg, const std::vector<RingView>& views,

@@ -1,6 +1,6 @@
 #include "runs/thesis/claims_cosserat.hpp"
 
-#include "continuum/cosserat_solution.hpp"
+#include "continuum/cosserat.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 constexpr int modelPoints = 400;
 
 std::optional<CosseratFields> solvedAsPrinted() {
-  const CosseratOutcome outcome = solveByShooting({});
+  const CosseratOutcome outcome = solveCosserat({});
   if (!outcome.solution) return std::nullopt;
   CosseratFields fields;
   for (int k = 0; k <= modelPoints; ++k) {

@@ -1,9 +1,11 @@
-#include "continuum/cosserat_equations.hpp"
+#include "continuum/cosserat.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace crossgrain::inline continuum {
 namespace {
@@ -14,8 +16,7 @@ void require(bool holds, const char* what, double value) {
 
 }  // namespace
 
-CosseratEquations::CosseratEquations(const CosseratParameters& p, CosseratSource source)
-    : parameters_(p), source_(std::move(source)) {
+CosseratEquations::CosseratEquations(const CosseratParameters& p) : parameters_(p) {
   constexpr double quarterTurn = std::numbers::pi / 2.0;
   const auto isPositive = [](double x) { return std::isfinite(x) && x > 0.0; };
   require(isPositive(p.innerRadius), "R_i/H must be > 0", p.innerRadius);
@@ -50,28 +51,27 @@ double CosseratEquations::outerCouple(double s) const {
 ShearState CosseratEquations::rates(double xi, ShearState at, double root) const {
   const double r = radius(xi);
   const double other = q(at, root);
-  const auto source = sourceAt(xi);
-  return {-(at.s + other) / r + source[0], (at.s - other) / c_ - at.m / r + source[1]};
+  return {-(at.s + other) / r, (at.s - other) / c_ - at.m / r};
 }
 
-CosseratEquations::FlowRule CosseratEquations::flowRule(double xi, ShearState at,
-                                                        double root) const {
+CosseratEquations::FlowRule CosseratEquations::flowRule(ShearState at, double root) const {
   const double onePlusA = parameters_.asymmetry + 1.0;
-  const auto source = sourceAt(xi);
-  return {onePlusA * (at.s + q(at, root)) / root, 2.0 * onePlusA * at.m / (root * epsilonAlpha_),
-          source[2], source[3]};
+  return {onePlusA * (at.s + q(at, root)) / root, 2.0 * onePlusA * at.m / (root * epsilonAlpha_)};
 }
 
-double CosseratEquations::FlowRule::logarithmicRate(double v, double radius) const {
-  return -turn * (1.0 + v / radius) + pushOmega;
+CosseratSolution::CosseratSolution(CosseratEquations equations, ChebyshevGrid grid, Values values)
+    : equations_(std::move(equations)), grid_(std::move(grid)), values_(std::move(values)) {}
+
+CosseratPoint CosseratSolution::at(double xi) const {
+  const ShearState state{grid_.at(xi, values_.s), grid_.at(xi, values_.m)};
+  const double root = std::sqrt(std::max(0.0, equations_.rootSquared(state)));
+  const double omega = std::exp(grid_.at(xi, values_.logOmega));
+  return {xi,   state.s, equations_.q(state, root), state.m, omega * grid_.at(xi, values_.ratio),
+          omega};
 }
 
-double CosseratEquations::FlowRule::ratioRate(double v, double radius) const {
-  return v / radius - shear * (1.0 + v / radius) + pushU - v * logarithmicRate(v, radius);
-}
-
-std::array<double, 4> CosseratEquations::sourceAt(double xi) const {
-  return source_ ? source_(xi) : std::array<double, 4>{};
+double CosseratSolution::spinRatio() const {
+  return 1.0 / values_.ratio.front();
 }
 
 }  // namespace crossgrain::inline continuum

@@ -1,14 +1,23 @@
+#include "tests/continuum/collocation.hpp"
+
 #include <gsl/gsl_linalg.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
+#include <numbers>
 
-#include "continuum/cosserat_solution.hpp"
 #include "support/quiet_gsl.hpp"
 
-namespace crossgrain::inline continuum {
+namespace crossgrain::test {
 namespace {
+
+/// ω′/ω and (u/ω)′ with v = u/ω.
+double logarithmicRate(const CosseratEquations::FlowRule& rule, double v, double radius) {
+  return -rule.turn * (1.0 + v / radius);
+}
+double ratioRate(const CosseratEquations::FlowRule& rule, double v, double radius) {
+  return v / radius - rule.shear * (1.0 + v / radius) - v * logarithmicRate(rule, v, radius);
+}
 
 /// A dense system of linear equations, set up row by row.
 class LinearSystem {
@@ -51,7 +60,7 @@ constexpr int mostNewtonSteps = 60;
 class StressCollocation {
  public:
   StressCollocation(const CosseratEquations& equations, const ChebyshevGrid& grid)
-      : equations_(equations), grid_(grid), n_(grid.count()), s(n_), m(n_) {
+      : equations_(equations), grid_(grid), slopes_(grid), n_(grid.count()), s(n_), m(n_) {
     // Symmetric stress: q = s ∝ r⁻² from 9.23, with the m that 9.19 leaves.
     const double wheel = std::tan(equations.parameters().wallFriction);
     for (std::size_t k = 0; k < n_; ++k) {
@@ -96,7 +105,7 @@ class StressCollocation {
   std::vector<double> newtonStep() const {
     const double A = equations_.parameters().asymmetry, c = equations_.momentFactor();
     LinearSystem system(2 * n_);
-    const auto ds = grid_.derivative(s), dm = grid_.derivative(m);
+    const auto ds = slopes_.of(s), dm = slopes_.of(m);
     for (std::size_t k = 0; k < n_; ++k) {
       const double xi = grid_.points()[k], r = equations_.radius(xi);
       const double root = std::sqrt(square(k));
@@ -104,7 +113,7 @@ class StressCollocation {
       // ∂q/∂s and ∂q/∂m of 9.20.
       const double qs = -A + (A * A - 1.0) * s[k] / root;
       const double qm = -4.0 * (A + 1.0) * (A + 1.0) * m[k] / root;
-      const auto row = grid_.derivativeRow(k);
+      const auto row = slopes_.row(k);
       for (std::size_t j = 0; j < n_; ++j) {
         system(k, j) = row[j];
         system(n_ + k, n_ + j) = row[j];
@@ -131,6 +140,7 @@ class StressCollocation {
 
   const CosseratEquations& equations_;
   const ChebyshevGrid& grid_;
+  ChebyshevSlopes slopes_;
   std::size_t n_;
 
  public:
@@ -141,26 +151,25 @@ class StressCollocation {
 bool collocateFlow(const CosseratEquations& equations, const ChebyshevGrid& grid, double tolerance,
                    CosseratSolution::Values& values) {
   const std::size_t n = grid.count();
+  const ChebyshevSlopes slopes(grid);
   std::vector<CosseratEquations::FlowRule> rules;
   for (std::size_t k = 0; k < n; ++k) {
     const ShearState at{values.s[k], values.m[k]};
-    rules.push_back(equations.flowRule(grid.points()[k], at, std::sqrt(equations.rootSquared(at))));
+    rules.push_back(equations.flowRule(at, std::sqrt(equations.rootSquared(at))));
   }
   values.ratio.assign(n, 0.0);
   bool settled = false;
   for (int iteration = 0; iteration < mostNewtonSteps && !settled; ++iteration) {
     LinearSystem system(n);
-    const auto slope = grid.derivative(values.ratio);
+    const auto slope = slopes.of(values.ratio);
     for (std::size_t k = 0; k < n; ++k) {
       const double r = equations.radius(grid.points()[k]), v = values.ratio[k];
       const auto& rule = rules[k];
-      const auto row = grid.derivativeRow(k);
+      const auto row = slopes.row(k);
       for (std::size_t j = 0; j < n; ++j) system(k, j) = k == n - 1 ? 0.0 : row[j];
       // ∂v′/∂v
-      system(k, k) -=
-          k == n - 1 ? -1.0
-                     : (1.0 - rule.shear) / r + rule.turn * (1.0 + 2.0 * v / r) - rule.pushOmega;
-      system.right(k) = k == n - 1 ? -v : rule.ratioRate(v, r) - slope[k];
+      system(k, k) -= k == n - 1 ? -1.0 : (1.0 - rule.shear) / r + rule.turn * (1.0 + 2.0 * v / r);
+      system.right(k) = k == n - 1 ? -v : ratioRate(rule, v, r) - slope[k];
     }
     const std::vector<double> step = system.solve();
     for (std::size_t k = 0; k < n; ++k) values.ratio[k] += step[k];
@@ -171,9 +180,9 @@ bool collocateFlow(const CosseratEquations& equations, const ChebyshevGrid& grid
   LinearSystem integral(n);
   for (std::size_t k = 0; k < n; ++k) {
     const double r = equations.radius(grid.points()[k]);
-    const auto row = grid.derivativeRow(k);
+    const auto row = slopes.row(k);
     for (std::size_t j = 0; j < n; ++j) integral(k, j) = k == 0 ? 0.0 : row[j];
-    if (k > 0) integral.right(k) = rules[k].logarithmicRate(values.ratio[k], r);
+    if (k > 0) integral.right(k) = logarithmicRate(rules[k], values.ratio[k], r);
   }
   integral(0, 0) = 1.0;
   integral.right(0) = std::log(equations.parameters().wheelVelocity / values.ratio.front());
@@ -183,25 +192,46 @@ bool collocateFlow(const CosseratEquations& equations, const ChebyshevGrid& grid
 
 }  // namespace
 
-CosseratOutcome solveByCollocation(const CosseratParameters& parameters,
-                                   const CosseratNumerics& numerics, const CosseratSource& source) {
-  const CosseratEquations equations(parameters, source);
-  if (std::tan(parameters.wallFriction) > equations.largestShear())
-    return {std::nullopt, CosseratFailure::beyondYield, "tan δ is more than yield allows"};
-  ChebyshevGrid grid(numerics.degree);
-  StressCollocation stresses(equations, grid);
-  CosseratSolution::Values values;
-  const bool settled = stresses.solve(numerics.tolerance);
-  if (settled) {
-    values.s = stresses.s;
-    values.m = stresses.m;
-  }
-  if (!settled || !collocateFlow(equations, grid, numerics.tolerance, values))
-    return {std::nullopt, CosseratFailure::noConvergence,
-            "Newton's steps do not settle: no solution, or none that polynomials of this degree "
-            "are near to"};
-  return {CosseratSolution(equations, std::move(grid), std::move(values)), CosseratFailure::none,
-          ""};
+ChebyshevSlopes::ChebyshevSlopes(const ChebyshevGrid& grid)
+    : count_(grid.count()), matrix_(count_ * count_) {
+  const auto last = count_ - 1;
+  const auto angle = [&](std::size_t k) {
+    return 0.5 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(last);
+  };
+  const auto weight = [&](std::size_t k) {
+    return (k % 2 == 0 ? 1.0 : -1.0) * (k == 0 || k == last ? 0.5 : 1.0);
+  };
+  for (std::size_t i = 0; i < count_; ++i)
+    for (std::size_t j = 0; j < count_; ++j) {
+      if (i == j) continue;
+      // ξ_i − ξ_j without cancellation; rows sum up to 0, so that a constant has no slope.
+      const double apart = std::sin(angle(i) + angle(j)) * std::sin(angle(i) - angle(j));
+      matrix_[i * count_ + j] = weight(j) / weight(i) / apart;
+      matrix_[i * count_ + i] -= matrix_[i * count_ + j];
+    }
 }
 
-}  // namespace crossgrain::inline continuum
+std::vector<double> ChebyshevSlopes::of(std::span<const double> values) const {
+  std::vector<double> result(count_);
+  // Differences: what the values have in common would only bring its rounding.
+  for (std::size_t k = 0; k < count_; ++k)
+    for (std::size_t j = 0; j < count_; ++j) result[k] += row(k)[j] * (values[j] - values[k]);
+  return result;
+}
+
+std::optional<CosseratSolution> solveByCollocation(const CosseratParameters& parameters,
+                                                   int degree) {
+  const CosseratEquations equations(parameters);
+  if (std::tan(parameters.wallFriction) > equations.largestShear()) return std::nullopt;
+  constexpr double tolerance = 1e-12;  // of Newton's last step
+  const ChebyshevGrid grid(degree);
+  StressCollocation stresses(equations, grid);
+  if (!stresses.solve(tolerance)) return std::nullopt;
+  CosseratSolution::Values values;
+  values.s = stresses.s;
+  values.m = stresses.m;
+  if (!collocateFlow(equations, grid, tolerance, values)) return std::nullopt;
+  return CosseratSolution(equations, grid, values);
+}
+
+}  // namespace crossgrain::test
