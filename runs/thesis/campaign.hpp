@@ -12,9 +12,7 @@
 #include "cases/thesis_sweep.hpp"
 #include "results/thesis.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {
