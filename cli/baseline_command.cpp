@@ -6,6 +6,7 @@
 
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "runs/baseline/baseline_file.hpp"
 #include "runs/baseline/keep.hpp"
 #include "runs/common/study_cases.hpp"
@@ -55,12 +56,14 @@ int keep(const CommandLine& line, const std::string& out, const std::optional<do
                                line.inputs.front().string()));
   // Where it cannot be written is told before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
-  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints);
+  std::vector<std::string> refusals;
+  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints, refusals);
   writeBaseline(baseline, file);
   std::vector<std::string> names;
   for (const BaselineEngine& engine : baseline.engines)
     names.push_back(fmt::format("{} {}", engine.name, engine.version));
   fmt::print("{}: kept of {}\n", out, fmt::join(names, ", "));
+  for (const std::string& refusal : refusals) printFailure(refusal);
   return exitHeld;
 }
 

@@ -81,7 +81,7 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
 }
 
 Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
-                      bool endpoints) {
+                      bool endpoints, std::vector<std::string>& refusals) {
   const Case& setup = cases.front();
   for (const Case& each : cases) checkEngineSections(each);
   const std::vector<EngineEntry> engines = selectEngines(command.engines);
@@ -95,14 +95,21 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const ScratchFolder scratch;
     const auto engine = startEngine(engines[e], scratch.path, setup.run.timeout);
-    baseline.engines.push_back(
-        keepEngine(*engine, engines[e], cases, baseline.starts, dt,
-                   [&](double fraction) { progress.update(e, engines[e].name, fraction); }));
-    if (endpoints)
-      baseline.engines.back().endpoints = endpointsFrom(
-          engines[e], setup, baseline.starts, dt,
-          [&](double fraction) { progress.update(e, engines[e].name + " averages", fraction); });
-    progress.finish(e, engines[e].name + ": kept");
+    try {
+      BaselineEngine kept =
+          keepEngine(*engine, engines[e], cases, baseline.starts, dt,
+                     [&](double fraction) { progress.update(e, engines[e].name, fraction); });
+      if (endpoints)
+        kept.endpoints = endpointsFrom(
+            engines[e], setup, baseline.starts, dt,
+            [&](double fraction) { progress.update(e, engines[e].name + " averages", fraction); });
+      baseline.engines.push_back(std::move(kept));
+      progress.finish(e, engines[e].name + ": kept");
+    } catch (const UnsupportedScene& refusal) {
+      if (baseline.engines.empty() && e + 1 == engines.size()) throw;
+      if (isNamed(command.engines, engines[e])) refusals.emplace_back(refusal.what());
+      progress.finish(e, refusal.what());
+    }
   }
   return baseline;
 }
