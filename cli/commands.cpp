@@ -4,7 +4,7 @@
 
 namespace crossgrain::inline cli {
 
-// Each in a file of its name.
+// In files of their names; diff with baseline, replay with record.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,

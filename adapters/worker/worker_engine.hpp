@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,11 +10,23 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
-#include "adapters/worker/exchange.hpp"
-#include "adapters/worker/exchange_file.hpp"
+#include "adapters/worker/arrays.hpp"
 #include "adapters/worker/process.hpp"
 
 namespace crossgrain {
+
+/// A request to a worker and what came of it, as they travelled.
+struct Exchange {
+  nlohmann::json request;
+  std::string sent;  ///< content of the array file of `load`
+  /// Null where none came: `failure` says why, in the words that the user is told.
+  nlohmann::json answer;
+  std::string received;  ///< content of the array file of `snapshot`
+  std::string failure;
+};
+
+/// Told every exchange with a worker once it is over, before anything in it is believed.
+using ExchangeListener = std::function<void(const Exchange&)>;
 
 /// An engine in a process of its own, spoken to by the worker protocol (README.md).
 ///

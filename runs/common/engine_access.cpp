@@ -9,7 +9,6 @@
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "adapters/suitability.hpp"
-#include "adapters/worker/pooled_engine.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/stable_step.hpp"
 #include "runs/common/audited_engine.hpp"

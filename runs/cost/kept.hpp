@@ -10,20 +10,6 @@
 #include "runs/cost/trajectory.hpp"
 
 /// What a study of cost keeps in its store while it is under way, as structs.
-namespace crossgrain::inline results {
-
-template <>
-inline Json jsonOf(const Vec2& at) {
-  return jsonOf(std::array{at.x(), at.y()});
-}
-template <>
-inline void readFrom(const Json& json, Vec2& at) {
-  const auto pair = readAs<std::array<double, 2>>(json);
-  at = {pair[0], pair[1]};
-}
-
-}  // namespace crossgrain::inline results
-
 namespace crossgrain::inline runs {
 
 /// A point that was seen to fail past its limit.
