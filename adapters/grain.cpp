@@ -308,7 +308,7 @@ class GrainEngine : public Engine {
   double stiffness_;
   std::vector<WallBody> bodies_;
   bool rigid_ = false;
-  bool spins_ = false;  ///< whether snapshots tell them; blocked ones are zero
+  bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
 };

@@ -20,7 +20,7 @@ std::unique_ptr<Engine> makeGrain();
 /// Law option → the values that an engine has, its own choice first.
 using LawConventionSets = std::map<std::string, std::vector<std::string>>;
 
-/// The in-house engine held to a peer's conventions: where it follows the peer, what remains
+/// The in-house engine with a peer's conventions: where it follows the peer, what remains
 /// between the scene's law and the peer is the model's; where it does not, somebody's
 /// implementation is at fault.
 std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);

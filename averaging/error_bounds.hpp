@@ -15,11 +15,11 @@ struct ErrorInterval {
 struct MeasuredError {
   double value = 0.0;
   std::optional<double> statistical;  ///< its standard error
-  std::optional<double> reference;    ///< the error of what it was held against
+  std::optional<double> reference;    ///< the error of what it was compared with
   /// Whether repeats of the measurement scatter. An error that does and whose scatter nobody knows,
   /// as that of averages over a single packing, says nothing: it does not count anywhere.
   bool scatters = false;
-  /// Of an error whose scatter is told by a confidence interval, that interval.
+  /// Of an error whose scatter is given by a confidence interval, that interval.
   std::optional<ErrorInterval> interval = {};
   /// By how much it can differ from 0 by another argument than this measurement.
   std::optional<double> bound = {};

@@ -152,7 +152,7 @@ void RunStore::begin() {
   // Cases of earlier commands stay, for as long as something of them is there.
   if (holdsRuns()) now.cases.merge(markerIn(out_).cases);
   json document = jsonOf(now);
-  document["about"] = "Made by crossgrain: see runs/README.md.";
+  document["about"] = "Made by crossgrain: see docs/files.md.";
   writeFile(out_ / marker, toText(document));
 }
 

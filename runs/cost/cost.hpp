@@ -21,7 +21,7 @@ struct CostRequest {
 };
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
-/// turn. Three kinds of error, never mixed (runs/README.md). What is measured is kept in the store
+/// turn. Three kinds of error, never mixed (docs/methods.md). What is measured is kept in the store
 /// at once. A setting that an engine fails at ends by itself.
 /// @throws BadInput, UnsupportedScene, OutputError, Interrupted
 CostResults measureCost(const Case& setup, const CostRequest& request, RunStore& store);
