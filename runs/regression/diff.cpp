@@ -45,15 +45,12 @@ CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
     common.frames.push_back(k);
     common.steps.push_back(steps);
   }
-  const auto distance = [&](std::size_t frame, double time) {
-    return std::abs(kept[frame].time - time);
-  };
   for (std::size_t which = 0; which < lockstepTimes.size(); ++which) {
-    const double time = lockstepTimes[which];
-    std::size_t nearest = 0;
-    for (std::size_t k = 1; k < kept.size(); ++k)
-      if (distance(k, time) < distance(nearest, time)) nearest = k;
-    const auto found = std::ranges::find(common.frames, nearest);
+    const auto nearest = std::ranges::min_element(kept, {}, [&](const LockstepFrame& frame) {
+      return std::abs(frame.time - lockstepTimes[which]);
+    });
+    const auto found =
+        std::ranges::find(common.frames, static_cast<std::size_t>(nearest - kept.begin()));
     if (found == common.frames.end()) continue;
     common.reported.push_back(static_cast<std::size_t>(found - common.frames.begin()));
     common.which.push_back(which);
@@ -155,15 +152,13 @@ class WindowsDiff {
     row.reason = found.reason;
     row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
     row.forces = forces_;
-    if (forces_ && largestOf(*forces_) >= lockstepSameLaw) row.forcesVerdict = DiffVerdict::differs;
+    if (forces_ &&
+        std::max({forces_->normal, forces_->tangential, forces_->walls}) >= lockstepSameLaw)
+      row.forcesVerdict = DiffVerdict::differs;
     row.windows = std::move(found);
   }
 
  private:
-  static double largestOf(const ForcesChange& change) {
-    return std::max({change.normal, change.tangential, change.walls});
-  }
-
   /// Forces that are reported of one and the same state: of soft disks also where it is the same
   /// but for rounding, 1e-10 d, which moves a force by 1e-7 of that of an overlap of 1e-3 d;
   /// impulses of rigid ones follow from no position alone.
@@ -185,21 +180,21 @@ class WindowsDiff {
     }
   }
 
+  /// No limits of a precision are given, as what was kept is no mirror.
   static DiffVerdict verdictOf(LockstepVerdict verdict) {
     switch (verdict) {
-      case LockstepVerdict::notMeasured:
-        break;
       case LockstepVerdict::sameToRounding:
         return DiffVerdict::sameToRounding;
-      case LockstepVerdict::sameToPrecision:  // no limits are given: what was kept is no mirror
+      case LockstepVerdict::sameToPrecision:
       case LockstepVerdict::sameLaw:
         return DiffVerdict::sameLaw;
       case LockstepVerdict::differs:
         return DiffVerdict::differs;
       case LockstepVerdict::undecided:
         return DiffVerdict::undecided;
+      default:
+        return DiffVerdict::notMeasured;
     }
-    return DiffVerdict::notMeasured;
   }
 
   /// Which change of the mirror of what was kept does what the engine now does; none where no
