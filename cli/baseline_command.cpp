@@ -48,12 +48,14 @@ int keep(const CommandLine& line, const std::string& out, const std::optional<do
                                line.inputs.front().string()));
   // A folder that cannot be written is reported before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
-  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints);
+  std::vector<std::string> refusals;
+  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints, refusals);
   writeBaseline(baseline, file);
   std::vector<std::string> names;
   for (const BaselineEngine& engine : baseline.engines)
     names.push_back(fmt::format("{} {}", engine.name, engine.version));
   fmt::print("{}: kept of {}\n", out, fmt::join(names, ", "));
+  for (const std::string& refusal : refusals) printFailure(refusal);
   return exitHeld;
 }
 

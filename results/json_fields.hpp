@@ -6,6 +6,7 @@
 namespace crossgrain::inline results {
 
 using support::Json;
+using support::nameOf;
 
 /// Of engines, cases, variants, methods, quantities, …; empty where there is none.
 bool isName(std::string_view text);

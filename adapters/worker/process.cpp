@@ -57,7 +57,8 @@ bool killOnce(const std::string& variable) {
     if (!std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; })) continue;
     const pid_t pid = std::atoi(name.c_str());
     if (pid == ::getpid()) continue;
-    // Held before it is looked at: its number may pass to a stranger, the descriptor does not.
+    // Opened before its environment is read: its number may pass to another process, the
+    // descriptor does not.
     const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
     if (process.get() < 0 || !hasVariable(each->path(), variable)) continue;
     found |= ::syscall(SYS_pidfd_send_signal, process.get(), SIGKILL, nullptr, 0) == 0;
@@ -76,7 +77,7 @@ std::string newWorkerMark() {
 /// or belongs to another user, is not found; nor is anything where there is no /proc.
 void killMarkedProcesses(const std::string& mark) {
   const std::string variable = fmt::format("{}={}", workerMark, mark);
-  // One that was being forked while we looked is found the next time.
+  // One that was being forked meanwhile is found the next time.
   constexpr int rounds = 10;
   for (int k = 0; k < rounds && killOnce(variable); ++k) {
   }
@@ -186,7 +187,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 /// This process' environment and what the call adds, with another HOME where its own cannot be
 /// used.
 std::vector<std::string> environmentOf(const ProgramCall& call, const std::string& mark,
-                                       const std::filesystem::path& otherwise) {
+                                       const std::filesystem::path& otherHome) {
   const char* home = std::getenv("HOME");
   std::error_code missing;
   const bool usable =
@@ -201,7 +202,7 @@ std::vector<std::string> environmentOf(const ProgramCall& call, const std::strin
   for (const auto& [name, value] : call.environment) variables.push_back(name + "=" + value);
   variables.push_back(fmt::format("{}={}", workerMark, mark));
   if (!usable && !call.environment.contains("HOME"))
-    variables.push_back("HOME=" + otherwise.string());
+    variables.push_back("HOME=" + otherHome.string());
   return variables;
 }
 
@@ -344,7 +345,8 @@ bool ChildProcess::isAlive() const {
 bool ChildProcess::waitForExit(std::chrono::milliseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (pid_ > 0) {
-    // The zombie stays until reap(): its number must not pass to a stranger before the group's end.
+    // The zombie stays until reap(): its number must not pass to another process before the group's
+    // end.
     siginfo_t info{};
     if (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
         info.si_pid == pid_) {

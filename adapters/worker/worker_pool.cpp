@@ -16,16 +16,16 @@ constexpr std::size_t mostWaiting = 24;
 /// Springs that a contact remembers act from the second step on; a leftover shows in the first.
 constexpr double trialSteps = 10.0;
 
-/// All that an engine shows after a few steps from a scene, to be told apart to the bit.
-struct Sight {
+/// All that an engine shows after a few steps from a scene, compared to the bit.
+struct LoadFingerprint {
   std::string words;
   std::vector<std::byte> arrays;
   std::uint64_t steps = 0, contactEvaluations = 0;
   bool contacts = false;
-  bool operator==(const Sight&) const = default;
+  bool operator==(const LoadFingerprint&) const = default;
 };
 
-Sight sightOf(Engine& engine, const Realised& realised) {
+LoadFingerprint fingerprintOf(Engine& engine, const Realised& realised) {
   const Capabilities can = engine.capabilities();
   ContactReport report = ContactReport::none;
   if (can.instantContacts)
@@ -36,9 +36,10 @@ Sight sightOf(Engine& engine, const Realised& realised) {
   const Snapshot seen = engine.snapshot(report);
   const Stats stats = engine.stats();
   ArrayWriter arrays;
-  Sight sight{toJson(seen, arrays).dump(), arrays.bytes(), stats.steps, stats.contactEvaluations};
-  sight.contacts = report == ContactReport::none || (seen.contacts && !seen.contacts->i.empty());
-  return sight;
+  LoadFingerprint print{toJson(seen, arrays).dump(), arrays.bytes(), stats.steps,
+                        stats.contactEvaluations};
+  print.contacts = report == ContactReport::none || (seen.contacts && !seen.contacts->i.empty());
+  return print;
 }
 
 }  // namespace
@@ -150,14 +151,14 @@ Realised PooledEngine::loadTried(const Scene& scene, const Settings& settings) {
   const Realised realised = worker_->load(scene, settings);
   std::string why = "what it did after a second load is not what it did after the first";
   try {
-    const Sight first = sightOf(*worker_, realised);
-    const Sight second = sightOf(*worker_, worker_->load(scene, settings));
+    const LoadFingerprint first = fingerprintOf(*worker_, realised);
+    const LoadFingerprint second = fingerprintOf(*worker_, worker_->load(scene, settings));
     if (first == second) {
       if (first.contacts) pool_.learn(kind_, WorkerPool::Loads::afresh);
       return worker_->load(scene, settings);
     }
   } catch (const std::runtime_error& failure) {
-    // If it is not the loading that it broke down over, the run tells so itself.
+    // If it is not the loading that it broke down over, the run reports so itself.
     why = fmt::format("it broke down while it was loaded twice: {}", failure.what());
   }
   pool_.learn(kind_, WorkerPool::Loads::notAfresh, why);

@@ -35,7 +35,7 @@ class WorkerPool {
   };
 
   WorkerPool() = default;
-  /// All that wait are told to end, then waited for.
+  /// Ends all that wait, side by side.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;

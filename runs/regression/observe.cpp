@@ -160,7 +160,7 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
 }
 
 Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
-                      bool endpoints) {
+                      bool endpoints, std::vector<std::string>& refusals) {
   const Case& setup = cases.front();
   for (const Case& each : cases) checkEngineSections(each);
   const std::vector<EngineEntry> engines = selectEngines(command.engines);
@@ -175,11 +175,16 @@ Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command,
     const ScratchFolder scratch;
     const auto engine = startEngine(engines[e], scratch.path, setup.run.timeout);
     const auto report = [&](double fraction) { progress.update(e, engines[e].name, fraction); };
-    baseline.engines.push_back(keepEngine(*engine, engines[e], cases, baseline.starts, dt, report));
-    if (endpoints)
-      baseline.engines.back().endpoints =
-          endpointsFrom(engines[e], setup, baseline.starts, dt, report);
-    progress.finish(e, engines[e].name + ": kept");
+    try {
+      BaselineEngine kept = keepEngine(*engine, engines[e], cases, baseline.starts, dt, report);
+      if (endpoints) kept.endpoints = endpointsFrom(engines[e], setup, baseline.starts, dt, report);
+      baseline.engines.push_back(std::move(kept));
+      progress.finish(e, engines[e].name + ": kept");
+    } catch (const UnsupportedScene& refusal) {
+      if (baseline.engines.empty() && e + 1 == engines.size()) throw;
+      if (isNamed(command.engines, engines[e])) refusals.emplace_back(refusal.what());
+      progress.finish(e, refusal.what());
+    }
   }
   return baseline;
 }

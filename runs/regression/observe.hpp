@@ -44,11 +44,12 @@ BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::v
                           const std::vector<FlowState>& starts, double dt,
                           const std::function<void(double)>& progress);
 
-/// What all engines named do.
+/// What all engines named do, but for those that refuse the case.
 /// @param starts     along the flow of a Couette case
 /// @param endpoints  whether each start is also run and averaged
-/// @throws as keepEngine()
+/// @param refusals   becomes why engines refuse it that were asked for by name
+/// @throws as keepEngine(), UnsupportedScene where all refuse
 Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
-                      bool endpoints);
+                      bool endpoints, std::vector<std::string>& refusals);
 
 }  // namespace crossgrain::inline runs
