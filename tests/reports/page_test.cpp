@@ -631,10 +631,14 @@ TEST(Report, IsTheSameWhenRebuilt) {
 
 TEST(Report, StandsResultsWithAlmostNothingInThem) {
   const TemporaryFolder folder;
-  for (const char* kind : {"compare", "average", "effects", "rev", "collide"})
+  for (const char* kind : {"average", "effects", "rev", "collide"})
     EXPECT_NO_THROW(
         writeReport(json{{"schema", "crossgrain-results-1"}, {"kind", kind}}, folder.path()))
         << kind;
+  json compared = {{"schema", "crossgrain-results-1"}, {"kind", "compare"}};
+  EXPECT_THROW(writeReport(compared, folder.path()), BadInput);  // there is no reference
+  compared["engines"].push_back({{"name", "one"}});
+  EXPECT_NO_THROW(writeReport(compared, folder.path()));
   json standing = toJson(sample::compareResults(2, 10));
   standing["runs"][0]["picture"] = nullptr;
   standing["cell"]["omega"] = 0.0;
