@@ -16,7 +16,6 @@
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/conformance/report.hpp"
-#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
