@@ -152,7 +152,7 @@ std::string effectText(const EffectVariant& variant) {
       changed += ring.resolved == true;
     }
   return head + fmt::format("{:.3f} of the time per step, {}\n", variant.timeRatio.value_or(NAN),
-                            judged == 0 ? "too few packings to tell what changed"
+                            judged == 0 ? "too few packings to know what changed"
                                         : fmt::format("{} of {} rings changed", changed, judged));
 }
 
