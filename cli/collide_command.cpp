@@ -9,7 +9,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "reports/collide/overview.hpp"
+#include "reports/collide/report.hpp"
 #include "reports/collide/table.hpp"
 #include "reports/report.hpp"
 #include "runs/collide/collide.hpp"

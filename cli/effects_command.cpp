@@ -6,7 +6,7 @@
 #include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "reports/effects/overview.hpp"
+#include "reports/effects/report.hpp"
 #include "reports/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/effects/effects.hpp"

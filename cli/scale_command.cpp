@@ -11,7 +11,6 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
-#include "reports/scale/overview.hpp"
 #include "reports/scale/report.hpp"
 #include "runs/common/resumable.hpp"
 #include "runs/scale/scale.hpp"

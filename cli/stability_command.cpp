@@ -13,7 +13,7 @@
 #include "cli/outcome.hpp"
 #include "cli/units.hpp"
 #include "reports/report.hpp"
-#include "reports/stability/overview.hpp"
+#include "reports/stability/report.hpp"
 #include "results/json_fields.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/resumable.hpp"

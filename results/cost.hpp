@@ -57,7 +57,7 @@ struct CostAverages {
   std::vector<CostResponse> responses;
 };
 
-/// What accuracy costs: results of kind "cost" (reports/README.md).
+/// What accuracy costs: results of kind "cost" (docs/results.md).
 struct CostResults : CouetteFrame {
   std::optional<double> elapsed;  ///< [s]
   std::vector<EngineRow> engines;

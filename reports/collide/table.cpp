@@ -103,10 +103,6 @@ std::string nothingJudged(const CollideResults& results) {
   return "no engine has an outcome to judge";
 }
 
-std::optional<double> numberAt(const std::vector<double>& list, std::size_t place) {
-  return place < list.size() ? finite(list[place]) : std::nullopt;
-}
-
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value) {
   if (const auto* word = std::get_if<std::string>(&value))
     return spaced(option) + " " + spaced(*word);

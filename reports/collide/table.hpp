@@ -30,11 +30,11 @@ std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
 
 /// How a sweep came out, by the law that its engine declares and by the scene's.
 enum class SweepOutcome {
-  held,  ///< to both
-  /// Short of the scene's law, true to its own: conventions that the case lets it have
+  held,  ///< passed by both
+  /// Failed by the scene's law, passed by its own: conventions that the case lets it have
   modelDifference,
-  /// Short of the law that it declares, or of its own scheme; or of the scene's, and nothing is
-  /// known of its own
+  /// Failed by the law that it declares, or by its own scheme; or by the scene's where its own is
+  /// not known
   fellShort,
   notJudged,
   refused,
@@ -56,8 +56,8 @@ std::optional<double> ownDeviation(const CollisionCurve& curve);
 /// A mirror that runs because its peer does.
 bool runsBesideItsPeer(const CollideResults& results, const std::string& engine);
 
-/// How the sweeps of all engines came out, but for mirrors that run beside their peers: they say
-/// what a peer should do, and are not asked themselves. One that failed counts as failed.
+/// How the sweeps of all engines came out, but for mirrors that run beside their peers: they show
+/// what a peer should do, and are not judged themselves. One that failed counts as failed.
 struct CollideCount {
   int held = 0, modelDifference = 0, fellShort = 0, notJudged = 0, refused = 0, failed = 0;
   int judged() const { return held + modelDifference + fellShort; }
@@ -66,9 +66,6 @@ CollideCount countOf(const CollideResults& results);
 
 /// Why no sweep was judged, in a clause; empty if one was. Nothing judged is no success.
 std::string nothingJudged(const CollideResults& results);
-
-/// A number of a list; absent where it is beyond its end or not finite.
-std::optional<double> numberAt(const std::vector<double>& list, std::size_t place);
 
 /// "mu 0.44", "tension cut"; absent for a constant that is not finite.
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value);

@@ -73,7 +73,7 @@ std::string measureHtml(const std::string& measure) {
   if (const std::string scene = sceneOf(measure); scene != measure)
     return measureHtml(scene) + ofOwn;
   if (const std::string symbol = collisionSymbol(measure); !symbol.empty()) return mathHtml(symbol);
-  return againstWhom(measure).empty() ? fieldLabel(measure) : mathHtml(plainWords(measure));
+  return againstWhom(measure).empty() ? mathHtml(fieldLabel(measure)) : mathHtml(plainWords(measure));
 }
 
 std::string measureEnhanced(const std::string& measure) {

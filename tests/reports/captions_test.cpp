@@ -6,9 +6,9 @@
 #include <regex>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/gnuplot.hpp"
 #include "reports/cost/panels.hpp"
 #include "reports/cost/report.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"

@@ -13,7 +13,7 @@
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
-/// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
+/// Made-up results in the layout of docs/results.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
 namespace crossgrain::sample {
 
@@ -22,7 +22,6 @@ namespace crossgrain::sample {
 CompareResults compareResults(int packings, int disks);
 /// Writes snapshots of the runs that have a picture: its disks on circles, slower from the wheel
 /// on.
-void keepSnapshots(const CompareResults& results, const std::filesystem::path& folder);
 
 /// What `average` writes: one run of one source, nothing run by crossgrain.
 CompareResults averageResults();
