@@ -47,7 +47,7 @@ std::string whyNoContacts(const Snapshot& snapshot, const AuditBasis& basis);
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
 std::string whyNotOfLaw(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
 
-/// Cost counted as advance() was told: steps done so far, seconds that can be.
+/// Cost counted as advance() was asked: steps done so far, seconds that can be.
 std::string whyNoStats(const Stats& stats, double dt, double reached);
 
 }  // namespace crossgrain

@@ -7,7 +7,7 @@
 
 namespace crossgrain {
 
-/// What the snapshots of one run are held against: worked out once, so that an audit is cheap.
+/// What the snapshots of one run are compared with: worked out once, so that an audit is cheap.
 struct AuditBasis {
   const Scene* scene =
       nullptr;      ///< as the engine runs it; only its bodies and places are asked for

@@ -12,7 +12,7 @@ struct PlacedPlane {
   bool known;        ///< false: it turned in ways that nobody prescribed
 };
 
-/// Where everything was when a snapshot's contacts were as it shows them, as well as can be told.
+/// Where everything was when a snapshot's contacts were as it shows them, as well as is known.
 struct ContactPlaces {
   std::vector<Vec2> position;  ///< disks, then wall disks [m]
   std::vector<Vec2> velocity;  ///< likewise, as shown [m/s]

@@ -88,7 +88,7 @@ struct VelocityDoubt {
   }
 };
 
-/// Everything about one contact that its forces are held against.
+/// Everything about one contact that its forces are compared with.
 struct Touch {
   PairPlace place;
   double radius;    ///< R₁₂ [m]

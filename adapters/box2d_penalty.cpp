@@ -123,7 +123,7 @@ EngineEntry box2dPenaltyMirror() {
                             {"plane_arm", {"surface"}}});
   };
   return {"grain-as-box2d-penalty",
-          "the in-house engine held to the penalty engine's conventions",
+          "the in-house engine with the penalty engine's conventions",
           make,
           {},
           {},

@@ -36,7 +36,7 @@ enum class TangentialLaw {
   coulomb,  ///< f_t = −µ f_n sign(v_t)                            (Lätzel 2003, Eq. 4.16)
   viscous,  ///< f_t = −min(γ_t |v_t|, µ f_n) sign(v_t)            (Eq. 4.18)
   spring,   ///< f_t = −min(k_t |ξ|, µ f_n) sign(ξ)                (Eq. 4.20, Cundall–Strack)
-  springDashpot  ///< f* = −k_t ξ − γ_t v_t, held to µ f_n              (Eqs. 4.22–4.25)
+  springDashpot  ///< f* = −k_t ξ − γ_t v_t, limited to µ f_n              (Eqs. 4.22–4.25)
 };
 
 /// What multiplies µ in the Coulomb bound.
@@ -170,7 +170,7 @@ struct ContactLaw {
 };
 
 /// Friction with the plate that the disks lie on (Lätzel 2003, Eqs. 4.27–4.29):
-/// f* = −k_b ξ_b − γ_b v with a vector spring ξ_b per disk, held to µ_b m g; its torque is
+/// f* = −k_b ξ_b − γ_b v with a vector spring ξ_b per disk, limited to µ_b m g; its torque is
 /// sign(f_M*) min(µ_b m g, |f_M*|)·(2/3)a with f_M* = −sign(ω) τ_M |f*| − γ_b ω a.
 struct BottomPlate {
   double mu = 0.0;        ///< µ_b [-]

@@ -15,9 +15,9 @@ ContactLaw stiffened(ContactLaw law, double factor);
 ///   the engine's conventions in place of those that it lacks (lawAsRun()),
 ///   all constants as stiff as its deviation "stiffness" says,
 ///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as Realised
-///   tells them.
+///   has them.
 /// Otherwise the constants are the scene's: an engine whose own differ is wrong, whatever it says.
-/// Absent where it has another law of which nobody can tell the constants.
+/// Absent where it has another law whose constants nobody knows.
 /// @param scene  as the case lets the engine run it
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
                                       const Realised& realised, double reducedMass);

@@ -20,7 +20,7 @@ std::unique_ptr<Engine> makeGrain();
 /// Law option → the values that an engine has, its own choice first.
 using LawConventionSets = std::map<std::string, std::vector<std::string>>;
 
-/// The in-house engine held to a peer's conventions: where it follows the peer, what remains
+/// The in-house engine with a peer's conventions: where it follows the peer, what remains
 /// between the scene's law and the peer is the model's; where it does not, somebody's
 /// implementation is at fault.
 std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
@@ -29,5 +29,11 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
 /// k_t grow by it, γ_n and γ_t by its root, so that restitutions stay, and the time step shrinks by
 /// its root like the contact time.
 std::unique_ptr<Engine> makeStiffGrain(double factor);
+
+/// Has the in-house engine or a mirror, which has loaded a scene of soft disks and not yet
+/// advanced, begin as one that is in the middle of a run: with springs stretched for the tangential
+/// forces of these contacts, as another engine reports them, and velocities within a step. See
+/// grain::Simulation::beginUnderWay(). @throws UnsupportedScene of any other engine
+void beginUnderWay(Engine& inHouse, const Contacts& contacts);
 
 }  // namespace crossgrain

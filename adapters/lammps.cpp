@@ -41,7 +41,8 @@ EngineEntry lammpsEngine() {
           ""};
 }
 
-/// pair_style granular with linear_history or mindlin, and fix nve/sphere (engines/lammps/README.md).
+/// pair_style granular with linear_history or mindlin, and fix nve/sphere
+/// (engines/lammps/README.md).
 EngineEntry lammpsMirror() {
   const auto make = [] {
     return makeGrainMirror({{"tension", {"allow"}},
@@ -56,7 +57,7 @@ EngineEntry lammpsMirror() {
                             {"integrator", {"position_verlet"}}});
   };
   return {
-      "grain-as-lammps", "the in-house engine held to LAMMPS' conventions", make, {}, {}, "lammps",
+      "grain-as-lammps",  "the in-house engine with LAMMPS' conventions", make, {}, {}, "lammps",
       {"linear", "hertz"}};
 }
 

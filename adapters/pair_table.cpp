@@ -29,7 +29,7 @@ PairCoefficients coefficientsOf(const ContactLaw& law) {
 
 std::vector<PairCoefficients> pairTable(
     const Scene& scene, const std::function<PairCoefficients(double reducedMass)>& coefficients) {
-  // A table of more kinds than this tells a reader nothing.
+  // A table of more kinds than this is of no use to a reader.
   constexpr std::size_t mostKinds = 4;
   std::set<std::pair<double, double>> kinds;  // radius, mass
   for (std::size_t i = 0; i < scene.disks.size() && kinds.size() < mostKinds; ++i)

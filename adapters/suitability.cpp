@@ -140,8 +140,8 @@ Adapted adaptScene(const Capabilities& can, const Scene& scene,
   const std::vector<std::string> beyond =
       beyondLimits(can.limits, adapted.scene, !hasNormalLaw(can, scene.law));
   if (!beyond.empty()) throw UnsupportedScene(fmt::format("{}", fmt::join(beyond, "; ")));
-  // Double is what a scene says where nobody chose: an engine of floats that runs it tells its
-  // rounding itself.
+  // Double is what a scene says where nobody chose: an engine of floats that runs it reports
+  // its rounding itself.
   const bool has = std::ranges::find(can.precisions, scene.precision) != can.precisions.end();
   if (!has && !can.precisions.empty()) {
     adapted.scene.precision = can.precisions.front();

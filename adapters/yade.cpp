@@ -39,9 +39,8 @@ EngineEntry yadeMirror() {
                             {"damping_velocity", {"lagged"}},
                             {"integrator", {"position_verlet"}}});
   };
-  return {
-      "grain-as-yade",    "the in-house engine held to YADE's conventions", make, {}, {}, "yade",
-      {"linear", "hertz"}};
+  return {"grain-as-yade",    "the in-house engine with YADE's conventions", make, {}, {}, "yade",
+          {"linear", "hertz"}};
 }
 
 }  // namespace crossgrain

@@ -75,8 +75,8 @@ std::optional<double> smallestDetectable(double standardError, int packings, dou
                                          double level, double power = 0.9);
 
 /// The smallest mean paired difference that would be significant in a family of that many two-sided
-/// tests whose false alarms are held to 1 − confidence: Holm's step with so many tests left. Absent
-/// for fewer than 4 packings. @param standardError  of the mean difference over packings
+/// tests whose false alarms are limited to 1 − confidence: Holm's step with so many tests left.
+/// Absent for fewer than 4 packings. @param standardError  of the mean difference over packings
 std::optional<double> smallestSignificant(double standardError, int packings, std::size_t tests,
                                           double confidence);
 

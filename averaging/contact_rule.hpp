@@ -11,7 +11,7 @@ namespace crossgrain::inline averaging {
 /// load, as coordination numbers of granular packings do (Agnolin and Roux 2007), and σ and fabric
 /// are sums over the same set.
 ///
-/// It is the one rule that all engines can be held to. Overlap is no such rule: rigid disks touch
+/// It is the one rule that suits all engines. Overlap is no such rule: rigid disks touch
 /// at δ ≤ 0 or stay within the solver's slop, whether or not an impulse passes; and where tension
 /// is cut, a pair that parts overlaps for some steps while nothing passes. A pair held together by
 /// its dashpot (f_n < 0, tension allowed) does transmit, and counts. Engines list the pairs that

@@ -32,7 +32,7 @@ constexpr double inseparable = 0.95;
 constexpr double largestChi2PerDof = 100.0;
 
 /// Largest value of a decaying curve at x = 0, in units of the spread of the points. A curve that
-/// rises tenfold between its first point and x = 0 is told by that point alone.
+/// rises tenfold between its first point and x = 0 rests on that point alone.
 constexpr double largestExtrapolation = 10.0;
 
 /// A law y = Σ_k c_k g_k(x; q), linear but for the shape q. The best of a grid of q starts the fit.
@@ -127,9 +127,9 @@ bool determined(const FitParameter& p) {
   return p.period == 0.0 || *p.standardError < 0.25 * p.period;
 }
 
-/// Why the points cannot tell the decay that was fitted to them; empty if they can. Longer than
-/// their range it is a straight line to them, of which only the slope, amplitude over length, is
-/// seen; shorter than half a spacing only the first point feels it.
+/// Why the points do not determine the decay that was fitted to them; empty if they can. Longer
+/// than their range it is a straight line to them, of which only the slope, amplitude over length,
+/// is seen; shorter than half a spacing only the first point feels it.
 std::string outOfReach(const Law& law, const WeightedPoints& points, const Fit& fit) {
   if (!law.length) return {};
   std::vector<double> p;
@@ -164,8 +164,8 @@ std::string objection(const Law& law, const WeightedPoints& points,
   if (law.periods.back() > 0.0)
     for (std::size_t k = 0; k + 1 < law.names.size(); ++k)
       if (const double both = std::abs(solution.correlationWithLast[k]); both > inseparable)
-        return fmt::format("the points cannot tell {} from {} (correlation {:.3f})", law.names[k],
-                           law.names.back(), both);
+        return fmt::format("the points do not separate {} from {} (correlation {:.3f})",
+                           law.names[k], law.names.back(), both);
   const FitParameter& shape = fit.parameters[law.shapeIndex];
   if (shape.value < law.shapes.front() || shape.value > law.shapes.back())
     return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is looked at",

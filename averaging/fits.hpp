@@ -50,7 +50,7 @@ Fit fitDilation(std::span<const FitPoint> points);
 
 /// S d/(ΩD) = A exp(−B x) cos(π x + φ) with x = r̃ and A > 0, all points (Lätzel 2003, section
 /// 6.3.2). Parameters A, B, phi (−π … π). Rings of width d sample every half period at one phase
-/// and cannot tell A from φ: take rings of about d/3.
+/// and cannot distinguish A from φ: take rings of about d/3.
 Fit fitSpinOscillation(std::span<const FitPoint> points);
 
 /// S d/(ΩD) = scale · S: S is the disks' mean spin, counter-clockwise positive like Ω, D = 2R_i the

@@ -29,55 +29,55 @@ Nodes nodesOn(double low, double high) {
   return nodes;
 }
 
-/// The chance that a sum of k standard normal numbers exceeds limit·√k for some k up to `looks`:
-/// the density of the sums that did not, carried from look to look (Armitage, McPherson and Rowe
-/// 1969).
-double chanceToExceed(double limit, int looks) {
+/// The chance that a sum of k standard normal numbers exceeds limit·√k for some k up to `analyses`:
+/// the density of the sums that did not, propagated from one analysis to the next (Armitage,
+/// McPherson and Rowe 1969).
+double chanceToExceed(double limit, int analyses) {
   constexpr double tail = 9.0;  // standard deviations, beyond which nothing is left
-  const auto nodesOfLook = [&](int look) {
-    const double width = std::sqrt(look);
+  const auto nodesOf = [&](int analysis) {
+    const double width = std::sqrt(analysis);
     return nodesOn(-tail * width, limit * width);
   };
   double chance = gsl_cdf_ugaussian_Q(limit);
-  Nodes here = nodesOfLook(1);
+  Nodes here = nodesOf(1);
   std::vector<double> density;
   for (const double at : here.at) density.push_back(gsl_ran_ugaussian_pdf(at));
-  for (int look = 2; look <= looks; ++look) {
-    const Nodes next = nodesOfLook(look);
-    std::vector<double> carried(next.at.size(), 0.0);
+  for (int analysis = 2; analysis <= analyses; ++analysis) {
+    const Nodes next = nodesOf(analysis);
+    std::vector<double> nextDensity(next.at.size(), 0.0);
     for (std::size_t k = 0; k < here.at.size(); ++k) {
       const double mass = here.weight[k] * density[k];
-      chance += mass * gsl_cdf_ugaussian_Q(limit * std::sqrt(look) - here.at[k]);
-      for (std::size_t n = 0; n < carried.size(); ++n)
-        carried[n] += mass * gsl_ran_ugaussian_pdf(next.at[n] - here.at[k]);
+      chance += mass * gsl_cdf_ugaussian_Q(limit * std::sqrt(analysis) - here.at[k]);
+      for (std::size_t n = 0; n < nextDensity.size(); ++n)
+        nextDensity[n] += mass * gsl_ran_ugaussian_pdf(next.at[n] - here.at[k]);
     }
     here = next;
-    density = std::move(carried);
+    density = std::move(nextDensity);
   }
   return chance;
 }
 
 struct Asked {
-  int looks;
+  int analyses;
   double alpha;
 };
 
 double excess(double limit, void* asked) {
   const Asked& own = *static_cast<const Asked*>(asked);
-  return chanceToExceed(limit, own.looks) - own.alpha;
+  return chanceToExceed(limit, own.analyses) - own.alpha;
 }
 
 }  // namespace
 
-double pocockLevel(int looks, double alpha) {
-  if (looks == 1) return alpha;
-  Asked asked{looks, alpha};
+double pocockLevel(int analyses, double alpha) {
+  if (analyses == 1) return alpha;
+  Asked asked{analyses, alpha};
   gsl_function function{excess, &asked};
   const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
-  // A single look asks for the least, the union bound for the most.
+  // A single analysis asks for the least, the union bound for the most.
   gsl_root_fsolver_set(solver.get(), &function, gsl_cdf_ugaussian_Qinv(alpha),
-                       gsl_cdf_ugaussian_Qinv(alpha / looks));
+                       gsl_cdf_ugaussian_Qinv(alpha / analyses));
   constexpr double precise = 1e-10;
   do {
     gsl_root_fsolver_iterate(solver.get());

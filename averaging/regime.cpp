@@ -67,7 +67,8 @@ RegimeVerdict regimeOf(const RegimeFigures& figures) {
     return {Regime::collisional,
             fmt::format("the inertial number at the wheel is {:.2g}, above {:g}", *number,
                         collisionalInertialNumber)};
-  if (!figures.motion) return {{}, "there are no disks at the wheel or at the ring to tell it by"};
+  if (!figures.motion)
+    return {{}, "there are no disks at the wheel or at the ring that would show it"};
   const double shear = figures.motion->shear;
   if (std::abs(shear) < leastShear)
     return {Regime::blocked, fmt::format("layers take up {:.2g} of the wheel's rotation, less than "

@@ -62,7 +62,7 @@ Trend estimateTrend(std::span<const double> series) {
   if (series.size() < fewestTrendSamples) return result;
 
   if (const auto [low, high] = std::ranges::minmax(series); low == high) {
-    // Nothing but rounding would be left to tell a line from.
+    // Nothing but rounding would be left to fit a line to.
     result.standardError = result.errorBesideBends = 0.0;
     result.dof = fewestTrendModes;
     result.resolved = true;

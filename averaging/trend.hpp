@@ -44,7 +44,8 @@ constexpr std::string_view toString(Drift drift) {
 /// The change over the whole series in units of its mean, with its interval.
 struct RelativeDrift {
   Drift verdict = Drift::cannotTell;
-  std::optional<double> change;    ///< < 0: falls; absent where the mean is not told from 0
+  std::optional<double>
+      change;  ///< < 0: falls; absent where the mean is not significantly different from 0
   std::optional<double> half;      ///< half width of the interval
   std::optional<double> excluded;  ///< |change| up to this is not excluded: |change| + half
 };

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "runs/baseline/baseline_file.hpp"
 #include "runs/baseline/keep.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

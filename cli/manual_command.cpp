@@ -7,7 +7,7 @@
 
 #include "cli/option_groups.hpp"
 #include "cli/reference.hpp"
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline cli {

@@ -8,11 +8,10 @@
 #include "adapters/registry.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "cli/units.hpp"
 #include "reports/report.hpp"
 #include "reports/thesis/overview.hpp"
 #include "reports/thesis/report.hpp"
-#include "runs/common/resumable.hpp"
+#include "runs/common/study.hpp"
 #include "runs/thesis/thesis.hpp"
 #include "support/data_folder.hpp"
 

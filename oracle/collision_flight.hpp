@@ -13,7 +13,7 @@ namespace crossgrain::inline oracle {
 CollidingPair pairOf(const Scene& scene, std::size_t pair);
 
 /// Traces the free flight after the collision back to the instant when the disks parted. An end
-/// without maxOverlap and lost, which the flight does not tell.
+/// without maxOverlap and lost, which the flight does not have.
 /// @param scene  as in pairOf() @param start  of that pair
 /// @returns none if they never met or still touch
 std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,

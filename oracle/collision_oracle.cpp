@@ -31,7 +31,7 @@ double TwoBodyProblem::contactTime(double speed) const {
 }
 
 /// A law that stiffens has no stiffness to stick with at δ = 0: it begins 1e-12 of a contact later,
-/// or where positions can tell an overlap. The forces of that time are below rounding, or below
+/// or where positions resolve an overlap. The forces of that time are below rounding, or below
 /// 1e-7 of the whole for overlaps of 1e-8 of the reach.
 State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   const PairMotion touch = motionBefore(pair_, start);

@@ -23,7 +23,7 @@ bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const Collis
 
 /// Walton's law, an impulse at the first touch: Ψ_f = max(−e_t0 Ψ_i, Ψ_i − (1 + 1/q)(1 + e_n) µ)
 /// for Ψ_i > 0, odd in Ψ_i (Walton 1992; Luding 1998), 1 + 1/q = tangentialCompliance()·m₁₂. It
-/// has no duration, no overlap, and does not tell sticking's loss from sliding's.
+/// has no duration, no overlap, and does not separate sticking's loss from sliding's.
 CollisionEnd rigidOutcome(const ContactLaw& law, const CollidingPair& pair,
                           const CollisionStart& start);
 

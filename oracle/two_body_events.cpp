@@ -118,7 +118,7 @@ double TwoBodyProblem::firstGuard(const State& s) const {
 /// with its dashpot outside the test, which does not see it at the first touch.
 ///
 /// Starts within `alike` of Ψ_j count as Ψ_j: what the six figures of a case file, or an engine
-/// with float32 velocities, cannot tell from it.
+/// with float32 velocities, cannot distinguish from it.
 bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
   constexpr double alike = 1e-6;
   const LawConventions& how = law_.conventions;

@@ -96,7 +96,7 @@ double TwoBodyProblem::bound(double normal) const {
   return law_.mu * normal;
 }
 
-/// What is held against the bound.
+/// What is compared with the bound.
 double TwoBodyProblem::testedForce(const Kinematics& k, double spring) const {
   const bool outside = law_.conventions.dashpot == Dashpot::outside;
   const double dashpot = outside ? 0.0 : tangentialDamping(k.overlap).value * k.tangentialVelocity;

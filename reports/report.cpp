@@ -8,7 +8,6 @@
 #include "reports/common/overview.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/conformance/report.hpp"
-#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/couette/report.hpp"
 #include "reports/effects/report.hpp"
@@ -60,13 +59,10 @@ Report build(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageReport(results) : compareReport(results);
 }
 
-// These two still fill templates of their own.
 Report build(const CostResults& results) {
-  Report report{{results.head, results.engines, costOverview(results)}};
-  report.figures = costFigures(results);
-  report.tables = {{"cost.csv", costCsv(results)}};
-  return report;
+  return costReport(results);
 }
+/// Its page still fills a template of its own.
 Report build(const ThesisResults& results) {
   Report report{{results.head, results.engines, thesisOverview(results)}};
   report.figures = thesisFigures(results);
@@ -75,9 +71,6 @@ Report build(const ThesisResults& results) {
                    {"regime_map.csv", regimeMapCsv(results)},
                    {"readings.csv", readingsCsv(results)}};
   return report;
-}
-std::string pageOf(const CostResults& results, const Illustrations& shown) {
-  return costPage(results, shown);
 }
 std::string pageOf(const ThesisResults& results, const Illustrations& shown) {
   return thesisPage(results, shown);

@@ -8,7 +8,7 @@
 namespace crossgrain::inline results {
 
 /// "/snapshot-NNN", counted from 0: the group of a snapshot in a file of snapshots, whose datasets
-/// runs/README.md has.
+/// docs/files.md has.
 inline std::string snapshotGroup(std::size_t k) {
   return fmt::format("/snapshot-{:03d}", k);
 }

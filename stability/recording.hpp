@@ -23,7 +23,7 @@ struct Recording {
   ContactLaw law = {};
 };
 
-/// The length that displacements are told in: a diameter of the smallest disk [m].
+/// The length that displacements are expressed in: a diameter of the smallest disk [m].
 double smallestDiameter(const Scene& scene);
 
 /// Two bodies that overlap: a disk, and by Scene's ids another disk, a wall disk or a plane.

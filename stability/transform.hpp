@@ -8,7 +8,8 @@
 
 namespace crossgrain::inline stability {
 
-/// Units in which a scene is told anew: every length of it is multiplied by `length`, and so on.
+/// Units in which a scene is expressed anew: every length of it is multiplied by `length`, and so
+/// on.
 struct Units {
   double length = 1.0, mass = 1.0, time = 1.0;
 
@@ -20,7 +21,7 @@ struct Units {
 /// What may be done to a scene without any change of what happens in it.
 struct Transform {
   Placement placement = {};             ///< mirrored and turned
-  Units units = {};                     ///< told in other units
+  Units units = {};                     ///< expressed in other units
   std::vector<std::size_t> order = {};  ///< disk k is disk order[k] of the scene; empty: as it was
 };
 
@@ -59,9 +60,10 @@ std::vector<double> spinsBack(const Transform& by, const std::vector<double>& sp
 /// An order without a system, the same for the same number.
 std::vector<std::size_t> shuffledOrder(std::size_t disks, std::uint64_t seed);
 
-/// Disks moved as far as rounding may move them when a scene is told otherwise: each coordinate of
-/// a position by ± ε(|x| + a), of a velocity by ± ε|v|, spins by ± ε|ω|. A turned vector's
-/// coordinates come from three rounded operations, half an ε each, of numbers as large as |x|.
+/// Disks moved as far as rounding may move them when a scene is expressed otherwise: each
+/// coordinate of a position by ± ε(|x| + a), of a velocity by ± ε|v|, spins by ± ε|ω|. A turned
+/// vector's coordinates come from three rounded operations, half an ε each, of numbers as large as
+/// |x|.
 /// @param epsilon  of the numbers that an engine steps with
 Disks nudged(Disks disks, double epsilon, std::uint64_t seed);
 

@@ -5,7 +5,7 @@
 
 namespace crossgrain::inline support {
 
-/// 64 bits of FNV-1a (Fowler, Noll, Vo): tells contents apart, and keeps nobody out who wants two
+/// 64 bits of FNV-1a (Fowler, Noll, Vo): separates contents, and keeps nobody out who wants two
 /// alike.
 /// @param hash  of what comes before the text
 constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325u) {

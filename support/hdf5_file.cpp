@@ -52,12 +52,12 @@ std::string libraryReason() {
   return reason;
 }
 
-/// errno would be of any call since; what HDF5's drivers were told is in its record: "… errno = 28,
+/// errno would be of any call since; what HDF5's drivers reported is in its record: "… errno = 28,
 /// …".
 OutputError notWritten(const std::filesystem::path& file) {
   const std::string reason = libraryReason();
-  static const std::regex told("errno = ([0-9]+)");
-  if (std::smatch found; std::regex_search(reason, found, told))
+  static const std::regex code("errno = ([0-9]+)");
+  if (std::smatch found; std::regex_search(reason, found, code))
     return OutputError(file, std::stoi(found[1]));
   return OutputError(file, reason.empty() ? "HDF5 does not say why" : "HDF5: " + reason);
 }

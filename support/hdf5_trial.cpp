@@ -36,8 +36,8 @@ void setBounds(const std::filesystem::path& file) {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   std::error_code unknown;
-  const std::uintmax_t told = std::filesystem::file_size(file, unknown);
-  const rlim_t size = unknown ? 0 : told;
+  const std::uintmax_t reported = std::filesystem::file_size(file, unknown);
+  const rlim_t size = unknown ? 0 : reported;
   bound(RLIMIT_AS,
         pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + (rlim_t{1} << 30) + 64 * size);
   bound(RLIMIT_CPU, 5 + size / 20'000'000);

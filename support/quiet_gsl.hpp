@@ -4,7 +4,7 @@
 
 namespace crossgrain::inline support {
 
-/// GSL aborts the program on an error unless told otherwise; while one of these lives errors are
+/// GSL aborts the program on an error by default; while one of these lives errors are
 /// return values. The handler is the process's, not the thread's.
 class QuietGsl {
  public:

@@ -9,7 +9,7 @@ const b2 = await Box2D();
 const MOST_CONTACTS = 64;    // of one disk at a time
 const THICKNESS = 20;        // of planes, in units: what lies behind one comes out in front of it
 const FAR = 1e4;             // half a plane's length, in units: it follows the disks
-const LOOKS = 32;            // steps between two looks where they are: in these they go less than half of that
+const CHECK_EVERY = 32;      // steps between two checks of where they are: in these they go less than half of that
 
 export const version = `box2d3-wasm ${JSON.parse(readFileSync(new URL('package.json', home))).version}`;
 
@@ -115,7 +115,7 @@ export class Box2dWorld {
 
   /// Planes are infinite: each reaches as far as the disks which could touch it, whatever the way that they or the wall go.
   coverPlanes(states) {
-    if (this.planes.length === 0 || this.steps++ % LOOKS) return;
+    if (this.planes.length === 0 || this.steps++ % CHECK_EVERY) return;
     const places = this.disks.map((_, i) => this.disk(i).position);
     for (const plane of this.planes) {
       const {at, normal: [nx, ny]} = plane, {centre, angle} = states[plane.b];
@@ -157,7 +157,7 @@ export class Box2dWorld {
     });
   }
 
-  /// One substep: of tangential impulses Box2D tells those of its last one alone.
+  /// One substep: of tangential impulses Box2D reports those of its last one alone.
   step() { b2.b2World_Step(this.world, this.dt, 1); }
 
   disk(i) {

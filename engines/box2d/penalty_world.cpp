@@ -174,8 +174,8 @@ std::vector<WallLoad> PenaltyWorld::wallLoads() const {
   return loads;
 }
 
-/// f* = −k_b ξ − γ_b v held to µ_b m g, ξ a vector for each disk that is set to −f/k_b where it
-/// slips; f_M* = −sign(ω) τ_M |f*| − γ_b ω a held to the same bound, torque (2/3) a f_M.
+/// f* = −k_b ξ − γ_b v limited to µ_b m g, ξ a vector for each disk that is set to −f/k_b where it
+/// slips; f_M* = −sign(ω) τ_M |f*| − γ_b ω a limited to the same bound, torque (2/3) a f_M.
 void PenaltyWorld::addPlateForces() {
   for (std::size_t i = 0; i < members_.disks; ++i) {
     const double bound = plate_->mu * mass_[i] * plate_->gravity;

@@ -29,7 +29,7 @@ struct Rebound {
 Rebound collide(const SoftLaw& law, const PairInertia& pair, double psiI);
 
 /// The rigid contact that stands for a soft one: e_n in closed form, e_t0 = −Ψ_f/Ψ_i at Ψ_i = 0.5
-/// held to [0, 1].
+/// clipped to [0, 1].
 Restitution rigidEquivalent(const SoftLaw& law, const PairInertia& pair);
 
 }  // namespace box2d_granular

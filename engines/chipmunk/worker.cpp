@@ -228,7 +228,8 @@ class Engine {
   double inverseMass(std::size_t id) const { return id < disks_ ? 1.0 / mass_[id] : 0.0; }
 
   /// Whether every pair has a restitution: asked in a step, a refusal would pass through Chipmunk's
-  /// C. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest pair tells for all.
+  /// C. The law is overdamped where γ_n² (1/m₁ + 1/m₂) ≥ 4 k_n, so the lightest pair decides for
+  /// all.
   /// @throws Unsupported
   void requireRestitution() const {
     if (disks_ == 0) return;

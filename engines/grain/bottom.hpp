@@ -35,7 +35,7 @@ struct BottomForce {
   Real torque;  ///< [N m]
 };
 
-/// f* = −k_b ξ − γ_b v, held to µ_b m g; the spring grows by v dt while it holds and is set to
+/// f* = −k_b ξ − γ_b v, limited to µ_b m g; the spring grows by v dt while it holds and is set to
 /// −f/k_b where it slips. The torque's trial force f_M* = −sign(ω) τ_M |f*| − γ_b ω a brakes the
 /// spin: the sign that Eq. 4.29 is printed with would spin a disk up.
 template <bool Spin, class Real>

@@ -103,7 +103,7 @@ void Core<Real>::restore(std::istream& in) {
   }
   forDiskArrays([&](auto& array) { readSame(in, array); });
   const std::uint64_t mostPairs = 64 * (position_.size() + placedPlanes_.size() * moving_);
-  std::vector<CarriedSpring> springs;
+  std::vector<KeptSpring> springs;
   readAny(in, springs, mostPairs);
   std::vector<Contact> contacts;
   readAny(in, contacts, mostPairs);

@@ -41,7 +41,7 @@ struct Impact {
 /// 1/m_n = 1/m_i + 1/m_j and 1/m_t = 1/m_n + c_i l_i/J_i + c_j l_j/J_j (Walton 1992, who has one
 /// arm, c = l):
 ///
-///   J_n = −(1 + e_n) m_n v_n,  J_t = −(1 + e_t0) m_t v_t held to ±µ J_n.
+///   J_n = −(1 + e_n) m_n v_n,  J_t = −(1 + e_t0) m_t v_t limited to ±µ J_n.
 ///
 /// It keeps momentum, and with c = l changes the energy by −½ m_n (1 − e_n²) v_n² + ½ m_t (v_t'² −
 /// v_t²) with v_t' between v_t and −e_t0 v_t: never up, and by nothing for e_n = 1 without

@@ -21,7 +21,7 @@ struct BodyMotion {
 
 struct Touch;
 
-/// Keeps the energy ledger of a core: looks at it before each motion and after each evaluation of
+/// Keeps the energy ledger of a core: reads it before each motion and after each evaluation of
 /// the forces, and changes nothing there. A core without one does nothing for it.
 template <class Real>
 class LedgerObserver {

@@ -33,18 +33,18 @@ void PairList<Real>::storeSprings() {
 
 template <class Real>
 void PairList<Real>::carry() {
-  carried.clear();
+  kept.clear();
   for (std::size_t p = 0; p < farI.size(); ++p)
-    if (farSpring[p] != Real(0)) carried.push_back({farI[p], farJ[p], farSpring[p]});
+    if (farSpring[p] != Real(0)) kept.push_back({farI[p], farJ[p], farSpring[p]});
 }
 
 template <class Real>
-void PairList<Real>::takeCarried() {
+void PairList<Real>::takeKept() {
   farSpring.assign(farI.size(), Real(0));
-  auto next = carried.begin();
+  auto next = kept.begin();
   for (std::size_t p = 0; p < farI.size(); ++p) {
-    while (next != carried.end() && std::tie(next->i, next->j) < std::tie(farI[p], farJ[p])) ++next;
-    if (next == carried.end()) return;
+    while (next != kept.end() && std::tie(next->i, next->j) < std::tie(farI[p], farJ[p])) ++next;
+    if (next == kept.end()) return;
     if (next->i == farI[p] && next->j == farJ[p]) farSpring[p] = static_cast<Real>(next->spring);
   }
 }

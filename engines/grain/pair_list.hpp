@@ -22,7 +22,7 @@ struct TooDeep {
 };
 
 /// The tangential spring of a pair on its way from one list to the next.
-struct CarriedSpring {
+struct KeptSpring {
   std::int32_t i, j;
   double spring;
 };
@@ -41,8 +41,8 @@ struct PairList {
   Array<Vec<Real>> shift;                   ///< origin of i − origin of j, of local coordinates
   Array<Real> normal, tangential, sliding;  ///< the last step's results, where asked for
   Array<Vec<Real>> force;
-  Array<Real> leverI, leverJ;          ///< forces for two threads to add
-  std::vector<CarriedSpring> carried;  ///< in ascending (i, j)
+  Array<Real> leverI, leverJ;    ///< forces for two threads to add
+  std::vector<KeptSpring> kept;  ///< in ascending (i, j)
 
   void clear();
   void append(std::int32_t diskI, std::int32_t diskJ);
@@ -52,7 +52,7 @@ struct PairList {
   /// Keeps the far list's springs for the next one, and takes them up there: both lists are in one
   /// order, so that one walk through both finds every pair.
   void carry();
-  void takeCarried();
+  void takeKept();
 
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
   /// @returns how many of the near pairs touch

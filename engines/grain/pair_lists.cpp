@@ -11,7 +11,7 @@
 namespace grain {
 namespace {
 
-bool earlier(const CarriedSpring& a, const CarriedSpring& b) {
+bool earlier(const KeptSpring& a, const KeptSpring& b) {
   return std::tie(a.i, a.j) < std::tie(b.i, b.j);
 }
 
@@ -69,20 +69,20 @@ void PairLists<Real>::rebuild(const Places& now, std::span<const double> travel,
 template <class Real>
 void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Places& now,
                                std::span<const double> travel, ThreadTeam& team) {
-  std::vector<CarriedSpring> carried = stretched();
-  for (CarriedSpring& spring : carried) {
+  std::vector<KeptSpring> kept = stretched();
+  for (KeptSpring& spring : kept) {
     spring.i = newNumber[static_cast<std::size_t>(spring.i)];
     if (spring.j < static_cast<std::int32_t>(moving_))
       spring.j = newNumber[static_cast<std::size_t>(spring.j)];
     // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
     if (spring.j < spring.i) std::swap(spring.i, spring.j);
   }
-  restoreSprings(std::move(carried), now, travel, team);
+  restoreSprings(std::move(kept), now, travel, team);
 }
 
 template <class Real>
-std::vector<CarriedSpring> PairLists<Real>::stretched() const {
-  std::vector<CarriedSpring> found;
+std::vector<KeptSpring> PairLists<Real>::stretched() const {
+  std::vector<KeptSpring> found;
   if (!springs_) return found;
   for (const auto& part : lists_)
     for (const PairList<Real>& list : part)
@@ -92,17 +92,17 @@ std::vector<CarriedSpring> PairLists<Real>::stretched() const {
 }
 
 template <class Real>
-void PairLists<Real>::restoreSprings(std::vector<CarriedSpring> springs, const Places& now,
+void PairLists<Real>::restoreSprings(std::vector<KeptSpring> springs, const Places& now,
                                      std::span<const double> travel, ThreadTeam& team) {
   std::ranges::sort(springs, earlier);
   for (auto& part : lists_)
-    for (PairList<Real>& list : part) list.carried.clear();
-  for (const CarriedSpring& spring : springs) {
+    for (PairList<Real>& list : part) list.kept.clear();
+  for (const KeptSpring& spring : springs) {
     const std::size_t part = partOf(spring.i);
     const Sort sort = spring.j >= static_cast<std::int32_t>(moving_) ? Sort::walls
                       : partOf(spring.j) == part                     ? Sort::inside
                                                                      : Sort::across;
-    list(part, sort).carried.push_back(spring);
+    list(part, sort).kept.push_back(spring);
   }
   skin_.beginUpdate(0);
   setAllowances(travel);
@@ -190,7 +190,7 @@ void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
           .append(static_cast<std::int32_t>(i), j);
   }
   if (springs_)
-    for (PairList<Real>& list : lists) list.takeCarried();
+    for (PairList<Real>& list : lists) list.takeKept();
 }
 
 template <class Real>

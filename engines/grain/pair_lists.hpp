@@ -71,8 +71,8 @@ class PairLists {
   void pairsTook(double seconds) { skin_.pairsTook(seconds, counts().near); }
 
   /// All springs that are not at rest, in any order; and such springs into lists built anew.
-  std::vector<CarriedSpring> stretched() const;
-  void restoreSprings(std::vector<CarriedSpring> springs, const Places& now,
+  std::vector<KeptSpring> stretched() const;
+  void restoreSprings(std::vector<KeptSpring> springs, const Places& now,
                       std::span<const double> travel, ThreadTeam& team);
 
  private:

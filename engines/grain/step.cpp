@@ -115,7 +115,7 @@ void Core<Real>::addForces(bool record) {
     addImpacts();
   else
     addSoftForces(record);
-  if (!std::exchange(sampled_, true))  // one step in some tells the lists what a pair costs
+  if (!std::exchange(sampled_, true))  // one step in some measures for the lists what a pair costs
     lists_.pairsTook(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }

@@ -9,7 +9,7 @@ def turned(v):
 
 
 def pair_rows(lammps):
-    """Of the pairs that this rank tells of: ids from 1 on, normal force, tangential force along x and y."""
+    """Of the pairs of this rank: ids from 1 on, normal force, tangential force along x and y."""
     ids = lammps.local_compute("ids", 2).reshape(-1, 2)
     return np.column_stack([ids, lammps.local_compute("pairs", 3).reshape(-1, 3)])
 

@@ -11,7 +11,7 @@ from crossgrain_walls import Body
 from law import DAMPERS, KINDS, NORMALS, Law
 from library import Lammps
 
-CHUNK = 1000  # steps between two looks at the number of contacts
+CHUNK = 1000  # steps between two checks of the number of contacts
 
 
 class Engine:
@@ -132,9 +132,9 @@ class Engine:
         return self.steps * self.dt
 
     def snapshot(self, report):
-        return self.snapshot_of([self.look(report)], report, self.steps)
+        return self.snapshot_of([self.part(report)], report, self.steps)
 
-    def look(self, report):
+    def part(self, report):
         """What this rank knows of its own atoms, in LAMMPS' order, and of its pairs."""
         if report == "accumulated":
             raise ValueError("has no accumulated contacts")
@@ -153,7 +153,7 @@ class Engine:
         return found
 
     def pairs_of_step(self, found):
-        """LAMMPS tells forces of pairs from the velocities that it has when it is asked, and the step
+        """LAMMPS computes forces of pairs from the velocities that it has when it is asked, and the step
         from those before its second half kick; so these are put there while it is asked. What a rank
         sees of others' atoms was sent to it before that kick. It answers once in a step: nobody else
         may ask for "pairs"."""
@@ -170,15 +170,15 @@ class Engine:
         velocity[:], spin[:] = kept
         return rows
 
-    def snapshot_of(self, looks, report, steps):
+    def snapshot_of(self, parts, report, steps):
         """One snapshot of what all ranks saw after that many steps."""
-        ids = np.concatenate([look["ids"] for look in looks])
+        ids = np.concatenate([part["ids"] for part in parts])
         if len(ids) != self.made.atoms:
             raise RuntimeError(f"{len(ids)} of {self.made.atoms} atoms are left")
         order = np.argsort(ids)
 
         def of_all(name):
-            return np.concatenate([look[name] for look in looks])[order]
+            return np.concatenate([part[name] for part in parts])[order]
 
         now, n = steps * self.dt, self.disks
         position, force, torque = of_all("position"), of_all("force"), of_all("torque")
@@ -197,7 +197,7 @@ class Engine:
         if self.law.friction:
             arrays["spin"] = ("f64", of_all("spin")[:n])
         if report == "instant":
-            rows = np.concatenate([look["pairs"] for look in looks])
+            rows = np.concatenate([part["pairs"] for part in parts])
             arrays.update(self.contacts(rows, position, on_planes))
         snapshot["bodies"] = [
             self.body_snapshot(body, now, position, force, torque, on_planes)

@@ -13,7 +13,7 @@ KINDS = ("none", "viscous", "spring", "spring_dashpot")
 AT_THE_BOUND = 1 - 1e-12
 # f_el′(δ) over f_el(δ)/δ: of Hertz' law f_el grows as δ^(3/2).
 STIFFNESS = {"linear": 1.0, "hertz": 1.5}
-# LAMMPS' `damping tsuji` is told a restitution e and takes this for α in α √(m₁₂ f_el/δ), whatever e comes of it:
+# LAMMPS' `damping tsuji` is given a restitution e and takes this for α in α √(m₁₂ f_el/δ), whatever e comes of it:
 # coefficients of e⁶ … e⁰ (its documentation of pair_style granular, after Tsuji et al. 1992).
 ALPHA = (4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728)
 
@@ -33,7 +33,7 @@ def told_restitution(alpha):
 
 
 class Law:
-    """f_n = f_el(δ) − γ v_n; the tangential spring and dashpot together held to µ |f_n|.
+    """f_n = f_el(δ) − γ v_n; the tangential spring and dashpot together limited to µ |f_n|.
 
     f_el is k_n δ or, of Hertz' law, k_n a δ with a = √(R₁₂ δ); the spring's stiffness is k_t or k_t a. γ is γ_n,
     or with critical dashpots γ_n √(m₁₂ f_el′(δ)), and of the tangential one γ_t √(m₁₂ k_t(δ))."""
@@ -52,7 +52,7 @@ class Law:
         self.gt = law["gt"] if self.dashpot else 0.0
         if self.gt > 0 and self.gn == 0:
             raise Unsupported(
-                "tells the tangential dashpot as a multiple of the normal one, so it has none "
+                "expresses the tangential dashpot as a multiple of the normal one, so it has none "
                 "where gn = 0"
             )
         if self.critical and self.gt > 0 and self.kt == 0:

@@ -1,7 +1,7 @@
 """One rank of a run that several share: mpirun starts as many of it as there are.  python3 rank.py SOCKET
 
 Speaks the worker protocol through the socket, after one line that says which rank it is. What it answers to
-"snapshot" are the arrays of Engine.look(): this rank's part, in a file of its own.
+"snapshot" are the arrays of Engine.part(): this rank's part, in a file of its own.
 """
 
 import json
@@ -15,12 +15,12 @@ sys.dont_write_bytecode = True
 
 import crossgrain_worker
 from engine import Engine
-from looks import as_arrays
+from rank_arrays import as_arrays
 
 
 class RankEngine(Engine):
     def snapshot(self, report):
-        return {}, as_arrays(self.look(report))
+        return {}, as_arrays(self.part(report))
 
 
 def main():

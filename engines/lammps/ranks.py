@@ -1,4 +1,4 @@
-"""Several processes that share a run under mpirun, seen as one worker. Open MPI; README.md says what it is told."""
+"""Several processes that share a run under mpirun, seen as one worker. Open MPI; README.md has its options."""
 
 import collections
 import ctypes
@@ -18,13 +18,13 @@ import time
 
 import crossgrain_worker
 from crossgrain_worker import Failed, Unsupported
-from looks import from_arrays
+from rank_arrays import from_arrays
 
 MOST = 1024
 PATIENCE = 120  # s that ranks have to begin
 RANK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rank.py")
 
-# What Open MPI has to be told to run as root, in a container, with more ranks than cores; what the user says stands.
+# What Open MPI needs to run as root, in a container, with more ranks than cores; what the user says stands.
 OPEN_MPI = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -106,13 +106,13 @@ class Ranks:
             first = stream.readline()
             if not first:
                 self.fail("a rank ended as it began")
-            told = json.loads(first)
-            if told["size"] != count:
+            reported = json.loads(first)
+            if reported["size"] != count:
                 raise Failed(
-                    f"of {count} ranks one says that there are {told['size']}: mpirun is of another MPI than LAMMPS' "
+                    f"of {count} ranks one says that there are {reported['size']}: mpirun is of another MPI than LAMMPS' "
                     "library (Debian: Open MPI for both, package openmpi-bin)"
                 )
-            self.connections[told["rank"]] = connection, stream
+            self.connections[reported["rank"]] = connection, stream
 
     def are_there(self, count):
         """So many of them, and none has ended since it was asked last."""
@@ -154,12 +154,12 @@ class Ranks:
             pass
         status = self.process.poll()
         self.end()
-        told = re.search(
+        reported = re.search(
             r"process rank (\d+) with PID (\d+) on node \S+ exited on (signal \d+ \([^)]*\))", " ".join(self.said)
         )
         error = next((line for line in self.said if line.startswith("ERROR")), "")
-        if told:
-            what = f"rank {told[1]} ended ({told[3]})"
+        if reported:
+            what = f"rank {reported[1]} ended ({reported[3]})"
         elif status is not None:
             what += f"; mpirun ended with status {status}"
         self.failure = f"{what}, and with it all ranks" + (f": {error}" if error else "")
@@ -237,7 +237,7 @@ class Front:
         try:
             replies = self.ranks.ask_all([request | {"file": file} for file in files])
             self.of_first(replies)
-            looks = [
+            parts = [
                 from_arrays(crossgrain_worker.read_arrays(file, reply["arrays"]))
                 for file, reply in zip(files, replies)
             ]
@@ -246,14 +246,14 @@ class Front:
                 if os.path.exists(file):
                     os.unlink(file)
         steps = round(self.time / self.engine.dt)
-        snapshot, arrays = self.engine.snapshot_of(looks, request["contacts"], steps)
+        snapshot, arrays = self.engine.snapshot_of(parts, request["contacts"], steps)
         return {
             "snapshot": snapshot,
             "arrays": crossgrain_worker.write_arrays(request["file"], arrays),
         }
 
     def stats(self, request):
-        """Ranks tell each of its own pairs; the run takes as long as the slowest."""
+        """Each rank reports its own pairs; the run takes as long as the slowest."""
         replies = self.ranks.ask_all([request] * len(self.ranks.connections))
         self.of_first(replies)
         all_stats = [reply["stats"] for reply in replies]

@@ -9,7 +9,7 @@ AT_THE_BOUND = 1 - 1e-12  # the worker holds |f_t| to be there within this
 
 
 class Law:
-    """f_n = k_n δ − γ_n v_n; the tangential spring held to µ |f_n|, its dashpot only while it sticks."""
+    """f_n = k_n δ − γ_n v_n; the tangential spring limited to µ |f_n|, its dashpot only while it sticks."""
 
     def __init__(self, law):
         kind = law["tangential"]
@@ -24,7 +24,7 @@ class Law:
             raise Unsupported("has friction by springs alone: kt must be > 0")
 
     def properties(self):
-        """What `fix property/global … peratomtypepair` is told, the same for all pairs."""
+        """What `fix property/global … peratomtypepair` is given, the same for all pairs."""
         of_contacts = {"kn": self.kn, "kt": self.kt or self.kn, "gamman_abs": self.gn, "gammat_abs": self.gt}
         return of_contacts | ({"coefficientFriction": self.mu} if self.friction else {})
 
@@ -37,7 +37,7 @@ class Law:
         )
 
     def sliding(self, pressing, tangential):
-        """Where the spring is at the bound: it alone is held to it, and acts alone there."""
+        """Where the spring is at the bound: it alone is limited, and acts alone there."""
         bound = self.mu * np.abs(pressing)
         return self.friction & (bound > 0) & (np.abs(np.abs(tangential) - bound) <= (1 - AT_THE_BOUND) * bound)
 

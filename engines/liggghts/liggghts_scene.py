@@ -30,7 +30,7 @@ class Liggghts(Lammps):
         return self.atoms()  # one rank
 
     def count_of_compute(self, name):
-        """LIGGGHTS does not tell the rows of a local compute: half of all disks' partners."""
+        """LIGGGHTS does not report the rows of a local compute: half of all disks' partners."""
         self.library.lammps_extract_compute.restype = ctypes.c_void_p
         pointer = self.library.lammps_extract_compute(self.handle, b"partners", 1, 1)
         partners = ctypes.cast(pointer, ctypes.POINTER(ctypes.c_double))

@@ -11,7 +11,7 @@ BLOCKED = 1e12  # times m a²: an inertia that nothing here turns
 
 
 def version():
-    """Of Debian's package; the modules tell none."""
+    """Of Debian's package; the modules report none."""
     with open("/var/lib/dpkg/status", encoding="utf-8") as status:
         for entry in status.read().split("\n\n"):
             if entry.startswith("Package: python3-siconos\n"):

@@ -3,7 +3,7 @@
 from crossgrain_answers import demand_tangential
 from crossgrain_worker import Unsupported
 
-MOST_KINDS = 4  # of disks in the table of pairs: a longer one tells a reader nothing
+MOST_KINDS = 4  # of disks in the table of pairs: a longer one is of no use to a reader
 
 
 class Law:
@@ -42,7 +42,7 @@ class Law:
         return {name: value for name, value in constants.items() if has.get(name, True)}
 
     def scale_inertia(self, factor):
-        """Told when the masses are set to so many times what they were, which must not change a
+        """Called when the masses are set to so many times what they were, which must not change a
         force."""
 
 

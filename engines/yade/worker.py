@@ -1,6 +1,6 @@
 """A worker of crossgrain that runs scenes on YADE:  yade -n -x -j1 worker.py
 
-Disks are spheres held to the plane z = 0, wall disks are spheres that move as prescribed, planes
+Disks are spheres kept in the plane z = 0, wall disks are spheres that move as prescribed, planes
 are YADE's axis-aligned walls. README.md of this folder says what YADE makes of a scene.
 """
 
@@ -30,7 +30,7 @@ from mindlin import Mindlin
 from viscoelastic import Viscoelastic
 
 LAWS = {"linear": Viscoelastic, "hertz": Mindlin}
-COUNT_EVERY = 100  # steps between two looks at the number of contacts
+COUNT_EVERY = 100  # steps between two checks of the number of contacts
 
 
 def close_yades_servers():

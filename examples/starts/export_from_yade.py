@@ -1,6 +1,6 @@
 """A small scene in YADE, written as start.csv:  yade -n -x export_from_yade.py
 
-Spheres held to the plane z = 0 fall on a row of fixed ones for a while; what is to be kept of any other scene is the loop at the end.
+Spheres kept in the plane z = 0 fall on a row of fixed ones for a while; what is to be kept of any other scene is the loop at the end.
 YADE's spheres have the moment of inertia of spheres, which the column "inertia" keeps.
 """
 

@@ -86,8 +86,12 @@ std::string carrierInWords(const EndpointRow& row) {
   for (const std::string& mirror : {row.carrierA, row.carrierB})
     if (!mirror.empty()) mirrors.push_back(mirror);
   if (mirrors.empty()) return {};
-  return fmt::format("through {}, B = {} margins", fmt::join(mirrors, " and "),
-                     readable(row.bound));
+  std::string words =
+      fmt::format("through {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+  if (row.reach)
+    words +=
+        fmt::format(", {} of it could have been missed by the followed run", readable(row.reach));
+  return words;
 }
 
 std::string answerInWords(const EndpointRow& row) {
@@ -113,14 +117,25 @@ std::string sentenceOf(const CarriedEngine& own) {
       "{}: evaluated through its mirror {} (ε_eq {}; {} equal windows leave at most {:.0f} % of "
       "states different)",
       own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
+  words += "; spot check: ";
+  std::vector<std::string> parts;
+  if (!own.late.equivalents.empty()) {
+    std::vector<std::string> changes;
+    for (const EquivalentChange& one : own.late.equivalents)
+      changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
+    parts.push_back(fmt::format(
+        "{} windows of {} over its own run of packing {} differ from the mirror as at most {} "
+        "would",
+        own.late.times.size(), shortDuration(own.late.length), own.late.packing,
+        fmt::join(changes, " or ")));
+  }
   if (const CanaryNumber* const worst = farthest(own.canary))
-    words += fmt::format(
-        "; spot check: its own run of packing {} differs from the mirror's by no more than chaos: "
-        "{} margins of {} at most, "
-        "scatter {}",
+    parts.push_back(fmt::format(
+        "its own run of packing {} differs from the mirror's by no more than chaos: {} margins of "
+        "{} at most, where less than {} cannot be seen",
         own.canaryPacking, signedNumber(worst->difference.value_or(0.0)), spaced(worst->endpoint),
-        readable(worst->floor));
-  return words + ".";
+        readable(worst->reach)));
+  return words + fmt::format("{}.", fmt::join(parts, "; "));
 }
 
 std::string sentenceOf(const AlarmRow& alarm) {
@@ -140,11 +155,12 @@ std::string sentenceOf(const LooksFindings& looks) {
                                                            100.0 * *looks.agreeAlpha)
                                              : "";
   return fmt::format(
-      "Analysed after {} packings ({} of {} interim analyses), {}{:.3g} of {:.3g} % chance of a false disagree "
+      "Analysed after {} packings ({} of {} interim analyses), {}{:.3g} of {:.3g} % chance of a "
+      "false disagree "
       "spent; "
       "{}.",
-      fmt::join(packings, ", "), looks.taken, looks.planned.size(),
-      agree, 100.0 * spent, 100.0 * all, looks.ended);
+      fmt::join(packings, ", "), looks.taken, looks.planned.size(), agree, 100.0 * spent,
+      100.0 * all, looks.ended);
 }
 
 std::string countsInWords(const std::vector<const EndpointRow*>& rows) {

@@ -194,9 +194,12 @@ std::string speedOf(const ThesisResults& results, const std::string& engine) {
 }
 
 std::string sentenceOf(const ThesisCarrier& carrier) {
-  return fmt::format("{} {} {}: {}", carrier.engine,
-                     carrier.carries ? "is carried by" : "is not carried by", carrier.mirror,
-                     carrier.why);
+  return fmt::format(
+      "{} is {}evaluated through its mirror {}: {}{}", carrier.engine,
+      carrier.carries ? "" : "not ", carrier.mirror, carrier.why,
+      carrier.carries ? " Its packing 0 was not compared with the mirror's: what begins later in a "
+                        "run than these windows is not examined here, but by compare."
+                      : "");
 }
 
 void addThesisSummary(Json& view, const ThesisResults& results) {

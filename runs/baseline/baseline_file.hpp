@@ -10,7 +10,7 @@ inline constexpr const char* baselineSchema = "crossgrain-baseline-2";
 
 /// HDF5, whose doubles are the very bits; the same baseline gives the same bytes. What is no array
 /// is JSON in attributes: `schema`, `head`, `engine-0` … The arrays of each start and window are
-/// listed in runs/README.md.
+/// listed in docs/files.md.
 /// @throws OutputError
 void writeBaseline(const Baseline& baseline, const std::filesystem::path& file);
 

@@ -7,7 +7,7 @@
 #include "adapters/engine_entry.hpp"
 #include "cases/case.hpp"
 #include "runs/baseline/baseline.hpp"
-#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {
 

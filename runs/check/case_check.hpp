@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -16,7 +16,7 @@ namespace crossgrain::inline runs {
 /// @param names  of engines, "all" allowed; mirrors that would run along are asked too
 /// @param timed  whether to time steps
 /// @returns name, variant, kind, disks, wall_disks, dt_s, effects, cautions, engines; of a Couette
-///          case also cell figures and predictions (runs/README.md)
+///          case also cell figures and predictions (docs/methods.md)
 /// @throws BadInput, also for a time step beyond the limit of a case that compare would refuse
 nlohmann::json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
                            const std::filesystem::path& scratch, Progress& progress);

@@ -5,14 +5,23 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/contact_law.hpp"
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "results/collision.hpp"
+#include "results/collision_score.hpp"
 #include "runs/collide/score.hpp"
 #include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
+
+/// Options that matter to the law, and constants that it has.
+LawWords lawInWords(const ContactLaw& law);
+
+/// Those in which a law differs from another; a constant that it lacks is 0. Empty: it is the same
+/// law.
+LawWords lawDifference(const ContactLaw& law, const ContactLaw& from);
 
 /// What the oracle says of each start; absent where it has no outcome.
 struct OracleCurve {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "cases/case_keys.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/scaled_cell.hpp"
@@ -14,10 +16,10 @@
 #include "cases/volume_fraction.hpp"
 #include "results/scale_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/head.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/scale/timing.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -44,17 +46,16 @@ ScaleCell cellOf(const Case& scaled) {
           static_cast<std::size_t>(walls), cell.outerRadius, volumeFraction(scaled), ""};
 }
 
-class ScaleStudy {
+class ScaleTimings {
  public:
-  ScaleStudy(const ScalePlan& plan, const std::vector<std::string>& overrides,
-             const RunCommand& command, RunStore& store)
-      : plan_(plan),
-        overrides_(overrides),
-        command_(command),
-        store_(store),
-        base_(scaleCase(overrides)),
-        engines_(selectEngines(command.engines)),
-        progress_(command.quiet) {
+  ScaleTimings(const StudyWork& work, ScalePlan plan)
+      : plan_(std::move(plan)),
+        overrides_(work.line.overrides),
+        command_(work.line.run),
+        store_(work.store),
+        base_(work.setup()),
+        engines_(selectEngines(command_.engines)),
+        progress_(command_.quiet) {
     checkEngineSections(base_);
   }
 
@@ -252,11 +253,11 @@ class ScaleStudy {
     return row;
   }
 
-  const ScalePlan& plan_;
+  ScalePlan plan_;
   const std::vector<std::string>& overrides_;
   const RunCommand& command_;
   RunStore& store_;
-  Case base_;
+  const Case& base_;
   std::vector<EngineEntry> engines_;
   Progress progress_;
   std::vector<std::string> versions_;  ///< of the engines
@@ -268,8 +269,7 @@ class ScaleStudy {
   std::vector<ScaleCell> cells_;
 };
 
-}  // namespace
-
+/// @throws BadInput for a change of the case that is none of engines' settings or of [run]
 Case scaleCase(const std::vector<std::string>& overrides) {
   for (const std::string& each : overrides) {
     const std::string key = each.substr(0, each.find('='));
@@ -283,23 +283,97 @@ Case scaleCase(const std::vector<std::string>& overrides) {
   return scaledCase(leastScaled, overrides);
 }
 
-ScaleResults measureScale(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                          const RunCommand& command, RunStore& store) {
+std::size_t soleNumber(const std::string& option, const std::string& text, std::size_t most) {
+  const auto numbers = wholeNumbers(option, text, 1, most);
+  if (numbers.size() > 1)
+    throw BadInput(fmt::format("{} '{}': one number is wanted", option, text));
+  return numbers.front();
+}
+
+/// @throws BadInput for an option that is none
+ScalePlan planOf(const ScaleOptions& own, bool quick) {
+  constexpr std::size_t mostWorkers = 1024, mostSteps = 100'000'000, mostRepetitions = 1000;
+  ScalePlan plan;
+  plan.disks =
+      wholeNumbers("--disks", own.disks.value_or(quick ? "1000,2000" : "1000,10000,100000,1000000"),
+                   leastScaled, mostScaled);
+  plan.workers = usualWorkers(std::thread::hardware_concurrency());
+  if (own.threads) {
+    plan.workers.clear();
+    for (const std::size_t count : wholeNumbers("--threads", *own.threads, 1, mostWorkers))
+      plan.workers.push_back(static_cast<int>(count));
+  }
+  if (quick) {
+    plan.steps = 200;
+    plan.repetitions = 2;
+  }
+  if (own.steps) plan.steps = soleNumber("--steps", *own.steps, mostSteps);
+  if (own.repetitions)
+    plan.repetitions =
+        static_cast<int>(soleNumber("--repetitions", *own.repetitions, mostRepetitions));
+  return plan;
+}
+
+std::vector<Case> caseToScale(const CommandLine& line, ScaleOptions& own) {
+  planOf(own, line.quick);  // throws for an option that is none
+  const Case cell = scaleCase(line.overrides);
+  for (const std::string& key : keysWithoutUse(cell, "scale"))
+    if (const std::string where = whereSaid(cell, key); where.starts_with("--set "))
+      throw BadInput(fmt::format("{}: scale does not use {}", where, key));
+  return {cell};
+}
+
+ScaleResults scale(const StudyWork& work, const ScaleOptions& own) {
   const auto started = std::chrono::steady_clock::now();
-  ScaleStudy study(plan, overrides, command, store);
-  study.askEngines();
-  study.run();
-  ScaleResults results = study.results();
+  ScaleTimings timings(work, planOf(own, work.line.quick));
+  timings.askEngines();
+  timings.run();
+  ScaleResults results = timings.results();
   results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }
 
-std::string scalePlan(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                      const RunCommand& command, RunStore& store) {
-  ScaleStudy study(plan, overrides, command, store);
-  study.askEngines();
-  return study.planInWords();
+Outcome outcomeOfScale(const ScaleResults& results, const CommandLine&, const ScaleOptions&) {
+  Outcome outcome;
+  for (const ScalePoint& point : results.points)
+    if (point.status == EngineStatus::failed) outcome.failures.push_back(point.reason);
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (std::ranges::find(results.points, EngineStatus::ran, &ScalePoint::status) ==
+           results.points.end())
+    return {exitFellShort, {"nothing was timed: " + results.points.front().reason}};
+  return outcome;
 }
+
+}  // namespace
+
+const Study<ScaleOptions, ScaleResults> scaleStudy = {
+    "scale",
+    {.input = SharedOptions::Input::none, .inHouse = true, .jobs = false},
+    Keeps::oneCase,
+    [](ScaleOptions& own, CommandLine& line) {
+      return std::vector<StudyOption>{
+          {"--disks",
+           "sizes of the cell (default: 1000,10000,100000,1000000); 10^7 take about an hour to "
+           "prepare, once",
+           &own.disks, "N,N"},
+          {"--threads",
+           "threads, of lammps ranks, that share a step; one is always timed (default: 1, 2, 4, … "
+           "up to the cores)",
+           &own.threads, "P,P"},
+          {"--steps", "timed in each repetition (default: 2*10^7 over disks, at least 50)",
+           &own.steps, "N"},
+          {"--repetitions", "of each timing (default: 3)", &own.repetitions, "N"},
+          {"--quick", "two small cells and few steps, to see that it works", &line.quick}};
+    },
+    caseToScale,
+    [](const StudyWork& work, const ScaleOptions& own) {
+      ScaleTimings timings(work, planOf(own, work.line.quick));
+      timings.askEngines();
+      return timings.planInWords();
+    },
+    scale,
+    outcomeOfScale};
 
 }  // namespace crossgrain::inline runs

@@ -5,7 +5,7 @@
 
 #include "cases/thesis_ladder.hpp"
 #include "results/thesis.hpp"
-#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/lockstep/lockstep.hpp"
 
 namespace crossgrain::inline runs {

@@ -9,11 +9,8 @@
 
 #include "cases/thesis_ladder.hpp"
 #include "results/thesis.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/common/run_store.hpp"
 #include "runs/thesis/earlier_runs.hpp"
 

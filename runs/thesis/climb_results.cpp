@@ -7,7 +7,7 @@
 #include "cases/time_step.hpp"
 #include "results/schema.hpp"
 #include "results/thesis_fields.hpp"
-#include "runs/common/head.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/frame.hpp"
 #include "runs/thesis/climb.hpp"
 #include "support/files.hpp"

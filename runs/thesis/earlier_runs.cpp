@@ -5,7 +5,6 @@
 #include "results/schema.hpp"
 #include "results/thesis_fields.hpp"
 #include "runs/common/run_store.hpp"
-#include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
 #include "support/fingerprint.hpp"
 

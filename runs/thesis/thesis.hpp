@@ -7,7 +7,6 @@
 
 #include "cases/thesis_ladder.hpp"
 #include "results/thesis.hpp"
-#include "runs/common/options.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {

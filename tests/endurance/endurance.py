@@ -19,8 +19,8 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "system"))
-from same_bits import lasting  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests" / "golden"))
+from golden import leaves  # noqa: E402
 
 PACKINGS = 2
 CASE = [
@@ -57,10 +57,7 @@ class Campaign:
         return process.returncode, said
 
     def results(self, out):
-        results = lasting(json.loads((out / "results.json").read_text(encoding="utf-8")))
-        for packing in results["packings"]:
-            packing.pop("from_cache")
-        return results
+        return list(leaves(json.loads((out / "results.json").read_text(encoding="utf-8"))))
 
     def clear(self, out):
         for folder in (out, f"{out}-cache", f"{out}-tmp"):

@@ -6,8 +6,6 @@
 #include <regex>
 
 #include "reports/collide/report.hpp"
-#include "reports/cost/panels.hpp"
-#include "reports/cost/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
@@ -63,68 +61,14 @@ TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
   EXPECT_GT(named, 0);
 }
 
-/// What a cost figure's caption names against what its panels hold.
-TEST(Captions, OfCostNameMarksThatAreThere) {
-  const CostResults results = sample::costResults();
-  const auto check = [](const std::vector<Figure>& figures) {
-    for (const Figure& figure : figures) {
-      if (!figure.name.starts_with("cost_")) continue;
-      const auto shaded = std::ranges::any_of(
-          figure.panels, [](const Panel& panel) { return panel.shadedTo.has_value(); });
-      const auto front = draws(figure, [](const Curve& c) { return c.name == "Pareto front"; });
-      if (figure.name == "cost_contacts") continue;  // its caption names no marks
-      EXPECT_EQ(has(figure.caption, "▽"), drawsMark(figure, openTriangle)) << figure.name;
-      EXPECT_EQ(has(figure.caption, "×"), drawsMark(figure, crossMark)) << figure.name;
-      EXPECT_EQ(has(figure.caption, "Pareto front"), front) << figure.name;
-      EXPECT_EQ(has(figure.caption, "Grey: what the reference"), shaded) << figure.name;
-    }
-  };
-  check(costFigures(results));
-  CostResults bare = results;  // no failure, no front, nothing uncertain
-  bare.fronts.clear();
-  std::erase_if(bare.points, [](const CostPoint& point) { return !point.ran(); });
-  for (CostPoint& point : bare.points) {
-    point.statistical.reset();
-    point.referenceError.reset();
-  }
-  for (OrderFit& fit : bare.orders) {
-    fit.used.clear();
-    fit.leftOut.clear();
-  }
-  check(costFigures(bare));
-}
-
-TEST(Captions, OfAGreyBandThatLiesBelowTheAxisSayNothing) {
-  CostPoint point;
-  point.error = 0.1;
-  point.referenceError = 1e-9;
-  const CostAxis axis{[](const CostPoint&) { return std::optional(1.0); }, "x"};
-  EXPECT_FALSE(errorPanel({point}, "psi_f", axis).shadedTo);
-  point.referenceError = 0.09;
-  EXPECT_EQ(errorPanel({point}, "psi_f", axis).shadedTo, 0.09);
-}
-
-/// Averages over a single packing say nothing: they are neither on a front nor drawn.
-TEST(CostPoints, AveragesWithoutAStatisticalErrorCountNowhere) {
-  CostPoint point;
-  point.kind = CostKind::averages;
-  point.error = 0.1;
-  EXPECT_FALSE(countedError(point));
-  point.statistical = 0.01;
-  EXPECT_EQ(countedError(point), 0.1);
-  point.kind = CostKind::collision;
-  point.statistical.reset();
-  EXPECT_EQ(countedError(point), 0.1);
-}
-
-using Column = std::vector<std::optional<double>>;
+using NumberList = std::vector<std::optional<double>>;
 
 /// Ψ_i = 0 and 2, of which half the energy is lost.
 CollisionTable half() {
   CollisionTable table;
   table.psi = {0.0, 2.0};
-  table.columns[QuantityId::energyBefore] = Column{1.0, 2.0};
-  table.columns[QuantityId::energyAfter] = Column{0.5, 1.0};
+  table.columns[QuantityId::energyBefore] = NumberList{1.0, 2.0};
+  table.columns[QuantityId::energyAfter] = NumberList{0.5, 1.0};
   return table;
 }
 
@@ -134,21 +78,21 @@ CollideResults energies() {
   CollisionVariant hertz, rigid;
   hertz.variant = "hertz";
   CollisionTable table = half();
-  table.columns[lostNormalDamping] = Column{0.4, 0.5};
-  table.columns[lostTangential] = Column{0.1, 0.5};
+  table.columns[lostNormalDamping] = NumberList{0.4, 0.5};
+  table.columns[lostTangential] = NumberList{0.1, 0.5};
   CollisionCurve& curve = hertz.curves.emplace_back();
   curve.engine = "e";
   curve.dt = 1e-5;
   static_cast<CollisionTable&>(curve.points) = table;
-  table.columns[psiF] = Column{0.0, 1.0};
-  table.columns[lostTangentialDamping] = Column{0.05, 0.1};
-  table.columns[lostStiffening] = Column{0.02, -0.1};
-  table.columns[lostSliding] = Column{0.02, 0.4};
-  table.columns[lostStored] = Column{0.01, 0.1};
+  table.columns[psiF] = NumberList{0.0, 1.0};
+  table.columns[lostTangentialDamping] = NumberList{0.05, 0.1};
+  table.columns[lostStiffening] = NumberList{0.02, -0.1};
+  table.columns[lostSliding] = NumberList{0.02, 0.4};
+  table.columns[lostStored] = NumberList{0.01, 0.1};
   hertz.oracle = table;
   rigid.variant = "rigid";
   rigid.oracle = half();
-  rigid.oracle.columns[psiF] = Column{0.0, 1.0};
+  rigid.oracle.columns[psiF] = NumberList{0.0, 1.0};
   CollideResults results;
   results.head.setup.name = "c";
   results.engines.resize(1);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "reports/report.hpp"
+#include "results/conformance.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
 #include "tests/reports/report_text.hpp"
@@ -43,6 +44,7 @@ TEST(GoldenReports, SayTheSame) {
   expectKept("collide", toJson(sample::collideResults()));
   expectKept("compare", toJson(sample::compareResults(4, 10)));
   expectKept("conformance", toJson(conformanceResults()));
+  expectKept("cost", toJson(sample::costResults()));
   expectKept("effects", toJson(sample::effectsResults(4)));
   expectKept("lockstep", toJson(sample::lockstepResults()));
   expectKept("rev", toJson(sample::revResults()));

@@ -86,7 +86,8 @@ TEST(Html, EveryBlock_IsEscapedAndTypeset) {
   using namespace reports;
   Report report;
   report.engines = {{"en<g", "", "", "", EngineStatus::ran, ""}};
-  Table table{{{"engine", Column::Kind::engines}, {"σ_rφ", Column::Kind::number}}, {}};
+  Table table{{{"engine", reports::Column::Kind::engines}, {"σ_rφ", reports::Column::Kind::number}},
+              {}};
   table.rows.push_back({{"en<g", {"1<2", {"k_n"}, CellState::bad, true}}, "gr<oup"});
   report.section("one", "O<ne").blocks = {
       Paragraph{"a<b, k_n"}, List{{{"le<ad", "t_c"}}},           std::move(table),

@@ -12,7 +12,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-std::string textOf(const Cell& cell) {
+std::string cellText(const Cell& cell) {
   std::string text = cell.state && cell.marked
                          ? fmt::format("{} {}", lookOf(*cell.state).mark, cell.text)
                          : cell.text;
@@ -21,7 +21,7 @@ std::string textOf(const Cell& cell) {
   return text;
 }
 
-std::string textOf(const Blocks& blocks);
+std::string blocksText(const Blocks& blocks);
 
 struct Printer {
   std::string operator()(const Paragraph& part) const { return part.text + "\n"; }
@@ -32,12 +32,12 @@ struct Printer {
   }
   std::string operator()(const Table& part) const {
     std::vector<std::string> names;
-    for (const Column& column : part.columns) names.push_back(column.name);
+    for (const reports::Column& column : part.columns) names.push_back(column.name);
     std::string text = fmt::format("| {}\n", fmt::join(names, " | "));
     for (const TableRow& row : part.rows) {
       if (!row.group.empty()) text += row.group + "\n";
       std::vector<std::string> cells;
-      for (const Cell& cell : row.cells) cells.push_back(reports::textOf(cell));
+      for (const Cell& cell : row.cells) cells.push_back(cellText(cell));
       text += fmt::format("| {}\n", fmt::join(cells, " | "));
     }
     return text + (part.note.empty() ? "" : part.note + "\n");
@@ -53,11 +53,11 @@ struct Printer {
     return text + "\n";
   }
   std::string operator()(const Details& part) const {
-    return "> " + part.summary + "\n" + reports::textOf(part.blocks);
+    return "> " + part.summary + "\n" + blocksText(part.blocks);
   }
 };
 
-std::string textOf(const Blocks& blocks) {
+std::string blocksText(const Blocks& blocks) {
   std::string text;
   for (const Block& block : blocks) text += std::visit(Printer(), block.content);
   return text;
@@ -70,7 +70,7 @@ std::string textOf(const Report& report) {
   for (const std::string& sentence : report.sentences) text += sentence + "\n";
   for (const std::string& note : report.notes) text += "Note: " + note + "\n";
   for (const Section& section : report.sections)
-    text += fmt::format("\n## {} ({})\n{}", section.title, section.id, textOf(section.blocks));
+    text += fmt::format("\n## {} ({})\n{}", section.title, section.id, blocksText(section.blocks));
   return text;
 }
 

@@ -79,13 +79,13 @@ TEST(CollideReport, NothingJudged_IsNoSuccess) {
   EXPECT_TRUE(has(textOf(collideReport(results)),
                   "Nothing was judged: the case has no [collision.margins] for what was "
                   "measured."));
-  EXPECT_EQ(reports::countOf(results).judged(), 0);
+  EXPECT_EQ(countOf(results).judged(), 0);
   for (CollisionVariant& variant : results.variants) {
     variant.oracleReason = "no limit";
     for (CollisionCurve& curve : variant.curves) curve.score.of[QuantityId::psiF].reset();
   }
-  EXPECT_EQ(reports::nothingJudged(results), "there is no oracle to judge by: no limit");
-  EXPECT_EQ(reports::nothingJudged(sample::collideResults()), "");
+  EXPECT_EQ(nothingJudged(results), "there is no oracle to judge by: no limit");
+  EXPECT_EQ(nothingJudged(sample::collideResults()), "");
 }
 
 TEST(CollideReport, ModelDifference_IsNoFailure) {
@@ -106,7 +106,7 @@ TEST(CollideReport, ModelDifference_IsNoFailure) {
   EXPECT_TRUE(has(page, "| ≠ 4 of 6 passed, 2 ≠"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
   EXPECT_TRUE(has(page, " | declared | "));
-  const reports::CollideCount count = reports::countOf(results);
+  const CollideCount count = countOf(results);
   EXPECT_EQ(count.modelDifference, 2);
   EXPECT_EQ(count.fellShort, 2);
 }
@@ -121,17 +121,17 @@ TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   const std::string page = textOf(collideReport(results));
   EXPECT_TRUE(has(page, "own scheme 1×10⁻⁹"));
   EXPECT_TRUE(has(page, "| ✗ 1×10⁻⁹ |"));
-  EXPECT_EQ(reports::outcomeOf(results.variants[0].curves[0]), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::fellShort);
 }
 
 /// A mirror beside its peer shows what the peer should do; alone it is an engine like any other.
 TEST(CollideReport, MirrorsBesideTheirPeers_AreNotCounted) {
   CollideResults results = sample::collideResults();
-  const int before = reports::countOf(results).judged();
+  const int before = countOf(results).judged();
   results.engines[1].mirrors = "grain";
-  EXPECT_EQ(reports::countOf(results).judged(), before - 6);
+  EXPECT_EQ(countOf(results).judged(), before - 6);
   results.engines[1].mirrors = "somebody else";
-  EXPECT_EQ(reports::countOf(results).judged(), before);
+  EXPECT_EQ(countOf(results).judged(), before);
 }
 
 TEST(CollideReport, PointsWithoutALimit_AreNamedWithTheReason) {

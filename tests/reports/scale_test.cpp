@@ -12,7 +12,7 @@
 namespace crossgrain::reports {
 namespace {
 
-std::vector<std::string> linesOf(const std::string& text) {
+std::vector<std::string> textLines(const std::string& text) {
   std::istringstream in(text);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -20,7 +20,7 @@ std::vector<std::string> linesOf(const std::string& text) {
 }
 
 TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
-  const auto lines = linesOf(scaleText(sample::scaleResults()));
+  const auto lines = textLines(scaleText(sample::scaleResults()));
   ASSERT_EQ(lines.size(), 1u + 9u + 2u);  // head, points, who differs, the one that failed
   EXPECT_EQ(lines[1],
             "grain       1000     1 thread  16.0 µs     16.0     5 %       –     –     1.00      "
@@ -38,7 +38,7 @@ TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
 }
 
 TEST(ScaleCsv, IsTheContract) {
-  const auto lines = linesOf(csvOf(scaleReport(sample::scaleResults()), "scale.csv"));
+  const auto lines = textLines(csvOf(scaleReport(sample::scaleResults()), "scale.csv"));
   ASSERT_EQ(lines.size(), 10u);
   EXPECT_EQ(lines[0],
             "engine,disks,workers,workers_are,status,step_s,spread,ns_per_disk,strong,weak,ratio,"

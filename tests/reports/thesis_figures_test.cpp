@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "reports/common/gnuplot.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "reports/thesis/leg_rings.hpp"
 #include "results/thesis_kept.hpp"
 #include "tests/reports/sample_results.hpp"

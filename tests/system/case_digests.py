@@ -2,7 +2,7 @@
 
 Each case is run for a short time (its first variant; of a cell packing 0) and all arrays that the engine answers, positions, velocities, spins,
 walls and contacts of ten looks, go into one digest. It covers scene, packing and engine, on a processor held to instructions that every x86-64
-machine has (same_bits.py); grain's own AVX2 and AVX-512 must give the same, and so does a build by another compiler (tests/README.md).
+machine has (golden/golden.py); grain's own AVX2 and AVX-512 must give the same, and so does a build by another compiler (tests/README.md).
 Left out, each with the reason, is what LEFT_OUT says.
 
 What changes bits on purpose says so in CHANGELOG.md and renews the file:
@@ -18,10 +18,12 @@ import sys
 import tempfile
 
 import harness
-import same_bits
 
-KEPT = same_bits.HERE / "case_digests.json"
-CASES = same_bits.ROOT / "cases"
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "golden"))
+from golden import BASELINE, ROOT  # noqa: E402
+
+KEPT = pathlib.Path(__file__).resolve().parent / "case_digests.json"
+CASES = ROOT / "cases"
 FOLDERS = ("assembly", "collision", "couette", "hard")
 LEFT_OUT = {
     "couette/nu-0.804": "its packing takes minutes",
@@ -53,7 +55,7 @@ def digest(name, cache, *arguments, **environment):
         done = subprocess.run(
             [os.environ["CROSSGRAIN"], "record", f"cases/{name}.toml", "--engines", "grain", *time, *arguments,
              "--out", recording],
-            cwd=same_bits.ROOT, env=os.environ | same_bits.BASELINE | {"CROSSGRAIN_CACHE": str(cache)} | environment,
+            cwd=ROOT, env=os.environ | BASELINE | {"CROSSGRAIN_CACHE": str(cache)} | environment,
             capture_output=True, encoding="utf-8", check=False,
         )  # fmt: skip
         if done.returncode != 0:

@@ -44,7 +44,7 @@ def settings(**changes):
 
 
 def recorded_exchanges(recording):
-    """Request, answer and the array file of the answer of each exchange of a recording (runs/README.md)."""
+    """Request, answer and the array file of the answer of each exchange of a recording (docs/files.md)."""
     with open(recording, "rb") as file:
         next(file)
         while line := file.readline():

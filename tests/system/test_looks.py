@@ -8,7 +8,7 @@ from harness import COUETTE, FELL_SHORT, HELD, SystemTest, settings
 # Binding: columns that other programs read, in this order; further ones come after.
 COLUMNS = (
     "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,distance_high,"
-    "look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,reference,reason"
+    "look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,reference,reason,reach"
 ).split(",")
 
 SHORT = settings(
