@@ -304,7 +304,7 @@ double Core<Real>::forcePerStretch(const Contact& contact) const {
 template <class Real>
 void Core<Real>::setSprings(const PairMap<double>& springs) {
   if (!lists_.springs()) return;
-  std::vector<CarriedSpring> pairs;
+  std::vector<KeptSpring> pairs;
   for (PlacedPlane& placed : placedPlanes_) std::ranges::fill(placed.spring, Real(0));
   for (const auto& [numbers, spring] : springs) {
     const auto i = static_cast<std::int32_t>(placeOf(numbers.first));
