@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
@@ -330,44 +329,12 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
     section.blocks = std::move(blocks);
 }
 
-std::vector<std::string> collideSummary(const CollideResults& results) {
-  std::map<std::string, std::map<std::string_view, int>> counts;  // by engine and outcome
-  for (const CollisionVariant& variant : results.variants)
-    for (const CollisionCurve& curve : variant.curves)
-      ++counts[curve.engine][nameOf(outcomeOf(curve))];
-  const CollideCount all = countOf(results);
-  std::vector<std::string> sentences;
-  if (all.judged() == 0)
-    sentences.push_back(fmt::format("Nothing was judged: {}.", nothingJudged(results)));
-  else
-    sentences.push_back(fmt::format(
-        "{} of {} passed{}; {} failed{}.", all.held,
-        counted(static_cast<std::size_t>(all.judged()), "judged sweep"),
-        all.modelDifference == 0
-            ? ""
-            : fmt::format("; {} are model differences: they pass by the law that their engine "
-                          "declares, but not by the scene's",
-                          all.modelDifference),
-        all.fellShort, all.notJudged == 0 ? "" : fmt::format("; {} not judged", all.notJudged)));
-  for (const EngineRow& engine : results.engines) {
-    if (!engine.mirrors.empty()) continue;
-    std::vector<std::string> words;
-    for (const auto& [outcome, count] : counts[engine.name])
-      words.push_back(fmt::format("{} {}", count, outcome));
-    if (words.empty()) words.emplace_back(nameOf(engine.status));
-    sentences.push_back(fmt::format("{}: {}{}", engine.name, fmt::join(words, ", "),
-                                    engine.reason.empty() ? "." : ": " + engine.reason));
-  }
-  return sentences;
-}
-
 }  // namespace
 
 Report collideReport(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
   Report report{{results.head, results.engines, collideOverview(results)}};
   report.elapsed = results.elapsed;
-  report.sentences = collideSummary(results);
   report.figures = collideFigures(results);
   report.section("matrix", "Cases by engine", "Summary").blocks = {
       collideMatrix(groups, results.engines),

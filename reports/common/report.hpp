@@ -139,9 +139,8 @@ struct ReportDigest {
 };
 
 struct Report : ReportDigest {
-  std::optional<double> elapsed = {};       ///< [s]
-  std::vector<std::string> sentences = {};  ///< what was found, in words; the first sums it up
-  std::vector<std::string> notes = {};
+  std::optional<double> elapsed = {};   ///< [s]
+  std::vector<std::string> notes = {};  ///< remarks that the matrix does not have
   std::vector<Section> sections = {};
   std::vector<Figure> figures = {};
   std::vector<Picture> pictures = {};

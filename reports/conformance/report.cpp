@@ -155,12 +155,8 @@ Overview conformanceOverview(const ConformanceResults& results) {
 Report conformanceReport(const ConformanceResults& results) {
   Report report{{results.head, {results.engine}, conformanceOverview(results)}};
   report.elapsed = results.elapsed;
-  report.sentences = {conformanceLead(results)};
-  for (const ConformanceRow& row : results.rows)
-    if (isFault(row)) report.sentences.push_back(conformanceSentence(row));
-  for (const std::string& more :
-       nonEmpty({conformanceNotExamined(results), conformanceCause(results)}))
-    report.sentences.push_back(capitalised(more) + ".");
+  for (const std::string& more : nonEmpty({conformanceNotExamined(results)}))
+    report.notes.push_back(capitalised(more) + ".");
   for (const CheckPart& part : checkParts) addCheckPart(report, results, part);
   report.section("reading", "How to read it").blocks = {List{
       {{"Suite",

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -552,8 +553,8 @@ void addSections(Report& report, const CostResults& results) {
 Report costReport(const CostResults& results) {
   Report report{{results.head, results.engines, costOverview(results)}};
   report.elapsed = results.elapsed;
-  report.notes = results.notes;
-  report.sentences = costSentences(results);
+  report.notes = costSentences(results);
+  std::ranges::copy(results.notes, std::back_inserter(report.notes));
   report.figures = costFigures(results);
   addSections(report, results);
   report.tables = {{"cost.csv", costCsv(results)}};

@@ -61,7 +61,7 @@ std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
 }
 
 /// Every endpoint with its margin; an engine per column, against a.
-Table endpointTable(const CompareResults& results, const std::string& a, const Names& engines) {
+Table endpointVerdicts(const CompareResults& results, const std::string& a, const Names& engines) {
   const Endpoints& endpoints = results.endpoints.rows;
   Table table{{"endpoint and margin"}, {}};
   for (const std::string& engine : engines)
@@ -155,7 +155,7 @@ List verdictReading(const CompareResults& results) {
 void addClosedForms(Blocks& blocks, const CompareResults& results) {
   const Names judged = closedFormEngines(results.endpoints.rows);
   if (judged.empty()) return;
-  Table table = endpointTable(results, closedFormName, judged);
+  Table table = endpointVerdicts(results, closedFormName, judged);
   table.note =
       "The case gives the right value by a closed form. One start is run twice by every engine; a "
       "value that comes back the same has no scatter: within the margin it agrees, else it "
@@ -194,7 +194,7 @@ void addAgreement(Report& report, const CompareResults& results,
     addClosedForms(blocks, results);
     if (results.endpoints.looks.taken > 0)
       blocks.push_back(Paragraph{sentenceOf(results.endpoints.looks)});
-    Table table = endpointTable(results, reference, peers);
+    Table table = endpointVerdicts(results, reference, peers);
     table.note = fmt::format(
         "A distance is the engine's value minus that of {}, in margins, with the interval that the "
         "verdict rests on. Agree is tested endpoint by endpoint, disagree over all endpoints of a "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
@@ -156,8 +157,8 @@ std::string averageLead(const CompareResults& results, const Engines& engines) {
                      engines.front().name, extentOf(results, engines));
 }
 
-std::vector<std::string> averageSummary(const CompareResults& results, const Engines& engines) {
-  std::vector<std::string> sentences = {averageLead(results, engines)};
+std::vector<std::string> averageNotes(const CompareResults& results, const Engines& engines) {
+  std::vector<std::string> sentences;
   if (engines.empty() || engines.front().finished.empty()) return sentences;
   if (const std::string times = timesOf(engines); !times.empty())
     sentences.push_back("The snapshots are of " + times + ".");
@@ -173,6 +174,7 @@ std::vector<std::string> averageSummary(const CompareResults& results, const Eng
   if (refused > 0)
     sentences.push_back(fmt::format("{} of {} have no value; the table of fits has the reasons.",
                                     refused, counted(fits.size(), "fitted number")));
+  std::ranges::copy(results.notes, std::back_inserter(sentences));
   return sentences;
 }
 
@@ -210,9 +212,8 @@ Report averageReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   Report report{{results.head, results.engines, averageOverview(results)}};
   report.elapsed = results.elapsed;
-  report.notes = results.notes;
   report.caseHeading = "The case: its cell, rings and weights";
-  report.sentences = averageSummary(results, engines);
+  report.notes = averageNotes(results, engines);
   report.figures = compareFigures(results);
   if (Table state = stateTable(engines); !state.rows.empty())
     report.section("engines", "State of the cell", "State").blocks = {std::move(state)};

@@ -122,18 +122,6 @@ void addPictures(Report& report, const CompareResults& results, const Engines& e
   blocks.push_back(std::move(forces));
 }
 
-std::string compareLead(const CompareResults& results,
-                        const std::vector<const EndpointRow*>& rows) {
-  if (const auto& nothing = results.nothingJudged)
-    return fmt::format("Nothing was judged: {}.", nothing->reason);
-  if (rows.empty()) return "No two engines could be compared.";
-  std::string lead =
-      fmt::format("Against {}: {}.", results.engines.front().name, countsInWords(rows));
-  if (const std::size_t alarms = results.endpoints.alarms.size(); alarms > 0)
-    lead = fmt::format("{}. ", counted(alarms, "alarm")) + lead;
-  return lead;
-}
-
 std::string basisInWords(const CompareResults& results, const std::string& reference) {
   const std::string when = averagedRotations(results.averaging);
   return fmt::format("Reference: {}. {}{}.", reference, counted(results.packings.size(), "packing"),
@@ -153,17 +141,6 @@ std::string ratesInWords(const CompareResults& results) {
       counted(pairs.size(), "pair"), 100.0 * (1.0 - results.averaging.confidence));
 }
 
-/// Of a mirror that stands beside its peer: how the peer's difference splits. Empty for others.
-std::string splitInWords(const Endpoints& endpoints, const EngineRuns& mirror,
-                         const std::string& reference) {
-  const auto model = rowsOf(endpoints, reference, mirror.name);
-  const auto implementation = rowsOf(endpoints, mirror.name, mirror.mirrors);
-  if (mirror.mirrors.empty() || implementation.empty()) return {};
-  return fmt::format("{} mirrors {}. Model, against {}: {}. Implementation, against {}: {}.",
-                     mirror.name, mirror.mirrors, reference, countsInWords(model), mirror.mirrors,
-                     countsInWords(implementation));
-}
-
 std::string troubleInWords(const EngineRuns& engine) {
   if (engine.status != EngineStatus::ran)
     return fmt::format(
@@ -176,34 +153,23 @@ std::string troubleInWords(const EngineRuns& engine) {
                                    counted(engine.runs.size(), "run"));
 }
 
-std::vector<std::string> compareSummary(const CompareResults& results, const Engines& engines) {
-  const Endpoints& endpoints = results.endpoints.rows;
-  const std::string reference = engines.empty() ? std::string() : engines.front().name;
-  std::vector<std::string> sentences = {""};
-  std::vector<const EndpointRow*> all;
+/// On what the verdicts rest, in which state the runs were, and what did not run.
+std::vector<std::string> compareNotes(const CompareResults& results, const Engines& engines) {
+  std::vector<std::string> notes;
   for (const AlarmRow& alarm : results.endpoints.alarms)
-    sentences.push_back("Alarm. " + sentenceOf(alarm));
-  if (!engines.empty()) sentences.push_back(basisInWords(results, reference));
-  if (results.endpoints.looks.taken > 0) sentences.push_back(sentenceOf(results.endpoints.looks));
-  sentences.push_back(ratesInWords(results));
-  if (results.lockstep) sentences.push_back("Lockstep: " + leadOf(*results.lockstep));
-  std::ranges::move(stateSentences(results, engines), std::back_inserter(sentences));
-  for (const std::string& peer : peersOf(endpoints, engines)) {
-    const auto rows = rowsOf(endpoints, reference, peer);
-    std::ranges::copy(rows, std::back_inserter(all));
-    if (!results.nothingJudged)
-      sentences.push_back(fmt::format("{} against {}: {}.", peer, reference, countsInWords(rows)));
-  }
-  if (!results.nothingJudged)
-    for (const EngineRuns& engine : engines)
-      sentences.push_back(splitInWords(endpoints, engine, reference));
-  for (const EngineRuns& engine : engines) sentences.push_back(troubleInWords(engine));
-  if (results.packings.size() < 4 && !all.empty())
-    sentences.emplace_back(
+    notes.push_back("Alarm. " + sentenceOf(alarm));
+  if (!engines.empty()) notes.push_back(basisInWords(results, engines.front().name));
+  if (results.endpoints.looks.taken > 0) notes.push_back(sentenceOf(results.endpoints.looks));
+  notes.push_back(ratesInWords(results));
+  if (results.lockstep) notes.push_back("Lockstep: " + leadOf(*results.lockstep));
+  std::ranges::move(stateSentences(results, engines), std::back_inserter(notes));
+  for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
+  if (results.packings.size() < 4 && !peersOf(results.endpoints.rows, engines).empty())
+    notes.emplace_back(
         "Fewer than 4 packings: differences between engines cannot be distinguished from those "
         "between packings, so no general verdict is given.");
-  sentences.front() = compareLead(results, all);
-  return nonEmpty(std::move(sentences));
+  std::ranges::copy(results.notes, std::back_inserter(notes));
+  return nonEmpty(std::move(notes));
 }
 
 }  // namespace
@@ -259,8 +225,7 @@ Report compareReport(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   Report report{{results.head, results.engines, compareOverview(results), compareValues(results)}};
   report.elapsed = results.elapsed;
-  report.notes = results.notes;
-  report.sentences = compareSummary(results, engines);
+  report.notes = compareNotes(results, engines);
   report.figures = compareFigures(results);
   report.pictures = comparePictures(results);
   if (results.lockstep) {

@@ -163,25 +163,4 @@ std::string sentenceOf(const LooksFindings& looks) {
       100.0 * all, looks.ended);
 }
 
-std::string countsInWords(const std::vector<const EndpointRow*>& rows) {
-  std::vector<std::string> agree, borderline, disagree, undecided;
-  for (const EndpointRow* row : rows) {
-    auto& list = agrees(row->answer)                 ? agree
-                 : row->answer == Answer::borderline ? borderline
-                 : row->answer == Answer::disagree   ? disagree
-                                                     : undecided;
-    list.push_back(spaced(row->endpoint));
-  }
-  std::string words = fmt::format("{} of {} agree", agree.size(), counted(rows.size(), "endpoint"));
-  const auto add = [&](const std::vector<std::string>& list, const char* what) {
-    if (list.empty()) return;
-    words += fmt::format(", {} {}", list.size(), what);
-    if (list.size() < rows.size()) words += fmt::format(" ({})", fmt::join(list, ", "));
-  };
-  add(disagree, "disagree");
-  add(borderline, "borderline");
-  add(undecided, "undecided");
-  return words;
-}
-
 }  // namespace crossgrain::reports

@@ -41,7 +41,4 @@ std::string sentenceOf(const AlarmRow& alarm);
 /// Interim analyses, the error probability spent, why there was no further one.
 std::string sentenceOf(const LooksFindings& looks);
 
-/// Endpoints of pairs by answer: "27 comparisons of endpoints: 20 agree, 1 borderline, …".
-std::string countsInWords(const std::vector<const EndpointRow*>& rows);
-
 }  // namespace crossgrain::reports

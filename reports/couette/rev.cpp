@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "reports/common/csv_row.hpp"
@@ -281,16 +282,15 @@ Report revReport(const RevResults& results) {
   Report report{{results.head,
                  {{results.engine, "", "", "", EngineStatus::ran, ""}},  // whose snapshots
                  revOverview(results)}};
-  report.notes = results.notes;
   report.engineColours = false;  // colours are weights
   report.caseHeading = "The case: its cell, rings and weights";
-  report.sentences = {
-      revLead(results),
+  report.notes = {
       "Nothing was run and nothing compared but ways of averaging the same snapshots: what depends "
       "on the ring's width or on the weight comes from averaging there, not from the field."};
   if (const auto width = results.averaging.lineWidth)
-    report.sentences.push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
-                                           readableSetting(width)));
+    report.notes.push_back(fmt::format("Kernels of the line methods have the width w = {} d.",
+                                       readableSetting(width)));
+  std::ranges::copy(results.notes, std::back_inserter(report.notes));
   for (const char* const field : drawnFields)
     if (Figure figure = fieldFigure(results, field); !figure.panels.empty())
       report.figures.push_back(std::move(figure));

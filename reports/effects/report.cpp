@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
@@ -194,51 +195,6 @@ Table effectTable(const EffectsResults& results, const std::string& engine) {
   return table;
 }
 
-std::string costliestInWords(const std::vector<VariantSummary>& variants) {
-  const VariantSummary* const costliest = costliestOf(variants);
-  if (!costliest) return "none is shown to cost time";
-  return fmt::format("{} costs most, {:.0f} % of a step", effectLabel(costliest->effect),
-                     100.0 * *costliest->saved);
-}
-
-/// "1 of 3 effects of this scene changes a profile significantly, 2 do not (1 is shown within every
-/// margin)": three things, each counted by itself.
-std::string changesInCounts(const std::vector<VariantSummary>& variants) {
-  const auto count = [&](const auto& is) {
-    return static_cast<std::size_t>(std::ranges::count_if(variants, is));
-  };
-  const std::size_t changing = count(&VariantSummary::changesSomething);
-  const std::size_t open = count([](const VariantSummary& variant) {
-    return variant.decidable() && !variant.changesSomething();
-  });
-  const std::size_t within = count(&VariantSummary::withinMargins);
-  const std::size_t untested = variants.size() - changing - open;
-  std::string words =
-      fmt::format("{} of {} of this scene {} a profile significantly", changing,
-                  counted(variants.size(), "effect"), changing == 1 ? "changes" : "change");
-  if (open > 0) words += fmt::format(", {} {}", open, open == 1 ? "does not" : "do not");
-  if (untested > 0) words += fmt::format(", {} cannot be tested", untested);
-  if (within > 0)
-    words += fmt::format(" ({} {} shown within every margin)", within, within == 1 ? "is" : "are");
-  return words;
-}
-
-std::string effectsLead(const std::string& engine, std::vector<VariantSummary> variants) {
-  const std::size_t all = variants.size();
-  std::erase_if(variants, [](const VariantSummary& variant) { return !variant.ran(); });
-  const std::string notRun =
-      variants.size() == all
-          ? std::string()
-          : fmt::format(" Not measured: {}.", counted(all - variants.size(), "effect"));
-  if (variants.empty())
-    return fmt::format("Nothing could be switched off on {}.{}", engine, notRun);
-  if (std::ranges::none_of(variants, &VariantSummary::decidable))
-    return fmt::format("On {}, of {} of this scene {}.{}", engine,
-                       counted(variants.size(), "effect"), costliestInWords(variants), notRun);
-  return fmt::format("On {}, {}; {}.{}", engine, changesInCounts(variants),
-                     costliestInWords(variants), notRun);
-}
-
 std::string effectSentence(const VariantSummary& variant) {
   const std::string effect = capitalised(effectLabel(variant.effect));
   if (!variant.ran())
@@ -248,27 +204,21 @@ std::string effectSentence(const VariantSummary& variant) {
                      changes);
 }
 
-/// One engine: a sentence on each effect. Several: one on each engine.
-std::vector<std::string> effectsSummary(const EffectsResults& results, const Engines& engines) {
-  std::vector<std::string> sentences;
-  for (const EngineRuns& engine : engines)
-    sentences.push_back(engine.status == EngineStatus::refused
-                            ? fmt::format("{} refused the scene: {}", engine.name, engine.reason)
-                            : effectsLead(engine.name, variantSummaries(results, engine.name)));
-  if (engines.empty()) sentences.emplace_back("Nothing ran.");
-  if (engines.size() == 1)
-    for (const VariantSummary& variant : variantSummaries(results, engines.front().name))
-      sentences.push_back(effectSentence(variant));
+std::vector<std::string> effectsNotes(const EffectsResults& results) {
+  std::vector<std::string> notes;
+  for (const EngineRow& engine : results.engines)
+    if (engine.status == EngineStatus::refused)
+      notes.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   if (results.packings.size() < 4)
-    sentences.emplace_back(
+    notes.emplace_back(
         "Fewer than 4 packings: changes cannot be distinguished from the scatter between "
         "packings.");
-  sentences.push_back(fmt::format(
-      "Changes are in % of the profile's largest value with everything on. {}; rotations averaged "
-      "in each run: {}, after {} of settling.",
-      counted(results.packings.size(), "packing"), readableSetting(results.averaging.rotations),
-      readableSetting(results.averaging.settleRotations)));
-  return sentences;
+  notes.push_back(fmt::format("{}; rotations averaged in each run: {}, after {} of settling.",
+                              counted(results.packings.size(), "packing"),
+                              readableSetting(results.averaging.rotations),
+                              readableSetting(results.averaging.settleRotations)));
+  std::ranges::copy(results.notes, std::back_inserter(notes));
+  return notes;
 }
 
 std::string barsOf(const EffectsResults& results) {
@@ -310,7 +260,7 @@ List effectsReading(const EffectsResults& results) {
 
 /// @param number  of the engine, from 1
 void addStudy(Report& report, const EffectsResults& results, const std::string& engine,
-              std::size_t number, bool alone) {
+              std::size_t number) {
   const std::string prefix = fmt::format("effects_{}_", number);
   const std::vector<VariantSummary> variants = variantSummaries(results, engine);
   Blocks& blocks = report
@@ -318,9 +268,8 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
                                 "What each effect costs and changes: " + engine, engine)
                        .blocks;
   List sentences;
-  if (!alone)
-    for (const VariantSummary& variant : variants)
-      sentences.items.push_back({"", effectSentence(variant)});
+  for (const VariantSummary& variant : variants)
+    sentences.items.push_back({"", effectSentence(variant)});
   blocks.push_back(std::move(sentences));
   Drawings cost = drawingsOf(report.figures, prefix + "cost");
   cost.side = false;
@@ -380,13 +329,11 @@ Report effectsReport(const EffectsResults& results) {
   const Engines engines = engineRuns(results, results.ensemble);
   Report report{{results.head, results.engines, effectsOverview(results)}};
   report.elapsed = results.elapsed;
-  report.notes = results.notes;
+  report.notes = effectsNotes(results);
   report.engineColours = false;  // colours are variants
-  report.sentences = effectsSummary(results, engines);
   report.figures = effectFigures(results);
   for (std::size_t k = 0; k < engines.size(); ++k)
-    if (wholeVariant(results, engines[k].name))
-      addStudy(report, results, engines[k].name, k + 1, engines.size() == 1);
+    if (wholeVariant(results, engines[k].name)) addStudy(report, results, engines[k].name, k + 1);
   Table switches{{"switch", {"meaning", Kind::remark}}, {}};
   for (const SwitchRow& one : results.switches)
     switches.rows.push_back({{variantLabel(one.effect), one.what}});

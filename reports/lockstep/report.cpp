@@ -247,12 +247,9 @@ Report lockstepReport(const LockstepResults& results) {
   Report report{{results.head, results.engines, lockstepOverview(results)}};
   report.elapsed = results.elapsed;
   report.notes = results.notes;
-  report.sentences = {leadOf(results.lockstep)};
   std::vector<RealisedScene> realised;
-  for (const LockstepRow& row : results.lockstep.rows) {
-    report.sentences.push_back(sentenceOf(row, results.lockstep.rules));
+  for (const LockstepRow& row : results.lockstep.rows)
     if (row.realised) realised.push_back({row.engine, &*row.realised, &results.effects});
-  }
   report.figures = lockstepFigures(results);
   report.section("lockstep", "Engines and their mirrors").blocks = lockstepTables(results.lockstep);
   report.section("over-time", "Over time").blocks = {drawingsOf(report.figures, "lockstep_")};

@@ -32,10 +32,6 @@ std::string slugOf(const std::string& words) {
   return slug.empty() ? "part" : slug;
 }
 
-std::string element(const char* tag, const std::string& text) {
-  return fmt::format("<{0}>{1}</{0}>\n", tag, mathHtml(text));
-}
-
 std::string swatch(const LineStyle& style) {
   return fmt::format(R"(<span class="swatch{}" style="border-color:{}"></span>)",
                      style.dashed ? " dashed" : "", style.colour);
@@ -273,24 +269,11 @@ std::string contentsOf(const Report& report) {
   return links + "</nav>\n";
 }
 
-/// What was found, in words: folded where the matrix says it at a glance.
-std::string wordsOf(const Report& report) {
-  if (report.sentences.empty() && report.notes.empty()) return {};
-  const bool folded = !report.overview.rows.empty();
-  std::string words = folded ? "<details class=\"summary words\"><summary>In words</summary>\n"
-                             : "<section class=\"summary\">\n";
-  for (std::size_t k = 0; k < report.sentences.size(); ++k) {
-    if (k == 1) words += "<ul>\n";
-    words += k == 0 ? "<p class=\"lead\">" + mathHtml(report.sentences[k]) + "</p>\n"
-                    : element("li", report.sentences[k]);
-  }
-  if (report.sentences.size() > 1) words += "</ul>\n";
-  if (!report.notes.empty()) {
-    words += "<div class=\"notes\"><b>Notes</b>\n<ul>\n";
-    for (const std::string& note : report.notes) words += element("li", note);
-    words += "</ul></div>\n";
-  }
-  return words + (folded ? "</details>\n" : "</section>\n");
+std::string notesOf(const Report& report) {
+  if (report.notes.empty()) return {};
+  std::string text = "<details class=\"summary\"><summary>Notes</summary>\n<ul>\n";
+  for (const std::string& note : report.notes) text += "<li>" + mathHtml(note) + "</li>\n";
+  return text + "</ul></details>\n";
 }
 
 /// "Beside this page: results.json (everything), cost.csv and junit.xml."
@@ -422,7 +405,7 @@ std::string htmlFoot(const Report& report) {
 std::string html(const Report& report, const std::filesystem::path& plots,
                  const std::optional<std::string>& missing) {
   std::string text = htmlHead(report) +
-                     htmlMatrix(report.overview, report.engines, report.wrapped) + wordsOf(report);
+                     htmlMatrix(report.overview, report.engines, report.wrapped) + notesOf(report);
   if (missing) text += "<p class=\"warning\">" + escaped(*missing) + "</p>\n";
   if (report.engineColours && !missing && !report.figures.empty() && report.engines.size() > 1)
     text += htmlLegend(report.engines);

@@ -304,7 +304,7 @@ Report scaleReport(const ScaleResults& results) {
   Report report{{results.head, results.engines, scaleOverview(results)}};
   report.elapsed = results.elapsed;
   report.engineColours = false;  // marks say how many workers there are, and plots have their keys
-  report.sentences = {
+  report.notes = {
       scaleLead(results),
       "Times are of this machine as it was: ratios within one run compare, numbers of two runs do "
       "not."};

@@ -79,7 +79,7 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
     Report report{{{}, engines, engineOverview(reports, engine.name)}};
     report.head.setup.name = "crossgrain: " + engine.name;
     report.wrapped = true;
-    report.sentences = nonEmpty(
+    report.notes = nonEmpty(
         {versionsOf(reports, engine), engine.summary,
          engine.mirrors.empty()
              ? ""

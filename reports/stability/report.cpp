@@ -1,11 +1,9 @@
 #include "reports/stability/report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
@@ -184,27 +182,6 @@ Table scoreTable(const StabilityResults& results) {
   return table;
 }
 
-std::vector<std::string> stabilitySentences(const StabilityResults& results) {
-  std::map<std::string, std::map<std::string_view, int>> counts;  // by engine and verdict
-  std::map<std::string_view, int> all;
-  for (const StabilityRun& run : results.runs) {
-    ++counts[run.engine][nameOf(run.verdict)];
-    ++all[nameOf(run.verdict)];
-  }
-  const int judged = all["stable"] + all["degraded"] + all["unstable"];
-  std::vector<std::string> sentences = {
-      fmt::format("{} of {} {}.", all["stable"], judged,
-                  areTransforms(results) ? "transformed cases give the same, but for rounding"
-                                         : "runs of hard cases stayed within their limits")};
-  for (const EngineRow& engine : results.engines) {
-    std::vector<std::string> words;
-    for (const auto& [verdict, count] : counts[engine.name])
-      words.push_back(fmt::format("{} {}", count, spaced(verdict)));
-    sentences.push_back(fmt::format("{}: {}.", engine.name, fmt::join(words, ", ")));
-  }
-  return sentences;
-}
-
 std::string stabilityCsv(const StabilityResults& results) {
   std::string table =
       "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n";
@@ -264,7 +241,6 @@ Report stabilityReport(const StabilityResults& results) {
   const std::vector<HardGroup> groups = hardGroups(results);
   Report report{{results.head, results.engines, stabilityOverview(results)}};
   report.elapsed = results.elapsed;
-  report.sentences = stabilitySentences(results);
   report.figures = stabilityFigures(results);
   report.pictures = stabilityPictures(results);
   report.section("matrix", "Hard cases by engine", "Summary")

@@ -67,8 +67,7 @@ std::string blocksText(const Blocks& blocks) {
 
 std::string textOf(const Report& report) {
   std::string text = overviewMarkdown(report.overview, titleOf(report.head)) + "\n";
-  for (const std::string& sentence : report.sentences) text += sentence + "\n";
-  for (const std::string& note : report.notes) text += "Note: " + note + "\n";
+  for (const std::string& note : report.notes) text += "* " + note + "\n";
   for (const Section& section : report.sections)
     text += fmt::format("\n## {} ({})\n{}", section.title, section.id, blocksText(section.blocks));
   return text;

@@ -6,7 +6,7 @@
 
 namespace crossgrain::reports {
 
-/// Everything that a report says, as plain text: matrix, sentences, sections with their tables.
+/// Everything that a report says, as plain text: matrix, notes, sections with their tables.
 /// Figures and pictures are there by their names.
 std::string textOf(const Report& report);
 

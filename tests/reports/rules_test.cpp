@@ -1,5 +1,5 @@
-// Rules of reports that hold whatever the words: what is counted, what is no success, what is a
-// dash.
+// Rules of reports that hold whatever the words: what is counted, what is no
+// success, what is a dash.
 #include <gtest/gtest.h>
 
 #include "reports/collide/report.hpp"
@@ -19,7 +19,8 @@ TEST(CompareReport, FailedAndRefusedRuns_HaveTheirReasons) {
 
 TEST(CompareReport, Cost_IsSummedOverFinishedRuns) {
   const std::string text = textOf(compareReport(sample::compareResults(4, 300)));
-  // 7.85 s at dt = 4e-5 s are 196 250 steps a run; 4 runs of the first engine, 3 of the second.
+  // 7.85 s at dt = 4e-5 s are 196 250 steps a run; 4 runs of the first engine,
+  // 3 of the second.
   EXPECT_TRUE(has(text, "| steps | 785\u202f000 | 588\u202f750 |"));
   // 1.1e-4 s of wall time a step.
   EXPECT_TRUE(has(text, "| wall time per step | 110 |"));
@@ -46,11 +47,13 @@ TEST(CompareReport, OnePacking_BarsAreConditional) {
 
 TEST(CompareReport, RegimesAndSteadiness_ComeBeforeAnyMean) {
   const std::string text = textOf(compareReport(sample::compareResults(4, 300)));
-  EXPECT_LT(text.find("Packing 2 is blocked on grain, yade, grain~yade; flows on box2d-impulse."),
-            text.find("yade against grain:"));
+  EXPECT_LT(text.find("Packing 2 is blocked on grain, yade, grain~yade; flows "
+                      "on box2d-impulse."),
+            text.find("## Profiles"));
 }
 
-/// What engines simulate is compared with the effects of the variant that they ran.
+/// What engines simulate is compared with the effects of the variant that they
+/// ran.
 TEST(CollideReport, Effects_AreThoseOfEachVariant) {
   CollideResults results = sample::collideResults();
   const std::string all = textOf(collideReport(results));
@@ -59,7 +62,8 @@ TEST(CollideReport, Effects_AreThoseOfEachVariant) {
   EXPECT_TRUE(has(all, "| moving walls | – | + though not called for |"));
   results.variants[1].effects = {"normal_damping", "rotation"};
   EXPECT_TRUE(has(textOf(collideReport(results)),
-                  "| friction | called for in 1 of 2 scenes | ✓ simulated; + though not called for "
+                  "| friction | called for in 1 of 2 scenes | ✓ simulated; + "
+                  "though not called for "
                   "in 3 of 6 runs |"));
   for (CollisionVariant& variant : results.variants)
     variant.effects.reset();  // of an earlier version
@@ -76,9 +80,9 @@ TEST(CollideReport, NothingJudged_IsNoSuccess) {
         psi->held.reset();
       }
     }
-  EXPECT_TRUE(has(textOf(collideReport(results)),
-                  "Nothing was judged: the case has no [collision.margins] for what was "
-                  "measured."));
+  EXPECT_EQ(collideOverview(results).conclusion.back(),
+            "Nothing was judged: the case has no [collision.margins] for what "
+            "was measured.");
   EXPECT_EQ(countOf(results).judged(), 0);
   for (CollisionVariant& variant : results.variants) {
     variant.oracleReason = "no limit";
@@ -102,7 +106,6 @@ TEST(CollideReport, ModelDifference_IsNoFailure) {
         declared.score.verdict = CurveVerdict::held;
       }
   const std::string page = textOf(collideReport(results));
-  EXPECT_TRUE(has(page, "2 are model differences"));
   EXPECT_TRUE(has(page, "| ≠ 4 of 6 passed, 2 ≠"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
   EXPECT_TRUE(has(page, " | declared | "));
@@ -124,7 +127,8 @@ TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::fellShort);
 }
 
-/// A mirror beside its peer shows what the peer should do; alone it is an engine like any other.
+/// A mirror beside its peer shows what the peer should do; alone it is an
+/// engine like any other.
 TEST(CollideReport, MirrorsBesideTheirPeers_AreNotCounted) {
   CollideResults results = sample::collideResults();
   const int before = countOf(results).judged();
@@ -174,7 +178,8 @@ TEST(RevReport, NearnessToSlicing_DecidesTheMatrix) {
   EXPECT_EQ(overview.conclusion[1], "Within 5 % of slicing in every field: centre from 1 d.");
   results.curves[1].mean[2] = 0.9;
   EXPECT_EQ(revOverview(results).rows[0].cells[1].state, CellState::borderline);
-  // Under "near d" of the first method, and a dash where no width was there to meet at.
+  // Under "near d" of the first method, and a dash where no width was there to
+  // meet at.
   EXPECT_TRUE(has(textOf(revReport(sample::revResults())), "| 0.95 (1 %) | –"));
 }
 

@@ -93,7 +93,6 @@ TEST(StabilityReport, WhatWasNotRun_IsNotAmongThePassed) {
             std::string::npos);
   const std::string text = textOf(report);
   EXPECT_TRUE(has(text, "– not run"));
-  EXPECT_TRUE(has(text, "1 of 1 transformed cases give the same"));
 }
 
 }  // namespace
