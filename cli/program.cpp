@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -14,7 +15,6 @@
 #include "cases/engine_file.hpp"
 #include "cases/engine_shelf.hpp"
 #include "cli/command.hpp"
-#include "cli/reference.hpp"
 #include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
@@ -103,6 +103,53 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
   const CLI::App& asked = ofCommand ? *commands.front() : app;
   return fmt::format("{}; see crossgrain {}{}--help", reason(error, asked),
                      ofCommand ? asked.get_name() : "", ofCommand ? " " : "");
+}
+
+/// What --help says of all commands.
+struct Named {
+  const char *name, *what;
+};
+
+constexpr Named exitStatuses[] = {
+    {"0", "passed; what is undecided is counted in the output"},
+    {"1",
+     "engines disagree, or something failed or is unstable (an engine failed the law that it "
+     "declares; the scene's only under --strict)"},
+    {"2", "bad input: nothing was judged"},
+    {"3", "an engine failed, or the disk is full (outranks 1)"},
+    {"130", "interrupted"}};
+
+/// Those that the program reads.
+constexpr Named environmentVariables[] = {
+    {"CROSSGRAIN_CACHE",
+     "folder that prepared packings are kept in; else XDG_CACHE_HOME/crossgrain, else "
+     "~/.cache/crossgrain. It may be removed at any time: packings are then prepared anew"},
+    {"CROSSGRAIN_DATA",
+     "folder that holds cases/ and the scripts in engines/ (default: share/crossgrain where the "
+     "program is installed, else its sources)"},
+    {"NO_COLOR", "set to anything: no colours on the terminal"},
+    {"GRAIN_INSTRUCTIONS",
+     "baseline, avx2 or avx512: instructions that the in-house engine uses "
+     "(default: the best there are; all give the same bits)"},
+    {"TMPDIR", "folder for scratch files (default: /tmp)"}};
+
+/// Below the options of a command's help, or of the program's (null).
+std::string footer(const Command* command) {
+  std::string text;
+  if (command) {
+    std::istringstream examples(command->examples);
+    text = "Example:\n";
+    for (std::string line; std::getline(examples, line);)
+      text += "  " + line.substr(line.find_first_not_of(' ')) + "\n";
+    text += "\n";
+  }
+  text += "Exit status:\n";
+  for (const Named& status : exitStatuses)
+    text += fmt::format("  {:<5}{}\n", status.name, status.what);
+  text += "\nEnvironment:\n";
+  for (const Named& variable : environmentVariables)
+    text += fmt::format("  {}  {}\n", variable.name, variable.what);
+  return text.substr(0, text.size() - 1);
 }
 
 /// CLI11 would only say that some subcommand is required.

@@ -49,7 +49,7 @@ int listEngines(const CommandLine& line) {
            rows[e] = {{"name", entry.name}, {"summary", entry.summary}, {"mirrors", entry.mirrors}};
            try {
              const auto engine = startNew(entry, scratch.path, 60.0);
-             rows[e]["capabilities"] = toJson(engine->capabilities());
+             rows[e]["capabilities"] = jsonOf(engine->capabilities());
            } catch (const std::exception& missing) {
              rows[e]["missing"] = missing.what();
            }
@@ -66,7 +66,7 @@ int listEngines(const CommandLine& line) {
                  row["missing"].get<std::string>());
       continue;
     }
-    const Capabilities can = capabilitiesFromJson(row["capabilities"]);
+    const auto can = readAs<Capabilities>(row["capabilities"]);
     std::vector<std::string> precisions;
     for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
     fmt::print("{:<16} {} (version {}, {})\n", row["name"].get<std::string>(),

@@ -9,7 +9,6 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/report.hpp"
-#include "reports/thesis/overview.hpp"
 #include "reports/thesis/report.hpp"
 #include "runs/common/study.hpp"
 #include "runs/thesis/thesis.hpp"
@@ -19,11 +18,11 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-constexpr const char* wholeLadder = "cases/couette/thesis/ladder.toml";
-constexpr const char* quickLadder = "cases/couette/thesis/ladder-quick.toml";
+constexpr const char* wholeSweep = "cases/couette/thesis/ladder.toml";
+constexpr const char* quickSweep = "cases/couette/thesis/ladder-quick.toml";
 
 /// Claims, then what they lack, then all of it at a glance and where the report is.
-void tell(const ThesisResults& results, const CommandLine& line) {
+void print(const ThesisResults& results, const CommandLine& line) {
   fmt::print("{}", reports::claimsText(results));
   for (const std::string& note : results.notes) fmt::print("{}\n", note);
   printOverview(reports::thesisOverview(results));
@@ -32,18 +31,18 @@ void tell(const ThesisResults& results, const CommandLine& line) {
 
 int thesis(const CommandLine& line, bool strict, double budget,
            const std::optional<std::string>& earlier) {
-  const auto file = line.inputs.empty() ? hereOrInstalled(line.quick ? quickLadder : wholeLadder)
+  const auto file = line.inputs.empty() ? hereOrInstalled(line.quick ? quickSweep : wholeSweep)
                                         : line.inputs.front();
-  const ThesisLadder ladder = loadLadder(file, line.overrides);
-  RunStore store(line.run, "thesis", keysOfLegs(ladder));
-  if (line.run.dryRun) return told(ladderPlan(ladder, line.run, store, earlier));
-  const ThesisResults results = climbLadder(ladder, line.run, store, budget, earlier);
+  const ThesisSweep sweep = loadSweep(file, line.overrides);
+  RunStore store(line.run, "thesis", keysOfCases(sweep));
+  if (line.run.dryRun) return told(thesisPlan(sweep, line.run, store, earlier));
+  const ThesisResults results = runThesis(sweep, line.run, store, budget, earlier);
   writeReport(results, line.run.out);
 
   if (line.json)
     fmt::print("{}\n", (line.run.out / "results.json").string());
   else
-    tell(results, line);
+    print(results, line);
   bool failed = false;
   for (const ThesisRun& run : results.runs)
     if (run.run.status == RunStatus::failed) {
@@ -64,17 +63,17 @@ Action declareThesis(CLI::App& app, CommandLine& line) {
     std::optional<std::string> budget, earlier;
   };
   const auto own = std::make_shared<Options>();
-  addInputs(app, line, "ladder",
-            fmt::format("what to run, in which order (default: {})", wholeLadder), 0, 1);
+  addInputs(app, line, "sweep",
+            fmt::format("what to run, in which order (default: {})", wholeSweep), 0, 1);
   addRun(app, line, engineRegistry().front().name.c_str());
   addPackings(app, line);
   addText(app, "--budget", own->budget,
           "no run begins that would end later, e.g. 90s, 10m, 2h (default: all are run)", "TIME");
   addText(
       app, "--from", own->earlier,
-      "results.json of an earlier sitting: its finished runs are taken, whichever build made them",
+      "results.json of an earlier session: its finished runs are taken, whichever build made them",
       "FILE");
-  addFlag(app, "--strict", own->strict, "a claim that is undecided counts as falling short");
+  addFlag(app, "--strict", own->strict, "a claim that is undecided counts as a failure");
   return [&line, own] {
     const double budget =
         own->budget ? secondsOf(*own->budget) : std::numeric_limits<double>::infinity();

@@ -17,10 +17,6 @@
 #include "reports/scale/report.hpp"
 #include "reports/site/site.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/thesis/figures.hpp"
-#include "reports/thesis/overview.hpp"
-#include "reports/thesis/reading_changes.hpp"
-#include "reports/thesis/regime_map.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -69,7 +65,7 @@ Report build(const ThesisResults& results) {
   report.tables = {{"claims.csv", claimsCsv(results)},
                    {"history.csv", historyCsv(results)},
                    {"regime_map.csv", regimeMapCsv(results)},
-                   {"readings.csv", readingsCsv(results)}};
+                   {"readings.csv", interpretationsCsv(results)}};
   return report;
 }
 std::string pageOf(const ThesisResults& results, const Illustrations& shown) {

@@ -115,11 +115,9 @@ std::string firstInWords(const LockstepRow& row) {
 }
 
 std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
-  if (rules.yardstick != "en" || row.term || !row.first || row.first->touching < 2) return {};
-  return fmt::format(
-      "one of the two touches {} at once, and the law of rigid disks leaves the order of these "
-      "collisions open",
-      row.first->touching);
+  if (rules.yardstick != "en" || row.term || !row.severalAtOnce) return {};
+  return "where they part a disk touches several at once, and the law of rigid disks leaves the "
+         "order of these collisions open";
 }
 
 std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules) {

@@ -35,6 +35,13 @@ struct OracleCurve {
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
 
+/// The same for a sweep in steps of dt [s]: beside a jump of the law at the first touch (where
+/// stepMissesSlip()) there is no reference either, if the law ends elsewhere by more than jumps are
+/// told by where it is evaluated a step late. That scales with dt, and hides no sweep: what lacks
+/// most of its references is not judged (mostAreKnown()).
+OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
+                   double dt);
+
 /// Oracles of the laws that an engine declares for the starts of one case. The case's time steps
 /// share them.
 class DeclaredOracles {

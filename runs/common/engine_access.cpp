@@ -11,7 +11,6 @@
 #include "adapters/audit_basis.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
-#include "adapters/worker/pooled_engine.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/stable_step.hpp"
 #include "runs/common/mirrors.hpp"

@@ -12,7 +12,6 @@
 #include "adapters/engine.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "adapters/worker/exchange.hpp"
 #include "adapters/worker/worker_pool.hpp"
 #include "cases/case.hpp"
 #include "runs/common/executor.hpp"
@@ -48,7 +47,7 @@ void requireInstalled(const std::vector<EngineEntry>& engines);
 std::string ownProgram();
 
 /// A worker of the engine, for one run: one that another run has done with, or a new one
-/// (adapters/worker/pooled_engine.hpp). @throws EngineFailure, BadInput if it is not installed
+/// (adapters/worker/worker_pool.hpp). @throws EngineFailure, BadInput if it is not installed
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
 

@@ -16,7 +16,7 @@ namespace {
 /// A comparison small enough to write its tables down by hand.
 CompareResults tiny() {
   CompareResults results = compareFromJson(nlohmann::json::parse(R"({
-    "kind": "compare",
+    "kind": "compare", "engines": [{"name": "one"}],
     "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
     "runs": [
       {"engine": "one", "packing": 0,

@@ -230,7 +230,10 @@ TEST(RevResults, RoundTrip) {
 
 TEST(CouetteResults, WhatAFileLacksIsAbsentAndWhatItHasWrongIsNamed) {
   const Json little = {{"schema", "crossgrain-results-1"}, {"kind", "compare"}};
-  EXPECT_TRUE(compareFromJson(little).runs.empty());
+  Json one = little;
+  one["engines"] = Json::array({{{"name", "one"}}});
+  EXPECT_TRUE(compareFromJson(one).runs.empty());
+  EXPECT_THROW(compareFromJson(little), FieldError);  // there is no reference
   EXPECT_TRUE(effectsFromJson(little).variants.empty());
   EXPECT_TRUE(revFromJson(little).curves.empty());
   Json broken = toJson(ranStudy<CompareResults>(kindCompare));

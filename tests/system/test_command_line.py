@@ -37,7 +37,7 @@ class Help(SystemTest):
                 self.assertEqual(usual, self.run_program(command, "-h").stdout)
                 self.assertEqual(usual, self.run_program("help", command).stdout)
                 self.assertRegex(usual, rf"Usage: crossgrain {command}\b")
-                self.assertRegex(usual, r"Exit status:\n  0 +held")
+                self.assertRegex(usual, r"Exit status:\n  0 +passed")
                 self.assertIn("CROSSGRAIN_CACHE", usual)
 
     def test_of_the_program(self):
