@@ -22,6 +22,7 @@
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/stability/report.hpp"
+#include "reports/thesis/report.hpp"
 #include "results/collision_outcome.hpp"
 #include "runs/collide/collide.hpp"
 #include "runs/common/engine_access.hpp"
@@ -36,6 +37,7 @@
 #include "runs/lockstep/identify.hpp"
 #include "runs/scale/scale.hpp"
 #include "runs/stability/stability.hpp"
+#include "runs/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -149,7 +151,7 @@ std::string effectText(const EffectVariant& variant) {
       changed += ring.resolved == true;
     }
   return head + fmt::format("{:.3f} of the time per step, {}\n", variant.timeRatio.value_or(NAN),
-                            judged == 0 ? "too few packings to tell what changed"
+                            judged == 0 ? "too few packings to know what changed"
                                         : fmt::format("{} of {} rings changed", changed, judged));
 }
 
@@ -385,6 +387,21 @@ extern const Command scaleCommand = {
                              return reports::scaleText(results);
                            },
                            reports::scaleOverview});
+    }};
+
+extern const Command thesisCommand = {
+    "thesis", "the thesis' claims, one by one: reproduced or refuted, per engine, with a number",
+    "crossgrain thesis --quick --out out/claims                       # minutes\n"
+    "crossgrain thesis --budget 2h --out out/thesis                   # and again, until all is "
+    "run\n"
+    "crossgrain thesis --budget 2h --from out/thesis/results.json --out out/more\n"
+    "crossgrain thesis --engines grain,yade --budget 8h --out out/yade",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, thesisStudy,
+                          {[](const ThesisResults& results, const std::vector<Case>&) {
+                             return reports::claimsText(results);
+                           },
+                           reports::thesisOverview});
     }};
 
 extern const Command averageCommand = {

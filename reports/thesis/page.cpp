@@ -383,6 +383,7 @@ std::string claimsText(const ThesisResults& results) {
     text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, nameOf(claim.verdict),
                         claim.engine, figure, claim.interpretation);
   }
+  for (const std::string& note : results.notes) text += note + "\n";
   return text;
 }
 

@@ -43,7 +43,8 @@ std::string thesisPage(const ThesisResults& results, const Illustrations& shown)
 /// this rests on.
 Overview thesisOverview(const ThesisResults& results);
 
-/// The claims table for a terminal, a line each: id, verdict, engine, first figure, interpretation.
+/// The claims table for a terminal, a line each: id, verdict, engine, first figure, interpretation;
+/// then the notes.
 std::string claimsText(const ThesisResults& results);
 
 /// What is read off a run's profiles: ν, v_φ, spin, stresses, fabric and contacts, at the wheel and

@@ -259,7 +259,7 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
                                            DeclaredOracles& oracles) {
   DeclaredScore score;
   if (!law) {
-    score.oracleReason = "it has another normal law, whose constants it does not tell";
+    score.oracleReason = "it has another normal law, whose constants it does not report";
     return score;
   }
   score.law = lawDifference(*law, swept.setup.law);

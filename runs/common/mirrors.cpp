@@ -93,7 +93,7 @@ std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities&
     if (own != can.lawOptions.end() && !isLaw) conventions.insert(*own);
   }
   mirror.name = "grain-as-" + name;
-  mirror.summary = "the in-house engine held to the conventions that " + name + " declares";
+  mirror.summary = "the in-house engine with the conventions that " + name + " declares";
   mirror.make = [conventions] { return makeGrainMirror(conventions); };
   // Its worker's registry does not know it.
   std::vector<std::string> call = {ownProgram(), "__serve", engineRegistry().front().name};

@@ -303,7 +303,7 @@ Outcome outcomeOfCost(const CostResults& results, const CommandLine& line, const
 const Study<CostOptions, CostResults> costStudy = {
     "cost",
     {.packings = true},
-    Study<CostOptions, CostResults>::Keeps::oneCase,
+    Keeps::oneCase,
     [](CostOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--budget", "time that all may take, e.g. 90s, 10m, 1h (default: 12m)", &own.budget},

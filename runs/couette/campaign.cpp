@@ -242,8 +242,8 @@ std::vector<Variant> Campaign::wholeCase() const {
 }
 
 void Campaign::run(const std::vector<Variant>& variants) {
-  const auto tasks = tasksOf({variants, {0, static_cast<int>(packings_.size())}});
-  runs_ = doOrTakeUp(tasks, store_, progress_, "running engines", command_.jobs);
+  const PlannedRuns all{variants, {0, static_cast<int>(packings_.size())}};
+  runs_ = doOrTakeUp(tasksOf(all), store_, progress_, "running engines", command_.jobs);
 }
 
 RunsById Campaign::runSome(const std::vector<PlannedRuns>& lists, const std::string& stage) {

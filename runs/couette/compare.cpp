@@ -64,7 +64,7 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
   if (std::ranges::any_of(rows, judged)) return std::nullopt;
   if (hasClosedForms(setup))
     return NothingJudged{"no engine has a value that comes back when its one start is run again"};
-  if (named < 2) return NothingJudged{"one engine has nothing to be held against", true};
+  if (named < 2) return NothingJudged{"one engine has nothing to be compared with", true};
   if (setup.averaging.endpoints.empty())
     return NothingJudged{setup.average ? "the case has no [[endpoints]]"
                                        : "the case has no [averaging.endpoints]"};

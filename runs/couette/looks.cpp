@@ -111,8 +111,8 @@ class Sequence {
     for (const Variant& variant : canaries)
       if (!carriedBy(findings_.carried, nameOf(variant.engine))) themselves.push_back(variant);
     if (!themselves.empty() && packings > 1)
-      campaign_.add(
-          campaign_.runSome({{themselves, {1, packings}}}, "running what no mirror carries"));
+      campaign_.add(campaign_.runSome({{themselves, {1, packings}}},
+                                      "running engines without a mirror in their place"));
   }
 
   /// Only of those whose averaged run raised no alarm: the others run all packings anyway.
@@ -131,10 +131,11 @@ class Sequence {
   /// to know at once.
   void sayWhetherBeyondBudget(double seconds) {
     if (const double end = campaign_.elapsed() + seconds; end > findings_.looks.budget)
-      campaign_.progress().say(fmt::format(
-          "the first look, at {} packings, is likely to end after {:.2g} s, by a timing of some "
-          "steps: beyond the budget of {:g} s, to which only further looks are held",
-          plan_.packings.front(), end, findings_.looks.budget));
+      campaign_.progress().say(
+          fmt::format("the first analysis, at {} packings, is likely to end after {:.2g} s, by a "
+                      "timing of some "
+                      "steps: beyond the budget of {:g} s, which limits only further ones",
+                      plan_.packings.front(), end, findings_.looks.budget));
   }
 
   static std::vector<Variant> changedOf(std::size_t e, const std::vector<ChangedCase>& cases) {
@@ -195,7 +196,7 @@ class Sequence {
       return fmt::format("{} packings are the most", plan_.packings.back());
     if (campaign_.elapsed() + nextLook() > findings_.looks.budget)
       return fmt::format(
-          "the next look, at {} packings, would have ended after the budget of {:g} s",
+          "the next analysis, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
     return {};
   }

@@ -39,7 +39,7 @@ void takeTo(Engine& engine, std::uint64_t steps, double dt, double since = 0.0) 
     throw EngineFailure(error.what());
   }
   if (std::abs(reached - wanted) > 0.5 * dt)
-    throw EngineFailure("stopped at another time than it was told to");
+    throw EngineFailure("stopped at another time than it was asked for");
 }
 
 void requireFinite(const LockstepFrame& frame) {

@@ -46,66 +46,75 @@ ScaleCell cellOf(const Case& scaled) {
           static_cast<std::size_t>(walls), cell.outerRadius, volumeFraction(scaled), ""};
 }
 
+/// An engine whose steps are timed.
+struct TimedEngine {
+  EngineEntry entry;
+  std::string version;   ///< empty: it did not answer
+  std::string failure;   ///< why it did not; its points fail, the others are timed
+  ScaleSharing sharing;  ///< how its steps are shared
+};
+
+/// @throws BadInput for a setting that it does not have
+TimedEngine asked(const EngineEntry& entry, const StudyWork& work) {
+  throwIfInterrupted();
+  const Case& setup = work.setup();
+  TimedEngine own{entry, "", "", {entry.name, {}}};
+  try {
+    const auto engine = startNew(entry, work.store.scratch("ask-" + entry.name), setup.run.timeout);
+    const Capabilities can = engine->capabilities();
+    settingsFor(setup, entry.name, can);
+    own.version = can.version;
+    own.sharing.workers = sharingOf(can);
+  } catch (const EngineFailure& failure) {
+    own.failure = failure.what();
+  }
+  return own;
+}
+
+std::string outcomeOf(const ScalePoint& point) {
+  if (point.status != EngineStatus::ran)
+    return fmt::format("{}: {}", results::nameOf(point.status), point.reason);
+  return fmt::format("{:.3g} µs a step", 1e6 * std::ranges::min(point.seconds));
+}
+
+/// The points of the plan and their tasks, of one size all engines in turn.
 class ScaleTimings {
  public:
   ScaleTimings(const StudyWork& work, ScalePlan plan)
-      : plan_(std::move(plan)),
-        overrides_(work.line.overrides),
-        command_(work.line.run),
-        store_(work.store),
-        base_(work.setup()),
-        engines_(selectEngines(command_.engines)),
-        progress_(command_.quiet) {
-    checkEngineSections(base_);
+      : work_(work), plan_(std::move(plan)), progress_(work.line.run.quiet) {
+    const std::vector<EngineEntry> entries = selectEngines(work.line.run.engines);
+    checkEngineSections(work.setup());
+    std::vector<bool> shares;
+    for (const EngineEntry& entry : entries) {
+      engines_.push_back(asked(entry, work));
+      shares.push_back(!engines_.back().sharing.workers.empty());
+    }
+    for (const PlannedTiming& planned : plannedPoints(plan_, shares)) add(planned);
   }
 
-  void askEngines() {
-    std::vector<bool> shares;
-    for (const EngineEntry& entry : engines_) {
-      throwIfInterrupted();
-      versions_.emplace_back();
-      failures_.emplace_back();
-      sharing_.push_back({entry.name, {}});
-      try {
-        const auto engine = startNew(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
-        const Capabilities can = engine->capabilities();
-        settingsFor(base_, entry.name, can);  // throws for one that it does not have
-        versions_.back() = can.version;
-        sharing_.back().workers = sharingOf(can);
-      } catch (const EngineFailure& failure) {
-        failures_.back() = failure.what();  // of its own points; the others are timed
-      }
-      shares.push_back(!sharing_.back().workers.empty());
-    }
-    for (const PlannedTiming& planned : plannedPoints(plan_, shares)) {
-      ScalePoint point;
-      point.engine = engines_[planned.engine].name;
-      point.disks = planned.disks;
-      point.workers = planned.workers;
-      point.steps = plan_.steps.value_or(stepsFor(planned.disks));
-      if (const std::string& why = failures_[planned.engine]; !why.empty()) {
-        point.status = EngineStatus::failed;
-        point.reason = why;
-      }
-      if (points_.empty() || points_.back().disks != point.disks)
-        cells_.push_back(cellOf(scaledCase(point.disks, overrides_)));
-      planned_.push_back(planned);
-      points_.push_back(std::move(point));
-    }
+  /// What run() would do.
+  std::string planInWords() const {
+    std::vector<std::size_t> sizes;
+    for (const ScaleCell& cell : cells_) sizes.push_back(cell.disks);
+    return dryRunInWords(fmt::format("scale: cells of {} disks\n", fmt::join(sizes, ", ")),
+                         plannedWork(tasks_, "timings", work_.store), work_.store, work_.line.run);
   }
 
   void run() {
-    store_.begin();
-    takeUp();
+    work_.store.begin();
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (auto before = work_.store.findAs<ScalePoint>(tasks_[k].name, tasks_[k].key)) {
+        points_[k] = *std::move(before);
+        loaded_[k] = true;
+      }
     std::vector<double> weights;
-    for (const ScalePoint& point : points_)
-      weights.push_back(static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6);
+    for (const auto& task : tasks_) weights.push_back(task.weight);
     progress_.begin("timing steps", weights);
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (taken_[k])
-        progress_.finish(k, labelOf(k) + ": finished in an earlier run");
+      if (loaded_[k])
+        progress_.finish(k, tasks_[k].label + ": finished in an earlier run");
       else if (points_[k].status == EngineStatus::failed)
-        progress_.finish(k, labelOf(k) + ": " + outcomeOf(points_[k]));
+        finish(k);
     for (std::size_t from = 0, to = 0; from < points_.size(); from = to) {
       while (to < points_.size() && points_[to].disks == points_[from].disks) ++to;
       measureSize(from, to);
@@ -114,78 +123,74 @@ class ScaleTimings {
 
   ScaleResults results() const {
     ScaleResults results;
-    results.head = headOf(kindScale, base_, command_.commandLine);
+    results.head = headOf(kindScale, work_.setup(), work_.line.run.commandLine);
     results.head.setup.name = "scaled cell";
     results.repetitions = static_cast<std::size_t>(plan_.repetitions);
-    for (std::size_t e = 0; e < engines_.size(); ++e) results.engines.push_back(rowOf(e));
-    results.sharing = sharing_;
+    for (const TimedEngine& own : engines_) {
+      results.engines.push_back(rowOf(own));
+      results.sharing.push_back(own.sharing);
+    }
     results.cells = cells_;
     results.points = points_;
     return results;
   }
 
-  /// What run() would do.
-  std::string planInWords() {
-    std::vector<PlannedWork> works;
-    for (const EngineEntry& entry : engines_) {
-      PlannedWork work{entry.name, "timings"};
-      for (std::size_t k = 0; k < points_.size(); ++k)
-        if (points_[k].engine == entry.name) count(work, store_.find(nameOf(k), keyOf(k)));
-      works.push_back(work);
-    }
-    std::vector<std::size_t> sizes;
-    for (const ScaleCell& cell : cells_) sizes.push_back(cell.disks);
-    return dryRunInWords(fmt::format("scale: cells of {} disks\n", fmt::join(sizes, ", ")), works,
-                         store_, command_);
-  }
-
  private:
-  /// What an earlier command has timed.
-  void takeUp() {
-    taken_.assign(points_.size(), false);
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      if (auto before = store_.findAs<ScalePoint>(nameOf(k), keyOf(k))) {
-        points_[k] = *std::move(before);
-        taken_[k] = true;
-      }
+  void add(const PlannedTiming& planned) {
+    const TimedEngine& own = engines_[planned.engine];
+    ScalePoint point;
+    point.engine = own.entry.name;
+    point.disks = planned.disks;
+    point.workers = planned.workers;
+    point.steps = plan_.steps.value_or(stepsFor(planned.disks));
+    if (!own.failure.empty()) {
+      point.status = EngineStatus::failed;
+      point.reason = own.failure;
+    }
+    KeptTask<ScalePoint> task;
+    task.of = {point.engine};
+    task.name = fmt::format("{}-{}-disks-{}", point.engine, point.disks, point.workers);
+    task.label = fmt::format("{}, {} disks, {}", point.engine, point.disks,
+                             workersInWords(own.sharing, point.workers));
+    task.key = runKey(work_.setup(), point.engine, own.version);
+    task.key["steps"] = fmt::format("{}", point.steps);
+    task.key["repetitions"] = fmt::format("{}", plan_.repetitions);
+    task.weight = static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6;
+    if (points_.empty() || points_.back().disks != point.disks)
+      cells_.push_back(cellOf(scaledCase(point.disks, work_.line.overrides)));
+    tasks_.push_back(std::move(task));
+    points_.push_back(std::move(point));
+    loaded_.push_back(false);
   }
 
-  std::string nameOf(std::size_t k) const {
-    return fmt::format("{}-{}-disks-{}", points_[k].engine, points_[k].disks, points_[k].workers);
-  }
+  bool isOpen(std::size_t k) const { return !loaded_[k] && points_[k].status == EngineStatus::ran; }
 
-  std::string labelOf(std::size_t k) const {
-    const ScalePoint& point = points_[k];
-    return fmt::format("{}, {} disks, {}", point.engine, point.disks,
-                       workersInWords(sharing_[planned_[k].engine], point.workers));
-  }
-
-  CaseKeys keyOf(std::size_t k) const {
-    CaseKeys key = runKey(base_, points_[k].engine, versions_[planned_[k].engine]);
-    key["steps"] = fmt::format("{}", points_[k].steps);
-    key["repetitions"] = fmt::format("{}", plan_.repetitions);
-    return key;
+  void finish(std::size_t k) {
+    progress_.finish(k, tasks_[k].label + ": " + outcomeOf(points_[k]));
   }
 
   /// Points from … to, which have one size.
   void measureSize(std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k)
-      if (!taken_[k] && points_[k].status == EngineStatus::ran) refuseWithoutMemory(k);
-    const auto isOpen = [&](std::size_t k) {
-      return !taken_[k] && points_[k].status == EngineStatus::ran;
-    };
     std::vector<std::size_t> open;
-    for (std::size_t k = from; k < to; ++k)
-      if (isOpen(k)) open.push_back(k);
+    for (std::size_t k = from; k < to; ++k) {
+      if (!isOpen(k)) continue;
+      if (const auto lack = lackOfMemory(points_, k)) {
+        points_[k].status = EngineStatus::refused;
+        points_[k].reason = *lack;
+        finish(k);
+      } else {
+        open.push_back(k);
+      }
+    }
     if (open.empty()) return;
-    const Case scaled = scaledCase(points_[from].disks, overrides_);
+    const Case scaled = scaledCase(points_[from].disks, work_.line.overrides);
     const Scene scene = sceneOf(scaled, open.front());
     for (int repetition = 0; repetition < plan_.repetitions; ++repetition)
       for (const std::size_t k : open)
         if (isOpen(k)) timed(k, scaled, scene, repetition);
     for (const std::size_t k : open) {
-      if (isOpen(k)) store_.keep(nameOf(k), keyOf(k), jsonOf(points_[k]));
-      progress_.finish(k, labelOf(k) + ": " + outcomeOf(points_[k]));
+      if (isOpen(k)) work_.store.keep(tasks_[k].name, tasks_[k].key, jsonOf(points_[k]));
+      finish(k);
     }
   }
 
@@ -206,11 +211,13 @@ class ScaleTimings {
   void timed(std::size_t k, const Case& scaled, const Scene& scene, int repetition) {
     ScalePoint& point = points_[k];
     throwIfInterrupted();
-    progress_.update(k, labelOf(k), static_cast<double>(repetition) / plan_.repetitions);
+    progress_.update(k, tasks_[k].label, static_cast<double>(repetition) / plan_.repetitions);
     if (point.measured.empty()) point.measured = timeStamp();
     try {
-      const std::size_t e = planned_[k].engine;
-      timeSteps(point, engines_[e], sharing_[e].workers, scaled, scene, store_.scratch(nameOf(k)));
+      const TimedEngine& own = *std::ranges::find(
+          engines_, point.engine, [](const TimedEngine& one) { return one.entry.name; });
+      timeSteps(point, own.entry, own.sharing.workers, scaled, scene,
+                work_.store.scratch(tasks_[k].name));
     } catch (const UnsupportedScene& refusal) {
       point.status = EngineStatus::refused;
       point.reason = refusal.what();
@@ -220,26 +227,17 @@ class ScaleTimings {
     }
   }
 
-  void refuseWithoutMemory(std::size_t k) {
-    const auto lack = lackOfMemory(points_, k);
-    if (!lack) return;
-    points_[k].status = EngineStatus::refused;
-    points_[k].reason = *lack;
-    progress_.finish(k, labelOf(k) + ": refused: " + *lack);
-  }
-
-  static std::string outcomeOf(const ScalePoint& point) {
-    if (point.status != EngineStatus::ran)
-      return fmt::format("{}: {}", results::nameOf(point.status), point.reason);
-    return fmt::format("{:.3g} µs a step", 1e6 * std::ranges::min(point.seconds));
-  }
-
-  EngineRow rowOf(std::size_t e) const {
-    EngineRow row{engines_[e].name,    engines_[e].summary,   versions_[e],
-                  engines_[e].mirrors, EngineStatus::refused, ""};
+  /// Failed where any of its points did, refused where all were; with the first reason.
+  EngineRow rowOf(const TimedEngine& own) const {
+    EngineRow row = engineRow(own.entry, own.version);
+    row.status = EngineStatus::refused;
     for (const ScalePoint& point : points_) {
       if (point.engine != row.name) continue;
-      if (point.status == EngineStatus::failed) return failedRow(row, point);
+      if (point.status == EngineStatus::failed) {
+        row.status = EngineStatus::failed;
+        row.reason = point.reason;
+        return row;
+      }
       if (point.status == EngineStatus::ran) row.status = EngineStatus::ran;
       if (row.reason.empty()) row.reason = point.reason;
     }
@@ -247,25 +245,13 @@ class ScaleTimings {
     return row;
   }
 
-  static EngineRow failedRow(EngineRow row, const ScalePoint& point) {
-    row.status = EngineStatus::failed;
-    row.reason = point.reason;
-    return row;
-  }
-
+  const StudyWork& work_;
   ScalePlan plan_;
-  const std::vector<std::string>& overrides_;
-  const RunCommand& command_;
-  RunStore& store_;
-  const Case& base_;
-  std::vector<EngineEntry> engines_;
   Progress progress_;
-  std::vector<std::string> versions_;  ///< of the engines
-  std::vector<std::string> failures_;  ///< likewise: why one did not even answer; empty: it did
-  std::vector<ScaleSharing> sharing_;  ///< likewise
-  std::vector<PlannedTiming> planned_;
-  std::vector<ScalePoint> points_;  ///< of `planned_`, in its order
-  std::vector<bool> taken_;         ///< up from an earlier command
+  std::vector<TimedEngine> engines_;
+  std::vector<ScalePoint> points_;
+  std::vector<KeptTask<ScalePoint>> tasks_;  ///< of points_, in its order
+  std::vector<bool> loaded_;                 ///< likewise: finished by an earlier command
   std::vector<ScaleCell> cells_;
 };
 
@@ -326,7 +312,6 @@ std::vector<Case> caseToScale(const CommandLine& line, ScaleOptions& own) {
 ScaleResults scale(const StudyWork& work, const ScaleOptions& own) {
   const auto started = std::chrono::steady_clock::now();
   ScaleTimings timings(work, planOf(own, work.line.quick));
-  timings.askEngines();
   timings.run();
   ScaleResults results = timings.results();
   results.elapsed =
@@ -369,9 +354,7 @@ const Study<ScaleOptions, ScaleResults> scaleStudy = {
     },
     caseToScale,
     [](const StudyWork& work, const ScaleOptions& own) {
-      ScaleTimings timings(work, planOf(own, work.line.quick));
-      timings.askEngines();
-      return timings.planInWords();
+      return ScaleTimings(work, planOf(own, work.line.quick)).planInWords();
     },
     scale,
     outcomeOfScale};

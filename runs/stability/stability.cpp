@@ -182,7 +182,7 @@ KeptTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
     task.name += "-transforms";
     task.priority = -task.weight;  // what is over soon leaves its part of the budget to the others
   } else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun) {
-    task.key["held against"] = original.variant;
+    task.key["compared with"] = original.variant;
   }
   task.work = [&suite, &setup, &original, &entry, c, transforms,
                scratch = suite.store.scratch(task.name)](const auto& progress) {
@@ -289,7 +289,7 @@ StabilityResults testStability(const std::vector<Case>& cases,
   results.head = headOf(kindStability, cases.front(), command.commandLine);
   const bool one =
       std::ranges::all_of(cases, [&](const Case& c) { return c.name == cases.front().name; });
-  const char* const many = asks == SuiteAsks::transforms ? "cases told otherwise" : "hard cases";
+  const char* const many = asks == SuiteAsks::transforms ? "transformed cases" : "hard cases";
   results.head.setup = {one ? cases.front().name : many, "",
                         cases.front().file.parent_path().string(), ""};
   for (const Case& setup : cases)

@@ -87,8 +87,7 @@ Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const
 std::vector<CaseTransform> caseTransforms(std::size_t disks) {
   const auto turned = [](double angle) { return Transform{.placement = {.turn = angle}}; };
   const auto told = [](Units units) { return Transform{.units = units}; };
-  const std::string rescaled =
-      "Told in other units the same happens: nothing has a unit of its own.";
+  const std::string rescaled = "In other units the same happens: nothing has a unit of its own.";
   return {{"turned", "turned by 90°", "A turned scene does the same, turned.",
            turned(0.5 * std::numbers::pi)},
           {"turned", "turned by 1 rad", "A turned scene does the same, turned.", turned(1.0)},
@@ -105,10 +104,10 @@ std::vector<CaseTransform> caseTransforms(std::size_t disks) {
            {.order = shuffledOrder(disks, transformSeed)}},
           {"restarted",
            "restarted",
-           "Taken up from a checkpoint in its middle a run goes on as if uninterrupted.",
+           "Restarted from a checkpoint in its middle a run goes on as if uninterrupted.",
            {},
            TransformRun::restart},
-          {"split", "in one go", "Who stops to look changes nothing.", {}, TransformRun::oneGo}};
+          {"split", "in one go", "A snapshot changes nothing.", {}, TransformRun::oneGo}};
 }
 
 namespace {
@@ -150,9 +149,10 @@ class Trial {
   void judge(StabilityRun& row, const CaseTransform& transform) {
     if (blind_ == 0) {
       const double limit = limits_.front();
-      throw UnsupportedScene(fmt::format(
-          "its own rounding may part two runs by {:.2g} d within {} steps: nothing is told apart",
-          limit, steps_.front()));
+      throw UnsupportedScene(
+          fmt::format("its own rounding may separate two runs by {:.2g} d within {} steps: no "
+                      "difference can be seen",
+                      limit, steps_.front()));
     }
     time_.require(took_);
     switch (transform.run) {
@@ -291,9 +291,10 @@ class Trial {
   /// @param from  the look that the first of the frames is of
   void compare(StabilityRun& row, const std::vector<LockstepFrame>& frames, std::size_t from) {
     if (from >= blind_)
-      throw UnsupportedScene(fmt::format(
-          "its own rounding may part two runs by more than {:g} d from step {} on: nothing is told",
-          transformBlind, steps_[blind_]));
+      throw UnsupportedScene(
+          fmt::format("its own rounding may separate two runs by more than {:g} d from step {} on: "
+                      "nothing is compared",
+                      transformBlind, steps_[blind_]));
     double worst = -1.0;
     std::size_t disk = 0;
     bool bits = true;
@@ -319,8 +320,8 @@ class Trial {
                  : bits      ? "the same to the bit"
                              : "";
     if (blind_ < steps_.size())
-      row.reason += fmt::format("{}told apart from rounding up to step {}",
-                                row.reason.empty() ? "" : "; ", steps_[blind_ - 1]);
+      row.reason += fmt::format("{}compared up to step {}", row.reason.empty() ? "" : "; ",
+                                steps_[blind_ - 1]);
   }
 
   const StabilityTask& task_;

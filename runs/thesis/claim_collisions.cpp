@@ -137,7 +137,7 @@ std::vector<ClaimRow> judgeLaw(const ThesisResults& results, const ClaimRules& r
       judge(scope.rule, evidence);
     else
       for (const ClaimBand& band : scope.rule.figures)
-        evidence.put(band.name, {}, "no leg says what the law is");
+        evidence.put(band.name, {}, "no case says what the law is");
     rows.push_back(evidence.row());
   };
   for (const TensionChoice& each : tensionChoices)

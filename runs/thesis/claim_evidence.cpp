@@ -166,7 +166,7 @@ std::string Evidence::missing(const RunSet& set) {
     for (const CaseRun& at : set.runs) cases.insert(at.setup->name);
     return fmt::format("none of {} has the data ({})", set.label, fmt::join(cases, ", "));
   }
-  if (set.without.empty()) return fmt::format("there are no {}: no leg of theirs", set.label);
+  if (set.without.empty()) return fmt::format("there are no {}: no case of theirs", set.label);
   return fmt::format("there are no {}: none of {}", set.label, fmt::join(set.without, ", "));
 }
 
@@ -189,7 +189,7 @@ std::string Evidence::describe(const ClaimBand& band, ClaimVerdict verdict) cons
   if (verdict == ClaimVerdict::reproduced) return text + ", " + bandText(band);
   if (verdict == ClaimVerdict::refuted) return text + ", not " + bandText(band);
   const auto n = runsToDecide(band, *entry.estimate, scope_.common("confidence"));
-  return text + ", which does not tell whether it is " + bandText(band) +
+  return text + ", which does not show whether it is " + bandText(band) +
          (n ? fmt::format("; about {} runs would", *n) : "");
 }
 

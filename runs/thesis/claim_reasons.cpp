@@ -111,7 +111,7 @@ std::string regimeReason(const std::vector<const ThesisRun*>& runs) {
                                   : count == 1   ? "was "
                                                  : "were ",
                                   toString(regime)));
-  std::string sentence = fmt::format("Of the {} of its legs {} while averaged",
+  std::string sentence = fmt::format("Of the {} of its runs {} while averaged",
                                      countText(runs.size(), "run"), fmt::join(parts, ", "));
   if (2 * of[static_cast<std::size_t>(Regime::collisional)] > known)
     sentence += ", most in the regime in which stress comes from impacts and goes with Ω²";

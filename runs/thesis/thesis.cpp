@@ -1,15 +1,43 @@
 #include "runs/thesis/thesis.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 #include "runs/collide/collide.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/thesis/campaign.hpp"
 #include "runs/thesis/claims.hpp"
+#include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain::inline runs {
 namespace {
 
-EarlierRuns earlierIn(const std::optional<std::filesystem::path>& file) {
-  return file ? readEarlierRuns(*file) : EarlierRuns();
+constexpr const char* wholeSweep = "cases/couette/thesis/ladder.toml";
+constexpr const char* quickSweep = "cases/couette/thesis/ladder-quick.toml";
+
+std::vector<Case> casesOfThesis(const CommandLine& line, ThesisOptions& own) {
+  if (line.inputs.size() > 1) throw BadInput("thesis runs one parameter sweep at a time");
+  if (own.budget) own.seconds = secondsOf(*own.budget);
+  own.sweep = loadSweep(line.inputs.empty() ? hereOrInstalled(line.quick ? quickSweep : wholeSweep)
+                                            : line.inputs.front(),
+                        line.overrides);
+  std::vector<Case> cases;
+  for (const Case& setup : own.sweep.collisions)
+    cases.emplace_back(setup).name = "collisions " + setup.name;
+  for (const SweepCase& each : own.sweep.cases) cases.emplace_back(each.setup).name = each.name;
+  return cases;
+}
+
+ThesisCampaign campaignOf(const StudyWork& work, const ThesisOptions& own) {
+  return {own.sweep, work.line.run, work.store, own.seconds,
+          own.earlier ? readEarlierRuns(*own.earlier) : EarlierRuns()};
+}
+
+std::string planOfThesis(const StudyWork& work, const ThesisOptions& own) {
+  ThesisCampaign campaign = campaignOf(work, own);
+  campaign.askEngines();
+  return campaign.plan();
 }
 
 void judge(ThesisResults& results, const ClaimRules& rules, const ClaimReasons& reasons) {
@@ -18,25 +46,17 @@ void judge(ThesisResults& results, const ClaimRules& rules, const ClaimReasons& 
   addReasons(results, rules, reasons, results.claims);
 }
 
-}  // namespace
-
-std::map<std::string, CaseKeys> keysOfCases(const ThesisSweep& sweep) {
-  std::map<std::string, CaseKeys> keys;
-  for (auto& [name, own] : keysOfEach(sweep.collisions)) keys["collisions " + name] = own;
-  for (const SweepCase& own : sweep.cases) keys[own.name] = keysThatMatter(own.setup);
-  return keys;
-}
-
-ThesisResults runThesis(const ThesisSweep& sweep, const RunCommand& command, RunStore& store,
-                        double budget, const std::optional<std::filesystem::path>& earlier) {
+ThesisResults runThesis(const StudyWork& work, const ThesisOptions& own) {
   const auto started = std::chrono::steady_clock::now();
+  const ThesisSweep& sweep = own.sweep;
   // What is wrong with them is said before anything is run.
   const ClaimRules rules = loadClaimRules(sweep.rules, &claimSchema());
   ClaimReasons reasons;
   if (sweep.reasons) reasons = loadClaimReasons(*sweep.reasons, rules);
-  ThesisCampaign campaign(sweep, command, store, budget, earlierIn(earlier));
+  ThesisCampaign campaign = campaignOf(work, own);
   std::optional<CollideResults> collisions;
-  if (!sweep.collisions.empty()) collisions = collideEngines(sweep.collisions, command, store);
+  if (!sweep.collisions.empty())
+    collisions = collideEngines(sweep.collisions, work.line.run, work.store);
   campaign.askEngines();
   campaign.compareWithMirrors(lockstepStarts);
   campaign.run();
@@ -50,13 +70,47 @@ ThesisResults runThesis(const ThesisSweep& sweep, const RunCommand& command, Run
   return results;
 }
 
-std::string thesisPlan(const ThesisSweep& sweep, const RunCommand& command, RunStore& store,
-                       const std::optional<std::filesystem::path>& earlier) {
-  ThesisCampaign campaign(sweep, command, store, std::numeric_limits<double>::infinity(),
-                          earlierIn(earlier));
-  campaign.askEngines();
-  return campaign.plan();
+/// A refuted claim is what was to be found out.
+Outcome outcomeOfThesis(const ThesisResults& results, const CommandLine&,
+                        const ThesisOptions& own) {
+  Outcome outcome;
+  for (const ThesisRun& run : results.runs)
+    if (run.run.status == RunStatus::failed) outcome.failures.push_back(run.run.reason);
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (results.runs.empty())
+    return notJudged("no run was finished");
+  else if (own.strict && std::ranges::find(results.claims, ClaimVerdict::undecided,
+                                           &ClaimRow::verdict) != results.claims.end())
+    outcome.status = exitFellShort;
+  return outcome;
 }
+
+}  // namespace
+
+const Study<ThesisOptions, ThesisResults> thesisStudy = {
+    "thesis",
+    {.input = SharedOptions::Input::anyCases,
+     .inputIs = "parameter sweep: what to run, in which order (default: "
+                "cases/couette/thesis/ladder.toml)",
+     .inHouse = true,
+     .packings = true},
+    Keeps::eachCase,
+    [](ThesisOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--budget",
+           "no run begins that would end later, e.g. 90s, 10m, 2h (default: all are run)",
+           &own.budget, "TIME"},
+          {"--from",
+           "results.json of an earlier session: its finished runs are taken, whichever build made "
+           "them",
+           &own.earlier, "FILE"},
+          {"--strict", "a claim that is undecided counts as a failure", &own.strict}};
+    },
+    casesOfThesis,
+    planOfThesis,
+    runThesis,
+    outcomeOfThesis};
 
 ThesisResults judgedAgain(ThesisResults results,
                           const std::optional<std::filesystem::path>& reasons) {
