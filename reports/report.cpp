@@ -1,31 +1,21 @@
 #include "reports/report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <concepts>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 
-#include "reports/collide/overview.hpp"
 #include "reports/collide/report.hpp"
-#include "reports/common/gnuplot.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/common/page.hpp"
 #include "reports/common/pages.hpp"
-#include "reports/common/pictures.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
-#include "reports/effects/overview.hpp"
 #include "reports/effects/report.hpp"
-#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/report.hpp"
-#include "reports/scale/overview.hpp"
+#include "reports/render/gnuplot.hpp"
+#include "reports/render/html.hpp"
 #include "reports/scale/report.hpp"
-#include "reports/stability/overview.hpp"
+#include "reports/site/site.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
@@ -40,111 +30,54 @@ namespace {
 
 using namespace reports;
 
-/// What a kind of results is written as.
-template <typename Results>
-struct Kind {
-  std::vector<std::pair<const char*, std::string (*)(const Results&)>> tables;
-  std::vector<Figure> (*figures)(const Results&);
-  std::vector<Picture> (*pictures)(const Results&);
-  std::string (*page)(const Results&, const Illustrations&);
-  Overview (*overview)(const Results&) = nullptr;  ///< null: its report opens with none
-  /// Numbers beside the matrix, to be followed over versions; null: there are none.
-  std::vector<DigestValue> (*values)(const Results&) = nullptr;
-};
-
-/// What the report's matrix says, for build servers.
-template <auto overviewOf, typename Results>
-std::string overviewJunit(const Results& results) {
-  return junitXml(results.head.kind, overviewCases(overviewOf(results), titleOf(results.head)));
+Report build(const CollideResults& results) {
+  return collideReport(results);
+}
+Report build(const ConformanceResults& results) {
+  return conformanceReport(results);
+}
+Report build(const EffectsResults& results) {
+  return effectsReport(results);
+}
+Report build(const LockstepResults& results) {
+  return lockstepReport(results);
+}
+Report build(const RevResults& results) {
+  return revReport(results);
+}
+Report build(const ScaleResults& results) {
+  return scaleReport(results);
+}
+Report build(const StabilityResults& results) {
+  return stabilityReport(results);
+}
+Report build(const CompareResults& results) {
+  return results.head.kind == kindAverage ? averageReport(results) : compareReport(results);
 }
 
-template <typename Results>
-std::vector<Picture> noPictures(const Results&) {
-  return {};
+Report build(const CostResults& results) {
+  return costReport(results);
 }
-
-const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
-                                           {"series.csv", seriesCsv},
-                                           {"endpoints.csv", endpointsCsv},
-                                           {"agreement.csv", agreementCsv},
-                                           {"regimes.csv", regimesCsv},
-                                           {"steadiness.csv", steadinessCsv},
-                                           {"distributions.csv", distributionsCsv},
-                                           {"junit.xml", overviewJunit<compareOverview>}},
-                                          compareFigures,
-                                          comparePictures,
-                                          comparePage,
-                                          compareOverview,
-                                          compareValues};
-
-const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
-                                           {"series.csv", seriesCsv},
-                                           {"regimes.csv", regimesCsv},
-                                           {"steadiness.csv", steadinessCsv},
-                                           {"distributions.csv", distributionsCsv}},
-                                          compareFigures,
-                                          noPictures,
-                                          averagePage,
-                                          averageOverview};
-
-const Kind<ConformanceResults> conformanceKind = {
-    {{"junit.xml", conformanceJunit}}, conformanceFigures, noPictures, conformancePage};
-
-const Kind<EffectsResults> effectsKind = {
-    {{"effects.csv", effectsCsv}}, effectFigures, noPictures, effectsPage, effectsOverview};
-
-const Kind<LockstepResults> lockstepKind = {
-    {{"lockstep.csv", lockstepCsv}, {"junit.xml", overviewJunit<lockstepOverview>}},
-    lockstepFigures,
-    noPictures,
-    lockstepPage,
-    lockstepOverview};
-
-const Kind<RevResults> revKind = {{{"rev.csv", revCsv}, {"rev_meetings.csv", revMeetingsCsv}},
-                                  revFigures,
-                                  noPictures,
-                                  revPage,
-                                  revOverview};
-
-const Kind<CollideResults> collideKind = {
-    {{"collisions.csv", collisionsCsv}, {"junit.xml", collideJunit}},
-    collideFigures,
-    noPictures,
-    collidePage,
-    collideOverview};
-
-const Kind<StabilityResults> stabilityKind = {
-    {{"stability.csv", stabilityCsv}, {"junit.xml", stabilityJunit}},
-    stabilityFigures,
-    stabilityPictures,
-    stabilityPage,
-    stabilityOverview};
-
-const Kind<CostResults> costKind = {
-    {{"cost.csv", costCsv}}, costFigures, noPictures, costPage, costOverview};
-
-const Kind<ScaleResults> scaleKind = {
-    {{"scale.csv", scaleCsv}}, scaleFiguresOf, noPictures, scalePage, scaleOverview};
-
-const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
-                                         {"history.csv", historyCsv},
-                                         {"regime_map.csv", regimeMapCsv},
-                                         {"readings.csv", interpretationsCsv}},
-                                        thesisFigures,
-                                        noPictures,
-                                        thesisPage,
-                                        thesisOverview};
-
-const Kind<CompareResults>& kindOf(const CompareResults& results) {
-  return results.head.kind == kindAverage ? averageKind : compareKind;
+/// Its page still fills a template of its own.
+Report build(const ThesisResults& results) {
+  Report report{{results.head, results.engines, thesisOverview(results)}};
+  report.figures = thesisFigures(results);
+  report.tables = {{"claims.csv", claimsCsv(results)},
+                   {"history.csv", historyCsv(results)},
+                   {"regime_map.csv", regimeMapCsv(results)},
+                   {"readings.csv", interpretationsCsv(results)}};
+  return report;
+}
+std::string pageOf(const ThesisResults& results, const Illustrations& shown) {
+  return thesisPage(results, shown);
 }
 
 /// @returns why there are no plots, if so
-std::optional<std::string> draw(const std::vector<Figure>& figures,
-                                const std::filesystem::path& plots) {
+std::optional<std::string> draw(const Report& report, const std::filesystem::path& plots) {
   makeDirectory(plots);
   std::vector<std::string> scripts;
-  for (const Figure& figure : figures) scripts.push_back(writeFigure(figure, plots));
+  for (const Figure& figure : report.figures) scripts.push_back(writeFigure(figure, plots));
+  for (const Picture& picture : report.pictures) writePicture(picture, plots);
   try {
     runGnuplot(scripts, plots);
   } catch (const GnuplotError& error) {
@@ -153,108 +86,73 @@ std::optional<std::string> draw(const std::vector<Figure>& figures,
   return std::nullopt;
 }
 
-template <typename Results>
-std::vector<EngineRow> enginesOf(const Results& results) {
-  if constexpr (requires { results.engines; })
-    return results.engines;
-  else if constexpr (std::same_as<Results, ConformanceResults>)
-    return {results.engine};
-  else
-    return {{results.engine, "", "", "", EngineStatus::ran, ""}};  // whose snapshots
-}
-
 /// @param document  results.json
 template <typename Results>
-ReportDigest write(const Kind<Results>& kind, const Results& results, Json document,
-                   const std::filesystem::path& dir) {
+ReportDigest write(const Results& results, Json document, const std::filesystem::path& dir) {
+  const Report report = build(results);
   makeDirectory(dir);
-  ReportDigest digest{results.head, enginesOf(results), {}};
-  if (kind.overview) {
-    digest.overview = kind.overview(results);
-    if (kind.values) digest.values = kind.values(results);
-    document["overview"] = toJson(*digest.overview);
-    writeFile(dir / "summary.md", overviewMarkdown(*digest.overview, titleOf(results.head)));
-  }
+  document["overview"] = toJson(report.overview);
   writeFile(dir / "results.json", toText(document));
-  for (const auto& [name, table] : kind.tables) writeFile(dir / name, table(results));
+  for (const auto& [name, table] : report.tables) writeFile(dir / name, table);
+  writeFile(dir / "summary.md", overviewMarkdown(report.overview, titleOf(report.head)));
+  if (report.checks) writeFile(dir / "junit.xml", junitXml(report.head.kind, *report.checks));
 
   const auto plots = dir / "plots";
-  const auto figures = kind.figures(results);
-  const auto missing = draw(figures, plots);
-  const auto pictures = kind.pictures(results);
-  for (const Picture& picture : pictures) writePicture(picture, plots);
-
-  writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
+  const auto missing = draw(report, plots);
+  if constexpr (requires(const Illustrations& shown) { pageOf(results, shown); })
+    writeFile(dir / "report.html", pageOf(results, {report.figures, plots, missing}));
+  else
+    writeFile(dir / "report.html", html(report, plots, missing));
   if (missing) throw std::runtime_error(*missing);
-  return digest;
+  return report;
 }
 
-ReportDigest writeKind(const Json& results, const std::filesystem::path& dir) {
-  checkSchema(results, "results");
-  const std::string kind = results.at("kind");
-  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
-  if (kind == kindConformance)
-    return write(conformanceKind, conformanceFromJson(results), results, dir);
-  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
-  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
-  if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
-  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
-  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir);
-  if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
-  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
-  const CompareResults compared = compareFromJson(results);
-  return write(kindOf(compared), compared, results, dir);
+/// Calls with the typed results of a document.
+auto withResults(const Json& document, const auto& call) {
+  checkSchema(document, "results");
+  const std::string kind = document.at("kind");
+  if (kind == kindCollide) return call(collideFromJson(document));
+  if (kind == kindConformance) return call(conformanceFromJson(document));
+  if (kind == kindCost) return call(costFromJson(document));
+  if (kind == kindEffects) return call(effectsFromJson(document));
+  if (kind == kindLockstep) return call(lockstepFromJson(document));
+  if (kind == kindRev) return call(revFromJson(document));
+  if (kind == kindScale) return call(scaleFromJson(document));
+  if (kind == kindStability) return call(stabilityFromJson(document));
+  if (kind == kindThesis) return call(thesisFromJson(document));
+  return call(compareFromJson(document));
 }
 
 }  // namespace
 
-void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
-  write(collideKind, results, toJson(results), dir);
+template <typename Results>
+void writeReport(const Results& results, const std::filesystem::path& dir) {
+  write(results, toJson(results), dir);
 }
-
-void writeReport(const ConformanceResults& results, const std::filesystem::path& dir) {
-  write(conformanceKind, results, toJson(results), dir);
-}
-
-void writeReport(const CostResults& results, const std::filesystem::path& dir) {
-  write(costKind, results, toJson(results), dir);
-}
-
-void writeReport(const LockstepResults& results, const std::filesystem::path& dir) {
-  write(lockstepKind, results, toJson(results), dir);
-}
-
-void writeReport(const ScaleResults& results, const std::filesystem::path& dir) {
-  write(scaleKind, results, toJson(results), dir);
-}
-
-void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
-  write(stabilityKind, results, toJson(results), dir);
-}
-
-void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
-  write(kindOf(results), results, toJson(results), dir);
-}
-
-void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
-  write(effectsKind, results, toJson(results), dir);
-}
-
-void writeReport(const RevResults& results, const std::filesystem::path& dir) {
-  write(revKind, results, toJson(results), dir);
-}
-
-void writeReport(const ThesisResults& results, const std::filesystem::path& dir) {
-  write(thesisKind, results, toJson(results), dir);
-}
+template void writeReport(const CollideResults&, const std::filesystem::path&);
+template void writeReport(const CompareResults&, const std::filesystem::path&);
+template void writeReport(const ConformanceResults&, const std::filesystem::path&);
+template void writeReport(const CostResults&, const std::filesystem::path&);
+template void writeReport(const EffectsResults&, const std::filesystem::path&);
+template void writeReport(const LockstepResults&, const std::filesystem::path&);
+template void writeReport(const RevResults&, const std::filesystem::path&);
+template void writeReport(const ScaleResults&, const std::filesystem::path&);
+template void writeReport(const StabilityResults&, const std::filesystem::path&);
+template void writeReport(const ThesisResults&, const std::filesystem::path&);
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                          const std::filesystem::path& from) {
-  return understood(from / "results.json", [&] { return writeKind(results, dir); });
+  return understood(from / "results.json", [&] {
+    return withResults(results, [&](const auto& typed) { return write(typed, results, dir); });
+  });
 }
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {
   return writeReport(results, dir, dir);
+}
+
+Report reportOf(const nlohmann::json& results) {
+  return withResults(results, [](const auto& typed) { return build(typed); });
 }
 
 void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,

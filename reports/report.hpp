@@ -5,44 +5,31 @@
 #include <utility>
 #include <vector>
 
-#include "reports/site/site.hpp"
-#include "results/collision.hpp"
-#include "results/conformance.hpp"
-#include "results/cost.hpp"
-#include "results/effects.hpp"
-#include "results/lockstep.hpp"
-#include "results/rev.hpp"
-#include "results/scale.hpp"
-#include "results/stability.hpp"
-#include "results/thesis.hpp"
+#include "reports/common/report.hpp"
 
 namespace crossgrain {
 
-/// Writes everything that a results folder holds: results.json, the CSVs, plots/ and report.html.
-/// The kind of report follows from results["kind"], "compare", "collide", "lockstep",
-/// "effects", "cost", "scale", "stability", "thesis", "conformance", "average" or "rev"; the layout
-/// of results is in reports/README.md.
+/// Writes everything that a results folder holds: results.json, the CSVs, plots/, report.html,
+/// summary.md and, where anything is judged, junit.xml. The layout is in docs/results.md.
 ///
 /// Each file replaces an older one in one step, so that an interrupted run leaves no half file.
 /// results.json and the CSVs come first: without gnuplot they and a report without plots are
 /// still written before the error is thrown.
-/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing;
-///         BadInput for JSON that is no such document
+/// @param results  of any kind that has a report: CollideResults, CompareResults, …
+/// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
+template <typename Results>
+void writeReport(const Results& results, const std::filesystem::path& dir);
+
+/// The same of a document, whose kind follows from results["kind"].
+/// @param from  the folder that results.json was read from (default: dir)
+/// @throws BadInput for JSON that is no such document
 /// @returns what the report opens with
-/// @param from  the folder that results.json and what runs kept beside it are in (default: dir)
 reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                                   const std::filesystem::path& from);
 reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir);
-void writeReport(const CollideResults& results, const std::filesystem::path& dir);
-void writeReport(const ConformanceResults& results, const std::filesystem::path& dir);
-void writeReport(const CostResults& results, const std::filesystem::path& dir);
-void writeReport(const ScaleResults& results, const std::filesystem::path& dir);
-void writeReport(const StabilityResults& results, const std::filesystem::path& dir);
-void writeReport(const CompareResults& results, const std::filesystem::path& dir);
-void writeReport(const EffectsResults& results, const std::filesystem::path& dir);
-void writeReport(const LockstepResults& results, const std::filesystem::path& dir);
-void writeReport(const RevResults& results, const std::filesystem::path& dir);
-void writeReport(const ThesisResults& results, const std::filesystem::path& dir);
+
+/// The report of a document, to be written or looked into.
+reports::Report reportOf(const nlohmann::json& results);
 
 /// Writes the reports of several results into folders of their own below `site`, named after
 /// theirs, and an index of all. @throws as writeReport()

@@ -294,6 +294,7 @@ void fields(auto& io, CostCell& cell) {
   io("decides", cell.decides);
 }
 
+/// What accuracy costs: results of kind "cost" (docs/results.md).
 struct CostResults : CouetteFrame {
   std::optional<double> elapsed;  ///< [s]
   std::vector<EngineRow> engines;

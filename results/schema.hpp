@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// results.json as text: its version, reading and printing it. Its layout is in reports/README.md.
+/// results.json as text: its version, reading and printing it. Its layout is in docs/results.md.
 namespace crossgrain::inline results {
 
 inline constexpr std::string_view schemaVersion = "crossgrain-results-1";

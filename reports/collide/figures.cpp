@@ -1,9 +1,10 @@
-#include "reports/collide/figures.hpp"
-
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "reports/collide/report.hpp"
 #include "reports/common/engines.hpp"
@@ -13,31 +14,11 @@ namespace crossgrain::reports {
 
 namespace {
 
+using Styles = std::vector<std::pair<std::string, LineStyle>>;  ///< of engines, in their order
+
+const LineStyle oracleStyle{"#999999", 0, false};
 const LineStyle asymptoteStyle{"#999999", 0, true};
 const LineStyle noLimitStyle{"#cc3311", 4, false};  ///< open squares
-
-bool draws(const Figure& figure, const LineStyle& style) {
-  return std::ranges::any_of(figure.panels, [&](const Panel& panel) {
-    return std::ranges::any_of(panel.curves, [&](const Curve& curve) {
-      return curve.style == style && !curve.points.empty();
-    });
-  });
-}
-
-/// Ψ_f over Ψ_i; `stride` 1: all points.
-std::vector<Point> pointsOf(const CollisionTable& table, std::size_t stride) {
-  std::vector<Point> points;
-  for (std::size_t k = 0; k < table.size(); k += stride) {
-    const auto x = numberAt(table.psi, k), y = table.at(QuantityId::psiF, k);
-    if (x && y) points.push_back({*x, *y, {}});
-  }
-  return points;
-}
-
-/// A curve of marks has at most about 14.
-std::size_t markStride(const CollisionTable& table) {
-  return std::max<std::size_t>(1, (table.size() + 13) / 14);
-}
 
 double largestPsi(const CollisionVariant& variant) {
   double largest = 0.0;
@@ -48,6 +29,55 @@ double largestPsi(const CollisionVariant& variant) {
   take(variant.oracle);
   for (const CollisionCurve& curve : variant.curves) take(curve.points);
   return largest > 0.0 ? largest : 1.0;
+}
+
+/// An axis over Ψ_i for a variant, with its name above.
+Panel panelOver(const CollisionVariant& variant, const char* yLabel) {
+  Panel panel;
+  panel.name = variant.variant;
+  panel.xLabel = "slide before Ψ_{i}";
+  panel.yLabel = yLabel;
+  panel.key = Key::none;
+  panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};
+  return panel;
+}
+
+/// A grid of small panels; one variant's have more room.
+void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
+  for (Panel& panel : figure.panels)
+    std::erase_if(panel.curves, [&](const Curve& curve) {
+      Panel alone;
+      alone.logY = panel.logY;
+      alone.curves = {curve};
+      return !hasPoints(alone);  // gnuplot would complain
+    });
+  const int panels = static_cast<int>(figure.panels.size());
+  figure.columns = std::max(1, std::min(panelsInLine, panels));
+  figure.panelWidth = 1240 / std::max(figure.columns, variants == 1 ? 2 : 3);
+  figure.panelHeight = variants == 1 ? 320 : 235;
+}
+
+bool draws(const Figure& figure, const LineStyle& style) {
+  return std::ranges::any_of(figure.panels, [&](const Panel& panel) {
+    return std::ranges::any_of(panel.curves, [&](const Curve& curve) {
+      return curve.style == style && !curve.points.empty();
+    });
+  });
+}
+
+/// Ψ_f over Ψ_i; `stride` 1: all points.
+std::vector<Point> sweepPoints(const CollisionTable& table, std::size_t stride) {
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < table.size(); k += stride) {
+    const auto x = at(table.psi, k), y = table.at(QuantityId::psiF, k);
+    if (x && y) points.push_back({*x, *y, {}});
+  }
+  return points;
+}
+
+/// A curve of marks has at most about 14.
+std::size_t markStride(const CollisionTable& table) {
+  return std::max<std::size_t>(1, (table.size() + 13) / 14);
 }
 
 /// Sticking Ψ_f = −e_t0 Ψ_i up to where it meets sliding Ψ_f = Ψ_i − K(1+e)µ (Luding 1998), and
@@ -88,12 +118,12 @@ Panel sweepPanel(const CollisionVariant& variant, const Styles& styles) {
   Panel panel = panelOver(variant, "Ψ_{f}");
   panel.level = 0.0;
   panel.curves = asymptotes(variant, panel.xRange->high);
-  if (auto line = pointsOf(variant.oracle, 1); !line.empty())
+  if (auto line = sweepPoints(variant.oracle, 1); !line.empty())
     panel.curves.push_back({"oracle", oracleStyle, Draw::lines, std::move(line), 3.0});
   for (const auto& [engine, style] : styles)
     if (const CollisionCurve* curve = coarsestCurve(variant, engine))
-      panel.curves.push_back(
-          {engine, style, Draw::points, pointsOf(curve->points, markStride(curve->points)), 1.0});
+      panel.curves.push_back({engine, style, Draw::points,
+                              sweepPoints(curve->points, markStride(curve->points)), 1.0});
   panel.curves.push_back(noLimitMarks(variant));
   return panel;
 }
@@ -108,7 +138,7 @@ Panel errorPanel(const CollisionVariant& variant, const Styles& styles) {
     const CollisionTable& table = curve->points;
     std::vector<Point> points;
     for (std::size_t k = 0; k < table.size(); ++k) {
-      const auto psi = numberAt(table.psi, k), found = table.at(QuantityId::psiF, k),
+      const auto psi = at(table.psi, k), found = table.at(QuantityId::psiF, k),
                  expected = variant.reference.at(QuantityId::psiF, k);
       if (psi && found && expected) points.push_back({*psi, std::abs(*found - *expected), {}});
     }
@@ -151,31 +181,118 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
   return figure;
 }
 
-}  // namespace
+/// A part of the energy lost as it is drawn and described: the first is all of it, the others, but
+/// for the last, add up to it.
+struct EnergyPart {
+  QuantityId quantity;
+  const char* colour;
+  int mark;  ///< gnuplot's number
+  const char* words;
+};
+constexpr EnergyPart energyParts[] = {
+    {QuantityId::energyLost, "#222222", 2, "all that was lost (black, crosses)"},
+    {QuantityId::lostNormalDamping, "#0072b2", 6, "to the normal force (blue, circles)"},
+    {QuantityId::lostTangentialDamping, "#009e73", 4,
+     "to the tangential dashpot while the contact sticks (green, squares)"},
+    {QuantityId::lostStiffening, "#cc79a7", 10,
+     "to the tangential spring's stiffness, which follows the overlap, below 0 gained (pink, "
+     "triangles pointing down)"},
+    {QuantityId::lostSliding, "#d55e00", 8, "to sliding (orange, triangles)"},
+    {QuantityId::lostStored, "#777777", 12,
+     "left in the tangential spring at separation (grey, diamonds)"},
+    {QuantityId::lostTangential, "#56b4e9", 14,
+     "to the tangential force in all, of engines that do not report its energyParts (pale blue, "
+     "pentagons)"}};
 
-Panel panelOver(const CollisionVariant& variant, const char* yLabel) {
-  Panel panel;
-  panel.name = variant.variant;
-  panel.xLabel = "slide before Ψ_{i}";
-  panel.yLabel = yLabel;
-  panel.key = Key::none;
-  panel.xRange = Range{0.0, 1.02 * largestPsi(variant)};
+/// In units of J; of the whole what is left after, of all tangential energyParts only where they
+/// are not reported.
+std::optional<double> partAt(const CollisionTable& table, QuantityId part, std::size_t k) {
+  if (part == QuantityId::energyLost) {
+    const auto before = table.at(QuantityId::energyBefore, k),
+               after = table.at(QuantityId::energyAfter, k);
+    return before && after ? std::optional(*before - *after) : std::nullopt;
+  }
+  if (part == QuantityId::lostTangential && table.at(QuantityId::lostSliding, k))
+    return std::nullopt;
+  return table.at(part, k);
+}
+
+/// A part of the energy lost in units of the energy before.
+std::vector<Point> fractionsOf(const CollisionTable& table, QuantityId part, std::size_t stride) {
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < table.size(); k += stride) {
+    const auto psi = at(table.psi, k), before = table.at(QuantityId::energyBefore, k),
+               value = partAt(table, part, k);
+    if (psi && before && value && *before > 0.0) points.push_back({*psi, *value / *before, {}});
+  }
+  return points;
+}
+
+/// Lines are the oracle's energyParts, marks the engines': colours are energyParts here, not
+/// engines.
+Panel energyPanel(const CollisionVariant& variant, const Styles& styles) {
+  Panel panel = panelOver(variant, "energy lost / before");
+  for (const auto& part : energyParts) {
+    std::vector<Curve> curves = {{"",
+                                  {part.colour, 0, false},
+                                  Draw::lines,
+                                  fractionsOf(variant.oracle, part.quantity, 1),
+                                  2.0}};
+    for (const auto& [engine, style] : styles) {
+      const CollisionCurve* curve = coarsestCurve(variant, engine);
+      if (!curve || style.dashed) continue;  // a mirror's marks lie on its peer's
+      const CollisionTable& table = curve->points;
+      curves.push_back({"",
+                        {part.colour, part.mark, false},
+                        Draw::points,
+                        fractionsOf(table, part.quantity, (table.size() + 6) / 7),
+                        1.0});
+    }
+    const auto visible = [](const Point& point) { return std::abs(point.y) > 1e-6; };
+    const bool any = std::ranges::any_of(
+        curves, [&](const Curve& curve) { return std::ranges::any_of(curve.points, visible); });
+    if (any) std::ranges::move(curves, std::back_inserter(panel.curves));
+  }
   return panel;
 }
 
-void arrange(Figure& figure, int panelsInLine, std::size_t variants) {
-  for (Panel& panel : figure.panels)
-    std::erase_if(panel.curves, [&](const Curve& curve) {
-      Panel alone;
-      alone.logY = panel.logY;
-      alone.curves = {curve};
-      return !hasPoints(alone);  // gnuplot would complain
-    });
-  const int panels = static_cast<int>(figure.panels.size());
-  figure.columns = std::max(1, std::min(panelsInLine, panels));
-  figure.panelWidth = 1240 / std::max(figure.columns, variants == 1 ? 2 : 3);
-  figure.panelHeight = variants == 1 ? 320 : 235;
+/// The energyParts that some panel shows, in words.
+std::string drawnParts(const Figure& figure) {
+  std::vector<std::string> words;
+  for (const EnergyPart& part : energyParts)
+    if (std::ranges::any_of(figure.panels, [&](const Panel& panel) {
+          return std::ranges::find(panel.curves, part.colour, [](const Curve& curve) {
+                   return curve.style.colour;
+                 }) != panel.curves.end();
+        }))
+      words.emplace_back(part.words);
+  return fmt::format("{}.", fmt::join(words, ", "));
 }
+
+constexpr const char* captionOfMarks =
+    " Lines: the oracle, whose energyParts add up to all that was lost. Marks: engines at the "
+    "largest of "
+    "their time steps; energyParts of those that show their contacts, recorded step by step, so "
+    "that "
+    "they add up as far as a sum over steps can. A slip too short for a step, as the last one "
+    "before the disks part, is not seen: what the oracle loses in it stays in the spring.";
+
+/// Where the energy of a case's collisions went: the oracle's account and every engine's at the
+/// largest of its time steps. @param name  of the figure's files
+Figure energyFigure(const CaseGroup& group, const Styles& styles, const std::string& name) {
+  Figure figure;
+  figure.name = name;
+  figure.title = "Where the energy of a collision went";
+  for (const CollisionVariant* variant : group.variants) {
+    Panel panel = energyPanel(*variant, styles);
+    if (hasPoints(panel)) figure.panels.push_back(std::move(panel));
+  }
+  figure.caption = "Energy lost, by the energy before: " + drawnParts(figure) + captionOfMarks;
+  arrange(figure, 4, group.variants.size());
+  return figure;
+}
+
+}  // namespace
 
 std::vector<Figure> collideFigures(const CollideResults& results) {
   const std::vector<LineStyle> order = engineStyles(results.engines);

@@ -1,20 +1,20 @@
-#include "reports/collide/overview.hpp"
+#include "reports/collide/report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
+#include <ranges>
 
-#include "reports/collide/table.hpp"
-#include "reports/collide/tally.hpp"
+#include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-/// Quantities that say much the same, as one question.
+/// Quantities that are closely related, as one question.
 struct QuantityGroup {
   const char *name, *asks;
   std::vector<QuantityId> quantities;
@@ -23,14 +23,14 @@ struct QuantityGroup {
 const std::vector<QuantityGroup>& quantityGroups() {
   using enum QuantityId;
   static const std::vector<QuantityGroup> groups = {
-      {"bounce", "Normal restitution e_n.", {en}},
-      {"slide",
+      {"restitution", "Normal restitution e_n.", {en}},
+      {"tangential rebound Ψ_f",
        "Tangential velocity of the contact point after the collision, and what follows "
        "from it.",
        {psiF, beta, et, centrePsiF}},
       {"angle", "Angle of the rebound.", {reboundAngle}},
       {"spin", "Spins after the collision.", {spinI, spinJ}},
-      {"duration", "How long the disks touch.", {duration}},
+      {"contact time", "How long the disks touch.", {duration}},
       {"overlap", "Largest overlap.", {maxOverlap}},
       {"energy",
        "Energy lost, and where to.",
@@ -52,7 +52,7 @@ struct Extreme {
   }
 };
 
-/// In a word, for a cell has no room for more: the case, or of the only one the variant.
+/// In a word, for a cell is small: the case, or of the only one the variant.
 std::string placeOf(const std::vector<CaseGroup>& groups, const CaseGroup& group,
                     const CollisionVariant& variant) {
   return groups.size() > 1 || variant.variant.empty() ? group.name : variant.variant;
@@ -81,21 +81,21 @@ void look(Errors& errors, const CollisionCurve& curve, const CollisionQuantity& 
   if (scene) errors.any.look(*scene, words, anchor);
 }
 
-/// @param besidePeer  of a mirror that runs beside its peer: it shows what the peer's conventions
-/// do
-OverviewCell cellOf(const Errors& errors, bool besidePeer) {
+/// @param besidePeer  of a mirror that runs beside its peer: it shows the effect of the peer's
+/// conventions
+OverviewCell errorCell(const Errors& errors, bool besidePeer) {
   const CellState state = errors.own.share > 1.0 && !besidePeer ? CellState::bad
                           : std::max(errors.own.share, errors.scene.share) > 1.0
                               ? CellState::modelDifference
                           : errors.any.share >= 0.0 ? CellState::good
                                                     : CellState::notMeasured;
   if (state == CellState::notMeasured) return {state, {}, "of its limit", {}, {}, {}};
-  const Extreme& told = state == CellState::bad ? errors.own
-                        : state == CellState::modelDifference
-                            ? (errors.scene.share > 1.0 ? errors.scene : errors.own)
-                            : errors.any;
-  return {state,      told.share, "of its limit", shortly(told.share) + " × limit",
-          told.words, told.anchor};
+  const Extreme& shown = state == CellState::bad ? errors.own
+                         : state == CellState::modelDifference
+                             ? (errors.scene.share > 1.0 ? errors.scene : errors.own)
+                             : errors.any;
+  return {state,       shown.share, "of its limit", shortly(shown.share) + " × limit",
+          shown.words, shown.anchor};
 }
 
 /// Visits the curves of an engine that have an outcome.
@@ -123,20 +123,17 @@ OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string&
   return cell;
 }
 
-/// How many sweeps came out as they should: refused ones need a law that the engine lacks.
+/// How many sweeps pass: refused ones need a law that the engine lacks.
 OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& engine,
                         bool besidePeer) {
-  Tally all;
+  std::vector<const CollisionVariant*> variants;
+  for (const CaseGroup& group : groups)
+    variants.insert(variants.end(), group.variants.begin(), group.variants.end());
+  const Tally all = tallyOf(variants, engine.name);
   std::ptrdiff_t unknown = 0;
   forCurves(groups, engine.name,
             [&](const CollisionCurve& curve, const std::string&, const std::string&) {
               unknown += std::ranges::count(curve.points.status, PairStatus::noLimit);
-              const SweepOutcome outcome = outcomeOf(curve);
-              all.held += outcome == SweepOutcome::held;
-              all.model += outcome == SweepOutcome::modelDifference;
-              all.fellShort += outcome == SweepOutcome::fellShort;
-              all.refused += outcome == SweepOutcome::refused;
-              all.failed += outcome == SweepOutcome::failed;
             });
   OverviewCell cell{CellState::notMeasured, {}, "sweeps", {}, {}, "matrix"};
   if (all.refused > 0) cell.words = fmt::format("{} refused", all.refused);
@@ -165,7 +162,7 @@ bool anyShown(const Overview& overview, std::size_t column) {
   });
 }
 
-/// Takes questions away that no engine has an answer to.
+/// Drops questions that no engine has an answer to.
 void dropEmptyColumns(Overview& overview) {
   for (std::size_t k = overview.columns.size(); k-- > 0;) {
     if (anyShown(overview, k)) continue;
@@ -175,18 +172,180 @@ void dropEmptyColumns(Overview& overview) {
   }
 }
 
+using Names = std::vector<std::string>;
+
+/// In a sentence: the matrix has all names.
+constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
+
+/// Sweeps of an engine by outcome.
+struct EngineTally {
+  std::string engine;
+  int held = 0, model = 0, fellShort = 0;
+  int judged() const { return held + model + fellShort; }
+};
+
+/// A possible cause of differences or failures.
+struct Cause {
+  std::string words;
+  int excess = 0;  ///< of sweeps that it could explain over sweeps that pass in spite of it
+  Names engines;   ///< whose sweeps it could explain
+};
+using Causes = std::vector<Cause>;
+
+/// Engines that are judged: not the mirrors beside their peers.
+Names judgedEngines(const CollideResults& results) {
+  Names names;
+  for (const EngineRow& engine : results.engines)
+    if (!runsBesideItsPeer(results, engine.name)) names.push_back(engine.name);
+  return names;
+}
+
+std::vector<EngineTally> talliesOf(const CollideResults& results) {
+  std::vector<EngineTally> tallies;
+  for (const std::string& engine : judgedEngines(results)) {
+    std::vector<const CollisionVariant*> variants;
+    for (const CollisionVariant& variant : results.variants) variants.push_back(&variant);
+    const Tally tally = tallyOf(variants, engine);
+    tallies.push_back({engine, tally.held, tally.model, tally.fellShort});
+  }
+  return tallies;
+}
+
+Cause& causeOf(Causes& causes, const std::string& words) {
+  const auto found = std::ranges::find(causes, words, &Cause::words);
+  return found == causes.end() ? causes.emplace_back(Cause{words, 0, {}}) : *found;
+}
+
+/// Of the sweeps that came out so, the likeliest cause first: what as many passing sweeps have
+/// explains nothing.
+/// @param causesIn  of a sweep: its causes' words
+Causes causesOf(const CollideResults& results, SweepOutcome outcome, const auto& causesIn) {
+  Causes causes;
+  for (const std::string& engine : judgedEngines(results))
+    for (const CollisionVariant& variant : results.variants)
+      for (const CollisionCurve* curve : curvesOf(variant, engine)) {
+        const bool explained = outcomeOf(*curve) == outcome;
+        if (!explained && outcomeOf(*curve) != SweepOutcome::held) continue;
+        for (const std::string& words : causesIn(*curve)) {
+          Cause& cause = causeOf(causes, words);
+          cause.excess += explained ? 1 : -1;
+          if (explained && (cause.engines.empty() || cause.engines.back() != engine))
+            cause.engines.push_back(engine);
+        }
+      }
+  std::erase_if(causes, [](const Cause& cause) { return cause.excess <= 0; });
+  std::ranges::stable_sort(causes, std::greater(), &Cause::excess);
+  return causes;
+}
+
+/// Conventions of the declared law that are not the scene's; its constants follow from these.
+Names conventionsIn(const CollisionCurve& curve) {
+  Names words;
+  if (curve.declared)
+    for (const auto& [name, value] : curve.declared->law)
+      if (std::holds_alternative<std::string>(value)) words.push_back(*lawWords(name, value));
+  return words;
+}
+
+/// Quantities beyond their limits.
+Names failuresIn(const CollisionCurve& curve) {
+  Names words;
+  if (curve.ownScheme && curve.ownScheme->held == false) words.push_back("its own scheme");
+  for (const CollisionQuantity& quantity : scoredQuantities())
+    if (const auto& score = declaredScore(curve).of[quantity.id]; score && score->held == false)
+      words.push_back(quantityWords(quantity));
+  return words;
+}
+
+/// "tension cut (two engines) and dashpot outside (one of them)"
+std::string causesInWords(const Causes& causes) {
+  Names words;
+  for (const Cause& cause : causes | std::views::take(mostCauses))
+    words.push_back(
+        fmt::format("{} ({})", cause.words, listedShortly(cause.engines, mostOfACause)));
+  return listed(words);
+}
+
+/// "siconos (44 of 45 sweeps) and grain (2 of 242)"
+std::string failedInWords(std::vector<EngineTally> tallies) {
+  std::erase_if(tallies, [](const EngineTally& one) { return one.fellShort == 0; });
+  std::ranges::stable_sort(tallies, std::greater(), [](const EngineTally& one) {
+    return static_cast<double>(one.fellShort) / one.judged();
+  });
+  Names words;
+  for (const EngineTally& one : tallies)
+    words.push_back(fmt::format("{} ({} of {}{})", one.engine, one.fellShort, one.judged(),
+                                words.empty() ? " sweeps" : ""));
+  return listedShortly(words, mostEngines);
+}
+
+/// Engines that pass every sweep that was judged.
+Names passAll(const std::vector<EngineTally>& tallies) {
+  Names names;
+  for (const EngineTally& one : tallies)
+    if (one.held > 0 && one.held == one.judged()) names.push_back(one.engine);
+  return names;
+}
+
+/// "Passed: grain; failed: siconos." Parts without words are left out.
+std::string joinedParts(const std::vector<std::pair<std::string_view, std::string>>& parts) {
+  std::string sentence;
+  for (const auto& [what, words] : parts)
+    if (!words.empty())
+      sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", what, words);
+  if (sentence.empty()) return {};
+  return capitalised(sentence) + ".";
+}
+
+std::string whoPasses(const CollideResults& results) {
+  const std::vector<EngineTally> tallies = talliesOf(results);
+  Names ownLaw, unjudged;
+  for (const EngineTally& one : tallies) {
+    if (one.model > 0 && one.fellShort == 0) ownLaw.push_back(one.engine);
+    if (one.judged() == 0) unjudged.push_back(one.engine);
+  }
+  const std::string sentence = joinedParts(
+      {{"passed every sweep", listedShortly(passAll(tallies), mostEngines)},
+       {"model difference: true to the law that they declare", listedShortly(ownLaw, mostEngines)},
+       {"failed", failedInWords(tallies)},
+       {"not judged", listedShortly(unjudged, mostEngines)}});
+  return sentence.empty() ? "No engine took part." : sentence;
+}
+
+std::string causesOfDifferences(const CollideResults& results) {
+  const Causes quantities = causesOf(results, SweepOutcome::fellShort, failuresIn);
+  return joinedParts(
+      {{"laws differ most by",
+        causesInWords(causesOf(results, SweepOutcome::modelDifference, conventionsIn))},
+       {"fails most often", quantities.empty() ? "" : quantities.front().words}});
+}
+
+std::string collideNextStep(const CollideResults& results) {
+  if (const std::string nothing = nothingJudged(results); !nothing.empty())
+    return fmt::format("Nothing was judged: {}.", nothing);
+  const CollideCount count = countOf(results);
+  if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
+  if (count.fellShort > 0)
+    return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
+           "another law.";
+  if (count.modelDifference == 0) return "All engines pass at these time steps.";
+  const Names pass = passAll(talliesOf(results));
+  return fmt::format("Next: where the scene's own law is needed, take {}.",
+                     pass.empty() ? "an engine that has it" : listedShortly(pass, mostEngines));
+}
+
 }  // namespace
 
 Overview collideOverview(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
   Overview overview;
   overview.columns.push_back(
-      {"sweeps held", "Sweeps within the limits of the scene's law, of those judged.", "matrix"});
+      {"cases passed", "Sweeps within the limits of the scene's law, of those judged.", "matrix"});
   for (const QuantityGroup& group : quantityGroups())
     overview.columns.push_back({group.name, group.asks, ""});
   overview.columns.push_back(
-      {"own scheme",
-       "One impact against what the engine's integrator makes of it, as a share of "
+      {"integrator (own scheme)",
+       "One impact compared with the discrete solution of the engine's integrator, as a share of "
        "the diameter or the speed of approach.",
        ""});
   for (const EngineRow& engine : results.engines) {
@@ -204,13 +363,14 @@ Overview collideOverview(const CollideResults& results) {
                    alone ? place : fmt::format("{}, {}", quantity.label, place), anchor);
             }
           });
-      row.cells.push_back(cellOf(errors, besidePeer));
+      row.cells.push_back(errorCell(errors, besidePeer));
     }
     row.cells.push_back(schemeCell(groups, engine.name));
     overview.rows.push_back(std::move(row));
   }
   dropEmptyColumns(overview);
-  overview.conclusion = collideConclusion(results);
+  overview.conclusion =
+      nonEmpty({whoPasses(results), causesOfDifferences(results), collideNextStep(results)});
   return overview;
 }
 

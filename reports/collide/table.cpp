@@ -40,10 +40,6 @@ const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::
   return nullptr;
 }
 
-std::optional<double> numberAt(const std::vector<double>& list, std::size_t place) {
-  return place < list.size() ? finite(list[place]) : std::nullopt;
-}
-
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value) {
   if (const auto* word = std::get_if<std::string>(&value))
     return spaced(option) + " " + spaced(*word);

@@ -28,8 +28,6 @@ const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::
 std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
                                             const std::string& engine);
 
-/// A number of a list; absent where it is beyond its end or not finite.
-std::optional<double> numberAt(const std::vector<double>& list, std::size_t place);
 
 /// "mu 0.44", "tension cut"; absent for a constant that is not finite.
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value);

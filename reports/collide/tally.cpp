@@ -1,20 +1,12 @@
 #include "reports/collide/tally.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "reports/common/numbers.hpp"
-#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
-
-std::string shortly(std::optional<double> value) {
-  if (!finite(value)) return absentText;
-  return readableSetting(std::strtod(fmt::format("{:.2g}", *value).c_str(), nullptr));
-}
 
 void Worst::look(const CurveScore& score) {
   for (const CollisionQuantity& quantity : scoredQuantities()) {
@@ -29,15 +21,9 @@ std::string Worst::words() const {
   return fmt::format("{} {} × its limit", symbol, shortly(times));
 }
 
-std::string Tally::cssClass() const {
-  if (failed > 0 || fellShort > 0) return "disagree";
-  if (judged() == 0) return "undecided";
-  return model > 0 ? "degraded" : "agree";
-}
-
 namespace {
 
-/// The clause that says what is lacking, of "X cannot run FILE: CLAUSE; HINT".
+/// The clause that names what is missing, of "X cannot run FILE: CLAUSE; HINT".
 std::string clauseOf(const std::string& refusal) {
   const auto colon = refusal.find(": ");
   const std::string rest = colon == std::string::npos ? refusal : refusal.substr(colon + 2);
@@ -69,19 +55,6 @@ Tally tallyOf(const std::vector<const CollisionVariant*>& variants, const std::s
   for (const CollisionVariant* variant : variants)
     for (const CollisionCurve* curve : curvesOf(*variant, engine)) addTo(tally, *curve);
   return tally;
-}
-
-std::string headline(const Tally& tally) {
-  if (tally.judged() > 0) {
-    std::vector<std::string> words;
-    const std::pair<const char*, int> counts[] = {
-        {"✗", tally.fellShort}, {"≠", tally.model}, {"✓", tally.held}};
-    for (const auto& [mark, count] : counts)
-      if (count > 0) words.push_back(fmt::format("{} {}", mark, count));
-    return fmt::format("{} of {}", fmt::join(words, ", "), tally.judged());
-  }
-  if (tally.failed > 0) return "✗ failed";
-  return tally.refused > 0 ? "– refused" : absentText;
 }
 
 std::vector<std::string> shortfalls(const Tally& tally) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// A plot as data; reports/common/gnuplot.hpp draws it. Labels of axes are gnuplot's enhanced text
+/// A plot as data; reports/render/gnuplot.hpp draws it. Labels of axes are gnuplot's enhanced text
 /// and never contain the user's words; names of curves may, and are printed as they are.
 namespace crossgrain::reports {
 
@@ -12,7 +12,6 @@ struct Point {
   double x = 0.0, y = 0.0;
   std::optional<double> error;  ///< half length of the bar: upright, in panels with rows across
   std::string label{};          ///< beside the point, printed as it is; empty: none
-  std::string place{};          ///< told of it on the page only: "ring 3"; empty: its x will do
 };
 
 /// How everything that belongs to one engine looks in every plot.
@@ -33,9 +32,6 @@ struct Curve {
   Draw draw = Draw::linesAndPoints;
   std::vector<Point> points;
   double width = 1.5;
-  /// What the points are means of, one list for each packing and as long as they, NaN where there
-  /// is nothing: the page draws it when it is asked to, and plots do not.
-  std::vector<std::vector<double>> each = {};
 };
 
 struct Range {
@@ -64,7 +60,7 @@ struct Panel {
 /// One or more panels in a grid, one file.
 struct Figure {
   std::string name;     ///< of its files
-  std::string title;    ///< what a reader who cannot see it is told
+  std::string title;    ///< what it shows, for readers who cannot see it
   std::string caption;  ///< under it in the report
   std::vector<Panel> panels;
   int columns = 1;
@@ -73,6 +69,9 @@ struct Figure {
   bool keyAbove = false;                    ///< every name of the panels once, above them all
   int rowNames = 0;  ///< [px] left of the first panel: panels with rows, in one line, share them
 };
+
+/// Of the whole drawing [px].
+int widthOf(const Figure& figure);
 
 /// Makes the y axis logarithmic where all values are positive and differ tenfold or more, so that
 /// one engine far off does not flatten the others.

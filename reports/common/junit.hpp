@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "results/overview.hpp"
 
 /// Verdicts as JUnit's XML, which build servers read.
 namespace crossgrain::reports {
@@ -22,6 +23,12 @@ struct JUnitCase {
 
 /// @param suite  "stability"
 std::string junitXml(const std::string& suite, const std::vector<JUnitCase>& cases);
+
+/// A matrix as tests, one for each cell that answers a question: what passed passes, a model
+/// difference too; what failed fails; borderline, undecided and not measured are skipped with their
+/// words, for nothing was shown. Figures and cells without a question are left out.
+/// @param group  "classname" of all
+std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string& group);
 
 /// "CASE VARIANT", or the one where the other says nothing more.
 std::string junitGroup(const std::string& name, const std::string& variant);

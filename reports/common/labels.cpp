@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <kainjow/mustache.hpp>
-#include <regex>
 
 #include "averaging/fields.hpp"
 
@@ -20,21 +18,17 @@ struct Label {
 
 constexpr std::array headLabels = {
     Label{"inertial_number", "inertial number", "I"},
-    Label{"kn_over_p", "stiffness over pressure", "k<sub>n</sub>/p"},
+    Label{"kn_over_p", "stiffness over pressure", "k_n/p"},
     Label{"mean_overlap_over_d", "mean overlap / d", ""},
     Label{"max_overlap_over_d", "largest overlap / d", ""},
     Label{"sliding_fraction", "sliding fraction of contacts", ""},
-    Label{"stress_ratio_wheel", "stress ratio at the wheel", "σ<sub>rφ</sub>/σ<sub>rr</sub>"},
+    Label{"stress_ratio_wheel", "stress ratio at the wheel", "σ_rφ/σ_rr"},
     Label{"wheel_contacts", "contacts of the wheel", ""},
     Label{"wheel_slip", "slip at the wheel, share of Ω", ""},
     Label{"shear_share", "shear among the disks, share of Ω", ""},
-    Label{"dt_over_tc", "time step / contact time", "dt/t<sub>c</sub>"},
+    Label{"dt_over_tc", "time step / contact time", "dt/t_c"},
     Label{"coordination", "contacts per disk", "C"},
 };
-
-std::string escaped(std::string_view name) {
-  return kainjow::mustache::html_escape(spaced(name));
-}
 
 /// null where there is no such field, or none that people write in another way
 const FieldSpec* labelledField(std::string_view name) {
@@ -75,66 +69,31 @@ bool isMark(std::string_view words, std::size_t k) {
 
 }  // namespace
 
-std::string mathHtml(std::string_view words) {
-  const std::string plain = kainjow::mustache::html_escape(std::string(words));
-  std::string html;
-  for (std::size_t k = 0; k < plain.size(); ++k) {
-    const std::size_t length =
-        isMark(plain, k) ? indexLength(std::string_view(plain).substr(k + 1)) : 0;
-    if (length == 0) {
-      html += plain[k];
-      continue;
-    }
-    const char* tag = plain[k] == '_' ? "sub" : "sup";
-    html += std::string("<") + tag + ">" + plain.substr(k + 1, length) + "</" + tag + ">";
-    k += length;
-  }
-  return html;
-}
-
-namespace {
-
-/// Symbols of one letter, "k_n", "σ_rφ", "M_zr", not names of several.
-std::string withSubscripts(const std::string& html) {
-  if (html.find('_') == std::string::npos) return html;
-  static const std::regex symbol(
-      "(^|[ (/,=|>]|"
-      "·|⟨|−|Ω|π|Δ)([a-zA-Z]|µ|Ψ|γ|ω|σ|ε|ν)_((?:[a-z]|φ){1,2}[0-9]?|div)(?![a-zA-Z_0-9])");
-  return std::regex_replace(html, symbol, "$1$2<sub>$3</sub>");
-}
-
-/// Elements whose text is to be shown as it is.
-bool isVerbatim(std::string_view tag) {
-  for (const std::string_view name : {"<pre", "<code", "<style", "<script", "<title"})
-    if (tag.starts_with(name) &&
-        (tag.size() == name.size() || tag[name.size()] == ' ' || tag[name.size()] == '>'))
-      return true;
-  return false;
-}
-
-}  // namespace
-
-std::string symbolsHtml(const std::string& words) {
-  return withSubscripts(kainjow::mustache::html_escape(words));
-}
-
-std::string pageWithSymbols(const std::string& html) {
+std::string escaped(std::string_view text) {
   std::string result;
-  result.reserve(html.size() + html.size() / 50);
-  for (std::size_t at = 0; at < html.size();) {
-    const std::size_t open = std::min(html.find('<', at), html.size());
-    result += withSubscripts(html.substr(at, open - at));
-    if (open == html.size()) break;
-    const std::string_view tag = std::string_view(html).substr(open, 16);
-    const std::size_t end =
-        isVerbatim(tag)
-            ? html.find(fmt::format("</{}", tag.substr(1, tag.find_first_of(" >") - 1)), open)
-            : html.find('>', open);
-    const std::size_t next = std::min(end, html.size());
-    result.append(html, open, next - open);
-    at = next;
-  }
+  for (const char c : text)
+    result += c == '&'    ? "&amp;"
+              : c == '<'  ? "&lt;"
+              : c == '>'  ? "&gt;"
+              : c == '"'  ? "&quot;"
+              : c == '\'' ? "&#39;"
+                          : std::string(1, c);
   return result;
+}
+
+std::string mathHtml(std::string_view words) {
+  std::string html;
+  std::size_t from = 0;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::size_t length = isMark(words, k) ? indexLength(words.substr(k + 1)) : 0;
+    if (length == 0) continue;
+    html +=
+        escaped(words.substr(from, k - from)) +
+        fmt::format("<{0}>{1}</{0}>", words[k] == '_' ? "sub" : "sup", words.substr(k + 1, length));
+    k += length;
+    from = k + 1;
+  }
+  return html + escaped(words.substr(from));
 }
 
 std::string spaced(std::string_view name) {
@@ -162,12 +121,7 @@ std::string fieldWords(std::string_view field) {
 
 std::string fieldLabel(std::string_view field) {
   const FieldSpec* spec = labelledField(field);
-  return spec ? std::string(spec->words) + " " + mathHtml(spec->symbol) : escaped(field);
-}
-
-std::string fieldSymbol(std::string_view field) {
-  const FieldSpec* spec = labelledField(field);
-  return spec ? mathHtml(spec->symbol) : escaped(field);
+  return spec ? fmt::format("{} {}", spec->words, spec->symbol) : spaced(field);
 }
 
 std::string fieldPlotSymbol(std::string_view field) {
@@ -192,7 +146,7 @@ std::string fieldAxis(std::string_view field) {
 
 std::string headLabel(std::string_view name) {
   const auto found = std::ranges::find(headLabels, name, &Label::name);
-  if (found == headLabels.end()) return escaped(name);
+  if (found == headLabels.end()) return spaced(name);
   const std::string words(found->words);
   return found->symbol.empty() ? words : words + " " + std::string(found->symbol);
 }

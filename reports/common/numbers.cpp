@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace crossgrain::reports {
 
@@ -109,6 +110,20 @@ std::string readableDifference(std::optional<double> value, std::optional<double
   const std::string both = readable(value, error);
   if (!value || *value <= 0.0) return both;
   return both.starts_with('(') ? "(+" + both.substr(1) : "+" + both;
+}
+
+std::string readablePercent(double fraction) {
+  const double percent = 100.0 * fraction;
+  return percent < 0.95 ? fmt::format("{:.1g}", percent) : fmt::format("{:.0f}", percent);
+}
+
+std::string shortly(std::optional<double> value) {
+  if (!finite(value)) return absentText;
+  return readableSetting(std::strtod(fmt::format("{:.2g}", *value).c_str(), nullptr));
+}
+
+std::optional<double> times(std::optional<double> value, double factor) {
+  return value ? std::optional(*value * factor) : std::nullopt;
 }
 
 std::string readableDuration(std::optional<double> seconds) {

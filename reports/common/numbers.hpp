@@ -33,6 +33,15 @@ std::string readable(std::optional<double> value, std::optional<double> error);
 /// The same with the sign always there, for differences.
 std::string readableDifference(std::optional<double> value, std::optional<double> error);
 
+/// A fraction ≥ 0 in per cent, whole or, below one, to its first digit: "40", "0.3".
+std::string readablePercent(double fraction);
+
+/// To two significant digits: of errors.
+std::string shortly(std::optional<double> value);
+
+/// value · factor, where there is a value.
+std::optional<double> times(std::optional<double> value, double factor);
+
 /// 0.42 s, 12.3 s, 4 min 12 s, 1 h 02 min.
 std::string readableDuration(std::optional<double> seconds);
 

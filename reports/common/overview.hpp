@@ -1,23 +1,35 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "reports/common/junit.hpp"
-#include "reports/common/view.hpp"
-#include "results/engine_row.hpp"
 #include "results/overview.hpp"
 
-/// The matrix that a report opens with, in its three forms.
+/// The matrix that a report opens with: its marks and colours, and its plain forms.
 namespace crossgrain::reports {
 
-/// For the page, as "overview": part_overview.mustache.
-/// @param engines  of the results: rows that are engines get their colours
-/// @param wrapped  every cell says its question, and those without one are left out: for rows that
-///                 share few questions, and for more than mostColumns of them
-void addOverview(Json& view, const Overview& overview, const std::vector<EngineRow>& engines,
-                 bool wrapped = false);
+/// How a state is shown everywhere: by its mark first, then by a colour.
+struct CellLook {
+  std::string_view mark, cssClass, words;
+  std::string_view terminal;  ///< number of the colour in a terminal's escape sequence
+  std::string_view plot;      ///< "#rrggbb" in plots
+};
+
+constexpr CellLook lookOf(CellState state) {
+  constexpr std::array looks = {
+      CellLook{"✓", "good", "passed", "32", "#8cc3e0"},
+      CellLook{"≠", "model", "model difference: true to the law that it declares", "35", "#b8a2d8"},
+      CellLook{"≈", "borderline", "borderline", "33", "#f0d264"},
+      CellLook{"✗", "bad", "failed", "31", "#d55e00"},
+      CellLook{"?", "open", "undecided", "36", "#c0c8d0"},
+      CellLook{"•", "figure", "a number that nothing is judged by", "0", "#888888"},
+      CellLook{"–", "none", "not measured", "2", "#f2f4f5"},
+      CellLook{"·", "none nothing", "does not apply", "2", "#d5d9dd"}};
+  return looks[static_cast<std::size_t>(state)];
+}
 
 /// Of more questions than these a row is wrapped on the page, and Markdown has a row for each.
 inline constexpr std::size_t mostColumns = 10;
@@ -43,11 +55,8 @@ std::string overviewText(const Overview& overview, const TextLook& look);
 /// @param title  its heading
 std::string overviewMarkdown(const Overview& overview, const std::string& title);
 
-/// The matrix as tests of a build server, one for each cell that answers a question: what holds
-/// passes, a model difference too; what falls short fails; borderline, undecided and not measured
-/// are skipped with their words, for nothing was shown. Figures and cells without a question are
-/// left out.
-/// @param group  "classname" of all
-std::vector<JUnitCase> overviewCases(const Overview& overview, const std::string& group);
+/// Columns of equal width, the first to the left and the others to the right, each line ended; for
+/// the terminal.
+std::string alignedText(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace crossgrain::reports

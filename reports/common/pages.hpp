@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "reports/common/pictures.hpp"
 #include "reports/common/view.hpp"
 
 namespace crossgrain::reports {
@@ -14,7 +13,6 @@ namespace crossgrain::reports {
 /// What was drawn into the folder plots.
 struct Illustrations {
   const std::vector<Figure>& figures;
-  const std::vector<Picture>& pictures;
   std::filesystem::path plots;
   std::optional<std::string> missing;  ///< why there are no plots: none is shown then
 };

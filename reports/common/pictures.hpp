@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,6 @@ struct Drawing {
   double halfWidth = 1.0;
   std::vector<StrokeGroup> groups;
 };
-
-/// Both scale the window to `size` [px at 96 per inch].
-std::string toSvg(const Drawing& drawing, double size, const std::string& title);
-std::string toPdf(const Drawing& drawing, double size);
 
 /// One drawing of a cell at one instant.
 struct Picture {
@@ -63,6 +61,10 @@ struct ForceCount {
   double mean = 0.0;
 };
 ForceCount countForces(const ScenePicture& picture, double force);
+
+/// Both scale the window to `size` [px at 96 per inch].
+std::string toSvg(const Drawing& drawing, double size, const std::string& title);
+std::string toPdf(const Drawing& drawing, double size);
 
 /// Writes name.svg and name.pdf.
 void writePicture(const Picture& picture, const std::filesystem::path& dir);

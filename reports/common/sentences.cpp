@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace crossgrain::reports {
 
@@ -22,6 +23,34 @@ std::string listedShortly(const std::vector<std::string>& names, std::size_t mos
   std::vector<std::string> few(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
   few.push_back(fmt::format("{} more", names.size() - most));
   return listed(few);
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty())
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
+std::string indicesInWords(const std::vector<int>& indices) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < indices.size();) {
+    std::size_t end = k + 1;
+    while (end < indices.size() && indices[end] == indices[end - 1] + 1) ++end;
+    if (end - k < 3) end = k + 1;
+    parts.push_back(end - k == 1 ? fmt::format("{}", indices[k])
+                                 : fmt::format("{} to {}", indices[k], indices[end - 1]));
+    k = end;
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> nonEmpty(std::vector<std::string> texts) {
+  std::erase(texts, std::string());
+  return texts;
 }
 
 void SaidOf::add(const std::string& subject, const std::string& said) {

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "reports/common/figure.hpp"
-#include "reports/common/pages.hpp"
+#include "reports/common/report.hpp"
 #include "results/conformance.hpp"
 
 /// What is written for the author of an engine.
 namespace crossgrain::reports {
+
+Report conformanceReport(const ConformanceResults& results);
+
+/// One row: checks passed in each part, and what was not examined.
+Overview conformanceOverview(const ConformanceResults& results);
 
 /// "mine (1): 38 of 39 checks passed, 1 failed, 2 skipped; 3 of 40 declared capabilities (8 %) not
 /// examined."
@@ -22,13 +25,5 @@ std::string conformanceCause(const ConformanceResults& results);
 
 /// "failed: HeadOnCollision (two disks head on: …): e_n: 0.31, not 0.34, … (and 3 more)"
 std::string conformanceSentence(const ConformanceRow& row);
-
-/// JUnit: a test for each check; what the engine broke down in is an error.
-std::string conformanceJunit(const ConformanceResults& results);
-
-/// None: nothing here is a curve.
-std::vector<Figure> conformanceFigures(const ConformanceResults& results);
-
-std::string conformancePage(const ConformanceResults& results, const Illustrations& shown);
 
 }  // namespace crossgrain::reports

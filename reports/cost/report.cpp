@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -14,9 +15,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/cost/page_blocks.hpp"
 
 namespace crossgrain::reports {
 
@@ -330,7 +329,6 @@ Overview costOverview(const CostResults& results) {
   return overview;
 }
 
-namespace costpage {
 namespace {
 
 /// A verdict's cell: its mark, its colour, and notes below.
@@ -491,7 +489,7 @@ Table referenceTable(const CostResults& results) {
 }
 
 /// What became of the points, and which engines refused.
-std::vector<std::string> sentencesOf(const CostResults& results) {
+std::vector<std::string> costSentences(const CostResults& results) {
   std::string counts = fmt::format(
       "{} points: {} ran, {} failed, {} refused, {} not measured", results.points.size(),
       results.count(CostStatus::ran), results.count(CostStatus::failed),
@@ -517,17 +515,16 @@ constexpr std::array whatErrorsAre = {
     "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
     "mean paired difference, in units of the profile's largest value."};
 
-std::vector<Section> sectionsOf(const CostResults& results) {
-  std::vector<Section> sections;
+void addSections(Report& report, const CostResults& results) {
   const auto section = [&](const std::string& id, const std::string& title) -> Section& {
-    return sections.emplace_back(Section{id, title, {}});
+    return report.section(id, title);
   };
   section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
       accuracyTable(results)};
   for (const CostKind kind : kindsIn(results.points))
     section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
         Paragraph{whatErrorsAre[static_cast<std::size_t>(kind)]},
-        Drawings{"cost_" + toString(kind)}};
+        drawingsOf(report.figures, "cost_" + toString(kind))};
   const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
     if (!table.rows.empty()) section(id, title).blocks = {std::move(table)};
   };
@@ -549,23 +546,19 @@ std::vector<Section> sectionsOf(const CostResults& results) {
         "with the root of the simulated time and of the number of packings. Packings scatter them "
         "by more than most settings change them."}}}};
   section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
-  return sections;
 }
 
 }  // namespace
-}  // namespace costpage
 
-std::string costPage(const CostResults& results, const Illustrations& shown) {
-  nlohmann::json view = commonView(results.head, results.elapsed, results.notes, shown);
-  const std::vector<std::string> sentences = costpage::sentencesOf(results);
-  view["lead"] = symbolsHtml(sentences.front());
-  view["sentences"] = nlohmann::json::array();
-  for (std::size_t k = 1; k < sentences.size(); ++k)
-    view["sentences"].push_back(symbolsHtml(sentences[k]));
-  addOverview(view, costOverview(results), results.engines);
-  view["sections"] = costpage::viewOf(costpage::sectionsOf(results), shown);
-  view["files"] = "Beside this page: results.json (everything) and cost.csv (every point).";
-  return render("report_cost.html", view);
+Report costReport(const CostResults& results) {
+  Report report{{results.head, results.engines, costOverview(results)}};
+  report.elapsed = results.elapsed;
+  report.notes = costSentences(results);
+  std::ranges::copy(results.notes, std::back_inserter(report.notes));
+  report.figures = costFigures(results);
+  addSections(report, results);
+  report.tables = {{"cost.csv", costCsv(results)}};
+  return report;
 }
 
 }  // namespace crossgrain::reports

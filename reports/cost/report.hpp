@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/pages.hpp"
+#include "reports/common/report.hpp"
 #include "results/cost.hpp"
-#include "results/overview.hpp"
 
 /// What a study of cost is written as.
 namespace crossgrain::reports {
@@ -31,7 +30,7 @@ std::string costCsv(const CostResults& results);
 /// cost_KIND: error against time for each kind of error.
 std::vector<Figure> costFigures(const CostResults& results);
 
-std::string costPage(const CostResults& results, const Illustrations& shown);
+Report costReport(const CostResults& results);
 
 /// @name What the report's parts share
 /// @{

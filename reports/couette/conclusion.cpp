@@ -20,7 +20,7 @@ namespace {
 using Engines = std::vector<EngineRuns>;
 using Names = std::vector<std::string>;
 
-/// Names of a sentence that would not be read to its end otherwise.
+/// Names in a sentence.
 constexpr std::size_t mostNames = 3;
 
 Names endpointsWith(const std::vector<const EndpointRow*>& rows, Answer answer) {
@@ -36,7 +36,7 @@ std::string relationOf(const std::vector<const EndpointRow*>& rows) {
               borderline = endpointsWith(rows, Answer::borderline),
               undecided = endpointsWith(rows, Answer::undecided);
   const std::size_t agree = rows.size() - disagree.size() - borderline.size() - undecided.size();
-  // The first count says of how many.
+  // The first count has the total.
   const auto some = [&](std::size_t count, bool first) {
     return count == rows.size() ? allOf(count, "endpoint")
            : first              ? fmt::format("{} of {} endpoints", count, rows.size())
@@ -79,7 +79,7 @@ std::string conventionWords(const std::string& name) {
   return spaced(name) + (name == "normal" || name == "tangential" ? " law" : "");
 }
 
-/// What an engine declares that it does otherwise than the scene says.
+/// Deviations from the scene that an engine declares.
 Names conventionsOf(const EngineRuns& engine) {
   Names names;
   if (const Realised* realised = engine.realised())
@@ -103,25 +103,27 @@ const LockstepRow* differingRow(const CompareResults& results, const std::string
   return nullptr;
 }
 
-/// What is to blame: an engine that is not its own law, else what it declares to do otherwise.
-std::string whatIsToBlame(const CompareResults& results, const Engines& engines) {
+/// An engine that does not have its own law, else the conventions that it declares.
+std::string causesOfDifferences(const CompareResults& results, const Engines& engines) {
   Names parts;
   for (const EngineRuns& engine : engines) {
     if (!engine.mirrors.empty()) continue;
     if (const LockstepRow* row = differingRow(results, engine.name)) {
       const bool open = !openInLaw(*row, results.lockstep->rules).empty();
       parts.push_back(
-          open ? fmt::format("{} parts from its mirror where disks touch several at once, which "
-                             "its law leaves open",
-                             engine.name)
-               : fmt::format("{} is not the law that it declares{}", engine.name,
-                             row->term ? ", off in " + constantWords(row->term->name) : ""));
+          open
+              ? fmt::format("{} differs from its mirror where disks touch several at once, which "
+                            "its law leaves open",
+                            engine.name)
+              : fmt::format(
+                    "{} does not have the law that it declares{}", engine.name,
+                    row->term ? " (deviation found: " + constantWords(row->term->name) + ")" : ""));
       continue;
     }
-    if (const Names parted = partedFromItsMirror(results, engine.name); !parted.empty()) {
+    if (const Names endpoints = disagreementsWithMirror(results, engine.name); !endpoints.empty()) {
       Names words;
-      for (const std::string& endpoint : parted) words.push_back(endpointWords(endpoint));
-      parts.push_back(fmt::format("{} is not its own mirror in {}, whatever its law", engine.name,
+      for (const std::string& endpoint : endpoints) words.push_back(endpointWords(endpoint));
+      parts.push_back(fmt::format("{} disagrees with its own mirror in {}", engine.name,
                                   listedShortly(words, mostNames)));
       continue;
     }
@@ -129,19 +131,19 @@ std::string whatIsToBlame(const CompareResults& results, const Engines& engines)
     const Names conventions = conventionsOf(engine);
     if (!isModelDifference(results, engine))
       parts.push_back(
-          fmt::format("no mirror tells whether it is its law or its implementation that parts {}{}",
+          fmt::format("no mirror shows whether the difference of {} comes from its law or its "
+                      "implementation{}",
                       engine.name,
                       conventions.empty()
                           ? ""
-                          : "; it declares otherwise: " + listedShortly(conventions, mostNames)));
+                          : "; it declares deviations: " + listedShortly(conventions, mostNames)));
     else
       parts.push_back(fmt::format(
           "{} differs by the law that it declares{}", engine.name,
           conventions.empty() ? "" : " (" + listedShortly(conventions, mostNames) + ")"));
   }
   if (parts.empty()) return {};
-  std::string words = fmt::format("{}.", listedShortly(parts, mostNames));
-  return "What parts them: " + words;
+  return fmt::format("Causes of differences: {}.", listedShortly(parts, mostNames));
 }
 
 /// Peers' undecided endpoint that takes the fewest packings, by the estimates of the rows: one
@@ -184,17 +186,16 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (const EndpointRow* const next = nextToDecide(results)) {
     const LooksFindings& looks = results.endpoints.looks;
     const bool planned = looks.taken < looks.planned.size();
-    return fmt::format("Next: more packings{}; {}.",
-                       next->needs
-                           ? fmt::format(", about {} for the {} of {} against {}", *next->needs,
-                                         endpointWords(next->endpoint), next->b, next->a)
-                           : "",
-                       planned ? "the same command with a larger --budget adds them"
-                               : "the case plans no further look ([looks] in its file)");
+    return fmt::format(
+        "Next: more packings{}; {}.",
+        next->needs ? fmt::format(", about {} for the {} of {} against {}", *next->needs,
+                                  endpointWords(next->endpoint), next->b, next->a)
+                    : "",
+        planned ? "the same command with a larger --budget adds them"
+                : "the case plans no further interim analysis ([looks] in its file)");
   }
   if (has(Answer::disagree))
-    return "Next: hold the margins against what the difference is to be good for, or give both the "
-           "same law.";
+    return "Next: compare the margins with the accuracy that is needed, or give both the same law.";
   if (has(Answer::borderline))
     return "More packings will hardly change what is borderline: its difference is about the "
            "margin.";
@@ -205,14 +206,10 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
 
 std::vector<std::string> compareConclusion(const CompareResults& results) {
   const Engines engines = engineRuns(results);
-  std::vector<std::string> sentences;
-  if (engines.empty()) return sentences;
+  if (engines.empty()) return {};
   // Where nothing was judged, nobody is said to agree, or to be undecided.
-  for (std::string& sentence :
-       std::vector{results.nothingJudged ? std::string() : whoAgrees(results, engines),
-                   whatIsToBlame(results, engines), nextStep(results, engines)})
-    if (!sentence.empty()) sentences.push_back(std::move(sentence));
-  return sentences;
+  return nonEmpty({results.nothingJudged ? std::string() : whoAgrees(results, engines),
+                   causesOfDifferences(results, engines), nextStep(results, engines)});
 }
 
 }  // namespace crossgrain::reports

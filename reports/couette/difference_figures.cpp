@@ -5,6 +5,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/couette/figures.hpp"
 
 namespace crossgrain::reports {
@@ -25,7 +26,6 @@ Curve differenceCurve(const CouetteFrame& frame, const AgreementRow& row,
     Point point{*x, sign * *difference / *margin, {}};
     if (const auto low = finite(ring.low), high = finite(ring.high); low && high)
       point.error = 0.5 * (*high - *low) / *margin;
-    point.place = fmt::format("{} {}", binWord(frame), ring.ring + 1);
     curve.points.push_back(std::move(point));
   }
   return curve;
@@ -53,12 +53,7 @@ std::optional<Curve> beyondTheAxis(const Panel& panel, const Curve& curve, bool 
     if (distance <= end) continue;
     if (distance > farthest) at = marks.points.size();
     farthest = std::max(farthest, distance);
-    marks.points.push_back({point.x,
-                            0.97 * sign * end,
-                            {},
-                            "",
-                            fmt::format("{}, beyond the axis: {}{} margins", point.place,
-                                        above ? "" : "−", readable(distance))});
+    marks.points.push_back({point.x, 0.97 * sign * end, {}});
   }
   if (marks.points.empty()) return std::nullopt;
   marks.points[at].label = (above ? "" : "−") + readable(farthest);
@@ -110,16 +105,14 @@ std::vector<Figure> differenceFigures(const CompareResults& results,
     figure.name = "difference_" + field;
     figure.title = fmt::format("Difference of the {} from that of {}, in margins",
                                fieldWords(field), reference);
-    figure.caption = fmt::format(
+    figure.caption = capitalised(fmt::format(
         "{} minus that of {}, in the {}'s margin; blue: within it. Bars: ± half the interval "
         "that the {}'s colour rests on{}.",
         fieldWords(field), reference, binWord(results), binWord(results),
         panel.curves.size() > engineCurves
             ? fmt::format(". Triangles: beyond {:g} margins; the number is an engine's farthest",
                           mostMargins)
-            : "");
-    figure.caption[0] =
-        static_cast<char>(std::toupper(static_cast<unsigned char>(figure.caption[0])));
+            : ""));
     figure.panels.push_back(std::move(panel));
     figures.push_back(std::move(figure));
   }

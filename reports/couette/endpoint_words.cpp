@@ -10,7 +10,7 @@
 #include "cases/endpoints.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
 
 namespace crossgrain::reports {
 
@@ -25,7 +25,7 @@ std::string signedNumber(double value) {
   return fmt::format("{}{}", value < 0.0 ? "−" : "", readable(std::abs(value)));
 }
 
-/// Which endpoint of a canary differs by most margins.
+/// Which endpoint of a spot-check run differs by most margins.
 const CanaryNumber* farthest(const std::vector<CanaryNumber>& canary) {
   const CanaryNumber* worst = nullptr;
   for (const CanaryNumber& number : canary)
@@ -87,9 +87,10 @@ std::string carrierInWords(const EndpointRow& row) {
     if (!mirror.empty()) mirrors.push_back(mirror);
   if (mirrors.empty()) return {};
   std::string words =
-      fmt::format("by {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+      fmt::format("through {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
   if (row.reach)
-    words += fmt::format(", {} of it what the followed run could have missed", readable(row.reach));
+    words +=
+        fmt::format(", {} of it could have been missed by the followed run", readable(row.reach));
   return words;
 }
 
@@ -99,7 +100,7 @@ std::string answerInWords(const EndpointRow& row) {
     words += fmt::format(" with the closed form ({})", valueInWords(row));
   if (const std::string distance = distanceInWords(row); !distance.empty())
     words += ": " + distance;
-  if (row.lost > 0) words += fmt::format(", {} lost", counted(std::size_t(row.lost), "packing"));
+  if (row.lost > 0) words += fmt::format(", {} failed", counted(std::size_t(row.lost), "packing"));
   if (!row.reason.empty()) words += fmt::format(" ({})", row.reason);
   for (const std::string& more : {carrierInWords(row), needsInWords(row)})
     if (!more.empty()) words += "; " + more;
@@ -108,12 +109,13 @@ std::string answerInWords(const EndpointRow& row) {
 
 std::string sentenceOf(const CarriedEngine& own) {
   if (!own.carried)
-    return fmt::format("{}: its mirror {} does not stand for it: {}.", own.engine, own.mirror,
+    return fmt::format("{}: its mirror {} is no surrogate for it: {}.", own.engine, own.mirror,
                        own.alarm);
   // The rule of three: no event in n trials leaves at most 3/n, at 95 %.
   const double unseen = std::min(1.0, 3.0 / static_cast<double>(own.starts));
   std::string words = fmt::format(
-      "{}: by its mirror {} (ε_eq {}; {} windows alike leave at most {:.0f} % of states unlike)",
+      "{}: evaluated through its mirror {} (ε_eq {}; {} equal windows leave at most {:.0f} % of "
+      "states different)",
       own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
   words += "; spot check: ";
   std::vector<std::string> parts;
@@ -129,8 +131,8 @@ std::string sentenceOf(const CarriedEngine& own) {
   }
   if (const CanaryNumber* const worst = farthest(own.canary))
     parts.push_back(fmt::format(
-        "its own run of packing {} is within chaos of the mirror's: {} margins of {} at most, "
-        "where less than {} cannot be seen",
+        "its own run of packing {} differs from the mirror's by no more than chaos: {} margins of "
+        "{} at most, where less than {} cannot be seen",
         own.canaryPacking, signedNumber(worst->difference.value_or(0.0)), spaced(worst->endpoint),
         readable(worst->reach)));
   return words + fmt::format("{}.", fmt::join(parts, "; "));
@@ -153,31 +155,12 @@ std::string sentenceOf(const LooksFindings& looks) {
                                                            100.0 * *looks.agreeAlpha)
                                              : "";
   return fmt::format(
-      "Looked at {} packings ({} of {}), {}{:.3g} of {:.3g} % chance of a false disagree spent; "
+      "Analysed after {} packings ({} of {} interim analyses), {}{:.3g} of {:.3g} % chance of a "
+      "false disagree "
+      "spent; "
       "{}.",
-      fmt::join(packings, ", "), looks.taken, counted(looks.planned.size(), "look"), agree,
-      100.0 * spent, 100.0 * all, looks.ended);
-}
-
-std::string countsInWords(const std::vector<const EndpointRow*>& rows) {
-  std::vector<std::string> agree, borderline, disagree, undecided;
-  for (const EndpointRow* row : rows) {
-    auto& list = agrees(row->answer)                 ? agree
-                 : row->answer == Answer::borderline ? borderline
-                 : row->answer == Answer::disagree   ? disagree
-                                                     : undecided;
-    list.push_back(spaced(row->endpoint));
-  }
-  std::string words = fmt::format("{} of {} agree", agree.size(), counted(rows.size(), "endpoint"));
-  const auto add = [&](const std::vector<std::string>& list, const char* what) {
-    if (list.empty()) return;
-    words += fmt::format(", {} {}", list.size(), what);
-    if (list.size() < rows.size()) words += fmt::format(" ({})", fmt::join(list, ", "));
-  };
-  add(disagree, "disagree");
-  add(borderline, "borderline");
-  add(undecided, "undecided");
-  return words;
+      fmt::join(packings, ", "), looks.taken, looks.planned.size(), agree, 100.0 * spent,
+      100.0 * all, looks.ended);
 }
 
 }  // namespace crossgrain::reports

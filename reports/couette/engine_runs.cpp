@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reports/common/engines.hpp"
+#include "reports/common/numbers.hpp"
 
 namespace crossgrain::reports {
 
@@ -102,14 +103,34 @@ Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width)
   return curve;
 }
 
-Json columnsView(const std::vector<EngineRuns>& engines) {
-  Json columns = Json::array();
-  for (const EngineRuns& engine : engines)
-    columns.push_back({{"name", engine.name},
-                       {"colour", engine.style.colour},
-                       {"dashed", engine.style.dashed},
-                       {"hasData", !engine.finished.empty()}});
-  return columns;
+namespace {
+
+void addTo(std::optional<double>& sum, std::optional<double> value) {
+  if (value) sum = sum.value_or(0.0) + *value;
+}
+
+}  // namespace
+
+std::optional<double> EngineCost::cpuPerSecond() const {
+  return quotient(cpu, simulated);
+}
+
+EngineCost costOf(const EngineRuns& engine) {
+  EngineCost cost;
+  for (const CouetteRun* run : engine.finished) {
+    if (!run->stats) continue;
+    const auto steps = static_cast<double>(run->stats->steps);
+    addTo(cost.steps, steps);
+    addTo(cost.wall, finite(run->stats->wallSeconds));
+    addTo(cost.cpu, finite(run->stats->cpuSeconds));
+    if (run->realised) addTo(cost.simulated, finite(steps * run->realised->dt));
+  }
+  return cost;
+}
+
+std::optional<double> quotient(std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *b == 0.0) return std::nullopt;
+  return *a / *b;
 }
 
 }  // namespace crossgrain::reports

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "reports/common/view.hpp"
 #include "results/compare.hpp"
 
 namespace crossgrain::reports {
@@ -40,7 +40,16 @@ std::vector<EngineRuns> engineRuns(const CompareResults& results);
 /// What is drawn of an engine in its style; of a single run beside means a pale line without bars.
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
 
-/// {name, colour, dashed, hasData} for each.
-Json columnsView(const std::vector<EngineRuns>& engines);
+/// Sums over an engine's finished runs, of stepping alone.
+struct EngineCost {
+  std::optional<double> steps, wall, cpu, simulated;  ///< [-], [s], [s], [s]
+
+  /// CPU time that a second of the scene takes [-].
+  std::optional<double> cpuPerSecond() const;
+};
+EngineCost costOf(const EngineRuns& engine);
+
+/// Absent where one of both is, or b is 0.
+std::optional<double> quotient(std::optional<double> a, std::optional<double> b);
 
 }  // namespace crossgrain::reports

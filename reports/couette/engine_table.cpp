@@ -1,3 +1,5 @@
+#include "reports/couette/engine_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,28 +8,38 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/couette/compare_views.hpp"
-#include "reports/couette/engine_cost.hpp"
+#include "reports/couette/state.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
 using Engines = std::vector<EngineRuns>;
-using Cell = std::function<std::string(const EngineRuns&)>;
+using Rows = std::vector<TableRow>;
+using Text = std::function<std::string(const EngineRuns&)>;
 
-Json tableRow(const std::string& label, const std::string& unit, const Engines& engines,
-              const Cell& cell) {
-  Json cells = Json::array();
-  for (const EngineRuns& engine : engines) cells.push_back(cell(engine));
-  return {{"label", label}, {"unit", unit == "-" ? "" : unit}, {"cells", std::move(cells)}};
+TableRow tableRow(const std::string& label, const std::string& unit, const Engines& engines,
+                  const Text& text) {
+  TableRow row{{label}};
+  for (const EngineRuns& engine : engines) row.cells.emplace_back(text(engine));
+  row.cells.emplace_back(unit == "-" ? "" : unit);
+  return row;
 }
 
-Json group(const std::string& title, const Engines& engines, Json rows) {
-  return {{"title", title}, {"span", engines.size() + 2}, {"rows", std::move(rows)}};
+/// Adds rows under a heading.
+void addGroup(Table& table, const std::string& title, Rows rows) {
+  if (!rows.empty()) rows.front().group = title;
+  for (TableRow& row : rows) table.rows.push_back(std::move(row));
 }
 
-Cell fromRealised(std::string Realised::*member) {
+Table emptyTable(const Engines& engines) {
+  Table table{columnsOf({""}, engines), {}};
+  table.columns.emplace_back("unit");
+  return table;
+}
+
+Text fromRealised(std::string Realised::*member) {
   return [member](const EngineRuns& engine) {
     const Realised* realised = engine.realised();
     return !realised || (realised->*member).empty() ? std::string(absentText)
@@ -40,8 +52,8 @@ std::string statusOf(const EngineRuns& engine) {
   return fmt::format("{} of {}", engine.finished.size(), engine.runs.size());
 }
 
-Json whatRan(const Engines& engines) {
-  Json rows = Json::array();
+Rows whatRan(const Engines& engines) {
+  Rows rows;
   rows.push_back(
       tableRow("version", "", engines, [](const EngineRuns& engine) { return engine.version; }));
   if (std::ranges::any_of(engines, [](const auto& e) { return !e.mirrors.empty(); }))
@@ -62,7 +74,7 @@ const HeadNumber* headOf(const EngineRuns& engine, const std::string& name) {
   return found == engine.head().end() ? nullptr : &*found;
 }
 
-Json headRow(const std::string& name, const Engines& engines) {
+TableRow headRow(const std::string& name, const Engines& engines) {
   std::string unit;
   for (const EngineRuns& engine : engines)
     if (const HeadNumber* number = headOf(engine, name); number && unit.empty())
@@ -74,13 +86,13 @@ Json headRow(const std::string& name, const Engines& engines) {
 }
 
 /// Counters that engines keep of their own, summed over finished runs.
-Json counterRows(const Engines& engines) {
+Rows counterRows(const Engines& engines) {
   std::set<std::string> names;
   for (const EngineRuns& engine : engines)
     for (const CouetteRun* run : engine.finished)
       if (run->stats)
         for (const auto& [name, value] : run->stats->counters) names.insert(name);
-  Json rows = Json::array();
+  Rows rows;
   for (const std::string& name : names)
     rows.push_back(tableRow(headLabel(name), "", engines, [&name](const EngineRuns& engine) {
       std::optional<double> sum;
@@ -98,8 +110,8 @@ Json counterRows(const Engines& engines) {
 
 constexpr const char* stepFraction = "dt_over_tc";
 
-Json costRows(const Engines& engines) {
-  Json rows = Json::array();
+Rows costRows(const Engines& engines) {
+  Rows rows;
   rows.push_back(tableRow("time step dt", "s", engines, [](const EngineRuns& engine) {
     return engine.realised() ? readableSetting(engine.realised()->dt) : std::string(absentText);
   }));
@@ -112,62 +124,102 @@ Json costRows(const Engines& engines) {
                           [](const auto& e) { return readableDuration(costOf(e).cpu); }));
   rows.push_back(tableRow("wall time per step", "µs", engines, [](const EngineRuns& engine) {
     const EngineCost cost = costOf(engine);
-    const auto perStep = quotient(cost.wall, cost.steps);
-    return readable(perStep ? std::optional(*perStep * 1e6) : std::nullopt);
+    return readable(times(quotient(cost.wall, cost.steps), 1e6));
   }));
   rows.push_back(
       tableRow("CPU time per simulated second", "s", engines,
                [](const EngineRuns& engine) { return readable(costOf(engine).cpuPerSecond()); }));
-  for (Json& row : counterRows(engines)) rows.push_back(std::move(row));
+  for (TableRow& row : counterRows(engines)) rows.push_back(std::move(row));
   return rows;
 }
 
-Json stateRows(const Engines& engines) {
+Rows stateRows(const Engines& engines) {
   std::vector<std::string> names;
   for (const EngineRuns& engine : engines)
     for (const HeadNumber& number : engine.head())
       if (number.name != stepFraction && std::ranges::find(names, number.name) == names.end())
         names.push_back(number.name);
-  Json rows = Json::array();
+  Rows rows;
   for (const std::string& name : names) rows.push_back(headRow(name, engines));
   return rows;
 }
 
+/// Engines and runs that did not run to the end.
+Table troubleTable(const Engines& engines) {
+  Table table{
+      {{"engine", Column::Kind::engines}, "packing", "status", {"reason", Column::Kind::remark}},
+      {}};
+  for (const EngineRuns& engine : engines) {
+    if (engine.status != EngineStatus::ran)
+      table.rows.push_back(
+          {{engine.name, "all", std::string(nameOf(engine.status)), engine.reason}});
+    for (const CouetteRun* run : engine.runs)
+      if (!run->finished())
+        table.rows.push_back({{engine.name, readableCount(run->packing),
+                               std::string(nameOf(run->status)), run->reason}});
+  }
+  return table;
+}
+
+/// "10 slabs of width 0.01 m along y", "1 bin"
+std::string binsInWords(const CouetteFrame& frame) {
+  const RegionRow& region = *frame.region;
+  const std::size_t bins = frame.rings.r.size();
+  if (region.bins == "whole") return "The whole box as one bin";
+  if (region.bins == "grid") return fmt::format("A grid of {} bins", bins);
+  return fmt::format("{} {} of width {} m{}", bins, region.bins, readable(frame.rings.width),
+                     region.along.empty() ? "" : " along " + region.along);
+}
+
 }  // namespace
 
-void addEngineTable(Json& view, const Engines& engines) {
-  view["engineGroups"] = Json::array({group("What ran", engines, whatRan(engines)),
-                                      group("Cost", engines, costRows(engines)),
-                                      group("State", engines, stateRows(engines))});
-  view["costNote"] =
+std::vector<Column> columnsOf(std::vector<Column> first, const Engines& engines) {
+  for (const EngineRuns& engine : engines) first.emplace_back(engine.name, Column::Kind::engine);
+  return first;
+}
+
+void addEngineTable(Blocks& blocks, const Engines& engines) {
+  Table table = emptyTable(engines);
+  addGroup(table, "What ran", whatRan(engines));
+  addGroup(table, "Cost", costRows(engines));
+  addGroup(table, "State", stateRows(engines));
+  table.note =
       "Cost: of the finished runs together, of stepping alone. State: means over the averaged "
       "time, with ± one standard error over packings where there are several, whatever their "
       "regime.";
-}
-
-void addStateTable(Json& view, const Engines& engines) {
-  view["engineGroups"] = Json::array({group("State", engines, stateRows(engines))});
-  view["hasState"] = !view["engineGroups"][0]["rows"].empty();
-  view["costNote"] = "Means over the snapshots.";
-}
-
-void addTroubles(Json& view, const Engines& engines) {
-  Json rows = Json::array();
-  for (const EngineRuns& engine : engines) {
-    if (engine.status != EngineStatus::ran)
-      rows.push_back({{"engine", engine.name},
-                      {"packing", "all"},
-                      {"status", nameOf(engine.status)},
-                      {"reason", engine.reason}});
-    for (const CouetteRun* run : engine.runs)
-      if (!run->finished())
-        rows.push_back({{"engine", engine.name},
-                        {"packing", readableCount(run->packing)},
-                        {"status", nameOf(run->status)},
-                        {"reason", run->reason}});
+  blocks.push_back(std::move(table));
+  if (Table troubles = troubleTable(engines); !troubles.rows.empty()) {
+    blocks.push_back(Heading{"What did not run"});
+    blocks.push_back(std::move(troubles));
   }
-  view["troubles"] = std::move(rows);
-  view["hasTroubles"] = !view["troubles"].empty();
+}
+
+Table stateTable(const Engines& engines) {
+  Table table = emptyTable(engines);
+  addGroup(table, "State", stateRows(engines));
+  table.note = "Means over the snapshots.";
+  return table;
+}
+
+std::string averagesInWords(const CouetteFrame& frame) {
+  if (frame.region)
+    return fmt::format("{}, weights by {}, {} snapshots a run, {} to {} s after the start.",
+                       binsInWords(frame), frame.averaging.method,
+                       readableCount(static_cast<double>(frame.averaging.snapshots)),
+                       readableSetting(frame.region->from), readableSetting(frame.region->to));
+  const std::string when = averagedRotations(frame.averaging);
+  return fmt::format("{} rings of width {} m, weights by {}, {} snapshots a run{}.",
+                     frame.rings.r.size(), readable(frame.rings.width), frame.averaging.method,
+                     readableCount(static_cast<double>(frame.averaging.snapshots)),
+                     when.empty() ? std::string() : ", " + when);
+}
+
+std::vector<RealisedScene> realisedOf(const CouetteFrame& frame,
+                                      const std::vector<EngineRuns>& engines) {
+  std::vector<RealisedScene> realised;
+  for (const EngineRuns& engine : engines)
+    if (engine.realised()) realised.push_back({engine.name, engine.realised(), &frame.effects});
+  return realised;
 }
 
 }  // namespace crossgrain::reports

@@ -6,18 +6,16 @@
 #include <cmath>
 
 #include "reports/common/numbers.hpp"
-#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/couette/agreement_entries.hpp"
 #include "reports/couette/endpoint_words.hpp"
-#include "reports/couette/engine_cost.hpp"
 #include "reports/lockstep/overview.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-/// The graver, the larger.
-int gravity(Answer answer) {
+int severity(Answer answer) {
   switch (answer) {
     case Answer::noDifference:
       return 0;
@@ -33,7 +31,7 @@ int gravity(Answer answer) {
   return 4;
 }
 
-CellState stateOf(Answer answer, bool isModel) {
+CellState answerState(Answer answer, bool isModel) {
   switch (answer) {
     case Answer::noDifference:
     case Answer::smallDifference:
@@ -68,7 +66,7 @@ std::size_t otherRegime(const CompareResults& results, const std::string& a, con
   return 0;
 }
 
-/// The engine that a mirror's runs stand for; null: none.
+/// The engine that is evaluated through a mirror; null: none.
 const CarriedEngine* carriedBy(const CompareResults& results, const std::string& mirror) {
   const auto found = std::ranges::find_if(
       results.endpoints.carried,
@@ -90,11 +88,11 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
   if (const CarriedEngine* carried = carriedBy(results, engine.name)) {
     const EndpointRow* worst = gravestOf(rowsOf(rows, reference, carried->engine));
     OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
-    cell.words = "its runs stand for " + carried->engine;
+    cell.words = "surrogate of " + carried->engine;
     return cell;
   }
   const EndpointRow* worst = gravestOf(rowsOf(rows, reference, engine.name));
-  if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not held against it", {}};
+  if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not compared with it", {}};
   OverviewCell cell = endpointCell(results, *worst);
   if (alarmed(results, engine.name)) {
     cell.state = CellState::bad;
@@ -113,16 +111,16 @@ OverviewCell costOfEngine(const EngineRuns& engine) {
   return cell;
 }
 
-/// How many endpoints have lost a packing on which one of both has no value.
-std::size_t lostEndpoints(const CompareResults& results, const std::string& engine) {
+/// Endpoints that lack a packing, as one of both has no value on it.
+std::size_t endpointsWithoutValue(const CompareResults& results, const std::string& engine) {
   return static_cast<std::size_t>(
       std::ranges::count_if(results.endpoints.rows, [&](const EndpointRow& row) {
         return row.lost > 0 && row.b == engine && row.kind != PairKind::mirrorImplementation;
       }));
 }
 
-OverviewCell lostOf(const CompareResults& results, const EngineRuns& engine) {
-  OverviewCell cell{CellState::notApplicable, {}, "packings", {}, {}, "packings"};
+OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engine) {
+  OverviewCell cell{CellState::notApplicable, {}, "runs", {}, {}, "packings"};
   if (engine.status != EngineStatus::ran && engine.runs.empty()) {
     if (engine.status == EngineStatus::failed) cell.state = CellState::bad;
     cell.shown = engine.status == EngineStatus::refused ? "refused" : "failed";
@@ -130,16 +128,21 @@ OverviewCell lostOf(const CompareResults& results, const EngineRuns& engine) {
     return cell;
   }
   if (engine.runs.empty()) return cell;
-  const std::size_t lost = engine.runs.size() - engine.finished.size();
-  cell.value = static_cast<double>(lost);
-  cell.shown = fmt::format("{} of {}", lost, engine.runs.size());
-  cell.state = lost > 0 ? CellState::bad : CellState::good;
-  if (const std::size_t endpoints = lostEndpoints(results, engine.name);
-      lost == 0 && endpoints > 0) {
+  const std::size_t failed = engine.runs.size() - engine.finished.size();
+  cell.value = static_cast<double>(failed);
+  cell.shown = fmt::format("{} of {}", failed, engine.runs.size());
+  cell.state = failed > 0 ? CellState::bad : CellState::good;
+  if (const std::size_t endpoints = endpointsWithoutValue(results, engine.name);
+      failed == 0 && endpoints > 0) {
     cell.state = CellState::borderline;
     cell.words = fmt::format("{} without a value somewhere", counted(endpoints, "endpoint"));
   }
   return cell;
+}
+
+OverviewCell valueCell(double value, const std::string& unit, CellState state) {
+  const bool plain = unit.empty() || unit == "1" || unit == "-";
+  return {state, value, unit, readable(value) + (plain ? "" : " " + unit), {}, {}};
 }
 
 }  // namespace
@@ -150,15 +153,15 @@ const EndpointRow* gravestOf(const std::vector<const EndpointRow*>& rows) {
   };
   const EndpointRow* worst = nullptr;
   for (const EndpointRow* row : rows)
-    if (!worst || std::pair(gravity(row->answer), size(*row)) >
-                      std::pair(gravity(worst->answer), size(*worst)))
+    if (!worst || std::pair(severity(row->answer), size(*row)) >
+                      std::pair(severity(worst->answer), size(*worst)))
       worst = row;
   return worst;
 }
 
 OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
-  OverviewCell cell{stateOf(row.answer, isModel), finite(row.distance), "margins", {},
-                    endpointWords(row.endpoint),  "agreement"};
+  OverviewCell cell{answerState(row.answer, isModel), finite(row.distance), "margins", {},
+                    endpointWords(row.endpoint),      "agreement"};
   if (cell.value)
     cell.shown =
         fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
@@ -166,7 +169,7 @@ OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
 }
 
 OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row) {
-  // Both sides have to be true to their laws; of what one of them does wrong no law is to blame.
+  // Both sides have to be true to their laws: a fault of one of them is no model difference.
   const auto isTrue = [&](const std::string& name) {
     const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
     if (engine == results.engines.end()) return false;
@@ -185,8 +188,8 @@ OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row)
   return cell;
 }
 
-std::vector<std::string> partedFromItsMirror(const CompareResults& results,
-                                             const std::string& engine) {
+std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
+                                                 const std::string& engine) {
   std::vector<std::string> endpoints;
   for (const EndpointRow& row : results.endpoints.rows)
     if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
@@ -197,7 +200,7 @@ std::vector<std::string> partedFromItsMirror(const CompareResults& results,
 
 bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!engine.mirrors.empty()) return true;
-  if (!partedFromItsMirror(results, engine.name).empty()) return false;
+  if (!disagreementsWithMirror(results, engine.name).empty()) return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
       if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured &&
@@ -212,7 +215,7 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
       if (row->answer != Answer::disagree) continue;
       disagrees = true;
       const EndpointRow* own = rowOf(endpoints, mirror.name, engine.name, row->endpoint);
-      if (!own || gravity(own->answer) > gravity(Answer::smallDifference)) return false;
+      if (!own || severity(own->answer) > severity(Answer::smallDifference)) return false;
     }
     return disagrees;
   }
@@ -225,24 +228,45 @@ Overview compareOverview(const CompareResults& results) {
   const std::string& reference = results.engines.front().name;
   const bool closed = !closedFormEngines(results.endpoints.rows).empty();
   overview.columns = {
-      {"own law",
-       "Is the engine the law that it declares? Side by side with its mirror, step by "
-       "step; how far it is from it, in units of the limit.",
+      {"law verified",
+       "Does the engine have the law that it declares? Its difference from its mirror, step by "
+       "step, in units of the limit.",
        results.lockstep ? "lockstep" : ""},
-      {closed ? "closed forms" : "averages against " + reference,
+      {closed ? "closed forms" : "largest difference from " + reference,
        closed ? "The endpoint farthest from its expected value, in margins."
-              : "The endpoint that says most, as its distance from the reference in margins.",
+              : "The worst endpoint, as its distance from the reference in margins.",
        results.endpoints.rows.empty() ? "" : "agreement"},
-      {"CPU time per\u00a0s", "CPU time for a simulated second.", "engines"},
-      {"packings lost", "Packings that the engine did not finish.", "packings"}};
-  overview.states = {{CellState::bad, "disagrees, fell short or failed"}};
+      {"CPU time per simulated second", "Of stepping alone.", "engines"},
+      {"failed runs", "Packings that the engine did not finish.", "packings"}};
+  overview.states = {{CellState::bad, "disagrees, or failed"}};
   for (const EngineRuns& engine : engineRuns(results))
     overview.rows.push_back({engine.name,
                              true,
                              {lockstepOf(results, engine), averagesOf(results, engine),
-                              costOfEngine(engine), lostOf(results, engine)}});
+                              costOfEngine(engine), failedRunsOf(results, engine)}});
   overview.conclusion = compareConclusion(results);
   return overview;
+}
+
+std::vector<DigestValue> compareValues(const CompareResults& results) {
+  std::vector<DigestValue> values;
+  if (results.engines.empty()) return values;
+  const std::string& reference = results.engines.front().name;
+  for (const EndpointRow& row : results.endpoints.rows) {
+    const auto of = finite(row.reference), difference = finite(row.difference);
+    if (row.a != reference || !of) continue;
+    const std::string quantity = "mean of " + endpointWords(row.endpoint);
+    const auto known = std::ranges::find_if(values, [&](const DigestValue& value) {
+      return value.engine == reference && value.quantity == quantity;
+    });
+    if (known == values.end())
+      values.push_back({reference, quantity, valueCell(*of, row.unit, CellState::figure)});
+    const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
+    if (!difference || other == results.engines.end()) continue;
+    values.push_back({row.b, quantity,
+                      valueCell(*of + *difference, row.unit, endpointCell(results, row).state)});
+  }
+  return values;
 }
 
 }  // namespace crossgrain::reports

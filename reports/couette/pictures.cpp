@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 
 #include "reports/common/numbers.hpp"
-#include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/couette/engine_runs.hpp"
 #include "reports/couette/report.hpp"

@@ -7,7 +7,7 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/couette/figures.hpp"
-#include "reports/couette/state_view.hpp"
+#include "reports/couette/state.hpp"
 
 namespace crossgrain::reports {
 
@@ -74,23 +74,10 @@ Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
   return {1.0, fieldAxis(plot.field)};
 }
 
-/// The field of each packing that the engine has a mean over, the first few of them.
-std::vector<const Profile*> eachProfile(const EngineRuns& engine, const std::string& field) {
-  constexpr std::size_t most = 32;  // lines, beyond which there is nothing to be seen
-  std::vector<const Profile*> all;
-  if (engine.ensemble)
-    for (const CouetteRun* run : engine.finished)
-      if (const Profile* own = profileOf(run->profiles, field); own && all.size() < most)
-        all.push_back(own);
-  return all;
-}
-
 void addPoints(const CouetteFrame& frame, const EngineRuns& engine, const ProfilePlot& plot,
                double factor, Curve& curve) {
   const Profile* profile = profileOf(engine.profiles(), plot.field);
   if (!profile) return;
-  const auto each = eachProfile(engine, plot.field);
-  curve.each.resize(each.size());
   const double inner = frame.cell.innerRadius;
   for (std::size_t ring = 0; ring < profile->mean.size(); ++ring) {
     const auto mean = at(profile->mean, ring), error = at(profile->standardError, ring);
@@ -99,10 +86,7 @@ void addPoints(const CouetteFrame& frame, const EngineRuns& engine, const Profil
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
     if (error && !engine.isSingle) point.error = *error * std::abs(factor);
-    point.place = fmt::format("{} {}", binWord(frame), ring + 1);
     curve.points.push_back(point);
-    for (std::size_t k = 0; k < each.size(); ++k)
-      curve.each[k].push_back(at(each[k]->mean, ring).value_or(NAN) * factor);
   }
 }
 
@@ -125,7 +109,6 @@ std::optional<Curve> powerLaw(const Panel& panel, double exponent) {
 
 void makeFaint(Curve& curve) {
   curve.name.clear();
-  curve.each.clear();
   curve.style = {"#b8bec4", 0, false};
   curve.draw = Draw::lines;
   curve.width = 1.0;
@@ -188,16 +171,14 @@ Figure overview(const CouetteFrame& frame, const std::vector<EngineRuns>& engine
     Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
     panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
-    for (Curve& curve : panel.curves) curve.each.clear();  // each field has a plot of its own
     figure.panels.push_back(std::move(panel));
   }
   return figure;
 }
 
-/// A stress without the rotations that it was averaged over says little: cells drift.
+/// With the rotations averaged over: cells drift.
 std::string captionOf(const CouetteFrame& frame, const ProfilePlot& plot, const Panel& panel) {
-  std::string caption = plot.title();
-  caption[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(caption[0])));
+  std::string caption = capitalised(plot.title());
   const bool guided = std::ranges::any_of(
       panel.curves, [](const Curve& curve) { return curve.name.starts_with("slope "); });
   if (guided)

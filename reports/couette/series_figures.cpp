@@ -20,7 +20,7 @@ const std::vector<SeriesPlot>& seriesPlots() {
   static const std::vector<SeriesPlot> plots = {
       {"wheel_torque", "Torque of the wheel on the disks", "torque [N m]"},
       {"outer_pressure", "Pressure on the outer wall", "pressure [N/m^{2}]"},
-      {"shear_share", "What layers take up of the wheel's rotation (below 0.1: blocked)",
+      {"shear_share", "Shear among the disks, share of the wheel's rotation (below 0.1: blocked)",
        "shear among the disks / Ω"},
       {"coordination", "Contacts per disk", "contacts per disk"},
       {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
@@ -77,7 +77,6 @@ Panel seriesPanel(const CouetteFrame& frame, const std::vector<EngineRuns>& engi
           blockMeans(valuesOf(series, "t_s"), valuesOf(series, plot.name), rate.value_or(1.0)),
           1.0};
       if (curve.points.empty()) continue;
-      for (Point& point : curve.points) point.place = fmt::format("packing {}", run->packing);
       panel.curves.push_back(std::move(curve));
       name.clear();
     }
@@ -98,7 +97,6 @@ std::vector<Point> balancePoints(const RingPlaces& rings, const CheckRow& check)
     if (!x || !value || !reference || *reference == 0.0) continue;
     Point point{*x, *value / *reference, {}};
     if (error) point.error = *error / std::abs(*reference);
-    point.place = fmt::format("ring {}", ring + 1);
     points.push_back(point);
   }
   return points;

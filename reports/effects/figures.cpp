@@ -17,10 +17,8 @@ namespace {
 using Variants = std::vector<VariantSummary>;
 
 Variants variantsThatRan(const EffectsResults& results, const std::string& engine) {
-  Variants variants = variantSummaries(results);
-  std::erase_if(variants, [&](const VariantSummary& variant) {
-    return variant.engine != engine || !variant.ran();
-  });
+  Variants variants = variantSummaries(results, engine);
+  std::erase_if(variants, [](const VariantSummary& variant) { return !variant.ran(); });
   return variants;
 }
 
@@ -121,10 +119,10 @@ Figure costFigure(const Variants& variants, const std::string& name) {
       "Right: the largest change of a profile when it is switched off, in % of the profile's "
       "largest value. ▲ larger without it, ▼ smaller; " +
       std::string(std::ranges::any_of(variants, &VariantSummary::decidable)
-                      ? "filled: told apart from no change, open: not. Bars: as far as the "
-                        "end nearer 0 of the interval that this rests on; one that leaves the axis "
-                        "on the left holds 0."
-                      : "open: too few packings to tell whether they are chance. Bars: one "
+                      ? "filled: significant, open: not. Bars: to the end nearer 0 of the "
+                        "interval that this rests on; one that leaves the axis on the left "
+                        "contains 0."
+                      : "open: too few packings for a test. Bars: one "
                         "standard error.");
   figure.panels.push_back(costPanel(variants));
   const Range range = rangeOf(variants, fields);
@@ -140,7 +138,7 @@ Figure costFigure(const Variants& variants, const std::string& name) {
   return figure;
 }
 
-/// Variants whose change of the field was not told apart from none.
+/// Variants whose change of the field is not significant.
 IsFaint unchanged(const Variants& variants) {
   return [&variants](const EngineRuns& curve, const std::string& field) {
     const auto variant = std::ranges::find_if(variants, [&](const VariantSummary& one) {

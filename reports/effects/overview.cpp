@@ -1,4 +1,4 @@
-#include "reports/effects/overview.hpp"
+#include "reports/effects/report.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/effects/variants.hpp"
-#include "reports/effects/views.hpp"
 
 namespace crossgrain::reports {
 
@@ -43,11 +42,11 @@ OverviewCell savedCell(const VariantSummary* variant, const std::string& anchor)
   cell.state = CellState::figure;
   cell.value = 100.0 * *variant->saved;
   cell.shown = percentOf(*variant->saved);
-  cell.words = costsTime(*variant) ? "of a step" : "of a step, within its error";
+  cell.words = variant->costsTime() ? "of a step" : "of a step, within its error";
   return cell;
 }
 
-/// The largest change that is told apart from none; else the one that came nearest to it.
+/// The largest significant change; else the one with the most errors.
 const FieldChange* mostChanged(const VariantSummary& variant) {
   const auto rank = [](const FieldChange& change) {
     const bool detected = change.detected.value_or(false);
@@ -68,7 +67,7 @@ OverviewCell changedCell(const VariantSummary* variant, const std::string& ancho
   cell.shown = percentOf(most->change);
   cell.words = fieldWords(most->field);
   if (!variant->decidable())
-    cell.words += ", too few packings to tell";
+    cell.words += ", too few packings";
   else if (!variant->changesSomething())
     cell.words += variant->withinMargins() ? ", all within the margins" : "";
   cell.state = variant->changesSomething() ? CellState::modelDifference
@@ -78,16 +77,15 @@ OverviewCell changedCell(const VariantSummary* variant, const std::string& ancho
 }
 
 /// What an engine's effects do, in one clause.
-std::string effectsOf(const std::vector<VariantSummary>& all, const std::string& engine) {
+std::string effectsOf(const std::vector<VariantSummary>& all) {
   Names changing, idle;
-  const VariantSummary* dearest = nullptr;
   for (const VariantSummary& variant : all) {
-    if (variant.engine != engine || !variant.ran()) continue;
+    if (!variant.ran()) continue;
     if (variant.changesSomething()) changing.push_back(effectLabel(variant.effect));
     if (variant.withinMargins() && !variant.changesSomething())
       idle.push_back(effectLabel(variant.effect));
-    if (costsTime(variant) && (!dearest || *variant.saved > *dearest->saved)) dearest = &variant;
   }
+  const VariantSummary* const costliest = costliestOf(all);
   Names parts;
   if (!changing.empty())
     parts.push_back(fmt::format("{} {} a profile", listedShortly(changing, 4),
@@ -95,19 +93,19 @@ std::string effectsOf(const std::vector<VariantSummary>& all, const std::string&
   if (!idle.empty())
     parts.push_back(fmt::format("{} {} nothing beyond the margins", listedShortly(idle, 4),
                                 verb(idle.size(), "changes", "change")));
-  if (parts.empty()) parts.emplace_back("no effect is shown to change a profile");
-  parts.push_back(dearest ? fmt::format("{} costs most, {} of a step", effectLabel(dearest->effect),
-                                        percentOf(*dearest->saved))
-                          : "none is shown to cost time");
+  if (parts.empty()) parts.emplace_back("no effect changes a profile significantly");
+  parts.push_back(costliest
+                      ? fmt::format("{} costs most, {} of a step", effectLabel(costliest->effect),
+                                    percentOf(*costliest->saved))
+                      : "none is shown to cost time");
   return listed(parts);
 }
 
-std::string nextStep(const EffectsResults& results, const std::vector<VariantSummary>& all) {
+std::string effectsNextStep(const EffectsResults& results, const std::vector<VariantSummary>& all) {
   const bool decidable = std::ranges::any_of(all, &VariantSummary::decidable);
   if (!decidable && !all.empty())
     return fmt::format(
-        "Next: at least 4 packings; with {} what an effect changes cannot be told "
-        "from scatter.",
+        "Next: at least 4 packings; with {} no change can be distinguished from scatter.",
         results.packings.size());
   for (const VariantSummary& variant : all)
     if (variant.decidable() && !variant.changesSomething() && !variant.withinMargins())
@@ -121,11 +119,12 @@ Overview effectsOverview(const EffectsResults& results) {
   const std::vector<VariantSummary> all = variantSummaries(results);
   Overview overview;
   overview.rowsAre = "without";
-  overview.states = {{CellState::modelDifference, "changes a profile"},
-                     {CellState::good, "changes nothing beyond the margins"},
-                     {CellState::undecided, "a change is not told from none"},
-                     {CellState::notApplicable, "refused"},
-                     {CellState::bad, "failed"}};
+  overview.states = {
+      {CellState::modelDifference, "changes a profile"},
+      {CellState::good, "changes nothing beyond the margins"},
+      {CellState::undecided, "no significant change, and the margin is not excluded"},
+      {CellState::notApplicable, "refused"},
+      {CellState::bad, "failed"}};
   for (std::size_t k = 0; k < results.engines.size(); ++k) {
     const std::string& name = results.engines[k].name;
     const std::string anchor = fmt::format("effects-{}", k + 1);
@@ -151,12 +150,13 @@ Overview effectsOverview(const EffectsResults& results) {
   }
   SaidOf said;
   for (const EngineRow& engine : results.engines)
-    if (engine.status == EngineStatus::ran) said.add(engine.name, effectsOf(all, engine.name));
+    if (engine.status == EngineStatus::ran)
+      said.add(engine.name, effectsOf(variantSummaries(results, engine.name)));
   std::string sentence;
   for (const auto& [words, engines] : said.all())
     sentence += fmt::format("{}On {}: {}", sentence.empty() ? "" : "; ", listed(engines), words);
   if (!sentence.empty()) overview.conclusion.push_back(sentence + ".");
-  if (std::string next = nextStep(results, all); !next.empty())
+  if (std::string next = effectsNextStep(results, all); !next.empty())
     overview.conclusion.push_back(std::move(next));
   return overview;
 }

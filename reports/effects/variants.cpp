@@ -29,8 +29,8 @@ double inErrors(const RingChange& ring) {
   return error > 0.0 ? sizeOf(ring) / error : 0.0;
 }
 
-/// Whether `a` says more than `b`.
-bool saysMore(const RingChange& a, const RingChange& b) {
+/// Whether `a` is to be shown rather than `b`.
+bool showFirst(const RingChange& a, const RingChange& b) {
   const bool detected = a.resolved == true;
   if (detected != (b.resolved == true)) return detected;
   return detected ? sizeOf(a) > sizeOf(b) : inErrors(a) > inErrors(b);
@@ -42,7 +42,7 @@ std::optional<FieldChange> changeOf(const ChangedField& field) {
   std::optional<double> smallest;
   for (const RingChange& ring : field.rings) {
     if (!finite(ring.change)) continue;
-    if (!best || saysMore(ring, *best)) best = &ring;
+    if (!best || showFirst(ring, *best)) best = &ring;
     if (const auto here = finite(ring.smallest))
       smallest = std::min(*here, smallest.value_or(*here));
   }
@@ -121,10 +121,23 @@ bool VariantSummary::withinMargins() const {
   });
 }
 
-std::vector<VariantSummary> variantSummaries(const EffectsResults& results) {
+bool VariantSummary::costsTime() const {
+  return saved && *saved > 0.0 && (!savedError || *saved > 2.0 * *savedError);
+}
+
+const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants) {
+  const VariantSummary* most = nullptr;
+  for (const VariantSummary& variant : variants)
+    if (variant.ran() && variant.costsTime() && (!most || *variant.saved > *most->saved))
+      most = &variant;
+  return most;
+}
+
+std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
+                                             const std::string& engine) {
   std::vector<VariantSummary> summaries;
   for (const EffectVariant& variant : results.variants)
-    if (variant.isSwitched())
+    if (variant.isSwitched() && (engine.empty() || variant.engine == engine))
       summaries.push_back(summaryOf(variant, wholeVariant(results, variant.engine)));
   return summaries;
 }

@@ -7,13 +7,12 @@
 #include "reports/couette/engine_runs.hpp"
 #include "results/effects.hpp"
 
-/// Variants of a study of effects, ready to be told.
+/// Variants of a study of effects.
 namespace crossgrain::reports {
 
-/// What switching an effect off does to one field, at the ring that says most: of those told apart
-/// from no change the one that changes most, else the one that came nearest to it. Changes are over
-/// the profile's largest value with everything on, so that a ring where next to nothing is left of
-/// a field does not count for more than it is.
+/// What switching an effect off does to one field, at one ring: the largest of the significant
+/// changes, else the one with the most errors. Changes are over the profile's largest value with
+/// everything on, so that a ring where next to nothing is left of a field does not dominate.
 struct FieldChange {
   std::string field;
   AgainstMargin verdict = AgainstMargin::untold;
@@ -44,12 +43,17 @@ struct VariantSummary {
   bool decidable() const;  ///< enough packings to tell what changes
   bool changesSomething() const;
   bool withinMargins() const;  ///< every field is shown to be
+  bool costsTime() const;      ///< the time saved exceeds two of its errors
   /// Null where the field has no number.
   const FieldChange* of(const std::string& field) const;
 };
 
-/// In the order of the results; variants with everything on are left out.
-std::vector<VariantSummary> variantSummaries(const EffectsResults& results);
+/// In the order of the results, of all engines or one; variants with everything on are left out.
+std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
+                                             const std::string& engine = {});
+
+/// The one that costs most time; null: none is shown to.
+const VariantSummary* costliestOf(const std::vector<VariantSummary>& variants);
 
 /// An engine's variant with everything on, or null.
 const EffectVariant* wholeVariant(const EffectsResults& results, const std::string& engine);

@@ -9,28 +9,11 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/lockstep/words.hpp"
-#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 namespace {
 
 constexpr const char* evidence = "lockstep";
-
-CellState stateOf(const LockstepRow& row, const LockstepRules& rules) {
-  switch (row.verdict) {
-    case LockstepVerdict::sameToRounding:
-    case LockstepVerdict::sameToPrecision:
-    case LockstepVerdict::sameLaw:
-      return CellState::good;
-    case LockstepVerdict::differs:
-      return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
-    case LockstepVerdict::undecided:
-      return CellState::undecided;
-    case LockstepVerdict::notMeasured:
-      break;
-  }
-  return CellState::notMeasured;
-}
 
 OverviewCell separationCell(const LockstepRow& row, bool last) {
   OverviewCell cell{CellState::notMeasured, {}, "d", {}, {}, evidence};
@@ -70,52 +53,68 @@ OverviewCell termCell(const LockstepRow& row) {
   return cell;
 }
 
-/// What is off, of those that are another law than they declare.
-std::string blameOf(const LockstepFindings& findings) {
+/// The deviation found of those that differ from the law that they declare.
+std::string deviationOf(const LockstepFindings& findings) {
   std::vector<std::string> parts;
   for (const LockstepRow& row : findings.rows)
-    if (stateOf(row, findings.rules) == CellState::bad)
+    if (lockstepState(row, findings.rules) == CellState::bad)
       parts.push_back(fmt::format(
           "{}: {}", row.engine,
           row.term ? constantWords(row.term->name) : "no single constant, convention or effect"));
   if (parts.empty()) return {};
-  return fmt::format("What leaves least of the separation when it is changed: {}.",
-                     listedShortly(parts, 3));
+  return fmt::format("Deviation found: {}.", listedShortly(parts, 3));
 }
 
 std::string nextOf(const LockstepFindings& findings) {
-  std::vector<std::string> differ, open, undecided;
+  std::vector<std::string> differ, unmeasured, undecided;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == LockstepVerdict::undecided) undecided.push_back(row.engine);
-    if (stateOf(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
-    if (row.verdict == LockstepVerdict::notMeasured) open.push_back(row.engine);
+    if (lockstepState(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
+    if (row.verdict == LockstepVerdict::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
-    return fmt::format("Next: look at the first contact that parts {}, in the table below.",
+    return fmt::format("Next: see the first contact at which {} differ, in the table below.",
                        listed(differ));
   if (!undecided.empty())
     return fmt::format("Next: more starts for {}, e.g. --starts {}.", listed(undecided),
                        4 * findings.starts.size());
-  if (open.size() == findings.rows.size())
+  if (unmeasured.size() == findings.rows.size())
     return "Next: a scene whose contacts have a mirror; the reasons are in the table below.";
-  return "Next: compare the averages; what begins later than these windows escapes them.";
+  return "Next: compare the averages; a fault that begins later than these windows is not seen "
+         "here.";
 }
 
 }  // namespace
 
+CellState lockstepState(const LockstepRow& row, const LockstepRules& rules) {
+  switch (row.verdict) {
+    case LockstepVerdict::sameToRounding:
+    case LockstepVerdict::sameToPrecision:
+    case LockstepVerdict::sameLaw:
+      return CellState::good;
+    case LockstepVerdict::differs:
+      return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
+    case LockstepVerdict::undecided:
+      return CellState::undecided;
+    case LockstepVerdict::notMeasured:
+      break;
+  }
+  return CellState::notMeasured;
+}
+
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
   if (!row)
-    return {isMirror ? CellState::notApplicable : CellState::notMeasured,  {}, "%", {},
-            isMirror ? "is a mirror itself" : "not held against a mirror", {}};
-  OverviewCell cell{stateOf(*row, rules), {}, "%", {}, {}, evidence};
+    return {isMirror ? CellState::notApplicable : CellState::notMeasured,   {}, "%", {},
+            isMirror ? "is a mirror itself" : "not compared with a mirror", {}};
+  OverviewCell cell{lockstepState(*row, rules), {}, "%", {}, {}, evidence};
   if (row->verdict == LockstepVerdict::notMeasured) {
     cell.words = row->reason;
     return cell;
   }
-  cell.words = spaced(nameOf(row->verdict));
+  cell.words = verdictWord(row->verdict);
   if (row->verdict == LockstepVerdict::undecided) cell.words += ": " + row->reason;
   if (row->verdict == LockstepVerdict::differs && cell.state == CellState::borderline)
-    cell.words = "parts only where the law leaves the order of impacts open";
+    cell.words = "differs only where the law leaves the order of impacts open";
   // What would just have shown is what can be said of an engine that stays within its rounding.
   const bool bounded = row->verdict == LockstepVerdict::sameToPrecision;
   const auto size = bounded ? row->resolution : row->equivalent;
@@ -139,14 +138,16 @@ Overview lockstepOverview(const LockstepResults& results) {
   const LockstepFindings& findings = results.lockstep;
   Overview overview;
   overview.columns = {
-      {"its own law",
-       "Is it the law that it declares? How far it is from its mirror, in units of the limit: of "
-       "what a change of the yardstick by 0.1 % does.",
+      {"law verified",
+       "Does it have the law that it declares? Its difference from its mirror, in units of the "
+       "limit: of what a change of the reference constant by 0.1 % does.",
        evidence},
       {"forces", "Largest difference of a contact's force on one state.", evidence},
-      {"early", "Largest separation from its mirror at the first look, in diameters.", "over-time"},
-      {"late", "Largest separation from its mirror at the last look, in diameters.", "over-time"},
-      {"deviation found", "The single change of the mirror that leaves least of the separation.",
+      {"early", "Largest difference from its mirror at the first snapshot, in diameters.",
+       "over-time"},
+      {"late", "Largest difference from its mirror at the last snapshot, in diameters.",
+       "over-time"},
+      {"deviation found", "The single change of the mirror that leaves least of the difference.",
        evidence}};
   for (const LockstepRow& row : findings.rows)
     overview.rows.push_back(
@@ -154,9 +155,7 @@ Overview lockstepOverview(const LockstepResults& results) {
          true,
          {lockstepCell(&row, findings.rules, false), forcesCell(row), separationCell(row, false),
           separationCell(row, true), termCell(row)}});
-  overview.conclusion = {leadOf(findings)};
-  for (std::string& sentence : std::vector{blameOf(findings), nextOf(findings)})
-    if (!sentence.empty()) overview.conclusion.push_back(std::move(sentence));
+  overview.conclusion = nonEmpty({leadOf(findings), deviationOf(findings), nextOf(findings)});
   return overview;
 }
 

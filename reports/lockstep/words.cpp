@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reports/common/labels.hpp"
@@ -18,6 +19,21 @@ std::string milliseconds(double time) {
   return fmt::format("{} ms", readable(1e3 * time));
 }
 
+struct Constant {
+  std::string name, symbol, words;
+};
+
+/// What is no constant, as "tension = cut", stands for itself.
+Constant lookUp(const std::string& name) {
+  static const Constant constants[] = {
+      {"kn", "k_n", "the normal stiffness"},   {"kn3", "k_n3", "the cubic normal stiffness"},
+      {"gn", "γ_n", "the normal damping"},     {"kt", "k_t", "the tangential stiffness"},
+      {"gt", "γ_t", "the tangential damping"}, {"mu", "µ", "the coefficient of friction"},
+      {"en", "e_n", "the normal restitution"}, {"et0", "e_t0", "the tangential restitution"}};
+  const auto* const found = std::ranges::find(constants, name, &Constant::name);
+  return found == std::end(constants) ? Constant{name, name, name} : *found;
+}
+
 }  // namespace
 
 std::string percentInWords(double fraction) {
@@ -25,12 +41,7 @@ std::string percentInWords(double fraction) {
 }
 
 std::string constantSymbol(const std::string& constant) {
-  const std::pair<const char*, const char*> symbols[] = {
-      {"kn", "k_n"}, {"kn3", "k_n3"}, {"gn", "γ_n"}, {"kt", "k_t"},
-      {"gt", "γ_t"}, {"mu", "µ"},     {"en", "e_n"}, {"et0", "e_t0"}};
-  const auto* const found = std::ranges::find(
-      symbols, constant, [](const auto& pair) { return std::string(pair.first); });
-  return found == std::end(symbols) ? constant : found->second;
+  return lookUp(constant).symbol;
 }
 
 std::string plainSymbol(const std::string& constant) {
@@ -42,23 +53,27 @@ std::string plainSymbol(const std::string& constant) {
 }
 
 std::string constantWords(const std::string& constant) {
-  const std::pair<const char*, const char*> words[] = {
-      {"kn", "the normal stiffness"},   {"kn3", "the cubic normal stiffness"},
-      {"gn", "the normal damping"},     {"kt", "the tangential stiffness"},
-      {"gt", "the tangential damping"}, {"mu", "the coefficient of friction"},
-      {"en", "the normal restitution"}, {"et0", "the tangential restitution"}};
-  const auto* const found =
-      std::ranges::find(words, constant, [](const auto& pair) { return std::string(pair.first); });
-  return found == std::end(words) ? constant : found->second;
+  return lookUp(constant).words;
+}
+
+std::string verdictWord(LockstepVerdict verdict) {
+  constexpr std::array words = {"not measured",
+                                "identical to rounding",
+                                "identical to its precision",
+                                "equivalent",
+                                "differs",
+                                "undecided"};
+  return words.at(static_cast<std::size_t>(verdict));
 }
 
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules) {
-  if (row.verdict != LockstepVerdict::differs) return spaced(nameOf(row.verdict));
+  if (row.verdict != LockstepVerdict::differs) return verdictWord(row.verdict);
   if (row.term && row.term->name == rules.yardstick && row.term->amount)
-    return fmt::format("differs, like {} of {}", percentInWords(std::abs(*row.term->amount)),
+    return fmt::format("differs (equivalent to {} of {})",
+                       percentInWords(std::abs(*row.term->amount)),
                        constantSymbol(rules.yardstick));
   if (row.equivalent.value_or(0.0) > rules.sameLaw)
-    return fmt::format("differs, {} times the limit", readable(*row.equivalent / rules.sameLaw));
+    return fmt::format("differs ({} times the limit)", readable(*row.equivalent / rules.sameLaw));
   return fmt::format("differs from {} of {} starts", row.beyond, row.read);
 }
 
@@ -84,7 +99,7 @@ std::string termInWords(const LockstepRow& row) {
   const std::string amount = term.amount ? fmt::format(" {}{}", *term.amount < 0.0 ? "−" : "+",
                                                        percentInWords(std::abs(*term.amount)))
                                          : std::string();
-  return fmt::format("{}{} (leaves {} of the separation)", constantSymbol(term.name), amount,
+  return fmt::format("{}{} (leaves {} of the difference)", constantSymbol(term.name), amount,
                      percentInWords(term.unexplained));
 }
 
@@ -101,8 +116,8 @@ std::string firstInWords(const LockstepRow& row) {
 
 std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
   if (rules.yardstick != "en" || row.term || !row.severalAtOnce) return {};
-  return "where they part a disk touches several at once, and in which order these collide the law "
-         "of rigid disks leaves open";
+  return "where they part a disk touches several at once, and the law of rigid disks leaves the "
+         "order of these collisions open";
 }
 
 std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules) {
@@ -121,7 +136,7 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
   if (row.verdict == LockstepVerdict::undecided) words += ": " + row.reason;
   if (row.separations.size() > 1)
     words += fmt::format(
-        "; largest separation {} d after {}, {} d after {}", readable(row.separations[0].largest),
+        "; largest difference {} d after {}, {} d after {}", readable(row.separations[0].largest),
         milliseconds(row.separations[0].time), readable(row.separations.back().largest),
         milliseconds(row.separations.back().time));
   if (const std::string reading = readingInWords(row, rules);
@@ -135,7 +150,7 @@ std::string sentenceOf(const LockstepRow& row, const LockstepRules& rules) {
   else if (row.verdict == LockstepVerdict::differs)
     words += "; no single term accounts for it";
   if (row.verdict != LockstepVerdict::sameToPrecision && row.precise > 0)
-    words += fmt::format("; {} starts of them stay the same to its precision", row.precise);
+    words += fmt::format("; {} of these starts stay identical to its precision", row.precise);
   if (row.verdict == LockstepVerdict::differs && row.first)
     words += fmt::format("; first seen {}", firstInWords(row));
   if (const std::string open = openInLaw(row, rules);
@@ -166,8 +181,8 @@ std::string leadOf(const LockstepFindings& findings) {
   };
   add(same, "is the law that it declares", "are the laws that they declare");
   add(differ, "is another law than it declares", "are other laws than they declare");
-  add(ordered, "parts from its mirror where disks touch several at once",
-      "part from their mirrors where disks touch several at once");
+  add(ordered, "differs from its mirror where disks touch several at once",
+      "differ from their mirrors where disks touch several at once");
   add(undecided, "is undecided", "are undecided");
   add(open, "was not measured", "were not measured");
   return fmt::format("{}.", fmt::join(parts, "; "));

@@ -4,7 +4,7 @@
 
 #include "results/lockstep_findings.hpp"
 
-/// What lockstep found, in words; for the page and the command line alike.
+/// Lockstep findings in words, for the page and the command line alike.
 namespace crossgrain::reports {
 
 /// "kn" → "k_n", as everywhere in reports.
@@ -19,26 +19,28 @@ std::string constantWords(const std::string& constant);
 /// "2.10 %"
 std::string percentInWords(double fraction);
 
-/// "same to rounding", "same law", "same to its precision", "undecided", "not measured". What
-/// differs is "differs, like 2.1 % of k_n" only where that change of k_n explains it, else
-/// "differs, 24 times the limit" or "differs from 5 of 16 starts".
+std::string verdictWord(LockstepVerdict verdict);
+
+/// "identical to rounding", "equivalent", "identical to its precision", "undecided", "not
+/// measured". What differs is "differs (equivalent to 2.1 % of k_n)" only where that change of k_n
+/// explains it, else "differs (24 times the limit)" or "differs from 5 of 16 starts".
 std::string verdictInWords(const LockstepRow& row, const LockstepRules& rules);
 
-/// "k_n, +0.01 % (leaves 0.3 % of the separation)"; empty: no term was named.
+/// "k_n, +0.01 % (leaves 0.3 % of the difference)"; empty: no term was named.
 std::string termInWords(const LockstepRow& row);
 
 /// Where and when it was first seen: "between 0.4 ms and 0.52 ms, disk 17 with 203 (new, wall)".
 std::string firstInWords(const LockstepRow& row);
 
-/// What that contact says of the cause, where the law leaves something open: rigid disks that touch
-/// several at once. Empty: nothing.
+/// Rigid disks that touch several at once: the law leaves the order of these collisions open. Empty
+/// otherwise.
 std::string openInLaw(const LockstepRow& row, const LockstepRules& rules);
 
 /// How many starts could be read, ε_eq with its interval and what share of states these starts do
 /// not exclude; empty where none was read.
 std::string readingInWords(const LockstepRow& row, const LockstepRules& rules);
 
-/// Of same to its precision: "0.51 % of k_n would show". Empty of other verdicts.
+/// Of identical to its precision: "0.51 % of k_n would show". Empty of other verdicts.
 std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules);
 
 /// One sentence on one engine.

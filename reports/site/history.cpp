@@ -6,9 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "reports/common/labels.hpp"
-#include "reports/common/overview_marks.hpp"
-#include "reports/common/page.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/common/sentences.hpp"
 
 namespace crossgrain::reports {
@@ -36,11 +34,10 @@ HistoryRow& rowIn(History& history, const std::string& engine, const std::string
 void addRows(History& history) {
   for (std::size_t k = 0; k < history.reports.size(); ++k) {
     const ReportDigest& digest = history.reports[k]->digest;
-    if (digest.overview)
-      for (const OverviewRow& row : digest.overview->rows)
-        for (std::size_t c = 0; c < row.cells.size(); ++c)
-          if (row.cells[c].state != CellState::notApplicable)
-            rowIn(history, row.name, digest.overview->columns[c].name).cells[k] = row.cells[c];
+    for (const OverviewRow& row : digest.overview.rows)
+      for (std::size_t c = 0; c < row.cells.size(); ++c)
+        if (row.cells[c].state != CellState::notApplicable)
+          rowIn(history, row.name, digest.overview.columns[c].name).cells[k] = row.cells[c];
     for (const DigestValue& value : digest.values)
       rowIn(history, value.engine, value.quantity).cells[k] = value.cell;
   }
@@ -75,32 +72,26 @@ bool caseChanged(const History& history) {
   });
 }
 
-Json viewOf(const History& history) {
-  Json columns = Json::array(), rows = Json::array(), sentences = Json::array();
+Table historyTable(const History& history) {
+  Table table{{{"engine", Column::Kind::engines}, "question"}, {}};
   for (const SiteReport* report : history.reports)
-    columns.push_back({{"stamp", stampOf(report->digest.head)},
-                       {"started", report->digest.head.started},
-                       {"page", pageOf(*report)}});
+    table.columns.emplace_back(
+        fmt::format("{}, {}", stampOf(report->digest.head), report->digest.head.started));
+  table.columns.emplace_back("change");
   for (const HistoryRow& row : history.rows) {
-    Json cells = Json::array();
-    for (const auto& cell : row.cells) {
-      const CellLook look = lookOf(cell ? cell->state : CellState::notMeasured);
-      cells.push_back({{"mark", look.mark},
-                       {"class", look.cssClass},
-                       {"shown", cell ? cell->shown : ""},
-                       {"words", cell ? symbolsHtml(cell->words) : ""}});
+    TableRow line{{row.engine, row.question}};
+    for (std::size_t k = 0; k < row.cells.size(); ++k) {
+      const auto& cell = row.cells[k];
+      line.cells.push_back({cell ? cell->shown : "",
+                            {cell ? cell->words : ""},
+                            cell ? cell->state : CellState::notMeasured,
+                            true});
+      line.cells.back().link = pageOf(*history.reports[k]);
     }
-    rows.push_back({{"engine", row.engine},
-                    {"question", symbolsHtml(row.question)},
-                    {"cells", std::move(cells)},
-                    {"change", changeOf(row)}});
+    line.cells.emplace_back(changeOf(row));
+    table.rows.push_back(std::move(line));
   }
-  for (const std::string& sentence : sentencesOf(history))
-    sentences.push_back(symbolsHtml(sentence));
-  return {{"name", history.name},
-          {"sentences", std::move(sentences)},
-          {"columns", std::move(columns)},
-          {"rows", std::move(rows)}};
+  return table;
 }
 
 }  // namespace
@@ -157,10 +148,19 @@ std::vector<std::string> sentencesOf(const History& history) {
   return sentences;
 }
 
-Json historyViews(const std::vector<SiteReport>& reports) {
-  Json views = Json::array();
-  for (const History& history : historiesOf(reports)) views.push_back(viewOf(history));
-  return views;
+void addHistory(Report& index, const std::vector<SiteReport>& reports) {
+  const std::vector<History> histories = historiesOf(reports);
+  if (histories.empty()) return;
+  Blocks& blocks = index.section("history", "History").blocks;
+  blocks = {
+      Paragraph{"Reports of one command on one case by several versions of crossgrain or of an "
+                "engine, the oldest first. The last column: from the first to the last that "
+                "has the row."}};
+  for (const History& history : histories) {
+    blocks.push_back(Heading{history.name});
+    for (std::string& sentence : sentencesOf(history)) blocks.push_back(Paragraph{sentence});
+    blocks.push_back(historyTable(history));
+  }
 }
 
 }  // namespace crossgrain::reports

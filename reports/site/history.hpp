@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/view.hpp"
 #include "reports/site/site.hpp"
 
-/// What became of the answers to one case from one version to the next.
+/// Answers to one case, from one version to the next.
 namespace crossgrain::reports {
 
 /// One engine's answers to one question, or its values of one quantity.
@@ -29,14 +28,14 @@ std::string stampOf(const ResultsHead& head);
 
 std::vector<History> historiesOf(const std::vector<SiteReport>& reports);
 
-/// What changed from the first that has the row to the last: "holds → falls short", "+1.2 %",
+/// Change from the first that has the row to the last: "passed → failed", "+1.2 %",
 /// "same"; empty where only one has it.
 std::string changeOf(const HistoryRow& row);
 
 /// Which answers changed, and whether the case did, at most three sentences.
 std::vector<std::string> sentencesOf(const History& history);
 
-/// {name, sentences, columns [{stamp, started, page}], rows [{engine, question, cells, change}]}
-Json historyViews(const std::vector<SiteReport>& reports);
+/// The section of the index; none where no case has several versions.
+void addHistory(Report& index, const std::vector<SiteReport>& reports);
 
 }  // namespace crossgrain::reports

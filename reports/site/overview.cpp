@@ -4,7 +4,6 @@
 #include <array>
 #include <initializer_list>
 
-#include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
@@ -17,23 +16,23 @@ using Names = std::vector<std::string>;
 
 constexpr std::size_t mostPlaces = 2;
 
-/// States that answer a question, the gravest first.
+/// States that answer a question, the most severe first.
 constexpr std::array answers = {CellState::bad, CellState::borderline, CellState::undecided,
                                 CellState::modelDifference, CellState::good};
 
-/// How many answers: "2 of 7 fall short".
+/// How many answers: "2 of 7 failed".
 std::string_view verbOf(CellState state) {
   switch (state) {
     case CellState::bad:
-      return "fall short";
+      return "failed";
     case CellState::borderline:
       return "borderline";
     case CellState::undecided:
       return "undecided";
     case CellState::modelDifference:
-      return "differ";
+      return "differ by their model";
     default:
-      return "hold";
+      return "passed";
   }
 }
 
@@ -62,8 +61,8 @@ OverviewCell claimsCell(OverviewCell cell, const Overview& overview, const Overv
 
 OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
   OverviewCell cell{CellState::notApplicable, {}, "questions", {}, {}, {}};
-  const Overview* overview = report.digest.overview ? &*report.digest.overview : nullptr;
-  const OverviewRow* row = overview ? rowOf(*overview, engine) : nullptr;
+  const Overview& overview = report.digest.overview;
+  const OverviewRow* row = rowOf(overview, engine);
   if (!row && !tookPart(report, engine)) return cell;
   cell.anchor = pageOf(report);
   cell.state = CellState::figure;
@@ -71,11 +70,11 @@ OverviewCell cellOf(const SiteReport& report, const std::string& engine) {
     cell.words = "took part";
     return cell;
   }
-  if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), *overview, *row);
+  if (report.digest.head.kind == kindThesis) return claimsCell(std::move(cell), overview, *row);
   std::size_t answered = 0;
-  for (const CellState state : answers) answered += questionsWith(*overview, *row, state).size();
+  for (const CellState state : answers) answered += questionsWith(overview, *row, state).size();
   for (const CellState state : answers) {
-    const Names names = questionsWith(*overview, *row, state);
+    const Names names = questionsWith(overview, *row, state);
     if (names.empty()) continue;
     cell.state = state;
     cell.value = static_cast<double>(names.size());
@@ -105,7 +104,7 @@ bool hasAny(const OverviewRow& row, std::initializer_list<CellState> states) {
   });
 }
 
-/// @param engines  that are spoken of: mirrors are there for their peers
+/// @param engines  that are named: no mirrors
 std::vector<std::string> conclusionOf(const Overview& overview, const Names& engines) {
   using enum CellState;
   Names clean;
@@ -115,15 +114,37 @@ std::vector<std::string> conclusionOf(const Overview& overview, const Names& eng
       clean.push_back(row.name);
   std::vector<std::string> sentences;
   if (!clean.empty())
-    sentences.push_back(fmt::format("Nothing is open, and nothing falls short, of {}.",
-                                    listedShortly(clean, 2 * mostPlaces)));
-  if (const std::string fell = whereWith(overview, engines, bad); !fell.empty())
-    sentences.push_back(fmt::format("Falls short: {}.", fell));
-  if (const std::string open = whereWith(overview, engines, undecided); !open.empty())
-    sentences.push_back(fmt::format("Undecided: {}; each report says what would decide.", open));
+    sentences.push_back(
+        fmt::format("All passed or decided: {}.", listedShortly(clean, 2 * mostPlaces)));
+  if (const std::string failed = whereWith(overview, engines, bad); !failed.empty())
+    sentences.push_back(fmt::format("Failed: {}.", failed));
+  if (const std::string undecidedOnes = whereWith(overview, engines, undecided);
+      !undecidedOnes.empty())
+    sentences.push_back(
+        fmt::format("Undecided: {}; each report has what would decide.", undecidedOnes));
   if (sentences.empty()) sentences.push_back("Nothing was judged in these reports.");
   return sentences;
 }
+
+/// The column of that question, made where no report before had it.
+std::size_t columnOf(Overview& overview, const OverviewColumn& question) {
+  auto& columns = overview.columns;
+  const auto found = std::ranges::find(columns, question.name, &OverviewColumn::name);
+  if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  columns.push_back({question.name, question.asks, ""});
+  return columns.size() - 1;
+}
+
+/// How many questions came out so, and in which reports.
+struct Tally {
+  std::size_t answered = 0;
+  std::vector<std::string> places;  ///< reports, each once
+
+  void add(const std::string& place) {
+    ++answered;
+    if (std::ranges::find(places, place) == places.end()) places.push_back(place);
+  }
+};
 
 }  // namespace
 
@@ -162,7 +183,7 @@ std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports) {
 
 Overview siteOverview(const std::vector<SiteReport>& reports) {
   Overview overview;
-  overview.states = {{CellState::good, "all that is judged holds"},
+  overview.states = {{CellState::good, "all that is judged passed"},
                      {CellState::figure, "took part; nothing is judged by engine"},
                      {CellState::notApplicable, "not in it"}};
   for (const SiteReport& report : reports)
@@ -178,6 +199,47 @@ Overview siteOverview(const std::vector<SiteReport>& reports) {
     if (all[e].mirrors.empty()) engines.push_back(all[e].name);
   }
   overview.conclusion = conclusionOf(overview, engines);
+  return overview;
+}
+
+Overview engineOverview(const std::vector<SiteReport>& reports, const std::string& engine) {
+  using enum CellState;
+  Overview overview;
+  overview.rowsAre = "report";
+  Tally passed, differs, failed, undecidedOnes;
+  for (const SiteReport& report : reports) {
+    const Overview& its = report.digest.overview;
+    const OverviewRow* const own = rowOf(its, engine);
+    if (!own) continue;
+    OverviewRow row{ownNameOf(report, reports), false, {}, pageOf(report)};
+    for (std::size_t k = 0; k < own->cells.size(); ++k) {
+      OverviewCell cell = own->cells[k];
+      if (!cell.anchor.empty()) cell.anchor = pageOf(report) + "#" + cell.anchor;
+      const std::size_t column = columnOf(overview, its.columns[k]);
+      row.cells.resize(std::max(row.cells.size(), column + 1), {notApplicable});
+      row.cells[column] = std::move(cell);
+      if (report.digest.head.kind == kindThesis) continue;  // its claims are not the engine's
+      const CellState state = own->cells[k].state;
+      if (state == good) passed.add(row.name);
+      if (state == modelDifference) differs.add(row.name);
+      if (state == bad) failed.add(row.name);
+      if (state == borderline || state == undecided) undecidedOnes.add(row.name);
+    }
+    overview.rows.push_back(std::move(row));
+  }
+  for (OverviewRow& row : overview.rows) row.cells.resize(overview.columns.size(), {notApplicable});
+  const auto say = [&](const char* what, const Tally& tally) {
+    if (tally.answered > 0 && overview.conclusion.size() < 3)
+      overview.conclusion.push_back(fmt::format("{}: {} ({}).", what,
+                                                counted(tally.answered, "question"),
+                                                listedShortly(tally.places, 3)));
+  };
+  say("Failed", failed);
+  say("Borderline or undecided", undecidedOnes);
+  say("Model difference: true to the law that it declares", differs);
+  say("Passed", passed);
+  if (overview.conclusion.empty())
+    overview.conclusion.push_back("Nothing is judged of it in these reports.");
   return overview;
 }
 

@@ -5,9 +5,8 @@
 #include <iterator>
 
 #include "reports/common/overview.hpp"
-#include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/common/templates.hpp"
+#include "reports/render/html.hpp"
 #include "reports/site/history.hpp"
 #include "reports/site/site.hpp"
 #include "results/schema.hpp"
@@ -31,21 +30,23 @@ std::string forAddress(const std::string& name) {
   return safe.empty() ? "report" : safe;
 }
 
-Json reportRows(const std::vector<SiteReport>& reports) {
-  Json rows = Json::array();
+void addReports(Report& index, const std::vector<SiteReport>& reports) {
+  Blocks& blocks = index.section("reports", "Reports").blocks;
   for (const SiteReport& report : reports) {
     const ResultsHead& head = report.digest.head;
-    const auto& overview = report.digest.overview;
-    rows.push_back({{"folder", report.folder},
-                    {"title", titleOf(head)},
-                    {"started", head.started},
-                    {"version", stampOf(head)},
-                    {"command", head.command},
-                    {"conclusion", overview ? Json(overview->conclusion) : Json::array()},
-                    {"summary", overview.has_value()},
-                    {"tables", report.tables}});
+    blocks.push_back(Heading{titleOf(head)});
+    blocks.push_back(Paragraph{fmt::format("{} · crossgrain {}", head.started, stampOf(head)),
+                               Paragraph::Style::small});
+    for (const std::string& sentence : report.digest.overview.conclusion)
+      blocks.push_back(Paragraph{sentence});
+    Links links;
+    for (const char* name : {"report.html", "summary.md", "results.json"})
+      links.links.emplace_back(name, report.folder + "/" + name);
+    for (const std::string& name : report.tables)
+      links.links.emplace_back(name, report.folder + "/" + name);
+    blocks.push_back(std::move(links));
+    if (!head.command.empty()) blocks.push_back(Code{head.command});
   }
-  return rows;
 }
 
 /// The name or, where another has it, with a number.
@@ -75,12 +76,21 @@ void writeEnginePages(const std::vector<SiteReport>& reports, const std::filesys
   const std::vector<std::string> pages = enginePages(engines);
   for (std::size_t e = 0; e < engines.size(); ++e) {
     const EngineRow& engine = engines[e];
-    Json view = {{"style", templates().at("style.css")}, {"title", "crossgrain: " + engine.name},
-                 {"kicker", "crossgrain engine"},        {"heading", engine.name},
-                 {"meta", versionsOf(reports, engine)},  {"mirrors", engine.mirrors},
-                 {"engineSummary", engine.summary}};
-    addOverview(view, engineOverview(reports, engine.name), engines, true);
-    writeFile(site / pages[e], render("engine.html", view));
+    Report report{{{}, engines, engineOverview(reports, engine.name)}};
+    report.head.setup.name = "crossgrain: " + engine.name;
+    report.wrapped = true;
+    report.notes = nonEmpty(
+        {versionsOf(reports, engine), engine.summary,
+         engine.mirrors.empty()
+             ? ""
+             : "A mirror: the in-house engine with the conventions of " + engine.mirrors + "."});
+    report.section("reports", "Reports").blocks = {
+        Paragraph{report.overview.rows.empty()
+                      ? "It took part in these reports, and none has an answer of it."
+                      : "Each cell links to the report that it is of; this page needs the folders "
+                        "beside it."},
+        Links{{{"all engines", "index.html"}}}};
+    writeFile(site / pages[e], html(report, {}, {}));
   }
 }
 
@@ -105,26 +115,22 @@ std::vector<std::string> enginePages(const std::vector<EngineRow>& engines) {
 }
 
 void writeIndex(const std::vector<SiteReport>& reports, const std::filesystem::path& site) {
-  const Overview overview = siteOverview(reports);
-  const std::string heading = counted(reports.size(), "report");
-  Json view = {{"style", templates().at("style.css")},
-               {"title", "crossgrain: " + heading},
-               {"kicker", "crossgrain"},
-               {"heading", heading},
-               {"meta", ""},
-               {"reports", reportRows(reports)},
-               {"histories", historyViews(reports)}};
-  view["hasHistory"] = !view["histories"].empty();
-  addOverview(view, overview, siteEngines(reports));
+  Report index{{{}, siteEngines(reports), siteOverview(reports)}};
+  index.head.setup.name = "crossgrain: " + counted(reports.size(), "report");
+  addHistory(index, reports);
+  addReports(index, reports);
+  index.section("files", "Files").blocks = {Paragraph{
+      "Each report is one file that opens offline; this page needs the folders beside it. "
+      "Columns of the tables: docs/results.md of crossgrain."}};
   std::vector<JUnitCase> cases;
   for (const SiteReport& report : reports)
-    if (report.digest.overview && report.digest.head.kind != kindThesis)
-      std::ranges::move(overviewCases(*report.digest.overview, report.folder),
+    if (report.digest.head.kind != kindThesis)
+      std::ranges::move(overviewCases(report.digest.overview, report.folder),
                         std::back_inserter(cases));
   writeFile(site / "junit.xml", junitXml("reports", cases));
-  writeFile(site / "summary.md", overviewMarkdown(overview, "crossgrain: " + heading));
+  writeFile(site / "summary.md", overviewMarkdown(index.overview, titleOf(index.head)));
   writeEnginePages(reports, site);
-  writeFile(site / "index.html", render("site.html", view));
+  writeFile(site / "index.html", html(index, {}, {}));
 }
 
 }  // namespace crossgrain::reports

@@ -1,25 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "reports/common/digest_value.hpp"
-#include "results/engine_row.hpp"
-#include "results/head.hpp"
-#include "results/overview.hpp"
+#include "reports/common/report.hpp"
 
 /// Several reports in one folder, and the page that leads to them.
 namespace crossgrain::reports {
-
-/// What a report says at a glance.
-struct ReportDigest {
-  ResultsHead head;
-  std::vector<EngineRow> engines;
-  std::optional<Overview> overview;      ///< absent: it opens with none
-  std::vector<DigestValue> values = {};  ///< for the history of its case
-};
 
 struct SiteReport {
   std::string folder;  ///< in the site's, where its report.html is
@@ -42,8 +30,8 @@ const OverviewRow* rowOf(const Overview& overview, const std::string& engine);
 /// Of all reports, each once, so that its colour is that of its reports.
 std::vector<EngineRow> siteEngines(const std::vector<SiteReport>& reports);
 
-/// Engines × reports: in each cell the gravest state that the report's own matrix has of the
-/// engine, and in how many of its questions.
+/// Engines × reports: in each cell the most severe state that the report's own matrix has
+/// of the engine, and in how many of its questions.
 Overview siteOverview(const std::vector<SiteReport>& reports);
 
 /// One engine's answers: reports × questions, each cell as its report has it.

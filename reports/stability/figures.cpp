@@ -6,9 +6,11 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
 #include "results/json_fields.hpp"
+#include "results/stability_fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -23,7 +25,7 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
   for (std::size_t rank = 0; rank < namesOf(StabilityVerdict{}).size(); ++rank) {
     const auto verdict = static_cast<StabilityVerdict>(rank);
     panel.curves.push_back({std::string(nameOf(verdict)),
-                            {std::string(styleOf(verdict).colour), 5, false},
+                            {std::string(lookOf(stateOf(verdict)).plot), 5, false},
                             Draw::tiles,
                             {},
                             1.0});
@@ -50,7 +52,7 @@ bool keptToLimit(const StabilityRun& run) {
   return run.verdict <= StabilityVerdict::stable;
 }
 
-Curve curveOf(const StabilityRun& run, const LineStyle& style, bool logarithmic) {
+Curve measureCurve(const StabilityRun& run, const LineStyle& style, bool logarithmic) {
   Curve curve{run.engine, style, Draw::lines, {}, 1.5};
   const auto& [time, value] = run.curve;
   for (std::size_t k = 0; k < std::min(time.size(), value.size()); ++k)
@@ -59,7 +61,7 @@ Curve curveOf(const StabilityRun& run, const LineStyle& style, bool logarithmic)
   return curve;
 }
 
-/// The variant that somebody fared worst in, or null.
+/// The variant with the worst run that is drawn, or null.
 const HardCase* worstVariant(const StabilityResults& results, const HardGroup& group) {
   const HardCase* shown = nullptr;
   StabilityVerdict worst = StabilityVerdict::stable;
@@ -87,7 +89,7 @@ void addLimit(Panel& panel, double limit) {
       {"limit", {"#888888", 0, true}, Draw::lines, {{first, limit, {}}, {last, limit, {}}}, 1.5});
 }
 
-/// The variant that somebody fared worst in, over time.
+/// The worst variant over time.
 std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& group,
                               std::size_t index) {
   const HardCase* shown = worstVariant(results, group);
@@ -101,7 +103,7 @@ std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& 
   const std::vector<LineStyle> styles = engineStyles(results.engines);
   for (std::size_t e = 0; e < styles.size(); ++e)
     if (const StabilityRun* run = runOf(results, results.engines[e].name, *shown))
-      panel.curves.push_back(curveOf(*run, styles[e], panel.logY));
+      panel.curves.push_back(measureCurve(*run, styles[e], panel.logY));
   std::erase_if(panel.curves, [](const Curve& curve) { return curve.points.empty(); });
   if (panel.curves.empty()) return std::nullopt;
   if (panel.level) addLimit(panel, *panel.level);
@@ -118,6 +120,90 @@ std::optional<Figure> trackOf(const StabilityResults& results, const HardGroup& 
   return figure;
 }
 
+double middleOf(const std::vector<double>& values) {
+  std::vector<double> sorted;
+  for (const double value : values)
+    if (std::isfinite(value)) sorted.push_back(value);
+  if (sorted.empty()) return 0.0;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  return *middle;
+}
+
+/// Drops disks far away from most, which would make of the rest a dot.
+void dropFarAway(ScenePicture& picture) {
+  constexpr double farAway = 60.0;  // radii of the largest
+  const double x0 = middleOf(picture.x), y0 = middleOf(picture.y);
+  double largest = 0.0;
+  for (const double radius : picture.radius) largest = std::max(largest, radius);
+  const double reach = largest * (farAway + 3.0 * std::sqrt(static_cast<double>(picture.x.size())));
+  const auto drop = [&](std::vector<double>& x, std::vector<double>& y) {
+    y.resize(x.size(), NAN);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (!(std::abs(x[k] - x0) < reach && std::abs(y[k] - y0) < reach)) x[k] = y[k] = NAN;
+  };
+  drop(picture.x, picture.y);
+  drop(picture.wallX, picture.wallY);
+}
+
+/// Half way between the outermost of the disks.
+double centreOf(const std::vector<double>& places) {
+  double low = INFINITY, high = -INFINITY;
+  for (const double place : places)
+    if (std::isfinite(place)) {
+      low = std::min(low, place);
+      high = std::max(high, place);
+    }
+  return low <= high ? 0.5 * (low + high) : 0.0;
+}
+
+/// The picture with the disks about the origin.
+ScenePicture centred(ScenePicture picture) {
+  dropFarAway(picture);
+  const double x0 = centreOf(picture.x), y0 = centreOf(picture.y);
+  for (auto* xs : {&picture.x, &picture.wallX})
+    for (double& x : *xs) x -= x0;
+  for (auto* ys : {&picture.y, &picture.wallY})
+    for (double& y : *ys) y -= y0;
+  if (picture.planes)
+    for (auto& [x, y, normalX, normalY] : *picture.planes) {
+      x -= x0;
+      y -= y0;
+    }
+  return picture;
+}
+
+/// Planes as lines through the whole window.
+void addPlanes(const ScenePicture& picture, Drawing& drawing) {
+  if (!picture.planes) return;
+  StrokeGroup lines{"#555555", drawing.halfWidth / 100.0, {}};
+  for (const auto& [x, y, nx, ny] : *picture.planes) {
+    const double away = x * nx + y * ny, half = 3.0 * drawing.halfWidth;
+    const double footX = away * nx, footY = away * ny;
+    if (std::abs(away) > drawing.halfWidth) continue;
+    lines.strokes.push_back(
+        {footX - half * ny, footY + half * nx, footX + half * ny, footY - half * nx});
+  }
+  if (!lines.strokes.empty()) drawing.groups.push_back(std::move(lines));
+}
+
+Picture pictureOf(const StabilityRun& run, std::size_t index) {
+  const ScenePicture shown = centred(*run.picture);
+  const auto widest = widestForce(shown);
+  const std::string& variant = run.variant;
+  Drawing drawing = forcesDrawing(shown, widest.value_or(1.0), 0.35);
+  drawing.halfWidth *= 1.08;
+  addPlanes(shown, drawing);
+  return {fmt::format("worst_{}", index),
+          run.engine,
+          fmt::format("{}: {}{}{}", run.engine, run.name, variant.empty() ? "" : ", ", variant),
+          fmt::format("{}{}{}at {} s{}", run.name, variant.empty() ? " " : ", " + variant,
+                      variant.empty() ? "" : " ", readable(finite(shown.time)),
+                      widest ? fmt::format("; widest line: {} N", readable(widest)) : ""),
+          Picture::Shows::worst,
+          std::move(drawing)};
+}
+
 }  // namespace
 
 std::vector<Figure> stabilityFigures(const StabilityResults& results) {
@@ -128,6 +214,14 @@ std::vector<Figure> stabilityFigures(const StabilityResults& results) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (auto figure = trackOf(results, groups[g], g + 1)) figures.push_back(std::move(*figure));
   return figures;
+}
+
+std::vector<Picture> stabilityPictures(const StabilityResults& results) {
+  std::vector<Picture> pictures;
+  for (const StabilityRun& run : results.runs)
+    if (run.verdict == StabilityVerdict::unstable && run.picture)
+      pictures.push_back(pictureOf(run, pictures.size() + 1));
+  return pictures;
 }
 
 }  // namespace crossgrain::reports

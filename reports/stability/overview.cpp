@@ -1,4 +1,4 @@
-#include "reports/stability/overview.hpp"
+#include "reports/stability/report.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@ namespace {
 
 struct Family {
   std::string_view measure, name, asks;
-  bool transform = false;  ///< of a case told otherwise
+  bool transform = false;  ///< of a transformed case
 };
 /// In the order of the columns.
 constexpr std::array families = {
-    Family{"energy_gain", "energy", "Does energy come from nowhere, or go?"},
+    Family{"energy_gain", "energy", "Is energy conserved, or lost as the law says?"},
     Family{"energy_drift", "energy", ""},
     Family{"ledger_residual", "energy", ""},
     Family{"momentum_drift", "momentum", "Are momentum and angular momentum kept?"},
@@ -29,7 +29,7 @@ constexpr std::array families = {
     Family{"max_overlap", "passing through", "Do disks go through each other or through walls?"},
     Family{"tunnelled", "passing through", ""},
     Family{"escaped", "passing through", ""},
-    Family{"kinetic_at_rest", "rest", "Does what lies stay at rest?"},
+    Family{"kinetic_at_rest", "rest", "Do disks at rest stay at rest?"},
     Family{"creep", "rest", ""},
     Family{"pile_angle_change", "rest", ""},
     Family{"time_to_rest", "rest", ""},
@@ -40,14 +40,21 @@ constexpr std::array families = {
     Family{"accepted", "bad starts", "Are starts refused that nothing can run?"},
     Family{"turned", "turned", "Does a turned scene do the same, turned?", true},
     Family{"mirrored", "mirrored", "Does a mirrored scene do the same, mirrored?", true},
-    Family{"rescaled", "other units", "Does a scene told in other units do the same?", true},
+    Family{"rescaled", "other units", "Does a scene in other units do the same?", true},
     Family{"renumbered", "renumbered", "Do disks do the same under other numbers?", true},
-    Family{"restarted", "taken up", "Does a run taken up from a checkpoint go on the same?", true},
-    Family{"split", "in one go", "Does a run that nobody looks at do the same?", true}};
+    Family{"restarted", "restarted", "Does a run restarted from a checkpoint go on the same?",
+           true},
+    Family{"split", "in one go", "Does a run without snapshots do the same?", true}};
 
 const Family* known(const std::string& measure) {
   const auto found = std::ranges::find(families, measure, &Family::measure);
   return found == families.end() ? nullptr : &*found;
+}
+
+/// The family of hard cases that a measure belongs to; of one that is not known here its own name.
+std::string familyOf(const std::string& measure) {
+  const Family* family = known(measure);
+  return family ? std::string(family->name) : spaced(measure);
 }
 
 struct NamedFamily {
@@ -75,11 +82,11 @@ std::vector<NamedFamily> familiesOf(const StabilityResults& results) {
 struct FamilyTally {
   std::size_t stable = 0, judged = 0, refused = 0, notRun = 0;
   const StabilityRun* worst = nullptr;
-  std::string anchor, refusal;
+  std::string anchor;
 };
 
-FamilyTally tallyOf(const StabilityResults& results, const std::string& engine,
-                    const std::string& family) {
+FamilyTally familyTally(const StabilityResults& results, const std::string& engine,
+                        const std::string& family) {
   FamilyTally tally;
   const std::vector<HardGroup> groups = hardGroups(results);
   for (std::size_t g = 0; g < groups.size(); ++g)
@@ -100,7 +107,7 @@ FamilyTally tallyOf(const StabilityResults& results, const std::string& engine,
   return tally;
 }
 
-OverviewCell cellOf(const FamilyTally& tally) {
+OverviewCell familyCell(const FamilyTally& tally) {
   OverviewCell cell{CellState::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
   if (!tally.worst) {
     if (tally.refused > 0 && tally.notRun == 0) cell.state = CellState::notApplicable;
@@ -109,23 +116,13 @@ OverviewCell cellOf(const FamilyTally& tally) {
   cell.value = static_cast<double>(tally.stable);
   cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
   if (tally.notRun > 0) cell.words = fmt::format("{} not run", tally.notRun);
-  switch (tally.worst->verdict) {
-    case StabilityVerdict::unstable:
-      cell.state = CellState::bad;
-      break;
-    case StabilityVerdict::degraded:
-      cell.state = CellState::borderline;
-      break;
-    default:
-      cell.state = CellState::good;
-  }
+  cell.state = stateOf(tally.worst->verdict);
   if (cell.state != CellState::good) cell.words = spaced(tally.worst->name);
   return cell;
 }
 
-std::string whoIsStable(const StabilityResults& results) {
-  const bool told = areTransforms(results);
-  const char* const same = told ? "the same" : "stable";
+std::string stableEngines(const StabilityResults& results) {
+  const char* const same = areTransforms(results) ? "the same" : "stable";
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
     std::size_t stable = 0, degraded = 0, unstable = 0, notRun = 0;
@@ -150,8 +147,8 @@ std::string whoIsStable(const StabilityResults& results) {
   return sentence + ".";
 }
 
-/// What breaks when engines are told it otherwise, engine by engine.
-std::string whatBreaks(const StabilityResults& results) {
+/// Transformed cases that run differently, engine by engine.
+std::string differentTransforms(const StabilityResults& results) {
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> broken;
@@ -163,12 +160,13 @@ std::string whatBreaks(const StabilityResults& results) {
   std::string sentence;
   for (const auto& [names, engines] : said.all())
     sentence += fmt::format("{}{} with {}", sentence.empty() ? "" : "; ", listed(engines), names);
-  return sentence.empty() ? sentence : fmt::format("Another run: {}.", sentence);
+  return sentence.empty() ? sentence
+                          : fmt::format("Different after a transformation: {}.", sentence);
 }
 
 /// Cases in which engines are unstable, engine by engine.
-std::string whatIsUnstable(const StabilityResults& results) {
-  if (areTransforms(results)) return whatBreaks(results);
+std::string unstableCases(const StabilityResults& results) {
+  if (areTransforms(results)) return differentTransforms(results);
   SaidOf said;
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> unstable;
@@ -185,22 +183,22 @@ std::string whatIsUnstable(const StabilityResults& results) {
   return fmt::format("Unstable: {}.", sentence);
 }
 
-std::string nextStep(const StabilityResults& results) {
+std::string stabilityNextStep(const StabilityResults& results) {
   const auto has = [&](StabilityVerdict verdict) {
     return std::ranges::find(results.runs, verdict, &StabilityRun::verdict) != results.runs.end();
   };
   if (areTransforms(results)) {
     if (has(StabilityVerdict::unstable))
-      return "Next: see after which step and by how much; what follows from how a scene is told is "
-             "the engine's and not the scene's.";
+      return "Next: see after which step and by how much; what depends on how a scene is expressed "
+             "comes from the engine.";
     if (has(StabilityVerdict::notRun))
       return "Next: the same command with a larger --budget, for what was not run.";
     if (has(StabilityVerdict::stable))
-      return "However these cases were told, no more than rounding came of it.";
+      return "All transformations change no more than rounding does.";
   }
   if (has(StabilityVerdict::unstable))
-    return "Next: keep scenes like these away from those engines, or see from which step on the "
-           "limit is passed.";
+    return "Next: avoid scenes like these with those engines, or see from which step on the limit "
+           "is passed.";
   if (has(StabilityVerdict::degraded))
     return "Next: see whether what is degraded is more than your scene can bear.";
   if (has(StabilityVerdict::stable)) return "Nothing here speaks against any of these engines.";
@@ -216,16 +214,11 @@ bool areTransforms(const StabilityResults& results) {
   });
 }
 
-std::string familyOf(const std::string& measure) {
-  const Family* family = known(measure);
-  return family ? std::string(family->name) : spaced(measure);
-}
-
 Overview stabilityOverview(const StabilityResults& results) {
   Overview overview;
   if (areTransforms(results))
     overview.states = {{CellState::good, "the same, but for rounding"},
-                       {CellState::bad, "another run"},
+                       {CellState::bad, "different"},
                        {CellState::notApplicable, "cannot be done"}};
   else
     overview.states = {{CellState::good, "all stable"},
@@ -238,12 +231,11 @@ Overview stabilityOverview(const StabilityResults& results) {
   for (const EngineRow& engine : results.engines) {
     OverviewRow row{engine.name, true, {}};
     for (const NamedFamily& family : all)
-      row.cells.push_back(cellOf(tallyOf(results, engine.name, family.name)));
+      row.cells.push_back(familyCell(familyTally(results, engine.name, family.name)));
     overview.rows.push_back(std::move(row));
   }
-  for (std::string& sentence :
-       std::vector{whoIsStable(results), whatIsUnstable(results), nextStep(results)})
-    if (!sentence.empty()) overview.conclusion.push_back(std::move(sentence));
+  overview.conclusion =
+      nonEmpty({stableEngines(results), unstableCases(results), stabilityNextStep(results)});
   return overview;
 }
 

@@ -1,20 +1,15 @@
 #include "reports/stability/table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <utility>
-
-#include "reports/common/csv_row.hpp"
-#include "reports/common/labels.hpp"
-#include "reports/common/numbers.hpp"
-#include "reports/stability/report.hpp"
-#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
-std::string inWords(StabilityVerdict verdict) {
-  return fmt::format("{} {}", styleOf(verdict).mark, spaced(std::string(nameOf(verdict))));
+CellState stateOf(StabilityVerdict verdict) {
+  using enum CellState;
+  constexpr std::array states = {notMeasured, notApplicable, good, borderline, bad};
+  return states.at(static_cast<std::size_t>(verdict));
 }
 
 std::vector<HardGroup> hardGroups(const StabilityResults& results) {
@@ -51,16 +46,6 @@ const StabilityRun* worstRun(const StabilityResults& results, const std::string&
     if (run && (!worst || isWorse(*run, *worst))) worst = run;
   }
   return worst;
-}
-
-std::string stabilityCsv(const StabilityResults& results) {
-  std::string table =
-      "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n";
-  for (const StabilityRun& run : results.runs)
-    table += row(run.engine, run.name, std::string(nameOf(run.verdict)), run.measure, run.value,
-                 finite(run.limit), run.unit, stepOf(run), run.reason, finite(run.degradedLimit),
-                 run.variant, run.time);
-  return table;
 }
 
 }  // namespace crossgrain::reports

@@ -1,31 +1,17 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "results/overview.hpp"
 #include "results/stability.hpp"
 
 /// Looking into the results of hard cases.
 namespace crossgrain::reports {
 
-/// How a verdict is shown everywhere.
-struct VerdictStyle {
-  std::string_view mark, cssClass, colour;
-};
-constexpr VerdictStyle styleOf(StabilityVerdict verdict) {
-  constexpr std::array styles = {VerdictStyle{"○", "undecided", "#f2f4f5"},  // not run
-                                 VerdictStyle{"–", "undecided", "#d5d9dd"},  // refused
-                                 VerdictStyle{"✓", "agree", "#8cc3e0"},
-                                 VerdictStyle{"~", "degraded", "#f0d264"},
-                                 VerdictStyle{"✗", "disagree", "#d55e00"}};
-  return styles[static_cast<std::size_t>(verdict)];
-}
-
-/// "✓ stable"
-std::string inWords(StabilityVerdict verdict);
+/// How a verdict is shown: degraded as borderline, refused as not applicable.
+CellState stateOf(StabilityVerdict verdict);
 
 /// All variants of one hard case.
 struct HardGroup {
@@ -49,5 +35,8 @@ bool isWorse(const StabilityRun& run, const StabilityRun& than);
 /// Its worst run in a case; null without one.
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
                              const HardGroup& group);
+
+/// Whether these are transformed cases (runs/stability/transforms.hpp), not hard ones.
+bool areTransforms(const StabilityResults& results);
 
 }  // namespace crossgrain::reports

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "adapters/worker/json.hpp"
-#include "reports/common/gnuplot.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "reports/report.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "reports/collide/report.hpp"
-#include "reports/common/gnuplot.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
@@ -61,14 +61,14 @@ TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
   EXPECT_GT(named, 0);
 }
 
-using Column = std::vector<std::optional<double>>;
+using NumberList = std::vector<std::optional<double>>;
 
 /// Ψ_i = 0 and 2, of which half the energy is lost.
 CollisionTable half() {
   CollisionTable table;
   table.psi = {0.0, 2.0};
-  table.columns[QuantityId::energyBefore] = Column{1.0, 2.0};
-  table.columns[QuantityId::energyAfter] = Column{0.5, 1.0};
+  table.columns[QuantityId::energyBefore] = NumberList{1.0, 2.0};
+  table.columns[QuantityId::energyAfter] = NumberList{0.5, 1.0};
   return table;
 }
 
@@ -78,21 +78,21 @@ CollideResults energies() {
   CollisionVariant hertz, rigid;
   hertz.variant = "hertz";
   CollisionTable table = half();
-  table.columns[lostNormalDamping] = Column{0.4, 0.5};
-  table.columns[lostTangential] = Column{0.1, 0.5};
+  table.columns[lostNormalDamping] = NumberList{0.4, 0.5};
+  table.columns[lostTangential] = NumberList{0.1, 0.5};
   CollisionCurve& curve = hertz.curves.emplace_back();
   curve.engine = "e";
   curve.dt = 1e-5;
   static_cast<CollisionTable&>(curve.points) = table;
-  table.columns[psiF] = Column{0.0, 1.0};
-  table.columns[lostTangentialDamping] = Column{0.05, 0.1};
-  table.columns[lostStiffening] = Column{0.02, -0.1};
-  table.columns[lostSliding] = Column{0.02, 0.4};
-  table.columns[lostStored] = Column{0.01, 0.1};
+  table.columns[psiF] = NumberList{0.0, 1.0};
+  table.columns[lostTangentialDamping] = NumberList{0.05, 0.1};
+  table.columns[lostStiffening] = NumberList{0.02, -0.1};
+  table.columns[lostSliding] = NumberList{0.02, 0.4};
+  table.columns[lostStored] = NumberList{0.01, 0.1};
   hertz.oracle = table;
   rigid.variant = "rigid";
   rigid.oracle = half();
-  rigid.oracle.columns[psiF] = Column{0.0, 1.0};
+  rigid.oracle.columns[psiF] = NumberList{0.0, 1.0};
   CollideResults results;
   results.head.setup.name = "c";
   results.engines.resize(1);

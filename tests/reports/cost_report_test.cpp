@@ -5,12 +5,9 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/figure.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/report.hpp"
 #include "results/schema.hpp"
-#include "support/files.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -164,30 +161,18 @@ TEST(CostReport, Texts_OfSettingsAndMeasures) {
   EXPECT_EQ(measureText("position_rms_grain"), "positions, compared with grain");
 }
 
-TEST(CostReport, Page_HasVerdictsReasonsAndFragments) {
-  const TemporaryFolder folder;
-  writeReport(sample::costResults(), folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_TRUE(has(page, "is decided for 9 of 9 against"));
-  EXPECT_TRUE(has(page, "box2d-impulse refused the scene: odd &lt;b&gt;"));
-  EXPECT_TRUE(has(page, " not measured, for they did not fit into the budget of 12 min 00 s"));
-  EXPECT_TRUE(has(page, "would take about 140 s, budget 60 s"));
-  EXPECT_TRUE(has(page, "a disk left the cell at step 37; odd &lt;b&gt;"));
-  EXPECT_TRUE(has(page, ">grain for 10 %: t<sub>c</sub>/25<"));
-  EXPECT_TRUE(has(page, "<pre>[run]\nsteps_per_contact = 25\n"));
-  for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script s", "odd <b>"})
-    EXPECT_FALSE(has(page, bad)) << bad;
-  for (const char* file : {"cost.csv", "plots/cost_collision.svg", "plots/cost_collision.png",
-                           "plots/cost_trajectory.svg", "plots/cost_averages.svg"})
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
-}
-
-TEST(CostReport, PageOfNothing_SaysSo) {
-  const TemporaryFolder folder;
-  writeReport(Json{{"schema", "crossgrain-results-1"}, {"kind", "cost"}}, folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_TRUE(has(page, "Nothing was measured."));
-  EXPECT_FALSE(has(page, "{{"));
+TEST(CostReport, Text_HasVerdictsReasonsAndFragments) {
+  const Report report = costReport(sample::costResults());
+  const std::string text = textOf(report);
+  EXPECT_TRUE(has(text, "is decided for 9 of 9 against"));
+  EXPECT_TRUE(has(text, "box2d-impulse refused the scene: odd <b>"));
+  EXPECT_TRUE(has(text, " not measured, for they did not fit into the budget of 12 min 00 s"));
+  EXPECT_TRUE(has(text, "would take about 140 s, budget 60 s"));
+  EXPECT_TRUE(has(text, "a disk left the cell at step 37; odd <b>"));
+  EXPECT_TRUE(has(text, "### grain for 10 %: t_c/25\n[run]\nsteps_per_contact = 25\n"));
+  for (const char* plot : {"[cost_collision]", "[cost_trajectory]", "[cost_averages]"})
+    EXPECT_TRUE(has(text, plot)) << plot;
+  EXPECT_TRUE(has(textOf(costReport({})), "Nothing was measured."));
 }
 
 }  // namespace

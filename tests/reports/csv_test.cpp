@@ -7,6 +7,7 @@
 
 #include "reports/collide/report.hpp"
 #include "reports/common/csv_row.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -14,7 +15,7 @@ namespace {
 
 /// A comparison small enough to write its tables down by hand.
 CompareResults tiny() {
-  CompareResults results = compareFromJson(Json::parse(R"({
+  CompareResults results = compareFromJson(nlohmann::json::parse(R"({
     "kind": "compare", "engines": [{"name": "one"}],
     "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
     "runs": [
@@ -39,6 +40,12 @@ CompareResults tiny() {
   return results;
 }
 
+std::string averageTable(const CompareResults& results, const std::string& name) {
+  Report report;
+  report.tables = averageTables(results);
+  return csvOf(report, name);
+}
+
 /// What a spreadsheet would compute, or run, is text.
 TEST(Csv, FormulasAreText) {
   EXPECT_EQ(cell(std::string("=cmd|' /C calc'!A1")), "'=cmd|' /C calc'!A1");
@@ -50,7 +57,7 @@ TEST(Csv, FormulasAreText) {
 }
 
 TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
-  EXPECT_EQ(profilesCsv(tiny()),
+  EXPECT_EQ(averageTable(tiny(), "profiles.csv"),
             "engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,"
             "from_rotation,to_rotation,prepared_rotations\n"
             "one,0,slicing,spin,1,0.1,0.5,0.1,1e-30,12.5,rad/s,within_run,7,,,\n"
@@ -61,18 +68,19 @@ TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
   results.averaging.fromRotation = 0.25;
   results.averaging.toRotation = 1.25;
   results.averaging.preparedRotations = 2.0;
-  EXPECT_NE(profilesCsv(results).find("within_run,7,0.25,1.25,2\n"), std::string::npos);
+  EXPECT_NE(averageTable(results, "profiles.csv").find("within_run,7,0.25,1.25,2\n"),
+            std::string::npos);
 }
 
 TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
-  const CompareResults results = compareFromJson(Json::parse(R"({
+  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
     "runs": [{"engine": "one", "packing": 2, "distributions": [
       {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
        "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},
       {"quantity": "joint", "ring": null, "samples": 4, "outside": 0,
        "axes": [{"low": 0, "width": 1, "count": 2}, {"low": 10, "width": 2, "count": 1}],
        "density": [0, 0.5], "stderr": []}]}]})"));
-  EXPECT_EQ(distributionsCsv(results),
+  EXPECT_EQ(averageTable(results, "distributions.csv"),
             "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n"
             "one,2,spin,1,-1,-0.5,0.25,0.125,,,within_run\n"
             "one,2,spin,1,0,0.5,1.5,0.5,,,within_run\n"
@@ -81,7 +89,7 @@ TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
 }
 
 TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
-  EXPECT_EQ(seriesCsv(tiny()),
+  EXPECT_EQ(averageTable(tiny(), "series.csv"),
             "engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,"
             "max_overlap,sliding_fraction,zz_extra\n"
             "one,0,0,,,1,,,,7\n"
@@ -162,7 +170,7 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   CollideResults results;
   results.head.setup.name = "walton";
   results.variants = {variant};
-  EXPECT_EQ(collisionsCsv(results),
+  EXPECT_EQ(csvOf(collideReport(results), "collisions.csv"),
             "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status,"
             "beta,beta_reference,centre_psi_f,centre_psi_f_reference,e_t,e_t_reference,"
             "rebound_angle_rad,rebound_angle_reference_rad,spin_i_rad_s,spin_i_reference_rad_s,"
@@ -185,12 +193,13 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
 TEST(Csv, QuotesCommasAndQuotesInNames) {
   CompareResults results = tiny();
   results.runs[0].engine = "a,\"b\"";
-  EXPECT_NE(profilesCsv(results).find("\n\"a,\"\"b\"\"\",0,slicing"), std::string::npos);
+  EXPECT_NE(averageTable(results, "profiles.csv").find("\n\"a,\"\"b\"\"\",0,slicing"),
+            std::string::npos);
 }
 
 TEST(Csv, EveryRunRingAndFieldOfTheSampleHasARow) {
   const CompareResults results = sample::compareResults(2, 10);
-  const std::string table = profilesCsv(results);
+  const std::string table = averageTable(results, "profiles.csv");
   // 4 engines × 2 packings − 1 failed run, and 4 ensembles; 7 fields, 20 rings; one header.
   EXPECT_EQ(std::ranges::count(table, '\n'), (4 * 2 - 1 + 4) * 7 * 20 + 1);
 }

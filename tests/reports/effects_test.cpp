@@ -5,11 +5,8 @@
 
 #include "reports/effects/report.hpp"
 #include "reports/effects/variants.hpp"
-#include "reports/report.hpp"
-#include "support/files.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -21,14 +18,14 @@ std::string lineOf(const std::string& table, std::size_t line) {
 }
 
 TEST(EffectsCsv, BeginsWithTheContractsColumns) {
-  EXPECT_EQ(lineOf(effectsCsv(sample::effectsResults(4)), 0),
+  EXPECT_EQ(lineOf(csvOf(effectsReport(sample::effectsResults(4)), "effects.csv"), 0),
             "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
             "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,"
             "step_s,contacts_per_step,precision,status,reason");
 }
 
 TEST(EffectsCsv, HasARowPerRingOfEachFieldWithoutEachEffect) {
-  const std::string table = effectsCsv(sample::effectsResults(4));
+  const std::string table = csvOf(effectsReport(sample::effectsResults(4)), "effects.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 2 * 3 + 1);
   EXPECT_EQ(lineOf(table, 2),
             "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,yes,1e-05,0.001,"
@@ -36,17 +33,18 @@ TEST(EffectsCsv, HasARowPerRingOfEachFieldWithoutEachEffect) {
 }
 
 TEST(EffectsCsv, WhatWasRefusedIsOneRowWithItsReason) {
-  const std::string last = lineOf(effectsCsv(sample::effectsResults(4)), 13);
+  const std::string last =
+      lineOf(csvOf(effectsReport(sample::effectsResults(4)), "effects.csv"), 13);
   EXPECT_TRUE(last.starts_with("grain,tension_cut,,,,,,,,,,,,,,,,,,,refused,\"odd")) << last;
 }
 
-TEST(EffectsCsv, WhatCannotBeToldIsEmpty) {
-  EXPECT_EQ(lineOf(effectsCsv(sample::effectsResults(1)), 2),
+TEST(EffectsCsv, WhatIsNotTestedIsEmpty) {
+  EXPECT_EQ(lineOf(csvOf(effectsReport(sample::effectsResults(1)), "effects.csv"), 2),
             "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,,,,,1,within_run,"
             "0.01,2.5e-06,45,double,ran,");
 }
 
-TEST(EffectVariants, TellTheRingThatSaysMostAsAShareOfTheProfilesLargestValue) {
+TEST(EffectVariants, HaveTheDecisiveRingAsAShareOfTheProfilesLargestValue) {
   const auto variants = variantSummaries(sample::effectsResults(4));
   ASSERT_EQ(variants.size(), 3u);
   const FieldChange& velocity = *variants[0].of("azimuthal_velocity");
@@ -72,7 +70,7 @@ TEST(EffectVariants, AreRunsOfTheirOwn) {
   EXPECT_TRUE(variants[3].runs.empty());
 }
 
-TEST(EffectFigures, MarkWhatIsToldApartByShapeToo) {
+TEST(EffectFigures, MarkSignificantChangesByShapeToo) {
   const auto figures = effectFigures(sample::effectsResults(4));
   ASSERT_EQ(figures.front().name, "effects_1_cost");
   const Panel& cost = figures.front().panels[0];
@@ -98,35 +96,8 @@ TEST(EffectFigures, ProfilesNameWhatChangesThem) {
   FAIL() << "no profile of the velocity";
 }
 
-TEST(EffectsPage, SaysInASentenceWhatEachEffectCostsAndChanges) {
-  const TemporaryFolder folder;
-  writeReport(sample::effectsResults(4), folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_TRUE(has(page,
-                  "On grain, 1 of 2 effects of this scene changes a profile detectably, of 1 no "
-                  "change is told apart from none; the dearest is friction, 50 % of a step. Not "
-                  "measured: 1 effect."));
-  EXPECT_TRUE(
-      has(page,
-          "Friction takes 50.0\u00a0±\u00a01.0 % of a step (without it there are 45 contacts "
-          "instead of 424); told apart from no change without it: azimuthal velocity in ring 2, "
-          "−20 % (−25 to −15 %)."));
-  EXPECT_TRUE(has(page,
-                  "Bottom friction costs nothing measurable (+0.5\u00a0±\u00a01.0 % of a step); no "
-                  "change told apart from none; the smallest that this run could have, field by "
-                  "field: 5 % "
-                  "(azimuthal velocity)"))
-      << page.substr(page.find("Bottom friction"), 300);
-  EXPECT_TRUE(has(page, "Tension: refused: odd &lt;b&gt;"));
-  EXPECT_TRUE(has(page, "▼ −20 % (−25 to −15 %)</b>"));
-  EXPECT_TRUE(has(page, "No &lt;tangential&gt; force."));
-  EXPECT_TRUE(has(page, "Grey: runs whose change of this field was not told apart from none."));
-  for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script s"})
-    EXPECT_FALSE(has(page, bad)) << bad;
-}
-
-/// "−68.9 ± 7.3 %, beyond the margin" beside "not told apart" was one such sentence.
-TEST(EffectsPage, NotToldApartStandsBesideAnIntervalThatHoldsZero) {
+/// "−68.9 ± 7.3 %, beyond the margin" beside a change that is not significant was one such cell.
+TEST(EffectsReport, NotSignificant_HasAnIntervalThatContainsZero) {
   EffectsResults results = sample::effectsResults(4);
   RingChange& ring = results.variants[2].changes.fields[0].rings[0];  // bottom friction
   ring.change = -0.01378;                                             // of 0.02
@@ -134,38 +105,28 @@ TEST(EffectsPage, NotToldApartStandsBesideAnIntervalThatHoldsZero) {
   ring.low = -0.0290;
   ring.high = 0.0014;
   ring.smallest = 0.0152;
-  const auto page = [&] {
-    const TemporaryFolder folder;
-    writeReport(results, folder.path());
-    return readFile(folder.path() / "report.html").value();
-  };
-  EXPECT_TRUE(has(page(),
-                  "○ −69 % (−145 to +7 %)</b><small>ring 1; seen from 76 %; "
-                  "margin: undecided"))
-      << page().substr(page().find("○"), 200);
-  EXPECT_FALSE(has(page(), "beyond the margin"));
+  const auto text = [&] { return textOf(effectsReport(results)); };
+  EXPECT_TRUE(has(text(), "○ −69 % (−145 to +7 %) // ring 1; seen from 76 %; margin: undecided"))
+      << text();
+  EXPECT_FALSE(has(text(), "beyond the margin"));
   // Beyond it only where that is shown, and in which ring.
   ChangedField& velocity = results.variants[1].changes.fields[0];
   velocity.verdict = AgainstMargin::disagree;
-  EXPECT_TRUE(has(page(), "shown beyond the margin in another ring"));
+  EXPECT_TRUE(has(text(), "shown beyond the margin in another ring"));
   velocity.rings[1].verdict = AgainstMargin::disagree;
-  EXPECT_TRUE(has(page(), "ring 2; shown beyond the margin<"));
+  EXPECT_TRUE(has(text(), "ring 2; shown beyond the margin"));
 }
 
-TEST(EffectsPage, OfFewPackingsSaysThatItCannotTell) {
-  const TemporaryFolder folder;
-  writeReport(sample::effectsResults(1), folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_TRUE(has(page, "Fewer than 4 packings: what an effect changes cannot be told"));
-  EXPECT_TRUE(has(page, "On grain, of 2 effects of this scene the dearest is friction, 50 %"));
-  EXPECT_FALSE(has(page, "told apart from none"));
-  EXPECT_FALSE(has(page, "○ "));  // not told apart is one thing, no telling another
-  EXPECT_TRUE(has(page, "too few packings to tell"));
-  EXPECT_TRUE(has(page, "(one standard error)"));
-  EXPECT_TRUE(has(page, "within the two runs of one packing"));
+TEST(EffectsReport, FewPackings_NothingIsTested) {
+  const std::string text = textOf(effectsReport(sample::effectsResults(1)));
+  EXPECT_TRUE(has(text, "Fewer than 4 packings"));
+  EXPECT_FALSE(has(text, "○ −"));  // not significant is one thing, no test another
+  EXPECT_TRUE(has(text, "too few packings"));
+  EXPECT_TRUE(has(text, "(one standard error)"));
+  EXPECT_TRUE(has(text, "within the two runs of one packing"));
 }
 
-TEST(EffectsPage, OfSeveralEnginesHasASentenceOnEachAndAStudyOfEach) {
+TEST(EffectsReport, SeveralEngines_HaveASectionEach) {
   EffectsResults results = sample::effectsResults(4);
   results.engines.push_back(results.engines[0]);
   results.engines[1].name = "other";
@@ -178,22 +139,9 @@ TEST(EffectsPage, OfSeveralEnginesHasASentenceOnEachAndAStudyOfEach) {
   ofTheOther(results.variants);
   ofTheOther(results.runs);
   ofTheOther(results.ensemble);
-  const TemporaryFolder folder;
-  writeReport(results, folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_TRUE(has(page, "<li>On other, 1 of 2 effects"));
-  EXPECT_TRUE(has(page, "<h2 id=\"effects-2\">What each effect costs and changes: other<"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "plots/effects_2_cost.svg"));
-}
-
-TEST(EffectsReport, PlotsAndTableStandBesideThePage) {
-  const TemporaryFolder folder;
-  writeReport(sample::effectsResults(4), folder.path());
-  for (const char* file : {"results.json", "effects.csv", "plots/effects_1_cost.svg",
-                           "plots/effects_1_profile_volume_fraction.svg"})
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "profiles.csv"));
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "plots" / "gnuplot.log"));
+  const std::string text = textOf(effectsReport(results));
+  EXPECT_TRUE(has(text, "## What each effect costs and changes: other (effects-2)"));
+  EXPECT_TRUE(has(text, "[effects_2_cost]"));
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "reports/common/labels.hpp"
-#include "reports/common/packings.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/render/base64.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -57,12 +58,23 @@ TEST(Numbers, Durations) {
   EXPECT_EQ(readableDuration(3720.0), "1 h 02 min");
 }
 
-TEST(Labels, KnownFieldsHaveSymbolsAndOthersAreEscaped) {
-  EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ<sub>rφ</sub>");
-  EXPECT_EQ(fieldLabel("my_<field>"), "my &lt;field&gt;");
+TEST(Base64, ExamplesOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Labels, FieldsHaveSymbolsAndTextIsTypesetAndEscaped) {
+  EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ_rφ");
+  EXPECT_EQ(fieldLabel("my_<field>"), "my <field>");
   EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");
   EXPECT_EQ(mathHtml("spring_dashpot-cut, Ψ_i, 2R_i, ΩR_i"),
             "spring_dashpot-cut, Ψ<sub>i</sub>, 2R<sub>i</sub>, ΩR<sub>i</sub>");
+  EXPECT_EQ(mathHtml("k_n, t_c/50 (Ψ_f) of my_engine_n & <i>"),
+            "k<sub>n</sub>, t<sub>c</sub>/50 (Ψ<sub>f</sub>) of my_engine_n &amp; &lt;i&gt;");
   EXPECT_EQ(mathHtml("σ_φr·2πr²h"), "σ<sub>φr</sub>·2πr²h");
 }
 

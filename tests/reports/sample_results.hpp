@@ -13,7 +13,7 @@
 #include "results/stability.hpp"
 #include "results/thesis.hpp"
 
-/// Made-up results in the layout of reports/README.md, for tests of the report and for looking at
+/// Made-up results in the layout of docs/results.md, for tests of the report and for looking at
 /// its pages: nothing in them was simulated.
 namespace crossgrain::sample {
 

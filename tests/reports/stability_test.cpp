@@ -2,19 +2,16 @@
 
 #include <algorithm>
 
-#include "reports/report.hpp"
-#include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
-#include "support/files.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
 
 TEST(StabilityCsv, IsTheContract) {
-  const std::string table = stabilityCsv(sample::stabilityResults());
+  const std::string table = csvOf(stabilityReport(sample::stabilityResults()), "stability.csv");
   EXPECT_TRUE(table.starts_with(
       "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n"
       "grain,pile,stable,energy_gain,0.001,0.01,of the energy,,,0.1,slow,\n"));
@@ -55,29 +52,17 @@ TEST(StabilityPictures, AreCentredWhereverTheSceneIs) {
   EXPECT_NEAR(line.y2, -1.0, 1e-12);
 }
 
-TEST(StabilityPage, SaysEveryVerdictAndEscapesWhatUsersWrite) {
-  const TemporaryFolder folder;
-  writeReport(sample::stabilityResults(), folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  for (const char* words : {"✓ stable", "~ degraded", "✗ unstable", "– refused",
-                            "3 of 5 runs of hard cases stayed within their limits", "from step 120",
-                            "worst_1", "What it tests."})
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  EXPECT_EQ(page.find("<b>\"name\"</b>"), std::string::npos);
-  EXPECT_TRUE(readFile(folder.path() / "plots/stability_map.svg"));
-}
-
-/// One engine and a case told in two ways: one came out the same, one was not run.
-StabilityResults toldInTime() {
+/// One engine and a case with two transformations: one gave the same, one was not run.
+StabilityResults transformsInTime() {
   StabilityResults results;
   EngineRow engine;
   engine.name = "slow";
   results.engines = {engine};
   for (const char* variant : {"mirrored", "renumbered"}) {
-    HardCase told;
-    told.name = "cell";
-    told.variant = told.measure = variant;
-    results.cases.push_back(told);
+    HardCase one;
+    one.name = "cell";
+    one.variant = one.measure = variant;
+    results.cases.push_back(one);
     StabilityRun run;
     run.engine = "slow";
     run.name = "cell";
@@ -92,23 +77,22 @@ StabilityResults toldInTime() {
   return results;
 }
 
-TEST(StabilityPage, WhatWasNotRunIsNeverAmongWhatHolds) {
-  const StabilityResults results = toldInTime();
-  const Overview overview = stabilityOverview(results);
+TEST(StabilityReport, WhatWasNotRun_IsNotAmongThePassed) {
+  const StabilityResults results = transformsInTime();
+  const Report report = stabilityReport(results);
+  const Overview& overview = report.overview;
   EXPECT_EQ(overview.rows[0].cells[0].state, CellState::good);
   EXPECT_EQ(overview.rows[0].cells[1].state, CellState::notMeasured);
   ASSERT_EQ(overview.conclusion.size(), 2u);
   EXPECT_EQ(overview.conclusion[0], "slow: 1 of 2 runs the same, 1 not run.");
   EXPECT_EQ(overview.conclusion[1],
             "Next: the same command with a larger --budget, for what was not run.");
-  EXPECT_NE(stabilityCsv(results).find("slow,cell,not_run,renumbered,,"), std::string::npos);
-  EXPECT_NE(stabilityJunit(results).find("<skipped message=\"its part of the budget, 1 s"),
+  EXPECT_NE(csvOf(report, "stability.csv").find("slow,cell,not_run,renumbered,,"),
             std::string::npos);
-  const TemporaryFolder folder;
-  writeReport(results, folder.path());
-  const std::string page = readFile(folder.path() / "report.html").value();
-  EXPECT_NE(page.find("○ not run"), std::string::npos);
-  EXPECT_NE(page.find("1 of 1 cases told otherwise came out the same"), std::string::npos);
+  EXPECT_NE(junitOf(report).find("<skipped message=\"its part of the budget, 1 s"),
+            std::string::npos);
+  const std::string text = textOf(report);
+  EXPECT_TRUE(has(text, "– not run"));
 }
 
 }  // namespace

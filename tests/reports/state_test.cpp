@@ -1,11 +1,14 @@
-#include "reports/couette/state_view.hpp"
+#include "reports/couette/state.hpp"
 
 #include <gtest/gtest.h>
 
 #include "reports/couette/report.hpp"
+#include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
 namespace {
+
+using Json = nlohmann::json;
 
 Json run(const char* engine, int packing, const char* regime) {
   return {{"engine", engine},
@@ -58,7 +61,7 @@ TEST(StateSentences, NameThePackingThatStandsStillAndWhere) {
                         {{"a", "soft"}, {"b", "hard"}, {"packings", 4}, {"differ", {1}}}};
   const auto sentences = sentencesOf(results);
   ASSERT_EQ(sentences.size(), 4u);
-  EXPECT_EQ(sentences[0], "Packing 1 stands still on ours, soft; flows on hard.");
+  EXPECT_EQ(sentences[0], "Packing 1 is blocked on ours, soft; flows on hard.");
   EXPECT_EQ(sentences[1], "Packings 0, 2, 3 flow on every engine.");
   EXPECT_EQ(sentences[2],
             "Means over packings mix regimes on ours, soft: they describe none of them.");
@@ -86,8 +89,8 @@ TEST(StateSentences, TellCollisionsAndWhatCannotBeTold) {
   set(results, "hard", 1, nullptr);
   const auto sentences = sentencesOf(results);
   ASSERT_EQ(sentences.size(), 3u);
-  EXPECT_EQ(sentences[0], "Packing 1 flows on ours, soft; shows too little to tell on hard.");
-  EXPECT_EQ(sentences[1], "Packing 0 is carried by collisions on every engine.");
+  EXPECT_EQ(sentences[0], "Packing 1 flows on ours, soft; is undecided on hard.");
+  EXPECT_EQ(sentences[1], "Packing 0 is collisional on every engine.");
   // A run that failed is in no regime, and results of before say nothing.
   for (Json& entry : results["runs"]) entry.erase("regime");
   EXPECT_TRUE(sentencesOf(results).empty());
@@ -116,7 +119,7 @@ TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
             "time.");
   EXPECT_EQ(sentences[2], "No drift seen over the averaged time: soft (down to 20 %).");
   EXPECT_EQ(sentences[3],
-            "Steady or not cannot be told of hard: changes of outer pressure by up to 60 % are not "
+            "Steady or not is undecided for hard: changes of outer pressure by up to 60 % are not "
             "excluded.");
 }
 
@@ -135,16 +138,14 @@ TEST(StateTables, HaveARunAPairAndASeriesALine) {
   set(results, "ours", 1, "blocked");
   results["regimes"] = {{{"a", "ours"}, {"b", "hard"}, {"packings", 2}, {"differ", {1}}}};
   results["steadiness"] = Json::array({drift("ours", "outer_pressure", "drifts", -0.4, 0.08)});
-  Json view;
   const CompareResults compared = compareFromJson(results);
-  addStates(view, compared, engineRuns(compared));
-  ASSERT_EQ(view["regimes"].size(), 2u);
-  EXPECT_EQ(view["regimes"][1]["cells"][0]["word"], "blocked");
-  EXPECT_NE(view["regimes"][1]["cells"][0]["figures"].get<std::string>().find("25"),
-            std::string::npos);
-  EXPECT_EQ(view["regimePairs"][0]["same"], "1 of 2");
-  EXPECT_EQ(view["regimePairs"][0]["differ"], "1");
-  EXPECT_EQ(view["steadiness"][0]["cells"][0]["figures"], "−40 ± 8 %");
+  Report report;
+  addStates(report.section("series", "Series").blocks, compared, engineRuns(compared));
+  const std::string text = textOf(report);
+  EXPECT_TRUE(has(text, "| 1 | blocked // contacts 15.5, slip 0.998")) << text;
+  EXPECT_TRUE(has(text, "blocked 25 % of the time"));
+  EXPECT_TRUE(has(text, "| ours – hard | 1 of 2 | 1\n"));
+  EXPECT_TRUE(has(text, "| outer pressure | drifts // −40 ± 8 %"));
 }
 
 TEST(StateTables, CsvNamesTheRotationsOfEveryRow) {
@@ -152,14 +153,16 @@ TEST(StateTables, CsvNamesTheRotationsOfEveryRow) {
   results["runs"][0]["steadiness"] =
       Json::array({drift("ours", "outer_pressure", "drifts", -0.5, 0.25)});
   results["steadiness"] = Json::array({drift("ours", "outer_pressure", "drifts", -0.5, 0.25)});
-  const std::string regimes = regimesCsv(compareFromJson(results));
+  Report report;
+  report.tables = averageTables(compareFromJson(results));
+  const std::string& regimes = csvOf(report, "regimes.csv");
   EXPECT_EQ(regimes.substr(0, regimes.find('\n')),
             "engine,packing,regime,wheel_contacts,wheel_slip,shear_share,inertial_number,"
             "blocked_share,from_rotation,to_rotation,prepared_rotations,reason");
   EXPECT_NE(regimes.find("ours,0,flowing,15.5,0.998,0.002,0.00014,0.25,0.25,1.25,2,\"layers take "
                          "up 0.002, less than 0.1\"\n"),
             std::string::npos);
-  EXPECT_EQ(steadinessCsv(compareFromJson(results)),
+  EXPECT_EQ(csvOf(report, "steadiness.csv"),
             "engine,packing,quantity,verdict,change,half_width,excluded,from_rotation,to_rotation,"
             "prepared_rotations\n"
             "ours,0,outer_pressure,drifts,-0.5,0.25,0.75,0.25,1.25,2\n"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "reports/common/gnuplot.hpp"
+#include "reports/render/gnuplot.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/thesis.hpp"
 #include "tests/reports/sample_results.hpp"

@@ -136,8 +136,7 @@ TEST(ThesisPage, SaysWhatWasFoundWhatItTookAndWhatNobodyRan) {
   results.claims.push_back(results.claims.front());
   results.claims.back().reasons.clear();
   const std::vector<Figure> figures;
-  const std::vector<Picture> pictures;
-  const std::string page = thesisPage(results, {figures, pictures, "", std::nullopt});
+  const std::string page = thesisPage(results, {figures, "", std::nullopt});
   for (const char* words :
        {"✗ refuted", "✓ reproduced", "? undecided", "C⁻¹ = 9.00\u00a0±\u00a00.50 d <small>[4 … 7]",
         "200 → 6.00", "<td>not run</td>", "<th rowspan=\"1\">nobody-ran-it",

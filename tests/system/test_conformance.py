@@ -34,7 +34,7 @@ class Conformance(SystemTest):
     def test_the_example_in_python_passes(self):
         done = self.conformance(EXAMPLES / "python/engine.toml", "--out", self.out)
         self.assert_status(done, HELD)
-        self.assertIn("numpy: same to rounding over 4 starts", done.stdout)
+        self.assertIn("numpy: identical to rounding over 4 starts", done.stdout)
         results = json.loads((self.out / "results.json").read_text(encoding="utf-8"))
         self.assertEqual("conformance", results["kind"])
         self.assertEqual(
@@ -51,7 +51,7 @@ class Conformance(SystemTest):
     def test_the_example_in_cpp_passes(self):
         done = self.conformance(CPP)
         self.assert_status(done, HELD)
-        self.assertIn("plain: same to rounding over 4 starts", done.stdout)
+        self.assertIn("plain: identical to rounding over 4 starts", done.stdout)
 
     def test_contacts_left_out_are_found(self):
         engine = self.changed(*LEFT_OUT)

@@ -106,7 +106,7 @@ class WithoutTheSources(InstalledTest):
             "lockstep", "cases/couette/quick.toml", "--engines", "python/engine.toml", "--quick", "--starts=1",
             "--out", "out", "--quiet",
         )  # fmt: skip
-        self.assertIn("numpy: same to rounding", done)
+        self.assertIn("numpy: identical to rounding", done)
         done = self.run_hidden(
             "sh", "-c", f"cd cpp && g++ -std=c++17 -I{share}/engines/cpp engine.cpp -o engine"
         )

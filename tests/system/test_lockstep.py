@@ -34,10 +34,10 @@ class Lockstep(SystemTest):
         self.assertEqual("not_measured", last["box2d-impulse"]["verdict"])
         self.assertEqual("", last["box2d-impulse"]["largest_d"])
         self.assertIn("another normal law", last["box2d-impulse"]["reason"])
-        self.assertIn("box2d-penalty: same to rounding over 3 starts", done.stdout)
+        self.assertIn("box2d-penalty: identical to rounding over 3 starts", done.stdout)
         page = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("are the laws that they declare; box2d-impulse was not measured", page)
-        self.assertIn("How far each engine is from its mirror", page)
+        self.assertIn("Difference of each engine from its mirror", page)
 
     def test_rigid_disks(self):
         """Single precision is told as such, and by rule; where disks meet several at once the law leaves the order open."""
@@ -50,7 +50,7 @@ class Lockstep(SystemTest):
         for at in row["separations"]:
             self.assertGreater(at["largest"], 1e-7)  # rounding is there
             self.assertLess(at["median"], at["rounding"])
-        self.assertIn("box2d-impulse: same to its precision over 16 starts", done.stdout)
+        self.assertIn("box2d-impulse: identical to its precision over 16 starts", done.stdout)
         self.assertEqual(16, row["same_to_its_precision"])
         self.assertIsNone(row["forces"])
 

@@ -39,7 +39,7 @@ class Looks(SystemTest):
             self.assertLess(float(row["bound"]), 1e-6)
         runs = [run["engine"] for run in self.results()["runs"]]
         self.assertEqual(1, runs.count("box2d-penalty"))
-        self.assertIn("box2d-penalty: by its mirror grain-as-box2d-penalty", done.stdout)
+        self.assertIn("box2d-penalty: evaluated through its mirror grain-as-box2d-penalty", done.stdout)
         self.assertIn("16 windows alike leave at most 19 % of states unlike", done.stdout)
 
     def test_the_next_look_is_taken_up_where_the_budget_ended(self):
@@ -47,7 +47,7 @@ class Looks(SystemTest):
         stiff = ["--set=averaging.endpoints.mean_spin={ absolute = 1e-9, why = \"never\" }"]
         first = self.compare_short("--budget=0.1s", *stiff, engines=engines)
         self.assert_status(first, FELL_SHORT)
-        self.assertRegex(first.stdout, r"Looked at 4 packings \(1 of 3 looks\), agree tested at 2\.3\d % in each; 1\.25 of 5 %")
+        self.assertRegex(first.stdout, r"Analysed after 4 packings \(1 of 3 interim analyses\), agree tested at 2\.3\d % in each; 1\.25 of 5 %")
         self.assertIn("after the budget of 0.1 s", first.stdout)
         self.assertRegex(first.stderr, r"the first analysis, at 4 packings, is likely to end after \S+ s, .* beyond the budget of 0\.1 s")
         decided = {
@@ -57,7 +57,7 @@ class Looks(SystemTest):
         second = self.compare_short("--budget=10m", *stiff, engines=engines)
         self.assert_status(second, FELL_SHORT)
         self.assertNotIn("the first analysis", second.stderr)
-        self.assertRegex(second.stdout, r"Looked at 4, 8, 12 packings \(3 of 3 looks\), .*; 5 of 5 %")
+        self.assertRegex(second.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\), .*; 5 of 5 %")
         now = self.finished_runs()
         self.assertEqual(runs, {name: now[name] for name in runs})
         for row in self.endpoints():

@@ -28,7 +28,7 @@ class Overview(SystemTest):
 
     def test_the_same_everywhere(self):
         plain = self.collide()
-        self.assertRegex(plain, r"(?m)^engine +sweeps held ")
+        self.assertRegex(plain, r"(?m)^engine +cases passed ")
         self.assertRegex(plain, r"(?m)^grain +✓ (\d+) of \1 ")
         self.assertNotIn("\x1b", plain)
 
@@ -50,7 +50,7 @@ class Overview(SystemTest):
         self.assertRegex(coloured, r"\x1b\[32m✓ \d+ of")
         self.assertEqual(plain, ESCAPE.sub("", coloured))
         self.assertEqual(plain, self.on_terminal(160, NO_COLOR="1"))
-        narrow = ESCAPE.sub("", self.on_terminal(50)).partition("engine ")[2].partition("Held in ")[0]
+        narrow = ESCAPE.sub("", self.on_terminal(50)).partition("engine ")[2].partition("Passed every ")[0]
         for line in narrow.splitlines():
             self.assertLessEqual(len(line), 50)
 
@@ -76,7 +76,7 @@ class Overview(SystemTest):
         for page in (f"{name}/report.html", f"{name}-2/report.html"):
             self.assertIn(f'href="{page}"', index)
             self.assertTrue((site / page).exists(), page)
-        self.assertRegex((site / "summary.md").read_text(encoding="utf-8"), r"(?m)^\| grain \| ✓ (\d+) of \1 hold \|")
+        self.assertRegex((site / "summary.md").read_text(encoding="utf-8"), r"(?m)^\| grain \| ✓ (\d+) of \1 passed \|")
         self.assert_status(self.run_program("report", self.out, "--out", site), HELD)
         for path, content in before.items():
             self.assertEqual(content, path.read_bytes(), "results are not touched")

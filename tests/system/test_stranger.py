@@ -75,7 +75,7 @@ class Stranger(SystemTest):
             "lockstep", COUETTE, EXAMPLES / "python/engine.toml", "--quick", "--starts=2"
         )
         self.assert_status(done, HELD)
-        self.assertIn("numpy: same to rounding over 2 starts", done.stdout)
+        self.assertIn("numpy: identical to rounding over 2 starts", done.stdout)
 
     def test_beside_an_engine_of_the_program_and_its_own_mirror(self):
         case = self.write(
@@ -104,7 +104,7 @@ class Stranger(SystemTest):
             "--out", self.out, "--quiet", "--quick", "--starts=1",
         )  # fmt: skip
         self.assert_status(done, HELD)
-        self.assertIn("mine: same to rounding", done.stdout)
+        self.assertIn("mine: identical to rounding", done.stdout)
 
     def test_another_program_under_the_same_version_is_another_engine(self):
         mine = self.own('name = "mine"\ncommand = ["python3", "engine.py"]\n')

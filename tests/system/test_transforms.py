@@ -126,7 +126,7 @@ class Transforms(SystemTest):
         self.assertIn("nothing was judged: the budget ended", done.stdout)
         page = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("not run", page)
-        self.assertNotIn("no more than rounding came of it", page)
+        self.assertNotIn("no more than rounding does", page)
 
     def test_what_was_not_run_is_run_by_a_command_with_more_time(self):
         right = str(self.planted("right"))

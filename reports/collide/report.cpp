@@ -1,0 +1,364 @@
+#include "reports/collide/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "reports/common/csv_row.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sections.hpp"
+#include "reports/common/sentences.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+// --- collisions.csv
+
+/// Quantities with columns of their own beyond the restitutions.
+std::vector<const CollisionQuantity*> furtherQuantities() {
+  std::vector<const CollisionQuantity*> further;
+  for (const CollisionQuantity& quantity : collisionQuantities())
+    if (quantity.csvPlace > 0) further.push_back(&quantity);
+  std::ranges::sort(further, {}, &CollisionQuantity::csvPlace);
+  return further;
+}
+
+std::string furtherColumns() {
+  std::string columns;
+  for (const CollisionQuantity* quantity : furtherQuantities()) {
+    std::string unit(quantity->unit);
+    std::ranges::replace(unit, '/', '_');
+    if (!unit.empty()) unit = "_" + unit;
+    columns += fmt::format(",{0}{1},{0}_reference{1}", quantity->name, unit);
+  }
+  return columns;
+}
+
+std::string furtherCells(const CollisionTable& points, const CollisionTable& reference,
+                         std::size_t k) {
+  std::string cells;
+  for (const CollisionQuantity* quantity : furtherQuantities())
+    for (const CollisionTable* table : {&points, &reference})
+      cells += "," + cell(table->at(quantity->id, k));
+  return cells;
+}
+
+/// The first cells of all rows of a curve, and the last ones.
+struct RowHead {
+  const std::string &engine, &name, &variant;
+  std::optional<double> dt;
+  std::string verdicts;
+};
+
+/// Of the whole curve: its outcome; verdicts by the scene's law and by the one that its engine
+/// declares, and its own scheme.
+std::string verdictCells(const CollisionCurve& curve) {
+  const bool ran = curve.points.size() > 0;
+  std::string cells = row(
+      std::string(nameOf(outcomeOf(curve))), std::string(ran ? nameOf(curve.score.verdict) : ""),
+      std::string(ran ? nameOf(declaredScore(curve).verdict) : ""), ownDeviation(curve));
+  cells.pop_back();
+  return cells;
+}
+
+std::string csvRow(const RowHead& head, const CollisionTable& points,
+                   const CollisionTable& reference, std::size_t k, const std::string& status,
+                   const std::string& reason) {
+  std::string line =
+      row(head.engine, head.name, head.variant, at(points.psi, k), at(points.vn, k),
+          points.at(QuantityId::en, k), points.at(QuantityId::psiF, k),
+          reference.at(QuantityId::en, k), reference.at(QuantityId::psiF, k), head.dt, status);
+  line.pop_back();
+  return line + furtherCells(points, reference, k) + "," + cell(reason) + "," + head.verdicts +
+         "\n";
+}
+
+std::string collisionsCsv(const CollideResults& results) {
+  std::string table =
+      "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status" +
+      furtherColumns() + ",reason,outcome,verdict_scene,verdict_declared,own_scheme\n";
+  for (const CollisionVariant& variant : results.variants) {
+    const std::string name = caseOf(results, variant);
+    for (const CollisionCurve& curve : variant.curves) {
+      const RowHead head{curve.engine, name, variant.variant, finite(curve.dt),
+                         verdictCells(curve)};
+      const CollisionPoints& points = curve.points;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        table += csvRow(head, points, variant.reference, k,
+                        std::string(k < points.status.size() ? nameOf(points.status[k]) : ""),
+                        k < points.reason.size() ? points.reason[k] : "");
+      if (points.size() == 0)
+        table += csvRow(head, {}, {}, 0, std::string(nameOf(curve.status)), curve.reason);
+    }
+  }
+  return table;
+}
+
+// --- checks
+
+using Outcome = JUnitCase::Outcome;
+
+/// By name.
+std::vector<CollisionQuantity> sortedQuantities() {
+  std::vector<CollisionQuantity> sorted(scoredQuantities().begin(), scoredQuantities().end());
+  std::ranges::sort(sorted, {}, &CollisionQuantity::name);
+  return sorted;
+}
+
+/// Quantities that any sweep of this variant was judged by.
+std::vector<QuantityId> judgedQuantities(const CollisionVariant& variant) {
+  std::vector<QuantityId> judged;
+  for (const CollisionCurve& curve : variant.curves)
+    for (const CollisionQuantity& quantity : sortedQuantities())
+      if (const auto& score = curve.score.of[quantity.id];
+          score && score->limit && std::ranges::find(judged, quantity.id) == judged.end())
+        judged.push_back(quantity.id);
+  return judged;
+}
+
+/// "0.0031 of the range against a limit of 0.001 (why)"
+std::string errorOf(const QuantityScore& score) {
+  const std::string why = score.why.value_or("");
+  return fmt::format(
+      "largest error {:.4g}{} against a limit of {:.4g}{}", finite(score.max).value_or(0.0),
+      score.unitIs == ErrorUnitKind::absolute ? ""
+                                              : fmt::format(" of the {}", nameOf(score.unitIs)),
+      score.limit.value_or(0.0), why.empty() ? "" : " (" + why + ")");
+}
+
+/// One quantity against one law.
+JUnitCase judged(const std::string& name, const std::optional<QuantityScore>& score) {
+  JUnitCase one{"", name};
+  if (score && score->held) {
+    one.outcome = *score->held ? Outcome::passed : Outcome::failed;
+    if (one.outcome == Outcome::failed) one.message = errorOf(*score);
+  } else {
+    one.outcome = Outcome::skipped;
+    one.message = "not measured, or not known of the reference";
+  }
+  return one;
+}
+
+/// Whether a failure by the scene's law is a model difference: the curve passes by the law that its
+/// engine declares, or defines that law.
+bool isOfTheModel(const DeclaredScore& declared, QuantityId quantity) {
+  const auto& own = declared.score.of[quantity];
+  return declared.reference == DeclaredReference::itself || (own && own->held == true);
+}
+
+/// Against the scene's law; where the engine declares another one, also against that.
+std::vector<JUnitCase> judgedSweep(const CollisionCurve& curve, const std::string& sweep,
+                                   QuantityId quantity) {
+  const std::string name = fmt::format("{}: {}", sweep, collisionQuantity(quantity).name);
+  JUnitCase scene = judged(name, curve.score.of[quantity]);
+  if (!curve.declared) return {scene};
+  const DeclaredScore& declared = *curve.declared;
+  if (scene.outcome == Outcome::failed && isOfTheModel(declared, quantity)) {
+    scene.outcome = Outcome::skipped;
+    scene.message = "model difference: " + scene.message;
+  }
+  if (declared.reference == DeclaredReference::itself) return {scene};
+  return {scene, judged(name + ", declared law", declared.score.of[quantity])};
+}
+
+JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {
+  JUnitCase one{"", sweep + ": own scheme"};
+  const std::string figures = fmt::format("deviates by {:.2g} d and {:.2g} of the speed",
+                                          own.position.value_or(0.0), own.velocity.value_or(0.0));
+  if (!own.held) {
+    one.outcome = Outcome::skipped;
+    one.message = figures + ", " + own.reason;
+  } else if (!*own.held) {
+    one.outcome = Outcome::failed;
+    one.message = fmt::format("{} against a limit of {:g}", figures, own.limit.value_or(0.0));
+  }
+  return one;
+}
+
+/// Sweeps that ran; where pairs did not part, that is a failure of its own.
+std::vector<JUnitCase> sweepCases(const CollisionVariant& variant, const CollisionCurve& curve) {
+  const auto dt = finite(curve.dt);
+  const std::string sweep = curve.engine + (dt ? fmt::format(", dt {:.4g} s", *dt) : std::string());
+  if (curve.status == SweepStatus::failed) return {{"", sweep, Outcome::error, curve.reason}};
+  if (curve.status == SweepStatus::refused)
+    return {{"", curve.engine, Outcome::skipped, curve.reason}};
+  std::vector<JUnitCase> cases;
+  for (const QuantityId quantity : judgedQuantities(variant))
+    std::ranges::move(judgedSweep(curve, sweep, quantity), std::back_inserter(cases));
+  if (ownDeviation(curve)) cases.push_back(judgedScheme(*curve.ownScheme, sweep));
+  if (curve.status == SweepStatus::incomplete)
+    cases.push_back({"", sweep + ": all pairs part", Outcome::failed, curve.reason});
+  if (cases.empty())
+    cases.push_back({"", sweep, Outcome::skipped, "not judged: the case has no limits"});
+  cases.front().seconds = junitSeconds(curve.stats);
+  return cases;
+}
+
+std::vector<JUnitCase> collideChecks(const CollideResults& results) {
+  std::vector<JUnitCase> cases;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      for (JUnitCase& one : sweepCases(variant, curve)) {
+        one.group = junitGroup(variant.name, variant.variant);
+        cases.push_back(std::move(one));
+      }
+  return cases;
+}
+
+// --- the page
+
+/// "Law: normal linear, tangential spring dashpot, …" of what all variants share.
+std::string lawOf(const CaseGroup& group) {
+  std::vector<std::string> shared;
+  for (const auto& [option, value] : group.variants.front()->law) {
+    const bool same = std::ranges::all_of(
+        group.variants, [&, &option = option, &value = value](const CollisionVariant* variant) {
+          const auto found = variant->law.find(option);
+          return found != variant->law.end() && found->second == value;
+        });
+    if (!same) continue;
+    if (auto words = lawWords(option, value)) shared.push_back(std::move(*words));
+  }
+  return fmt::format("Law of all variants: {}.", fmt::join(shared, ", "));
+}
+
+/// Empty, or in what the laws that engines declare are others than the scene's, over all
+/// variants.
+std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
+  std::vector<std::string> laws;
+  for (const EngineRow& engine : results.engines) {
+    if (runsBesideItsPeer(results, engine.name)) continue;  // its peer's law
+    std::vector<std::string> words;
+    for (const CollisionVariant* variant : group.variants)
+      for (const CollisionCurve* curve : curvesOf(*variant, engine.name)) {
+        if (!curve->declared) continue;
+        for (const auto& [name, value] : curve->declared->law) {
+          std::string word = lawWords(name, value).value_or(spaced(name));
+          if (std::ranges::find(words, word) == words.end()) words.push_back(std::move(word));
+        }
+      }
+    if (!words.empty()) laws.push_back(fmt::format("{}: {}", engine.name, fmt::join(words, ", ")));
+  }
+  if (laws.empty()) return {};
+  return fmt::format("Declared instead: {}.", fmt::join(laws, "; "));
+}
+
+/// Empty, or which points were not judged because the law has no limit of small time steps there.
+std::string limitsOf(const CaseGroup& group) {
+  std::vector<std::string> places;
+  for (const CollisionVariant* variant : group.variants) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> byReason;
+    for (const NoLimitPoint& point : variant->noLimit) {
+      auto found =
+          std::ranges::find(byReason, point.reason, [](const auto& one) { return one.first; });
+      if (found == byReason.end()) found = byReason.insert(found, {point.reason, {}});
+      const std::string psi = readableSetting(finite(point.psi));
+      if (std::ranges::find(found->second, psi) == found->second.end())
+        found->second.push_back(psi);
+    }
+    for (const auto& [reason, psi] : byReason)
+      places.push_back(
+          fmt::format("{}, Ψ_i = {}: {}", variant->variant, fmt::join(psi, ", "), reason));
+    if (!variant->oracleReason.empty())
+      places.push_back(variant->variant + ": " + variant->oracleReason);
+  }
+  if (places.empty()) return {};
+  return fmt::format("Not judged: {}.", fmt::join(places, "; "));
+}
+
+Table collideMatrix(const std::vector<CaseGroup>& groups, const std::vector<EngineRow>& engines) {
+  Table table{engineColumns({"case"}, engines), {}};
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    TableRow row{{{groups[g].name, {counted(groups[g].variants.size(), "variant")}}}};
+    row.cells.front().link = fmt::format("#case_{}", g + 1);
+    for (const EngineRow& engine : engines) {
+      const Tally tally = tallyOf(groups[g].variants, engine.name);
+      std::vector<std::string> notes = shortfalls(tally);
+      if (tally.refused > 0)
+        notes.push_back(tally.judged() > 0 ? fmt::format("{} refused", tally.refused)
+                                           : tally.refusal);
+      notes.push_back(tally.reason);
+      row.cells.push_back({headline(tally), std::move(notes), stateOf(tally), true});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.note =
+      "Sweeps, one per variant and time step, of those judged. Passed: the largest errors are "
+      "within the case's margins. ≠ model difference: beyond them by the scene's law, but within "
+      "them by the law that the engine declares, the scene's with conventions of its own that the "
+      "case lets it have. ✗ failed: by the law that it declares, or by its own scheme. Below: the "
+      "quantity furthest beyond its limit, and how far. Refused: the engine does not have the law; "
+      "nothing is judged. Dashed: mirrors, the in-house engine with a peer's conventions.";
+  return table;
+}
+
+bool allPass(const CollideResults& results, const CaseGroup& group) {
+  return std::ranges::all_of(results.engines, [&](const EngineRow& engine) {
+    const Tally tally = tallyOf(group.variants, engine.name);
+    return tally.held > 0 && tally.held == tally.judged() && tally.failed == 0;
+  });
+}
+
+void addCollisionCase(Report& report, const CollideResults& results, const CaseGroup& group,
+                      std::size_t number) {
+  using enum Paragraph::Style;
+  const std::string figure = fmt::format("collision_{}", number);
+  const auto drawing = [&](const std::string& name) {
+    Drawings drawings{{}, false};
+    for (const Figure& one : report.figures)
+      if (one.name == name) drawings.names.push_back(name);
+    return drawings;
+  };
+  Blocks blocks = {Paragraph{lawOf(group), small}, Paragraph{declaredOf(results, group), small},
+                   Paragraph{limitsOf(group), small}, drawing(figure),
+                   variantTable(results, group)};
+  if (Table mirrors = mirrorTable(group, results.engines); !mirrors.rows.empty())
+    blocks.push_back(Details{"Model or implementation?", {std::move(mirrors)}});
+  if (Drawings energy = drawing(figure + "_energy"); !energy.names.empty())
+    blocks.push_back(Details{"Where the energy went", {std::move(energy)}});
+  blocks.push_back(Details{"Scores: engine × time step × quantity", {scoreTable(group)}});
+  Section& section = report.section(fmt::format("case_{}", number), group.name);
+  if (allPass(results, group))
+    section.blocks.push_back(Details{"✓ passed by every engine", std::move(blocks)});
+  else
+    section.blocks = std::move(blocks);
+}
+
+}  // namespace
+
+Report collideReport(const CollideResults& results) {
+  const std::vector<CaseGroup> groups = casesOf(results);
+  Report report{{results.head, results.engines, collideOverview(results)}};
+  report.elapsed = results.elapsed;
+  report.figures = collideFigures(results);
+  report.section("matrix", "Cases by engine", "Summary").blocks = {
+      collideMatrix(groups, results.engines),
+      Paragraph{
+          "Two disks, or a disk and a wall, meet: head on with spin, or obliquely. Ψ = v_t/v_n of "
+          "the contact point, both by the approach speed before the collision; all numbers of an "
+          "outcome are of the instant of separation, with that instant's normal. The oracle is a "
+          "high-precision solution of the same planar two-body problem. Errors are in units of the "
+          "range of the oracle's curve; where that is below a tenth of the curve's largest "
+          "magnitude (e_n, contact time and overlap of linear laws), in units of that magnitude; "
+          "energies in units of the energy before."}};
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    addCollisionCase(report, results, groups[g], g + 1);
+  addEngines(report);
+  std::vector<RealisedScene> realised;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      if (curve.realised)
+        realised.push_back(
+            {curve.engine, &*curve.realised, variant.effects ? &*variant.effects : nullptr});
+  addDetails(report, realised);
+  report.tables = {{"collisions.csv", collisionsCsv(results)}};
+  report.checks = collideChecks(results);
+  return report;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,293 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/collide/report.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sections.hpp"
+#include "reports/common/sentences.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Kind = Column::Kind;
+
+std::string orderOf(const CollideResults& results, const CollisionVariant& variant,
+                    const std::string& engine, QuantityId quantity) {
+  for (const ConvergenceOrder& order : results.orders) {
+    const bool own =
+        order.variant == variant.variant && order.name == variant.name && order.engine == engine;
+    if (!own) continue;
+    const auto& fit = order.of[quantity];
+    if (!fit) break;
+    // Errors of orders below a hundredth are below the scheme's next term.
+    return readable(fit->order, fit->standardError
+                                    ? std::optional(std::max(*fit->standardError, 0.01))
+                                    : std::nullopt);
+  }
+  return absentText;
+}
+
+Cell variantCell(const CollideResults& results, const CollisionVariant& variant,
+                 const std::string& engine) {
+  const Tally tally = tallyOf({&variant}, engine);
+  std::vector<std::string> notes;
+  const CollisionCurve* curve = coarsestCurve(variant, engine);
+  for (const QuantityId quantity : {QuantityId::psiF, QuantityId::en}) {
+    if (!curve || !curve->score.of[quantity]) continue;
+    const std::string order = orderOf(results, variant, engine, quantity);
+    notes.push_back(fmt::format("{} {}{}", collisionQuantity(quantity).label,
+                                shortly(curve->score.of[quantity]->max),
+                                order == absentText ? "" : ", order " + order));
+  }
+  if (tally.ownDeviation) notes.push_back("own scheme " + shortly(tally.ownDeviation));
+  notes.push_back(tally.refusal);
+  notes.push_back(tally.reason);
+  return {headline(tally), std::move(notes), stateOf(tally), true};
+}
+
+/// The law's members that variants of the case differ in, or that only some have.
+std::vector<std::string> changing(const CaseGroup& group) {
+  std::vector<std::string> names;
+  for (const CollisionVariant* variant : group.variants)
+    for (const auto& [name, value] : variant->law) {
+      const auto differs = [&, &name = name, &value = value](const CollisionVariant* other) {
+        const auto found = other->law.find(name);
+        return found == other->law.end() || found->second != value;
+      };
+      if (std::ranges::find(names, name) == names.end() &&
+          std::ranges::any_of(group.variants, differs))
+        names.push_back(name);
+    }
+  return names;
+}
+
+std::string ownLaw(const CollisionVariant& variant, const std::vector<std::string>& names) {
+  std::vector<std::string> words;
+  for (const std::string& name : names)
+    if (const auto found = variant.law.find(name); found != variant.law.end())
+      words.push_back(lawWords(name, found->second).value_or(spaced(name) + " " + absentText));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Largest distance of two curves at the same places.
+std::optional<double> distance(const CollisionCurve* a, const CollisionCurve* b,
+                               QuantityId quantity) {
+  if (!a || !b) return std::nullopt;
+  std::optional<double> largest;
+  for (std::size_t k = 0; k < std::min(a->points.size(), b->points.size()); ++k) {
+    const auto x = a->points.at(quantity, k), y = b->points.at(quantity, k);
+    if (x && y) largest = std::max(largest.value_or(0.0), std::abs(*x - *y));
+  }
+  return largest;
+}
+
+std::string deviationWords(const CollisionCurve& curve) {
+  std::vector<std::string> words;
+  if (curve.realised)
+    for (const Deviation& deviation : curve.realised->deviations)
+      if (std::string name = spaced(deviation.name); std::ranges::find(words, name) == words.end())
+        words.push_back(std::move(name));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string dtOf(const CollisionCurve* curve) {
+  return readableSetting(curve ? finite(curve->dt) : std::nullopt);
+}
+
+/// The quantities that any curve of the case has a score in.
+std::vector<const CollisionQuantity*> scoredIn(const CaseGroup& group) {
+  std::vector<const CollisionQuantity*> scored;
+  for (const CollisionQuantity& quantity : scoredQuantities())
+    if (std::ranges::any_of(group.variants, [&](const CollisionVariant* variant) {
+          return std::ranges::any_of(variant->curves, [&](const CollisionCurve& curve) {
+            return curve.score.of[quantity.id].has_value();
+          });
+        }))
+      scored.push_back(&quantity);
+  return scored;
+}
+
+/// Marked where it is judged; the rms error below.
+Cell scoreCell(const std::optional<QuantityScore>& score) {
+  if (!score) return absentText;
+  Cell cell(shortly(score->max), {shortly(score->rms)});
+  if (score->held) cell.state = *score->held ? CellState::good : CellState::bad;
+  cell.marked = score->held.has_value();
+  return cell;
+}
+
+/// The larger deviation from the own scheme.
+Cell schemeCell(const std::optional<SchemeScore>& own) {
+  if (!own) return "";
+  if (!own->position) return absentText;
+  Cell cell(shortly(std::max(*own->position, own->velocity.value_or(0.0))));
+  if (own->held) cell.state = *own->held ? CellState::good : CellState::bad;
+  cell.marked = own->held.has_value();
+  return cell;
+}
+
+CellState sweepState(SweepOutcome outcome) {
+  constexpr CellState states[] = {CellState::good,          CellState::modelDifference,
+                                  CellState::bad,           CellState::notMeasured,
+                                  CellState::notApplicable, CellState::bad};
+  return states[static_cast<std::size_t>(outcome)];
+}
+
+std::string sweepWord(SweepOutcome outcome) {
+  const char* const words[] = {"passed",     "model difference", "failed",
+                               "not judged", "refused",          "broke down"};
+  return words[static_cast<std::size_t>(outcome)];
+}
+
+/// Whether a sweep passed at a time step between the largest and the smallest of its engine: it
+/// adds nothing to those.
+bool passedBetween(const CollisionVariant& variant, const CollisionCurve& curve) {
+  const auto dt = finite(curve.dt);
+  if (!dt || outcomeOf(curve) != SweepOutcome::held) return false;
+  bool larger = false, smaller = false;
+  for (const CollisionCurve* other : curvesOf(variant, curve.engine)) {
+    larger = larger || finite(other->dt).value_or(*dt) > *dt;
+    smaller = smaller || finite(other->dt).value_or(*dt) < *dt;
+  }
+  return larger && smaller;
+}
+
+/// By which of both laws a curve is scored, and what that one is known by.
+struct ScoredBy {
+  const CurveScore& score;
+  const char* words;
+};
+std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
+  if (!curve.declared) return {{curve.score, "both"}};
+  const bool mirror = curve.declared->reference == DeclaredReference::mirror;
+  return {{curve.score, "scene's"}, {curve.declared->score, mirror ? "declared*" : "declared"}};
+}
+
+}  // namespace
+
+CellState stateOf(const Tally& tally) {
+  if (tally.failed > 0 || tally.fellShort > 0) return CellState::bad;
+  if (tally.judged() == 0)
+    return tally.refused > 0 ? CellState::notApplicable : CellState::notMeasured;
+  return tally.model > 0 ? CellState::modelDifference : CellState::good;
+}
+
+std::string headline(const Tally& tally) {
+  if (tally.judged() == 0)
+    return tally.failed > 0 ? "failed" : tally.refused > 0 ? "refused" : "not judged";
+  std::string words = fmt::format("{} of {} passed", tally.held, tally.judged());
+  if (tally.model > 0) words += fmt::format(", {} ≠", tally.model);
+  if (tally.fellShort > 0) words += fmt::format(", {} ✗", tally.fellShort);
+  return words;
+}
+
+Table variantTable(const CollideResults& results, const CaseGroup& group) {
+  const std::vector<std::string> names = changing(group);
+  Table table{engineColumns({"variant"}, results.engines), {}};
+  for (const CollisionVariant* variant : group.variants) {
+    TableRow row{{{variant->variant, {ownLaw(*variant, names)}}}};
+    for (const EngineRow& engine : results.engines)
+      row.cells.push_back(variantCell(results, *variant, engine.name));
+    table.rows.push_back(std::move(row));
+  }
+  table.note =
+      "Sweeps that passed, of those judged; the largest errors against the scene's law at the "
+      "largest time step; and the order of convergence of the rms error, fitted over the time "
+      "steps. Own scheme: one head-on impact, step by step, compared with the discrete solution of "
+      "the engine's integrator in extended precision; the largest deviation of a position by the "
+      "diameter or of a velocity by the speed of approach. In double precision more than 10^−12 is "
+      "a fault, whatever the time step.";
+  return table;
+}
+
+Table mirrorTable(const CaseGroup& group, const std::vector<EngineRow>& engines) {
+  using enum QuantityId;
+  Table table{{"peer", "variant"}, {}};
+  for (const char* name : {"model: |ΔΨ_f|", "model: |Δe_n|", "implementation: |ΔΨ_f|",
+                           "implementation: |Δe_n|", "dt [s]: first | mirror | peer"})
+    table.columns.emplace_back(name, Kind::number);
+  table.columns.emplace_back("deviations of the peer from the scene", Kind::remark);
+  table.note =
+      "Largest differences over the curve at the largest time step of each. Model: the first "
+      "engine "
+      "against the mirror, the in-house engine with the peer's conventions. Implementation: the "
+      "mirror against the peer itself; of a mirror that only approaches its peer (see Engines) "
+      "part "
+      "of the model remains in it.";
+  for (const EngineRow& mirror : engines) {
+    if (mirror.mirrors.empty()) continue;
+    const std::string& first = engines.front().name;
+    for (const CollisionVariant* variant : group.variants) {
+      const CollisionCurve *ours =
+                               first == mirror.mirrors ? nullptr : coarsestCurve(*variant, first),
+                           *mirrored = coarsestCurve(*variant, mirror.name),
+                           *peer = coarsestCurve(*variant, mirror.mirrors);
+      if (!mirrored || !peer) continue;
+      const bool oneStep = (!ours || dtOf(ours) == dtOf(mirrored)) && dtOf(mirrored) == dtOf(peer);
+      table.rows.push_back(
+          {{mirror.mirrors, variant->variant, shortly(distance(ours, mirrored, psiF)),
+            shortly(distance(ours, mirrored, en)), shortly(distance(mirrored, peer, psiF)),
+            shortly(distance(mirrored, peer, en)),
+            oneStep ? dtOf(peer)
+                    : fmt::format("{} | {} | {}", dtOf(ours), dtOf(mirrored), dtOf(peer)),
+            deviationWords(*peer)}});
+    }
+  }
+  return table;
+}
+
+Table scoreTable(const CaseGroup& group) {
+  const auto scored = scoredIn(group);
+  Table table{{"variant",
+               "engine",
+               {"dt [s]", Kind::number},
+               "outcome",
+               {"own scheme", Kind::number},
+               "law"},
+              {}};
+  table.dense = true;
+  for (const CollisionQuantity* quantity : scored)
+    table.columns.emplace_back(std::string(quantity->label), Kind::number);
+  table.note =
+      "Time steps between the largest and the smallest are left out where the sweep passed: "
+      "results.json has every score. Law: the scene's, the one that the engine declares, or both "
+      "where they are one. *: known by the in-house engine with that law at the same step, as it "
+      "has no limit of small steps, or the sweep is short of the oracle by conventions of time "
+      "stepping. Largest error, and rms error below it. Overlap and the parts of the energy are "
+      "known where contacts were recorded step by step: at the largest time step. Sticking: lost "
+      "by "
+      "the tangential dashpot while the contact does not slip. Stored: left in the tangential "
+      "spring.";
+  for (const CollisionVariant* variant : group.variants)
+    for (const CollisionCurve& curve : variant->curves) {
+      if (passedBetween(*variant, curve)) continue;
+      const bool ran = curve.points.size() > 0;
+      for (const ScoredBy& law : lawsOf(curve)) {
+        TableRow row;
+        if (&law.score == &curve.score) {
+          const SweepOutcome outcome = outcomeOf(curve);
+          row.cells = {variant->variant,
+                       curve.engine,
+                       dtOf(&curve),
+                       {sweepWord(outcome), {curve.reason}, sweepState(outcome), true},
+                       schemeCell(curve.ownScheme)};
+        } else {
+          row.cells.resize(5);
+        }
+        row.cells.emplace_back(ran ? law.words : "");
+        if (ran)
+          for (const CollisionQuantity* quantity : scored)
+            row.cells.push_back(scoreCell(law.score.of[quantity->id]));
+        table.rows.push_back(std::move(row));
+      }
+    }
+  return table;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,169 @@
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reports/common/figure.hpp"
+#include "reports/common/junit.hpp"
+#include "reports/common/pictures.hpp"
+#include "results/engine_row.hpp"
+#include "results/head.hpp"
+#include "results/overview.hpp"
+
+/// A report as data. A study's builder makes it from results alone; reports/render/ has one
+/// renderer each for HTML, the terminal, Markdown, JUnit and gnuplot. All texts are plain:
+/// renderers escape them, and typeset "k_n", "σ_rφ" and "r^2" (reports/common/labels.hpp).
+namespace crossgrain::reports {
+
+/// A part of a cell that is a row of coloured squares.
+struct Square {
+  CellState state;
+  std::string title;
+};
+
+struct Cell {
+  std::string text;
+  std::vector<std::string> notes;  ///< in smaller letters below
+  std::optional<CellState> state;  ///< its colour; absent: none
+  bool marked = false;             ///< the state's mark stands before the text
+  std::string link = {};           ///< "#id" or another page; empty: none
+  std::vector<Square> strip = {};
+
+  Cell(std::string text_ = {}, std::vector<std::string> notes_ = {},
+       std::optional<CellState> state_ = {}, bool marked_ = false)
+      : text(std::move(text_)), notes(std::move(notes_)), state(state_), marked(marked_) {
+    std::erase(notes, std::string());
+  }
+  Cell(const char* text_) : text(text_) {}
+};
+
+struct Column {
+  enum class Kind {
+    words,
+    number,  ///< to the right, on one line
+    remark,  ///< long words, of limited width
+    engine,  ///< the name is an engine's: its colour stands beside it
+    engines  ///< the cells are engines' names: each has its colour beside it
+  };
+  std::string name;
+  Kind kind = Kind::words;
+
+  Column(std::string name_, Kind kind_ = Kind::words) : name(std::move(name_)), kind(kind_) {}
+  Column(const char* name_, Kind kind_ = Kind::words) : name(name_), kind(kind_) {}
+};
+
+struct TableRow {
+  std::vector<Cell> cells;  ///< the first is the row's name
+  std::string group = {};   ///< a heading above the row, across all columns; empty: none
+  std::string id = {};      ///< to link to
+};
+
+struct Table {
+  std::vector<Column> columns;
+  std::vector<TableRow> rows;
+  std::string note = {};  ///< below it, in smaller letters
+  bool dense = false;     ///< of thousands of numbers
+};
+
+struct Paragraph {
+  enum class Style { plain, small, warning };
+  std::string text;
+  Style style = Style::plain;
+};
+
+struct Item {
+  std::string lead;  ///< in bold letters; empty: none
+  std::string text;
+};
+struct List {
+  std::vector<Item> items;
+};
+
+/// Plots and pictures by the names of their files.
+struct Drawings {
+  std::vector<std::string> names;
+  bool side = true;  ///< side by side, where they are narrow enough
+};
+
+struct Code {
+  std::string text;
+};
+
+struct Heading {
+  std::string text, id = {};
+};
+
+struct Links {
+  std::vector<std::pair<std::string, std::string>> links;  ///< text, address
+};
+
+struct Block;
+/// Folded: what a reader may want, and what passes.
+struct Details {
+  std::string summary;
+  std::vector<Block> blocks;
+};
+
+struct Block {
+  std::variant<Paragraph, List, Table, Drawings, Code, Heading, Links, Details> content;
+
+  template <typename T>
+  requires(!std::same_as<std::remove_cvref_t<T>, Block>) Block(T&& part)
+      : content(std::forward<T>(part)) {}
+};
+using Blocks = std::vector<Block>;
+
+struct Section {
+  std::string id, title;
+  Blocks blocks;
+  std::string shortTitle = {};  ///< in the list of sections; empty: the title
+};
+
+/// A number of one engine that the matrix does not have, to be followed over versions.
+struct DigestValue {
+  std::string engine, quantity;
+  OverviewCell cell;
+};
+
+/// What a site keeps of a report.
+struct ReportDigest {
+  ResultsHead head;
+  std::vector<EngineRow> engines;
+  Overview overview = {};  ///< the matrix, and at most three sentences that follow from it
+  std::vector<DigestValue> values = {};
+};
+
+struct Report : ReportDigest {
+  std::optional<double> elapsed = {};   ///< [s]
+  std::vector<std::string> notes = {};  ///< remarks that the matrix does not have
+  std::vector<Section> sections = {};
+  std::vector<Figure> figures = {};
+  std::vector<Picture> pictures = {};
+  std::vector<std::pair<std::string, std::string>> tables = {};  ///< CSV: name of the file, content
+  std::optional<std::vector<JUnitCase>> checks = {};             ///< absent: nothing is judged
+  bool wrapped = false;  ///< every cell of the matrix says its question: rows share few of them
+  bool engineColours = true;  ///< plots have the engines' colours: a legend stays in sight
+  std::string caseHeading = "The case as it was run";
+
+  Section& section(std::string id, std::string title, std::string shortTitle = {}) {
+    return sections.emplace_back(
+        Section{std::move(id), std::move(title), {}, std::move(shortTitle)});
+  }
+};
+
+/// The figures whose names begin so, that have anything to draw.
+Drawings drawingsOf(const std::vector<Figure>& figures, std::string_view prefix);
+Drawings drawingsOf(const std::vector<Picture>& pictures, Picture::Shows shows);
+
+/// "Engine agreement: CASE, VARIANT"
+std::string titleOf(const ResultsHead& head);
+
+/// The matrix as tests, for studies that have no finer ones.
+std::vector<JUnitCase> matrixChecks(const Report& report);
+
+}  // namespace crossgrain::reports

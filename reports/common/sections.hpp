@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "reports/common/report.hpp"
+#include "results/couette_frame.hpp"
+
+/// Sections that several studies have.
+namespace crossgrain::reports {
+
+/// What an engine made of a scene. Both must outlive it.
+struct RealisedScene {
+  std::string engine;
+  const Realised* realised;
+  const std::vector<std::string>* calledFor;  ///< effects of this scene; null: not known
+};
+/// Deviations of engines from the scene, pair coefficients after their mixing rules, and effects
+/// called for and simulated.
+void addDetails(Report& report, const std::vector<RealisedScene>& realised);
+
+/// Seed and hash of each packing.
+void addPackings(Report& report, const std::vector<PackingRow>& packings);
+
+/// Version and description of each engine; why it did not run.
+void addEngines(Report& report);
+
+/// A column for each of these engines, after the first ones.
+std::vector<Column> engineColumns(std::vector<Column> first, const std::vector<EngineRow>& engines);
+
+}  // namespace crossgrain::reports

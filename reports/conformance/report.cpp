@@ -1,0 +1,178 @@
+#include "reports/conformance/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "reports/common/sentences.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using enum ConformanceOutcome;
+
+struct CheckPart {
+  const char *name, *title, *column, *asks;
+};
+constexpr CheckPart checkParts[] = {
+    {"suite", "The suite", "suite", "Checks of single properties on scenes of a few disks."},
+    {"lockstep", "Comparison with its mirror", "law verified",
+     "Step-by-step comparison with the in-house engine under the declared conventions."},
+    {"collisions", "Collisions", "collisions",
+     "Two-particle collisions compared with the declared law."}};
+
+CellState outcomeState(ConformanceOutcome outcome) {
+  constexpr CellState states[] = {CellState::good, CellState::bad, CellState::notApplicable,
+                                  CellState::bad};
+  return states[static_cast<std::size_t>(outcome)];
+}
+
+std::string outcomeWord(ConformanceOutcome outcome) {
+  const char* const words[] = {"passed", "failed", "skipped", "broke down"};
+  return words[static_cast<std::size_t>(outcome)];
+}
+
+bool isFault(const ConformanceRow& row) {
+  return row.outcome == failed || row.outcome == brokeDown;
+}
+
+OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) {
+  std::size_t asked = 0, passes = 0;
+  std::vector<std::string> faults;
+  for (const ConformanceRow& row : results.rows) {
+    if (row.part != part.name || row.outcome == skipped) continue;
+    ++asked;
+    passes += row.outcome == passed;
+    if (isFault(row)) faults.push_back(row.name);
+  }
+  OverviewCell cell{CellState::notMeasured, {}, "checks", {}, {}, ""};
+  if (asked == 0) return cell;
+  return {faults.empty() ? CellState::good : CellState::bad,
+          static_cast<double>(passes),
+          "checks",
+          fmt::format("{} of {}", passes, asked),
+          listedShortly(faults, 3),
+          part.name};
+}
+
+OverviewCell notExaminedCell(const ConformanceResults& results) {
+  OverviewCell cell{CellState::notMeasured, {}, "capabilities", {}, {}, {}};
+  if (!results.declared) return cell;
+  cell.state = CellState::figure;
+  cell.value = static_cast<double>(results.notExamined.size());
+  cell.shown = fmt::format("{} of {}", results.notExamined.size(), *results.declared);
+  cell.words = listedShortly(results.notExamined, 3);
+  return cell;
+}
+
+/// Rows of one part: those that failed unfolded, the others folded.
+void addCheckPart(Report& report, const ConformanceResults& results, const CheckPart& part) {
+  Table faults{{"check", "passes if", "outcome", {"number or reason", Column::Kind::remark}}, {}};
+  Table others = faults;
+  for (const ConformanceRow& row : results.rows) {
+    if (row.part != part.name) continue;
+    const std::string more = row.faults > 1 ? fmt::format(" (and {} more)", row.faults - 1) : "";
+    (isFault(row) ? faults : others)
+        .rows.push_back({{row.name,
+                          row.what,
+                          {outcomeWord(row.outcome), {}, outcomeState(row.outcome), true},
+                          row.detail + more}});
+  }
+  if (faults.rows.empty() && others.rows.empty()) return;
+  Blocks& blocks = report.section(part.name, part.title).blocks;
+  if (!faults.rows.empty()) blocks.push_back(std::move(faults));
+  if (!others.rows.empty())
+    blocks.push_back(
+        Details{counted(others.rows.size(), "check") + " passed or skipped", {std::move(others)}});
+}
+
+std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
+  // In the order of ConformanceOutcome.
+  constexpr JUnitCase::Outcome outcomes[] = {JUnitCase::Outcome::passed, JUnitCase::Outcome::failed,
+                                             JUnitCase::Outcome::skipped,
+                                             JUnitCase::Outcome::error};
+  std::vector<JUnitCase> cases;
+  for (const ConformanceRow& row : results.rows)
+    cases.push_back({results.engine.name + " " + row.part, row.name,
+                     outcomes[static_cast<std::size_t>(row.outcome)], row.detail, row.seconds});
+  return cases;
+}
+
+}  // namespace
+
+std::string conformanceLead(const ConformanceResults& results) {
+  const std::size_t asked = results.rows.size() - results.count(skipped);
+  std::string lead = fmt::format("{} ({}): {} of {} checks passed", results.engine.name,
+                                 results.engine.version, results.count(passed), asked);
+  if (const std::size_t count = results.count(failed)) lead += fmt::format(", {} failed", count);
+  if (const std::size_t count = results.count(brokeDown))
+    lead += fmt::format(", it broke down in {}", count);
+  if (const std::size_t count = results.count(skipped)) lead += fmt::format(", {} skipped", count);
+  const std::size_t unseen = results.notExamined.size();
+  if (results.declared && unseen > 0)
+    lead += fmt::format(
+        "; {} of {} declared capabilities ({:.0f} %) not examined", unseen, *results.declared,
+        100.0 * static_cast<double>(unseen) / static_cast<double>(*results.declared));
+  return lead + ".";
+}
+
+std::string conformanceNotExamined(const ConformanceResults& results) {
+  if (results.notExamined.empty()) return {};
+  return fmt::format("not examined: {}", fmt::join(results.notExamined, "; "));
+}
+
+std::string conformanceCause(const ConformanceResults& results) {
+  if (!results.cause.empty()) return "most likely: " + results.cause;
+  if (results.count(failed) == 0) return {};
+  return "most likely: no single cause of those tried explains it";
+}
+
+std::string conformanceSentence(const ConformanceRow& row) {
+  std::string sentence = fmt::format("{}: {} ({})", outcomeWord(row.outcome), row.name, row.what);
+  if (!row.detail.empty()) sentence += ": " + row.detail;
+  if (row.faults > 1) sentence += fmt::format(" (and {} more)", row.faults - 1);
+  return sentence;
+}
+
+Overview conformanceOverview(const ConformanceResults& results) {
+  Overview overview;
+  OverviewRow row{results.engine.name, true, {}};
+  for (const CheckPart& part : checkParts) {
+    overview.columns.push_back({part.column, part.asks, ""});
+    row.cells.push_back(partCell(results, part));
+  }
+  overview.columns.push_back(
+      {"not examined", "Declared capabilities that no check asked for, or that were refused.", ""});
+  row.cells.push_back(notExaminedCell(results));
+  overview.rows = {std::move(row)};
+  overview.conclusion = {conformanceLead(results)};
+  for (const std::string& more : nonEmpty({conformanceCause(results)}))
+    overview.conclusion.push_back(capitalised(more) + ".");
+  return overview;
+}
+
+Report conformanceReport(const ConformanceResults& results) {
+  Report report{{results.head, {results.engine}, conformanceOverview(results)}};
+  report.elapsed = results.elapsed;
+  for (const std::string& more : nonEmpty({conformanceNotExamined(results)}))
+    report.notes.push_back(capitalised(more) + ".");
+  for (const CheckPart& part : checkParts) addCheckPart(report, results, part);
+  report.section("reading", "How to read it").blocks = {List{
+      {{"Suite",
+        "each check poses a property on a scene of a few disks, under the conventions that the "
+        "engine declares."},
+       {"Skipped",
+        "the engine does not declare it, or its kind of contacts cannot be asked. It is no fault."},
+       {"Not examined",
+        "the engine declares it and no check asked for it, or it refused: neither good nor bad."},
+       {"Failed", "the first fault is shown with its number, and how many more there were."},
+       {"Mirror and collisions",
+        "the mirror is the in-house engine with the conventions declared, followed step by step "
+        "from four states of the quick cell. Collisions are compared with the declared law at 50 "
+        "steps a contact, without the pure spring, which has two limits of small steps."}}}};
+  report.checks = conformanceChecks(results);
+  return report;
+}
+
+}  // namespace crossgrain::reports

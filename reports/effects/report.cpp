@@ -1,0 +1,351 @@
+#include "reports/effects/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "reports/common/csv_row.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sections.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/couette/engine_table.hpp"
+#include "reports/effects/variants.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Engines = std::vector<EngineRuns>;
+using Kind = Column::Kind;
+
+/// Two figures, three and more as they are: never a power of ten.
+std::string roughly(double percent) {
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+}
+
+std::string signedRoughly(double percent) {
+  const std::string digits = roughly(std::abs(percent));
+  if (digits == "0") return digits;
+  return (percent < 0.0 ? "−" : "+") + digits;
+}
+
+std::optional<double> inPercent(std::optional<double> fraction) {
+  return times(fraction, 100.0);
+}
+
+/// "−20 % (−25 to −15 %)": with the interval that the verdict rests on; else with one standard
+/// error.
+std::string changePercent(const FieldChange& change) {
+  const auto value = inPercent(change.change);
+  if (change.low && change.high)
+    return fmt::format("{} % ({} to {} %)", signedRoughly(*value),
+                       signedRoughly(100.0 * *change.low), signedRoughly(100.0 * *change.high));
+  if (!change.error) return readableDifference(value, {}) + " %";
+  return readableDifference(value, inPercent(change.error)) + " % (one standard error)";
+}
+
+std::string ringName(const FieldChange& change) {
+  return fmt::format("ring {}", change.ring + 1);
+}
+
+std::string changeInWords(const FieldChange& change) {
+  return fmt::format("{} in {}, {}", fieldWords(change.field), ringName(change),
+                     changePercent(change));
+}
+
+std::vector<const FieldChange*> detectedOf(const VariantSummary& variant) {
+  std::vector<const FieldChange*> found;
+  for (const FieldChange& change : variant.changes)
+    if (change.detected.value_or(false)) found.push_back(&change);
+  std::ranges::stable_sort(found, std::ranges::greater(),
+                           [](const FieldChange* change) { return std::abs(change->change); });
+  return found;
+}
+
+/// "0.8 % (volume fraction) to 45 % (spin)"
+std::string detectableInWords(const VariantSummary& variant) {
+  const FieldChange *least = nullptr, *most = nullptr;
+  for (const FieldChange& change : variant.changes) {
+    if (!change.detectable) continue;
+    if (!least || *change.detectable < *least->detectable) least = &change;
+    if (!most || *change.detectable > *most->detectable) most = &change;
+  }
+  if (!least) return {};
+  const auto one = [](const FieldChange& change) {
+    return fmt::format("{} % ({})", roughly(100.0 * *change.detectable), fieldWords(change.field));
+  };
+  return least == most ? one(*least) : one(*least) + " to " + one(*most);
+}
+
+/// ", with 45 contacts instead of 424".
+std::string contactsInWords(const VariantSummary& variant) {
+  constexpr double notable = 0.2;
+  if (!variant.contacts || !variant.wholeContacts) return {};
+  if (std::abs(*variant.contacts - *variant.wholeContacts) < notable * *variant.wholeContacts)
+    return {};
+  return fmt::format(" (without it there are {} contacts instead of {})",
+                     readableCount(variant.contacts), readableCount(variant.wholeContacts));
+}
+
+/// "takes 12.1 ± 0.4 % of a step"
+std::string costInWords(const VariantSummary& variant) {
+  if (!variant.saved) return "was not timed";
+  const std::string part =
+      readable(inPercent(std::abs(*variant.saved)), inPercent(variant.savedError));
+  if (variant.savedError && std::abs(*variant.saved) <= 2.0 * *variant.savedError)
+    return fmt::format("costs nothing measurable ({} % of a step)",
+                       readableDifference(inPercent(variant.saved), inPercent(variant.savedError)));
+  return (*variant.saved > 0.0
+              ? fmt::format("takes {} % of a step", part)
+              : fmt::format("saves time: a step without it takes {} % longer", part)) +
+         contactsInWords(variant);
+}
+
+/// "significant changes without it: azimuthal velocity in ring 3, −34 % (−45 to −23 %)", or the
+/// smallest that this run would have resolved; empty where there are too few packings.
+std::string changesInWords(const VariantSummary& variant) {
+  const auto found = detectedOf(variant);
+  if (found.empty())
+    return variant.decidable()
+               ? "no significant change; smallest resolvable one, field by field: " +
+                     detectableInWords(variant)
+               : std::string();
+  constexpr std::size_t most = 3;
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
+    words.push_back(changeInWords(*found[k]));
+  const std::size_t more = found.size() - words.size();
+  return fmt::format("significant changes without it: {}{}", fmt::join(words, "; "),
+                     more == 0 ? "" : fmt::format("; and {}", counted(more, "further field")));
+}
+
+/// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
+std::string againstMargin(const FieldChange& change) {
+  if (change.verdict == AgainstMargin::untold) return {};
+  if (change.verdict == AgainstMargin::agree) return "shown within the margin";
+  if (change.verdictHere == AgainstMargin::disagree) return "shown beyond the margin";
+  return change.verdict == AgainstMargin::disagree ? "shown beyond the margin in another ring"
+                                                   : "margin: undecided";
+}
+
+const char* symbolOf(const FieldChange& change) {
+  if (!change.detected) return "";
+  if (!*change.detected) return "○";
+  return change.change > 0.0 ? "▲" : "▼";
+}
+
+Cell fieldCell(const FieldChange* change) {
+  if (!change) return absentText;
+  const bool found = change->detected.value_or(false);
+  std::string detail = ringName(*change);
+  if (!change->detected) detail += "; too few packings";
+  if (!found && change->detectableHere)
+    detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
+  if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
+  return {fmt::format("{} {}", symbolOf(*change), changePercent(*change)),
+          {std::move(detail)},
+          found ? CellState::modelDifference : CellState::undecided};
+}
+
+/// The largest value of a field with everything on, which changes are shares of.
+std::string scaleOf(const EngineRuns& whole, const std::string& field) {
+  const Profile* profile = profileOf(whole.profiles(), field);
+  double scale = 0.0;
+  if (profile)
+    for (const auto& mean : profile->mean)
+      scale = std::max(scale, std::abs(finite(mean).value_or(0.0)));
+  const std::string unit = profile ? profile->unit : std::string();
+  return readable(scale) + (unit == "-" || unit == "1" ? "" : " " + unit);
+}
+
+/// Effects of one engine: cost, contacts, and the change of each field that is judged.
+Table effectTable(const EffectsResults& results, const std::string& engine) {
+  const std::vector<VariantSummary> variants = variantSummaries(results, engine);
+  const std::vector<std::string> fields = judgedFields(variants);
+  const EffectVariant* whole = wholeVariant(results, engine);
+  const EngineRuns everything = variantRuns(results, engine).front();
+  Table table{{"switched off",
+               {"saves of a step [%]", Kind::number},
+               {"a step [µs]", Kind::number},
+               {"contacts in a step", Kind::number}},
+              {}};
+  TableRow first{{"nothing: largest value", absentText, readable(times(finite(whole->step), 1e6)),
+                  readableCount(whole->contacts)}};
+  for (const std::string& field : fields) {
+    table.columns.emplace_back(fieldLabel(field));
+    first.cells.emplace_back(scaleOf(everything, field));
+  }
+  table.rows.push_back(std::move(first));
+  for (const VariantSummary& variant : variants) {
+    TableRow row{{effectLabel(variant.effect)}};
+    if (!variant.ran()) {
+      row.cells.front().notes = {fmt::format("{}: {}", nameOf(variant.status), variant.reason)};
+    } else {
+      row.cells.emplace_back(readable(inPercent(variant.saved), inPercent(variant.savedError)));
+      row.cells.emplace_back(readable(times(variant.step, 1e6)));
+      row.cells.emplace_back(readableCount(variant.contacts));
+      for (const std::string& field : fields) row.cells.push_back(fieldCell(variant.of(field)));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string effectSentence(const VariantSummary& variant) {
+  const std::string effect = capitalised(effectLabel(variant.effect));
+  if (!variant.ran())
+    return fmt::format("{}: {}: {}.", effect, nameOf(variant.status), variant.reason);
+  const std::string changes = changesInWords(variant);
+  return fmt::format("{} {}{}{}.", effect, costInWords(variant), changes.empty() ? "" : "; ",
+                     changes);
+}
+
+std::vector<std::string> effectsNotes(const EffectsResults& results) {
+  std::vector<std::string> notes;
+  for (const EngineRow& engine : results.engines)
+    if (engine.status == EngineStatus::refused)
+      notes.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
+  if (results.packings.size() < 4)
+    notes.emplace_back(
+        "Fewer than 4 packings: changes cannot be distinguished from the scatter between "
+        "packings.");
+  notes.push_back(fmt::format("{}; rotations averaged in each run: {}, after {} of settling.",
+                              counted(results.packings.size(), "packing"),
+                              readableSetting(results.averaging.rotations),
+                              readableSetting(results.averaging.settleRotations)));
+  std::ranges::copy(results.notes, std::back_inserter(notes));
+  return notes;
+}
+
+std::string barsOf(const EffectsResults& results) {
+  const std::size_t packings = results.packings.size();
+  if (packings >= 4)
+    return "in brackets the interval that the verdict rests on, paired over packings: it leaves "
+           "out 0 exactly where the change is significant";
+  return packings > 1 ? "± one standard error of the change, paired over packings"
+                      : "± one standard error within the two runs of one packing: it says nothing "
+                        "about other packings";
+}
+
+List effectsReading(const EffectsResults& results) {
+  return {
+      {{"Changes",
+        fmt::format("the run without the effect minus the run with everything on, at one ring, "
+                    "in % of the profile's largest value with everything on; {}. effects.csv "
+                    "has every ring, in the field's unit.",
+                    barsOf(results))},
+       {"▲ ▼",
+        fmt::format("significant (larger, smaller without the effect); ○: not, and \"seen "
+                    "from\" is the smallest change that this ring would have shown. All rings "
+                    "of all fields shown are one family of tests for each effect: the chance "
+                    "of any false alarm among them is at most {:.3g} % (paired t tests, Holm's "
+                    "procedure). It takes at least 4 packings.",
+                    100.0 * (1.0 - results.averaging.confidence))},
+       {"Margin",
+        "the case's: a change within the margin in every ring shows that this scene does not "
+        "need the effect for that field, as two engines would agree."},
+       {"Time",
+        fmt::format("one run at a time on packing 0, in {} rounds that take turns, at least {} "
+                    "s each over the same steps; the shortest round counts, its error is that "
+                    "over rounds. What other programs had of the core meanwhile is not counted. "
+                    "A run without an effect is in another state and may have more or fewer "
+                    "contacts, which is part of the number: see the column of contacts.",
+                    readableCount(results.timing.rounds), readableSetting(results.timing.seconds))},
+       {"Sum", "effects do not add up: with friction go rotation, springs and dashpots."}}};
+}
+
+/// @param number  of the engine, from 1
+void addStudy(Report& report, const EffectsResults& results, const std::string& engine,
+              std::size_t number) {
+  const std::string prefix = fmt::format("effects_{}_", number);
+  const std::vector<VariantSummary> variants = variantSummaries(results, engine);
+  Blocks& blocks = report
+                       .section(fmt::format("effects-{}", number),
+                                "What each effect costs and changes: " + engine, engine)
+                       .blocks;
+  List sentences;
+  for (const VariantSummary& variant : variants)
+    sentences.items.push_back({"", effectSentence(variant)});
+  blocks.push_back(std::move(sentences));
+  Drawings cost = drawingsOf(report.figures, prefix + "cost");
+  cost.side = false;
+  blocks.push_back(std::move(cost));
+  blocks.push_back(effectTable(results, engine));
+  Drawings profiles = drawingsOf(report.figures, prefix + "profile_");
+  if (profiles.names.empty()) return;
+  const bool faint = std::ranges::any_of(variants, [](const VariantSummary& variant) {
+    return variant.ran() && std::ranges::any_of(variant.changes, [](const FieldChange& change) {
+             return change.detected == std::optional(false);
+           });
+  });
+  blocks.push_back(Heading{"Profiles with and without"});
+  blocks.push_back(
+      Paragraph{std::string("Black: everything on.") +
+                (faint ? " Grey: runs whose change of this field is not significant." : "")});
+  blocks.push_back(std::move(profiles));
+}
+
+std::string yesOrNo(const std::optional<bool>& value) {
+  return value ? (*value ? "yes" : "no") : "";
+}
+
+std::string effectsCsv(const EffectsResults& results) {
+  std::string table =
+      "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
+      "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,step_s,"
+      "contacts_per_step,precision,status,reason\n";
+  const double level = std::round((1.0 - results.averaging.confidence) * 1e12) / 1e12;
+  for (const EffectVariant& variant : results.variants) {
+    if (!variant.isSwitched()) continue;  // everything on: the reference of the others
+    const bool refused = variant.status == EngineStatus::refused;
+    const auto packings =
+        refused ? std::nullopt : std::optional(static_cast<double>(variant.changes.packings));
+    const std::string bars(refused ? "" : nameOf(variant.changes.bars));
+    const auto line = [&](const ChangedField& field, const std::string& place,
+                          const RingChange& ring) {
+      const auto rTilde = place.empty() ? std::nullopt : at(results.rings.rTilde, ring.ring);
+      table +=
+          row(variant.engine, variant.effect, variant.timeRatio, field.field, place, ring.change,
+              ring.standardError, rTilde, ring.reference, field.unit, yesOrNo(ring.resolved),
+              ring.p, ring.smallest, finite(ring.p) ? std::optional(level) : std::nullopt, packings,
+              bars, variant.timeRatioError, variant.step, variant.contacts,
+              variant.precision.value_or(""), std::string(nameOf(variant.status)), variant.reason);
+    };
+    for (const ChangedField& field : variant.changes.fields)
+      for (const RingChange& ring : field.rings)
+        line(field, fmt::format("{}", ring.ring + 1), ring);
+    if (variant.changes.fields.empty()) line({}, "", {});
+  }
+  return table;
+}
+
+}  // namespace
+
+Report effectsReport(const EffectsResults& results) {
+  const Engines engines = engineRuns(results, results.ensemble);
+  Report report{{results.head, results.engines, effectsOverview(results)}};
+  report.elapsed = results.elapsed;
+  report.notes = effectsNotes(results);
+  report.engineColours = false;  // colours are variants
+  report.figures = effectFigures(results);
+  for (std::size_t k = 0; k < engines.size(); ++k)
+    if (wholeVariant(results, engines[k].name)) addStudy(report, results, engines[k].name, k + 1);
+  Table switches{{"switch", {"meaning", Kind::remark}}, {}};
+  for (const SwitchRow& one : results.switches)
+    switches.rows.push_back({{variantLabel(one.effect), one.what}});
+  report.section("reading", "How to read it").blocks = {
+      effectsReading(results), Paragraph{averagesInWords(results), Paragraph::Style::small},
+      Heading{"What was switched"}, std::move(switches)};
+  addEngineTable(report.section("engines", "Engines, with everything on", "Engines").blocks,
+                 engines);
+  addDetails(report, realisedOf(results, engines));
+  addPackings(report, results.packings);
+  report.tables = {{"effects.csv", effectsCsv(results)}};
+  return report;
+}
+
+}  // namespace crossgrain::reports

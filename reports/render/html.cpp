@@ -1,0 +1,418 @@
+#include "reports/render/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "reports/common/engines.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/render/base64.hpp"
+#include "reports/render/page_files.hpp"
+#include "support/files.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// "All pairs" → "all-pairs".
+std::string slugOf(const std::string& words) {
+  std::string slug;
+  for (const char c : words)
+    if (const auto byte = static_cast<unsigned char>(c); std::isalnum(byte))
+      slug += static_cast<char>(std::tolower(byte));
+    else if (!slug.empty() && slug.back() != '-')
+      slug += '-';
+  while (slug.ends_with('-')) slug.pop_back();
+  return slug.empty() ? "part" : slug;
+}
+
+std::string swatch(const LineStyle& style) {
+  return fmt::format(R"(<span class="swatch{}" style="border-color:{}"></span>)",
+                     style.dashed ? " dashed" : "", style.colour);
+}
+
+/// An engine's name with its colour before it, where the report has that engine.
+class EngineNames {
+ public:
+  explicit EngineNames(const std::vector<EngineRow>& engines)
+      : engines_(engines), styles_(engineStyles(engines)) {}
+
+  std::string operator()(const std::string& name) const {
+    const auto engine = std::ranges::find(engines_, name, &EngineRow::name);
+    if (engine == engines_.end()) return mathHtml(name);
+    return swatch(styles_[static_cast<std::size_t>(engine - engines_.begin())]) + mathHtml(name);
+  }
+
+ private:
+  const std::vector<EngineRow>& engines_;
+  std::vector<LineStyle> styles_;
+};
+
+std::string linked(const std::string& address, const std::string& content) {
+  if (address.empty()) return content;
+  return fmt::format(R"(<a href="{}">{}</a>)", escaped(address), content);
+}
+
+// --- the matrix
+
+std::string meaningOf(const Overview& overview, CellState state) {
+  const auto own = std::ranges::find(overview.states, state, &StateWords::state);
+  return own == overview.states.end() ? std::string(lookOf(state).words) : own->words;
+}
+
+/// Where it leads: a part of this page, or another page.
+std::string addressOf(const std::string& anchor) {
+  return anchor.empty() || anchor.find('/') != std::string::npos ? anchor : "#" + anchor;
+}
+
+std::string matrixCell(const Overview& overview, const OverviewCell& cell,
+                       const std::string& question) {
+  const CellLook look = lookOf(cell.state);
+  const std::string meaning = meaningOf(overview, cell.state);
+  const std::string content =
+      fmt::format(R"(<b><span class="mark" role="img" aria-label="{}">{}</span> {}</b>{})",
+                  escaped(meaning), look.mark, mathHtml(cell.shown),
+                  cell.words.empty() ? "" : "<small>" + mathHtml(cell.words) + "</small>");
+  return fmt::format(R"(<td class="cell {}" data-asks="{}" title="{}">{}</td>)", look.cssClass,
+                     escaped(question),
+                     escaped(cell.words.empty() ? meaning : meaning + ": " + cell.words),
+                     linked(addressOf(cell.anchor), content));
+}
+
+/// What the marks stand for, of those that occur.
+std::string marksOf(const Overview& overview, bool wrapped) {
+  std::set<CellState> seen;
+  for (const OverviewRow& row : overview.rows)
+    for (const OverviewCell& cell : row.cells) seen.insert(cell.state);
+  if (wrapped) seen.erase(CellState::notApplicable);  // such cells are not there
+  std::string marks = "<p class=\"small marks\">";
+  for (const CellState state : seen)
+    marks += fmt::format(R"(<span><b class="mark {}">{}</b> {}</span> )", lookOf(state).cssClass,
+                         lookOf(state).mark, mathHtml(meaningOf(overview, state)));
+  return marks + "Every cell links to its evidence.</p>\n";
+}
+
+/// How many lines a row's small words take on a page of 1280 px, about.
+std::size_t linesOf(const OverviewRow& row) {
+  constexpr std::size_t letters = 150;  // of a line of small words over all cells
+  const std::size_t each = letters / std::max<std::size_t>(row.cells.size(), 1);
+  std::size_t lines = 0;
+  for (const OverviewCell& cell : row.cells)
+    lines = std::max(lines, (cell.words.size() + each - 1) / each);
+  return lines;
+}
+
+/// The most lines of small words that rows may have for the matrix to end within 800 px.
+std::size_t mostLines(const std::vector<OverviewRow>& rows) {
+  constexpr std::size_t room = 648;            // below the heads [px]
+  constexpr std::size_t mark = 26, line = 16;  // of a row [px]
+  for (std::size_t most = 4; most > 1; --most) {
+    std::size_t height = 0;
+    for (const OverviewRow& row : rows) height += mark + line * std::min(most, linesOf(row));
+    if (height <= room) return most;
+  }
+  return 1;
+}
+
+// --- blocks
+
+class Writer {
+ public:
+  Writer(const Report& report, const std::filesystem::path& plots, bool drawn)
+      : report_(report), plots_(plots), drawn_(drawn), names_(report.engines) {
+    for (const Section& section : report.sections) taken_.insert(section.id);
+  }
+
+  void section(const Section& section) {
+    heading(2, section.id, section.title);
+    blocks(section.blocks);
+  }
+  void blocks(const Blocks& all) {
+    for (const Block& block : all)
+      std::visit([this](const auto& part) { write(part); }, block.content);
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  void heading(int level, const std::string& id, const std::string& text) {
+    out_ += fmt::format(
+        "<h{0} id=\"{1}\">{2}<a class=\"anchor\" href=\"#{1}\" aria-label=\"Link to this "
+        "part\">#</a></h{0}>\n",
+        level, escaped(id), mathHtml(text));
+  }
+
+  void write(const Heading& part) {
+    const std::string slug = slugOf(part.text);
+    std::string id = part.id;
+    if (id.empty()) {
+      id = slug;
+      for (int k = 2; taken_.contains(id); ++k) id = fmt::format("{}-{}", slug, k);
+    }
+    taken_.insert(id);
+    heading(3, id, part.text);
+  }
+  void write(const Paragraph& part) {
+    if (part.text.empty()) return;
+    const char* const styles[] = {"<p>", "<p class=\"small\">", "<p class=\"warning\">"};
+    out_ += styles[static_cast<int>(part.style)] + mathHtml(part.text) + "</p>\n";
+  }
+  void write(const List& part) {
+    if (part.items.empty()) return;
+    out_ += "<ul>\n";
+    for (const Item& item : part.items)
+      out_ += fmt::format(
+          "<li>{}{}</li>\n",
+          item.lead.empty() ? "" : "<b>" + mathHtml(item.lead) + "</b>: ", mathHtml(item.text));
+    out_ += "</ul>\n";
+  }
+  void write(const Code& part) { out_ += "<pre>" + escaped(part.text) + "</pre>\n"; }
+  void write(const Links& part) {
+    std::string links;
+    for (const auto& [text, address] : part.links)
+      links += (links.empty() ? "" : " · ") + linked(address, escaped(text));
+    out_ += "<p class=\"small\">" + links + "</p>\n";
+  }
+  void write(const Details& part) {
+    out_ += "<details><summary>" + mathHtml(part.summary) + "</summary>\n";
+    blocks(part.blocks);
+    out_ += "</details>\n";
+  }
+  void write(const Drawings& part) {
+    if (!drawn_) return;
+    std::string figures;
+    for (const std::string& name : part.names) figures += htmlDrawing(report_, name, plots_);
+    if (!figures.empty())
+      out_ += part.side ? "<div class=\"figures\">\n" + figures + "</div>\n" : figures;
+  }
+
+  void write(const Table& table) {
+    if (table.rows.empty()) return;
+    out_ += fmt::format("<div class=\"scroll\"><table{}>\n<thead><tr>",
+                        table.dense ? " class=\"scores\"" : "");
+    for (const Column& column : table.columns) {
+      const bool engine = column.kind == Column::Kind::engine;
+      out_ += fmt::format("<th{}>{}</th>",
+                          engine                                ? " class=\"engine\""
+                          : column.kind == Column::Kind::number ? " class=\"n\""
+                                                                : "",
+                          engine ? names_(column.name) : mathHtml(column.name));
+    }
+    out_ += "</tr></thead>\n<tbody>\n";
+    for (const TableRow& row : table.rows) {
+      if (!row.group.empty())
+        out_ += fmt::format("<tr class=\"group\"><th colspan=\"{}\">{}</th></tr>\n",
+                            table.columns.size(), mathHtml(row.group));
+      out_ += row.id.empty() ? "<tr>" : fmt::format("<tr id=\"{}\">", escaped(row.id));
+      for (std::size_t k = 0; k < row.cells.size(); ++k)
+        cell(row.cells[k], k == 0,
+             k < table.columns.size() ? table.columns[k].kind : Column::Kind::words);
+      out_ += "</tr>\n";
+    }
+    out_ += "</tbody></table></div>\n";
+    write(Paragraph{table.note, Paragraph::Style::small});
+  }
+
+  void cell(const Cell& cell, bool first, Column::Kind kind) {
+    using enum Column::Kind;
+    std::string classes = kind == number ? "n" : kind == remark ? "why" : "";
+    if (cell.state) classes += std::string(" change ") + std::string(lookOf(*cell.state).cssClass);
+    std::string text = kind == engines ? names_(cell.text) : mathHtml(cell.text);
+    if (cell.state && cell.marked) text = std::string(lookOf(*cell.state).mark) + " " + text;
+    if (cell.state) text = "<b>" + text + "</b>";
+    text = linked(cell.link, text);
+    for (const std::string& note : cell.notes) text += "<small>" + mathHtml(note) + "</small>";
+    if (!cell.strip.empty()) {
+      text += "<span class=\"strip\">";
+      for (const Square& square : cell.strip)
+        text += fmt::format(R"(<i class="{}" title="{}">{}</i>)", lookOf(square.state).cssClass,
+                            escaped(square.title), lookOf(square.state).mark);
+      text += "</span>";
+    }
+    const char* const tag = first ? "th" : "td";
+    out_ += classes.empty() ? fmt::format("<{0}>{1}</{0}>", tag, text)
+                            : fmt::format("<{0} class=\"{2}\">{1}</{0}>", tag, text, classes);
+  }
+
+  const Report& report_;
+  const std::filesystem::path& plots_;
+  bool drawn_;
+  EngineNames names_;
+  std::set<std::string> taken_;
+  std::string out_;
+};
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string result;
+  for (const std::string& part : parts)
+    if (!part.empty()) result += (result.empty() ? "" : " · ") + part;
+  return result;
+}
+
+std::string machineOf(const Report& report) {
+  const Machine& machine = report.head.machine;
+  return joined({machine.cpu, machine.cores > 0 ? counted(machine.cores, "core") : "", machine.os});
+}
+
+std::string contentsOf(const Report& report) {
+  std::string links = "<nav>";
+  for (const Section& section : report.sections)
+    links += linked("#" + section.id,
+                    mathHtml(section.shortTitle.empty() ? section.title : section.shortTitle));
+  if (!report.head.setup.toml.empty()) links += linked("#case", "Case");
+  if (!report.head.kind.empty()) links += linked("#rebuild", "Files");
+  return links + "</nav>\n";
+}
+
+std::string notesOf(const Report& report) {
+  if (report.notes.empty()) return {};
+  std::string text = "<details class=\"summary\"><summary>Notes</summary>\n<ul>\n";
+  for (const std::string& note : report.notes) text += "<li>" + mathHtml(note) + "</li>\n";
+  return text + "</ul></details>\n";
+}
+
+/// "Beside this page: results.json (everything), cost.csv and junit.xml."
+std::string filesOf(const Report& report) {
+  std::vector<std::string> names = {"results.json (everything)"};
+  for (const auto& [name, content] : report.tables) names.push_back(name);
+  if (report.checks) names.emplace_back("junit.xml");
+  return "Beside this page: " + listed(names) + ".";
+}
+
+}  // namespace
+
+std::string htmlHead(const Report& report) {
+  const std::string title = escaped(titleOf(report.head));
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{0}</title>\n"
+      "<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n<p class=\"meta\">{2}</p>\n"
+      "</header>\n",
+      title, pageFile("style.css"),
+      escaped(joined({report.head.kind.empty() ? "" : "crossgrain " + report.head.kind,
+                      report.head.started,
+                      report.elapsed ? "took " + readableDuration(report.elapsed) : "",
+                      report.head.version.empty() ? "" : "version " + report.head.version,
+                      machineOf(report)})));
+}
+
+std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& engines,
+                       bool wrapped) {
+  if (overview.rows.empty() || overview.columns.empty()) return {};
+  wrapped = wrapped || overview.columns.size() > mostColumns;
+  const bool tall = !wrapped && overview.rows.size() > mostRows;
+  const EngineNames names(engines);
+  std::string text = fmt::format(
+      "<div class=\"scroll\" id=\"overview\"><table "
+      "class=\"overview{}\"{}>\n<thead><tr><th>{}</th>",
+      wrapped ? " many"
+      : tall  ? " tall"
+              : "",
+      tall ? fmt::format(" style=\"--lines:{}\"", mostLines(overview.rows)) : "",
+      mathHtml(overview.rowsAre));
+  for (const OverviewColumn& column : overview.columns)
+    text += fmt::format("<th title=\"{}\">{}</th>", escaped(column.asks),
+                        linked(addressOf(column.anchor), mathHtml(column.name)));
+  text += "</tr></thead>\n<tbody>\n";
+  for (const OverviewRow& row : overview.rows) {
+    text += "<tr><th>" + linked(row.anchor, row.isEngine ? names(row.name) : mathHtml(row.name)) +
+            "</th>";
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      text += matrixCell(overview, row.cells[k], overview.columns[k].name);
+    text += "</tr>\n";
+  }
+  text += "</tbody></table></div>\n" + marksOf(overview, wrapped) + "<section class=\"summary\">\n";
+  for (const std::string& sentence : overview.conclusion)
+    text += "<p class=\"lead\">" + mathHtml(sentence) + "</p>\n";
+  return text + "</section>\n";
+}
+
+std::string htmlLegend(const std::vector<EngineRow>& engines) {
+  const EngineNames names(engines);
+  std::string text = "<p class=\"legend\" id=\"legend\">";
+  for (const EngineRow& engine : engines) text += "<span>" + names(engine.name) + "</span>";
+  return text + "</p>\n";
+}
+
+std::string htmlDrawing(const Report& report, const std::string& name,
+                        const std::filesystem::path& plots) {
+  const auto svg = readFile(plots / (name + ".svg"));
+  if (!svg) return {};
+  std::string title, caption, width;
+  bool wide = false;
+  if (const auto figure = std::ranges::find(report.figures, name, &Figure::name);
+      figure != report.figures.end()) {
+    title = figure->title;
+    caption = figure->caption;
+    // As wide as its letters need to stay readable, and no wider than they look well.
+    constexpr double smallest = 12.0, readableOnes = 11.0;  // letters of gnuplot.cpp [px]
+    constexpr double column = 640.0;                        // of a figure beside another [px]
+    const double own = widthOf(*figure);
+    width = fmt::format(" style=\"min-width:{:.0f}px;max-width:{:.0f}px\"",
+                        std::ceil(own * readableOnes / smallest), 1.35 * own);
+    wide = own > column;
+  } else if (const auto picture = std::ranges::find(report.pictures, name, &Picture::name);
+             picture != report.pictures.end()) {
+    title = picture->title;
+    caption = picture->engine + ". " + picture->scale;
+  }
+  return fmt::format(
+      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" "
+      "src=\"data:image/svg+xml;base64,{}\"{}></div>\n<figcaption>{} <span "
+      "class=\"file\">plots/{}.svg, .pdf</span></figcaption>\n</figure>\n",
+      wide ? " class=\"wide\"" : "", escaped(title), base64(*svg), width, mathHtml(caption),
+      escaped(name));
+}
+
+std::string htmlFoot(const Report& report) {
+  const CaseHead& setup = report.head.setup;
+  std::string text;
+  if (!setup.toml.empty())
+    text += fmt::format(
+        "<h2 id=\"case\">{}</h2>\n<details><summary>All its <code>extends</code> "
+        "merged{}</summary>\n<pre>{}</pre>\n</details>\n",
+        mathHtml(report.caseHeading),
+        setup.file.empty() ? "" : fmt::format(", from <code>{}</code>", escaped(setup.file)),
+        escaped(setup.toml));
+  if (!report.head.kind.empty()) {
+    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + escaped(filesOf(report));
+    if (!report.figures.empty())
+      text +=
+          " Each plot's script and data are in <code>plots/</code> beside its SVG and PDF; "
+          "<code>gnuplot NAME.gp</code> there redraws it.";
+    text += "</p>\n";
+    if (!report.head.command.empty())
+      text += "<p>These results came from</p>\n<pre>" + escaped(report.head.command) + "</pre>\n";
+    text +=
+        "<p>and this page is rebuilt from <code>results.json</code>, without running anything, "
+        "by</p>\n<pre>crossgrain report DIR</pre>\n";
+  }
+  return text +
+         fmt::format(
+             "<footer>{}</footer>\n<script>{}</script>\n</body>\n</html>\n",
+             escaped(joined(
+                 {report.head.version.empty() ? std::string() : "crossgrain " + report.head.version,
+                  machineOf(report)})),
+             pageFile("tables.js"));
+}
+
+std::string html(const Report& report, const std::filesystem::path& plots,
+                 const std::optional<std::string>& missing) {
+  std::string text = htmlHead(report) +
+                     htmlMatrix(report.overview, report.engines, report.wrapped) + notesOf(report);
+  if (missing) text += "<p class=\"warning\">" + escaped(*missing) + "</p>\n";
+  if (report.engineColours && !missing && !report.figures.empty() && report.engines.size() > 1)
+    text += htmlLegend(report.engines);
+  text += contentsOf(report);
+  Writer writer(report, plots, !missing);
+  for (const Section& section : report.sections) writer.section(section);
+  return text + writer.take() + htmlFoot(report);
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/common/overview.hpp"
+#include "reports/common/sentences.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// Characters, not bytes: all that reports print are one place wide.
+std::size_t widthOf(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, widthOf(text)), ' ');
+}
+
+std::string textOf(const OverviewCell& cell) {
+  const std::string mark(lookOf(cell.state).mark);
+  return cell.shown.empty() ? mark : mark + " " + cell.shown;
+}
+
+constexpr std::size_t gap = 2;  ///< between columns
+
+/// Widths of the columns, the rows' names first.
+std::vector<std::size_t> widthsOf(const Overview& overview) {
+  std::vector<std::size_t> widths = {widthOf(overview.rowsAre)};
+  for (const OverviewColumn& column : overview.columns) widths.push_back(widthOf(column.name));
+  for (const OverviewRow& row : overview.rows) {
+    widths[0] = std::max(widths[0], widthOf(row.name));
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      widths[k + 1] = std::max(widths[k + 1], widthOf(textOf(row.cells[k])));
+  }
+  return widths;
+}
+
+/// The columns that each block begins with, and their end.
+std::vector<std::size_t> blocksOf(const std::vector<std::size_t>& widths, std::size_t room) {
+  std::vector<std::size_t> begins = {0};
+  std::size_t used = widths[0];
+  for (std::size_t k = 0; k + 1 < widths.size(); ++k) {
+    used += gap + widths[k + 1];
+    if (used > room && k > begins.back()) {
+      begins.push_back(k);
+      used = widths[0] + gap + widths[k + 1];
+    }
+  }
+  begins.push_back(widths.size() - 1);
+  return begins;
+}
+
+/// How much of the matrix there are lines for.
+struct Shown {
+  std::size_t rows = 0, blocks = 0;
+};
+
+/// Each block has a head and a row at least; what is left out takes a line.
+Shown shownOf(const Overview& overview, std::size_t blocks) {
+  const std::size_t lines = mostOverviewLines - overview.conclusion.size();
+  if (blocks * (1 + overview.rows.size()) <= lines) return {overview.rows.size(), blocks};
+  const std::size_t each = std::max<std::size_t>((lines - 1) / blocks, 2);
+  const std::size_t rows = std::min(overview.rows.size(), each - 1);
+  return {rows, std::min(blocks, (lines - 1) / (1 + rows))};
+}
+
+/// "… and 3 more rows and 1 more column: in the report"; empty: nothing is left out.
+std::string leftOut(std::size_t rows, std::size_t columns) {
+  std::vector<std::string> parts;
+  if (rows > 0) parts.push_back(fmt::format("{} more row{}", rows, rows == 1 ? "" : "s"));
+  if (columns > 0)
+    parts.push_back(fmt::format("{} more column{}", columns, columns == 1 ? "" : "s"));
+  return parts.empty() ? std::string() : fmt::format("… and {}: in the report\n", listed(parts));
+}
+
+std::string inColour(const OverviewCell& cell, const std::string& text, const TextLook& look) {
+  if (!look.coloured) return text;
+  return fmt::format("\033[{}m{}\033[0m", lookOf(cell.state).terminal, text);
+}
+
+std::string withoutEnd(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+/// The one way for words into Markdown, which takes some characters for its own.
+std::string forTable(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (std::string_view("\\|*_<>`[]#&$~@").find(c) != std::string_view::npos) safe += '\\';
+    safe += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return safe;
+}
+
+std::string headOf(const std::string& corner, const std::vector<std::string>& names) {
+  std::string text = fmt::format("| {} |", forTable(corner));
+  for (const std::string& name : names) text += fmt::format(" {} |", forTable(name));
+  text += "\n|---|";
+  for (std::size_t k = 0; k < names.size(); ++k) text += "---|";
+  return text + "\n";
+}
+
+/// A question per column.
+std::string lying(const Overview& overview) {
+  std::vector<std::string> names;
+  for (const OverviewColumn& column : overview.columns) names.push_back(column.name);
+  std::string text = headOf(overview.rowsAre, names);
+  for (const OverviewRow& row : overview.rows) {
+    text += fmt::format("| {} |", forTable(row.name));
+    for (const OverviewCell& cell : row.cells) text += fmt::format(" {} |", forTable(textOf(cell)));
+    text += "\n";
+  }
+  return text;
+}
+
+/// A question per row.
+std::string standing(const Overview& overview) {
+  std::vector<std::string> names;
+  for (const OverviewRow& row : overview.rows) names.push_back(row.name);
+  std::string text = headOf("", names);
+  for (std::size_t k = 0; k < overview.columns.size(); ++k) {
+    const OverviewColumn& column = overview.columns[k];
+    text += fmt::format("| {} |",
+                        forTable(column.name + (column.asks.empty() ? "" : ": ") + column.asks));
+    for (const OverviewRow& row : overview.rows)
+      text += fmt::format(" {} |", forTable(textOf(row.cells[k])));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string overviewText(const Overview& overview, const TextLook& look) {
+  if (overview.rows.empty() || overview.columns.empty()) return {};
+  const std::vector<std::size_t> widths = widthsOf(overview);
+  const std::vector<std::size_t> begins = blocksOf(widths, look.width);
+  const Shown shown = shownOf(overview, begins.size() - 1);
+  std::string text;
+  for (std::size_t b = 0; b < shown.blocks; ++b) {
+    std::string head = padded(overview.rowsAre, widths[0]);
+    for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
+      head += std::string(gap, ' ') + padded(overview.columns[k].name, widths[k + 1]);
+    text += withoutEnd(head);
+    for (std::size_t r = 0; r < shown.rows; ++r) {
+      const OverviewRow& row = overview.rows[r];
+      std::string line = padded(row.name, widths[0]);
+      for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
+        line += std::string(gap, ' ') +
+                inColour(row.cells[k], padded(textOf(row.cells[k]), widths[k + 1]), look);
+      text += withoutEnd(line);
+    }
+  }
+  text +=
+      leftOut(overview.rows.size() - shown.rows, overview.columns.size() - begins[shown.blocks]);
+  for (const std::string& sentence : overview.conclusion) text += sentence + "\n";
+  return text;
+}
+
+std::string alignedText(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& cells : rows) {
+    widths.resize(std::max(widths.size(), cells.size()));
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      widths[k] = std::max(widths[k], widthOf(cells[k]));
+  }
+  std::string text;
+  for (const auto& cells : rows) {
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      text += k == 0 ? padded(cells[k], widths[k])
+                     : "  " + std::string(widths[k] - widthOf(cells[k]), ' ') + cells[k];
+    text += '\n';
+  }
+  return text;
+}
+
+std::string overviewMarkdown(const Overview& overview, const std::string& title) {
+  std::string text = fmt::format("# {}\n", forTable(title));
+  if (!overview.rows.empty() && !overview.columns.empty())
+    text += "\n" + (overview.columns.size() > mostColumns ? standing(overview) : lying(overview));
+  for (const std::string& sentence : overview.conclusion)
+    text += fmt::format("\n{}\n", forTable(sentence));
+  return text;
+}
+
+}  // namespace crossgrain::reports
