@@ -11,7 +11,6 @@
 
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
-#include "cases/engine_shelf.hpp"
 #include "cli/command.hpp"
 #include "cli/parse_errors.hpp"
 #include "cli/reference.hpp"

@@ -11,7 +11,7 @@
 #include "adapters/suitability.hpp"
 #include "adapters/worker/pooled_engine.hpp"
 #include "cases/case_keys.hpp"
-#include "cases/stable_step.hpp"
+#include "cases/time_step.hpp"
 #include "runs/common/audited_engine.hpp"
 #include "runs/common/engine_step.hpp"
 #include "runs/common/mirror_scene.hpp"

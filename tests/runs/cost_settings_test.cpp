@@ -9,7 +9,6 @@
 #include "adapters/law_options.hpp"
 #include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
-#include "cases/keys.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
 #include "support/bad_input.hpp"
@@ -54,14 +53,6 @@ TEST(CostSettings, EveryKnobHasSettingsInTheKindsOfErrorItMayChange) {
           << knob.name << ", " << toString(kind);
     }
   }
-}
-
-TEST(CostSettings, TheTableOfKeysNamesEveryKnob) {
-  const auto row = std::ranges::find_if(
-      caseKeys(), [](const CaseKey& key) { return key.section == "cost" && key.key == "knobs"; });
-  ASSERT_NE(row, caseKeys().end());
-  for (const CostKnob& knob : costKnobs())
-    EXPECT_NE(row->meaning.find(fmt::format("\"{}\"", knob.name)), std::string::npos) << knob.name;
 }
 
 TEST(CostSettings, AFragmentReadByTheLoaderGivesTheSetting) {
