@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cases/cost_knobs.hpp"
+#include "cases/cost.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -27,20 +27,24 @@ void readKinds(Reader& in, std::vector<CostKind>& wanted) {
         costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
 }
 
-void readKnobs(Reader& in, Cost& cost) {
-  for (const CostKnob& knob : costKnobs()) {
-    const std::string name(knob.name);
-    if (!knob.texts.empty()) in.read(knob.key, cost.texts[name], knob.choices);
-    if (!knob.numbers.empty())
-      in.read(knob.key, cost.numbers[name], knob.least > 0.0 ? atLeast(knob.least) : positive());
-  }
+/// Keys of earlier versions, which would otherwise be taken for misspelt ones.
+void refuseRemoved(const Reader& in) {
+  for (const char* const key : {"omega", "stiffness", "methods", "snapshots", "bound_steps",
+                                "bound_reference", "perturbation", "separation", "growth_time"})
+    if (in.has(key))
+      in.fail(key,
+              "is a key no more: cost no longer varies the wheel's speed, stiffness or averaging, "
+              "bounds averages or measures chaos");
 }
 
 }  // namespace
 
 void readCost(Reader& in, Cost& cost) {
-  static const std::vector<std::string> knobs = cost.knobs;
+  static const std::vector<std::string> knobs(costKnobs.begin(), costKnobs.end());
+  static const std::vector<std::string> laws = {"none", "coulomb", "viscous", "spring",
+                                                "spring_dashpot"};
   const Range steps = above(0.5);
+  refuseRemoved(in);
   readKinds(in, cost.kinds);
   in.read("knobs", cost.knobs, knobs);
   in.read("timed", cost.timed, positive("s"));
@@ -52,15 +56,10 @@ void readCost(Reader& in, Cost& cost) {
   in.read("collision_reference", cost.collisionReference, steps);
   in.read("trajectory_steps", cost.trajectorySteps, steps);
   in.read("trajectory_reference", cost.trajectoryReference, steps);
-  in.read("perturbation", cost.perturbation, positive("d"));
-  in.read("separation", cost.separation, positive("d"));
   in.read("window_most", cost.windowMost, positive("t_c"));
-  in.read("growth_time", cost.growthTime, positive("s"));
   in.read("average_steps", cost.averageSteps, steps);
   in.read("average_reference", cost.averageReference, steps);
-  in.read("bound_steps", cost.boundSteps, steps);
-  in.read("bound_reference", cost.boundReference, steps);
-  readKnobs(in, cost);
+  in.read("tangential", cost.tangential, laws);
   readSettings(in.section("settings"), cost);
   in.finish();
 }

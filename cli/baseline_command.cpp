@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "results/schema.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/regression/diff.hpp"
 #include "runs/regression/observe.hpp"

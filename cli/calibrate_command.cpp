@@ -11,8 +11,8 @@
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
+#include "runs/common/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 

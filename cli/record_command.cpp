@@ -6,11 +6,11 @@
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "runs/common/engine_access.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/regression/recording.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

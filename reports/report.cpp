@@ -16,7 +16,6 @@
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/conformance/report.hpp"
-#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
@@ -28,10 +27,6 @@
 #include "reports/scale/report.hpp"
 #include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/thesis/figures.hpp"
-#include "reports/thesis/overview.hpp"
-#include "reports/thesis/reading_changes.hpp"
-#include "reports/thesis/regime_map.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -134,7 +129,7 @@ const Kind<ScaleResults> scaleKind = {
 const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
                                          {"history.csv", historyCsv},
                                          {"regime_map.csv", regimeMapCsv},
-                                         {"readings.csv", readingsCsv}},
+                                         {"readings.csv", interpretationsCsv}},
                                         thesisFigures,
                                         noPictures,
                                         thesisPage,

@@ -7,7 +7,7 @@
 
 #include "adapters/engine_entry.hpp"
 #include "results/regression.hpp"
-#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/regression/baseline.hpp"
 
 namespace crossgrain::inline runs {

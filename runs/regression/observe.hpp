@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapters/engine_entry.hpp"
-#include "runs/common/options.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/regression/baseline.hpp"
 
 /// What is observed of an engine, in the same way when it is kept and when it is compared.

@@ -19,7 +19,7 @@ TEST_F(LoaderErrors, NotANumberIsSaidOfEveryNumberOfEverySection) {
       "shrink_time = 1.0\nrotations = 2.0\ndt = 1e-5\n[averaging]\nline_width = 0.5\n"
       "settle_rotations = 0.25\nrotations = 1.0\nconfidence = 0.95\n[averaging.margins]\n"
       "spin = { relative = 0.1, why = \"w\" }\n[run]\ntimeout = 120.0\n"
-      "steps_per_contact = 50.0\n[cost]\nspeed = 0.01\nomega = [0.5]\n[engines.grain]\n"
+      "steps_per_contact = 50.0\n[cost]\nspeed = 0.01\naverage_steps = [50.0]\n[engines.grain]\n"
       "skin = 0.1\n");
   int tried = 0;
   for (const std::string& text : {whole, soundCollision + "start_phase = 0.5\n", assembly}) {

@@ -65,6 +65,16 @@ class Baseline(SystemTest):
         self.assert_status(done, HELD)
         self.assertIn("same law", done.stdout)
 
+    def test_an_engine_that_refuses_the_case_is_left_out_and_reported(self):
+        done = self.keep("grain,yade", "--starts=1", "--set=run.may_differ=[]")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"before.h5: kept of grain \S+$")
+        self.assertRegex(done.error_lines()[0], "^crossgrain: yade cannot run .*bottom_friction")
+        self.assert_status(self.diff("grain"), HELD)
+        done = self.keep("yade", "--starts=1", "--set=run.may_differ=[]", file=self.folder / "none.h5")
+        self.assert_status(done, BAD_INPUT)
+        self.assertFalse((self.folder / "none.h5").exists())
+
     def test_averages_are_kept_where_they_are_asked_for(self):
         short = [
             "--set=averaging.settle_rotations=0.02", "--set=averaging.rotations=0.05", "--starts=4", "--endpoints"
