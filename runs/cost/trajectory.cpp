@@ -11,20 +11,6 @@
 #include "runs/common/engine_access.hpp"
 #include "runs/common/engine_running.hpp"
 
-namespace crossgrain::inline results {
-
-template <>
-inline Json jsonOf(const Vec2& at) {
-  return jsonOf(std::array{at.x(), at.y()});
-}
-template <>
-inline void readFrom(const Json& json, Vec2& at) {
-  const auto pair = readAs<std::array<double, 2>>(json);
-  at = {pair[0], pair[1]};
-}
-
-}  // namespace crossgrain::inline results
-
 namespace crossgrain::inline runs {
 
 Track followPacking(Engine& engine, const EngineEntry& entry, const Case& setup,
