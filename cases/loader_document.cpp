@@ -245,14 +245,14 @@ std::string printKey(std::string_view key) {
   return formatted(toml::value<std::string>(std::string(key)));
 }
 
-void printTable(std::string& out, const toml::table& table, const std::string& path) {
+void printTable(std::string& out, const toml::table& layer, const std::string& path) {
   std::string values;
-  for (const auto& [key, node] : table)
+  for (const auto& [key, node] : layer)
     if (!node.is_table()) values += fmt::format("{} = {}\n", printKey(key.str()), printValue(node));
   if (!values.empty() && !path.empty())
     out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", path);
   out += values;
-  for (const auto& [key, node] : table)
+  for (const auto& [key, node] : layer)
     if (const toml::table* const inner = node.as_table())
       printTable(out, *inner, (path.empty() ? "" : path + ".") + printKey(key.str()));
 }
