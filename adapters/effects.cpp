@@ -5,27 +5,7 @@
 namespace crossgrain {
 
 std::string toString(Effect effect) {
-  switch (effect) {
-    case Effect::normalDamping:
-      return "normal_damping";
-    case Effect::friction:
-      return "friction";
-    case Effect::tangentialSpring:
-      return "tangential_spring";
-    case Effect::tangentialDamping:
-      return "tangential_damping";
-    case Effect::rotation:
-      return "rotation";
-    case Effect::bottomFriction:
-      return "bottom_friction";
-    case Effect::bottomSpinFriction:
-      return "bottom_spin_friction";
-    case Effect::gravity:
-      return "gravity";
-    case Effect::movingWalls:
-      return "moving_walls";
-  }
-  return {};
+  return std::string(effectNames[static_cast<std::size_t>(effect)]);
 }
 
 Effects effectsOf(const Scene& scene) {

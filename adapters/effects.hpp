@@ -3,6 +3,7 @@
 #include <array>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "adapters/scene.hpp"
 
@@ -26,7 +27,11 @@ inline constexpr std::array allEffects = {
     Effect::tangentialDamping,  Effect::rotation, Effect::bottomFriction,
     Effect::bottomSpinFriction, Effect::gravity,  Effect::movingWalls};
 
-/// The name used in case files and reports, e.g. "bottom_spin_friction".
+/// As in case files, the worker protocol and reports, in enum order.
+inline constexpr std::array<std::string_view, 9> effectNames = {
+    "normal_damping",       "friction", "tangential_spring",
+    "tangential_damping",   "rotation", "bottom_friction",
+    "bottom_spin_friction", "gravity",  "moving_walls"};
 std::string toString(Effect effect);
 
 using Effects = std::set<Effect>;

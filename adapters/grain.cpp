@@ -187,6 +187,7 @@ class GrainEngine : public Engine {
     setup.maxOverlap = setting(settings, "max_overlap", setup.maxOverlap);
     setup.threads = static_cast<int>(setting(settings, "threads", 1.0));
     bodies_ = scene.bodies;
+    mu_ = law.mu;
     spins_ = effectsOf(own).contains(Effect::friction);
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
@@ -273,6 +274,21 @@ class GrainEngine : public Engine {
     }
   }
 
+  void beginUnderWay(const Contacts& contacts) {
+    std::vector<grain::Contact> forces(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      forces[k].i = contacts.i[k];
+      forces[k].j = contacts.j[k];
+      forces[k].tangentialForce = contacts.tangentialForce[k];
+      // Without flags: at the bound to what an engine's own rounding may leave of it.
+      const double bound = mu_ * std::abs(contacts.normalForce[k]);
+      forces[k].sliding = contacts.sliding.empty()
+                              ? std::abs(forces[k].tangentialForce) >= (1.0 - 1e-6) * bound
+                              : contacts.sliding[k] != 0;
+    }
+    simulation_->beginUnderWay(forces);
+  }
+
   Stats stats() const override {
     Stats stats{simulation_->steps(),
                 simulation_->contactEvaluations(),
@@ -308,6 +324,7 @@ class GrainEngine : public Engine {
   double stiffness_;
   std::vector<WallBody> bodies_;
   bool rigid_ = false;
+  double mu_ = 0.0;
   bool spins_ = false;  ///< whether snapshots have them; blocked ones are zero
   std::optional<grain::Simulation> simulation_;
   Stopwatch stopwatch_;
@@ -325,6 +342,13 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions) {
 
 std::unique_ptr<Engine> makeStiffGrain(double factor) {
   return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
+}
+
+void beginUnderWay(Engine& inHouse, const Contacts& contacts) {
+  auto* const own = dynamic_cast<GrainEngine*>(&inHouse);
+  if (!own)
+    throw UnsupportedScene("no mirror with its time stepping begins in the middle of a run");
+  own->beginUnderWay(contacts);
 }
 
 EngineEntry grainEngine() {

@@ -18,7 +18,7 @@ std::string yadeMissing() {
 }
 
 EngineEntry yadeEngine() {
-  return {"yade",      "YADE, its viscoelastic and Hertz-Mindlin laws on spheres held in a plane",
+  return {"yade",      "YADE, its viscoelastic and Hertz-Mindlin laws on spheres kept in a plane",
           {},          yadeCommand,
           yadeMissing, ""};
 }

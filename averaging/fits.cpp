@@ -168,7 +168,7 @@ std::string objection(const Law& law, const WeightedPoints& points,
                            law.names[k], law.names.back(), both);
   const FitParameter& shape = fit.parameters[law.shapeIndex];
   if (shape.value < law.shapes.front() || shape.value > law.shapes.back())
-    return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is looked at",
+    return fmt::format("{} = {:.3g} ran out of the range {:.3g} to {:.3g} that is fitted",
                        shape.name, shape.value, law.shapes.front(), law.shapes.back());
   if (std::string reach = outOfReach(law, points, fit); !reach.empty()) return reach;
   const auto [nullChi2, nullParameters] = nullModel(law, points);

@@ -97,6 +97,10 @@ double chanceOfOneAsFar(double difference, double scatter, int dof, std::size_t 
   return std::min(1.0, 2.0 * static_cast<double>(tests) * gsl_cdf_tdist_Q(t, dof));
 }
 
+double farthestByChance(double chance, int dof, std::size_t tests) {
+  return gsl_cdf_tdist_Qinv(chance / 2.0 / static_cast<double>(tests), dof);
+}
+
 std::optional<int> packingsFor(double difference, double sd, double margin, double alpha,
                                double chance) {
   const double room = std::abs(margin - std::abs(difference));

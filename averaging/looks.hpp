@@ -73,6 +73,9 @@ std::vector<std::optional<LookAnswer>> answersAfterLooks(std::span<const PairedS
 /// freedom, is as far out as this by itself: Student's t, both tails, at most 1.
 double chanceOfOneAsFar(double difference, double scatter, int dof, std::size_t tests);
 
+/// In units of the scatter: how far out is a difference that has this chance.
+double farthestByChance(double chance, int dof, std::size_t tests);
+
 /// How many looks that many packings allow.
 std::size_t looksTaken(const LookPlan& plan, int available);
 

@@ -230,7 +230,7 @@ std::string preparerKey(const Case& setup) {
   if (!entry) return {};
   const auto settings = setup.engines.find(entry->name);
   const nlohmann::json own =
-      settings == setup.engines.end() ? nlohmann::json() : toJson(settings->second);
+      settings == setup.engines.end() ? nlohmann::json() : jsonOf(settings->second);
   return fmt::format("{} {} {}", entry->name, versionOf(*entry, setup), own.dump());
 }
 

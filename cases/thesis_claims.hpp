@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-/// By what rules the thesis' claims are judged: cases/couette/thesis/claims.toml, fixed before the
-/// runs are looked at.
+/// By what rules the thesis' claims are judged, fixed before the runs are looked at, and reasons
+/// that somebody found for refuted ones: cases/couette/thesis/claims.toml and reasons.toml.
 namespace crossgrain::inline cases {
 
 /// A number that a rule rests on besides its bands.
@@ -22,7 +22,7 @@ struct ClaimBand {
   std::string name;                 ///< "width"
   std::string label;                ///< "C⁻¹"
   std::string unit;                 ///< empty: a number
-  std::optional<double> low, high;  ///< both absent: told, not judged
+  std::optional<double> low, high;  ///< both absent: reported, not judged
   std::string why;
 
   bool judged() const { return low || high; }
@@ -34,16 +34,15 @@ struct ClaimRule {
   std::string rule;    ///< what is measured where, and when that reproduces or refutes the claim
   std::string figure;  ///< of the thesis, "figure 7.14"; empty: none
   /// What the thesis leaves open and may matter to it: "spacing", "mass", "radius", "tension".
-  std::vector<std::string> readings;
+  std::vector<std::string> interpretations;
   std::vector<ClaimNumber> numbers;
   std::vector<ClaimBand> figures;  ///< the first one stands for the claim
 
   /// @throws std::logic_error for a name that the rule has not
   double number(std::string_view name) const;
   const ClaimBand& band(std::string_view name) const;
-  bool judgedUnder(std::string_view reading) const;
-  /// Figures that have a band.
-  int judgedFigures() const;
+  bool judgedUnder(std::string_view interpretation) const;
+  int judgedFigures() const;  ///< figures that have a band
 };
 
 struct ClaimRules {
@@ -56,21 +55,56 @@ struct ClaimRules {
   const ClaimRule& of(std::string_view id) const;
 };
 
-/// Reads the rules of all claims: each of C1 … C27 once, with all the numbers and figures that its
-/// judgement needs and no others, every one of them with a reason.
+/// What judging the claims asks of a file: each claim once, with these numbers and these figures,
+/// in the order of reports.
+struct ClaimNeeds {
+  std::string id;
+  std::vector<std::string> numbers, figures;
+};
+struct ClaimSchema {
+  std::vector<std::string> common;
+  std::vector<ClaimNeeds> claims;
+};
+
+/// Reads the rules, every number and figure with a reason.
+/// @param schema  what there must be, and no more; null: whatever there is
 /// @throws BadInput  with one line: where, what is there, what would be right
-ClaimRules loadClaimRules(const std::filesystem::path& file);
-
+ClaimRules loadClaimRules(const std::filesystem::path& file, const ClaimSchema* schema);
 /// The same of a text, that of `ClaimRules::text`. @throws BadInput
-ClaimRules claimRulesOf(const std::string& text);
+ClaimRules claimRulesOf(const std::string& text, const ClaimSchema* schema);
 
-/// What judging a leg asks of its case; absent is what the text does not say.
-struct LegChoices {
+/// What must be true of a figure for a reason to hold.
+struct ReasonCondition {
+  std::string claim;   ///< "C4"; the reason's own where the file does not say
+  std::string figure;  ///< by the rule's name: "pressure_late"
+  std::optional<double> above, below;
+};
+
+struct ClaimReason {
+  std::string claim;                  ///< "C26"
+  std::string engine;                 ///< empty: any
+  std::vector<ReasonCondition> when;  ///< all of them; never empty
+  std::string text;                   ///< a sentence
+  std::string evidence;               ///< what it rests on: "figure 7.14, history.csv"
+};
+
+struct ClaimReasons {
+  std::string text;  ///< the file, as it is
+  std::vector<ClaimReason> reasons;
+};
+
+/// @param rules  whose claims and figures the file may name
+/// @throws BadInput  with one line: where, what is there, what would be right
+ClaimReasons loadClaimReasons(const std::filesystem::path& file, const ClaimRules& rules);
+/// The same of a text; none of an empty one. @throws BadInput
+ClaimReasons claimReasonsOf(const std::string& text, const ClaimRules& rules);
+
+/// What judging a run asks of its case; absent is what the text does not say.
+struct CaseConstants {
   std::optional<double> largeMass;  ///< of large disks [kg]
   std::optional<double> kt;         ///< [N/m]
 };
-
 /// Of a case as it was resolved (CaseHead::toml). @throws BadInput for what is not TOML
-LegChoices legChoices(const std::string& caseToml);
+CaseConstants caseConstants(const std::string& caseToml);
 
 }  // namespace crossgrain::inline cases

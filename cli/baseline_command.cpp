@@ -5,63 +5,82 @@
 #include <memory>
 
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/baseline/baseline_file.hpp"
-#include "runs/baseline/keep.hpp"
+#include "cli/outcome.hpp"
+#include "reports/regression/regression.hpp"
+#include "results/schema.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/lockstep/rules.hpp"
+#include "runs/regression/diff.hpp"
+#include "runs/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::inline cli {
+namespace {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Hashes of so many starts still find room in an attribute of the file.
 constexpr double mostStarts = 1000.0;
-
-std::size_t startsToKeep(const std::optional<double>& given, bool quick) {
-  if (!given) return quick ? quickLockstepStarts : baselineStarts;
-  if (*given != std::floor(*given) || *given < 1.0 || *given > mostStarts)
-    throw BadInput(
-        fmt::format("--starts: {:g} must be a whole number from 1 to {:g}", *given, mostStarts));
-  return static_cast<std::size_t>(*given);
-}
-
-std::vector<Case> casesToKeep(const CommandLine& line) {
-  const std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
-  if (cases.front().kind == CaseKind::collision) {
-    reportKeysWithoutUse(cases.front(), "baseline", stdout);
-    return cases;
-  }
-  return {onlyCase(line, "baseline")};
-}
 
 int keep(const CommandLine& line, const std::string& out, const std::optional<double>& given,
          bool endpoints) {
-  const std::size_t starts = startsToKeep(given, line.quick);
+  if (given && !(*given == std::floor(*given) && *given >= 1.0 && *given <= mostStarts))
+    throw BadInput(
+        fmt::format("--starts: {:g} must be a whole number from 1 to {:g}", *given, mostStarts));
+  const std::size_t starts = given        ? static_cast<std::size_t>(*given)
+                             : line.quick ? quickLockstepStarts
+                                          : baselineStarts;
   const fs::path file = out;
   // What an older version did cannot be made again.
   if (fs::exists(file))
-    throw BadInput(
-        fmt::format("--out {}: is there already, and a baseline is not replaced: name "
-                    "another file, or remove it",
-                    out));
-  const std::vector<Case> cases = casesToKeep(line);
+    throw BadInput(fmt::format(
+        "--out {}: is there already, and a baseline is not replaced: name another file, or "
+        "remove it",
+        out));
+  std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
+  if (cases.front().kind == CaseKind::collision)
+    reportKeysWithoutUse(cases.front(), "baseline", stdout);
+  else
+    cases = {onlyCase(line, "baseline")};
   if (endpoints && cases.front().averaging.endpoints.empty())
     throw BadInput(fmt::format("--endpoints: {} has no [averaging.endpoints] to keep",
                                line.inputs.front().string()));
-  // Where it cannot be written is told before the work is done.
+  // A folder that cannot be written is reported before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
-  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints);
+  std::vector<std::string> refusals;
+  const Baseline baseline = keepBaseline(cases, line.run, starts, endpoints, refusals);
   writeBaseline(baseline, file);
   std::vector<std::string> names;
   for (const BaselineEngine& engine : baseline.engines)
     names.push_back(fmt::format("{} {}", engine.name, engine.version));
   fmt::print("{}: kept of {}\n", out, fmt::join(names, ", "));
+  for (const std::string& refusal : refusals) printFailure(refusal);
   return exitHeld;
+}
+
+int diff(const CommandLine& line, const std::string& file) {
+  const DiffResults results = diffAgainst(file, line.overrides, line.run);
+  const Overview overview = reports::diffOverview(results);
+  if (line.json) {
+    nlohmann::json document = toJson(results);
+    document["overview"] = toJson(overview);
+    fmt::print("{}", toText(document));
+  } else {
+    fmt::print("{}", reports::diffText(results));
+    printOverview(overview);
+  }
+  bool judged = false, differs = false, failed = false;
+  for (const DiffRow& row : results.rows) {
+    judged |= row.verdict != DiffVerdict::notMeasured;
+    differs |= row.verdict == DiffVerdict::differs;
+    if (row.failure.empty()) continue;
+    printFailure(row.failure);
+    failed = true;
+  }
+  if (failed) return exitEngineFailed;
+  if (!judged) return nothingWasJudged(line, results.rows.front().reason);
+  return differs ? exitFellShort : exitHeld;
 }
 
 Action declareBaseline(CLI::App& app, CommandLine& line) {
@@ -71,7 +90,7 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   addPackings(app, line);
   addQuiet(app, line);
   const auto out = std::make_shared<std::string>();
-  addArgument(app, "--out", *out, "file for it (HDF5), which must not be there", "FILE");
+  addArgument(app, "--out", *out, "file for it, which must not be there", "FILE");
   const auto starts = std::make_shared<std::optional<double>>();
   addNumber(app, "--starts", *starts,
             "states of the flow to start from; 8 unless given, 4 with --quick");
@@ -81,12 +100,28 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   return [&line, out, starts, endpoints] { return keep(line, *out, *starts, *endpoints); };
 }
 
+Action declareDiff(CLI::App& app, CommandLine& line) {
+  const auto file = std::make_shared<std::string>();
+  addArgument(app, "baseline", *file, "file that `baseline` wrote", "FILE");
+  addEngines(app, line);
+  addOverrides(app, line);
+  addQuiet(app, line);
+  addFlag(app, "--json", line.json, "print the results as JSON");
+  return [&line, file] { return diff(line, *file); };
+}
+
 }  // namespace
 
 extern const Command baselineCommand = {
     "baseline", "keeps what engines do, to the bit, for diff",
-    "crossgrain baseline cases/couette/quick.toml --engines grain,yade --out before.h5\n"
-    "crossgrain baseline cases/collision/figure-4-3.toml --engines grain --out before.h5",
+    "crossgrain baseline cases/couette/quick.toml --engines grain,yade --out before.baseline\n"
+    "crossgrain baseline cases/collision/figure-4-3.toml --engines grain --out before.baseline",
     declareBaseline};
+
+extern const Command diffCommand = {
+    "diff", "what engines do otherwise than a baseline has it",
+    "crossgrain diff before.baseline --engines yade\n"
+    "crossgrain diff before.baseline --engines grain --set law.integrator=velocity_verlet",
+    declareDiff};
 
 }  // namespace crossgrain::inline cli

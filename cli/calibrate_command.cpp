@@ -15,9 +15,9 @@
 #include "cases/collision_scene.hpp"
 #include "cases/keys.hpp"
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "oracle/calibration.hpp"
+#include "runs/common/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 

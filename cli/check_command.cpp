@@ -8,11 +8,11 @@
 
 #include "cases/effect_switch.hpp"
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "runs/check/case_check.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study_cases.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cli {

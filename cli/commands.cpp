@@ -4,12 +4,12 @@
 
 namespace crossgrain::inline cli {
 
-// Each in a file of its name.
+// In files of their names; diff with baseline, replay with record.
 extern const Command enginesCommand, listCommand, checkCommand, collideCommand, conformanceCommand,
     lockstepCommand, identifyCommand, baselineCommand, diffCommand, recordCommand, replayCommand,
     compareCommand, effectsCommand, stabilityCommand, costCommand, scaleCommand, thesisCommand,
     averageCommand, revCommand, calibrateCommand, reportCommand, planCommand, helpCommand,
-    manualCommand, completionCommand, serveCommand;
+    serveCommand;
 
 const std::vector<const Command*>& commands() {
   static const std::vector<const Command*> table = {
@@ -17,8 +17,7 @@ const std::vector<const Command*>& commands() {
       &lockstepCommand, &identifyCommand, &baselineCommand, &diffCommand,      &recordCommand,
       &replayCommand,   &compareCommand,  &effectsCommand,  &stabilityCommand, &costCommand,
       &scaleCommand,    &thesisCommand,   &averageCommand,  &revCommand,       &calibrateCommand,
-      &reportCommand,   &planCommand,     &helpCommand,     &manualCommand,    &completionCommand,
-      &serveCommand};
+      &reportCommand,   &planCommand,     &helpCommand,     &serveCommand};
   return table;
 }
 

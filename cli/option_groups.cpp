@@ -7,8 +7,9 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
@@ -168,7 +169,7 @@ void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
   app.add_flag("--dry-run", line.run.dryRun,
                "say what would run, and what is finished; compute and write nothing");
   app.add_flag_function(
-      "--resume", [](std::int64_t) {}, "take up what is finished in --out: what happens anyway");
+      "--resume", [](std::int64_t) {}, "load what is finished in --out: what happens anyway");
 }
 
 void addQuiet(CLI::App& app, CommandLine& line) {
@@ -180,6 +181,27 @@ void addPackings(CLI::App& app, CommandLine& line) {
       ->type_name("N")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
   app.add_flag("--quick", line.quick, "a short version, to see that everything works");
+}
+
+void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
+              const std::vector<StudyOption>& own, const std::vector<Exclusion>& exclusions) {
+  using Input = SharedOptions::Input;
+  if (takes.input == Input::snapshots) addSnapshots(app, line);
+  if (takes.input == Input::oneCase) addCase(app, line, takes.inputIs);
+  if (takes.input == Input::anyCases) addInputs(app, line, "case", takes.inputIs, 0, anyNumber);
+  if (takes.selection) addSelection(app, line);
+  const char* const usual = takes.inHouse ? engineRegistry().front().name.c_str() : nullptr;
+  if (takes.engines) (takes.jobs ? addRun : addRunInTurn)(app, line, usual);
+  if (takes.packings) addPackings(app, line);
+  for (const StudyOption& option : own) {
+    if (auto* const* flag = std::get_if<bool*>(&option.value))
+      addFlag(app, option.name, **flag, option.what);
+    else if (auto* const* text = std::get_if<std::optional<std::string>*>(&option.value))
+      addText(app, option.name, **text, option.what, option.type);
+    else
+      addNumber(app, option.name, *std::get<std::optional<double>*>(option.value), option.what);
+  }
+  for (const auto& [one, other] : exclusions) excludeEachOther(app, one, other);
 }
 
 }  // namespace crossgrain::inline cli

@@ -33,6 +33,10 @@ void addArgument(CLI::App& app, const std::string& name, std::string& text, cons
 void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other);
 /// @}
 
+/// All that a study takes.
+void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
+              const std::vector<StudyOption>& own, const std::vector<Exclusion>& exclusions);
+
 /// @name Options of several commands
 /// @{
 constexpr int anyNumber = std::numeric_limits<int>::max();

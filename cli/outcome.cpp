@@ -1,11 +1,14 @@
 #include "cli/outcome.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 
 #include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
 #include "support/busy_time.hpp"
 
 namespace crossgrain::inline cli {
@@ -21,26 +24,27 @@ void printFailure(const std::string& reason) {
 }
 
 bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engines) {
-  bool any = false;
-  for (const EngineRow& engine : engines) {
-    if (engine.status != EngineStatus::refused ||
-        std::ranges::find(line.run.engines, engine.name) == line.run.engines.end())
-      continue;
-    printFailure(engine.reason);
-    any = true;
-  }
-  return any;
+  const std::vector<std::string> refused = refusals(engines, line.run.engines);
+  for (const std::string& reason : refused) printFailure(reason);
+  return !refused.empty();
 }
 
-int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview) {
+void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
+                  bool timeSpent) {
   if (line.json) {
     fmt::print("{}\n", (line.run.out / "results.json").string());
-    return exitHeld;
+    return;
   }
-  fmt::print("{} snapshots averaged\n", averaging.snapshots);
+  fmt::print("{}", text);
   printOverview(overview);
   fmt::print("report: {}\n", (line.run.out / "report.html").string());
-  return exitHeld;
+  if (timeSpent && !line.run.quiet) printTimeSpent();
+}
+
+int printOutcome(const CommandLine& line, const Outcome& outcome) {
+  for (const std::string& reason : outcome.failures) printFailure(reason);
+  if (outcome.nothingJudged) nothingWasJudged(line, *outcome.nothingJudged);
+  return outcome.status;
 }
 
 int told(const std::string& plan) {
@@ -58,10 +62,6 @@ int nothingWasJudged(const CommandLine& line, const std::string& reason, bool by
   return byRequest && !strict ? exitHeld : exitFellShort;
 }
 
-void printWarnings(const Case& setup) {
-  for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
-}
-
 void printTimeSpent() {
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - programBegan;
   const double stepping = steppingTime().seconds(), drawing = drawingTime().seconds();
@@ -69,6 +69,19 @@ void printTimeSpent() {
              reports::shortDuration(all.count()), reports::shortDuration(stepping),
              100.0 * stepping / all.count(), reports::shortDuration(drawing),
              100.0 * drawing / all.count());
+}
+
+void printOverview(const Overview& overview) {
+  reports::TextLook look;
+  if (::isatty(STDOUT_FILENO) == 1) {
+    // https://no-color.org: set to anything but nothing, there are no colours.
+    const char* const noColour = std::getenv("NO_COLOR");
+    look.coloured = !noColour || *noColour == '\0';
+    winsize window{};
+    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
+    look.width = known ? window.ws_col : 80;
+  }
+  fmt::print("{}", reports::overviewText(overview, look));
 }
 
 }  // namespace crossgrain::inline cli

@@ -2,9 +2,7 @@
 
 #include <string>
 
-#include "cases/case.hpp"
 #include "cli/command.hpp"
-#include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
 #include "results/overview.hpp"
 
@@ -17,13 +15,10 @@ void printFailure(const std::string& reason);
 /// @returns whether there is any
 bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engines);
 
-/// What the commands that only average print. @returns an ExitStatus
-int averaged(const CommandLine& line, const CouetteAveraging& averaging, const Overview& overview);
-
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
 void printOverview(const Overview& overview);
 
-/// Prints what --dry-run tells. @returns an ExitStatus
+/// Prints the plan of --dry-run. @returns an ExitStatus
 int told(const std::string& plan);
 
 /// The line "nothing was judged: …", on standard output, or on standard error where that holds a
@@ -32,11 +27,17 @@ int told(const std::string& plan);
 int nothingWasJudged(const CommandLine& line, const std::string& reason, bool byRequest = false,
                      bool strict = false);
 
-/// What loads but is hardly meant, one line each on standard error.
-void printWarnings(const Case& setup);
-
 /// One line on standard error: how long the program has run, for how much of that engines stepped
 /// and for how much plots were drawn. What is left are starts, files, averages and pages.
 void printTimeSpent();
+
+/// What stands on the terminal of results whose report has been written: the path of results.json
+/// alone (--json), or text, matrix and the report's path.
+/// @param timeSpent  also printTimeSpent()
+void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
+                  bool timeSpent);
+
+/// Failures on standard error, and that nothing was judged. @returns the status
+int printOutcome(const CommandLine& line, const Outcome& outcome);
 
 }  // namespace crossgrain::inline cli

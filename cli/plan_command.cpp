@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "cases/engine_file.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
-#include "cli/units.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/strangers.hpp"
+#include "runs/common/mirrors.hpp"
+#include "runs/common/study.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"

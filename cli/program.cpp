@@ -5,16 +5,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
-#include "cli/parse_errors.hpp"
-#include "cli/reference.hpp"
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
 #include "support/json_text.hpp"
@@ -22,6 +22,134 @@
 
 namespace crossgrain::inline cli {
 namespace {
+
+bool isOption(const std::string& argument) {
+  return argument.size() > 1 && argument[0] == '-';
+}
+
+std::vector<std::string> optionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_positional()) names.push_back(option->get_name());
+  return names;
+}
+
+/// "case, --engines"
+std::string namesOf(const std::vector<const CLI::Option*>& options) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options) names.push_back(option->get_name());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string oneTooMany(const std::string& argument, const CLI::App& command) {
+  const auto arguments =
+      command.get_options([](const CLI::Option* option) { return option->get_positional(); });
+  return fmt::format("'{}' is one argument too many: {} takes {}", argument, command.get_name(),
+                     arguments.empty() ? "none" : namesOf(arguments));
+}
+
+std::string unexpected(const std::vector<std::string>& extras, const CLI::App& command) {
+  const auto unknown = std::ranges::find_if(extras, isOption);
+  if (unknown != extras.end()) {
+    const std::string name = unknown->substr(0, unknown->find('='));
+    return fmt::format("there is no option '{}'{}", name, suggestion(name, optionNames(command)));
+  }
+  return oneTooMany(extras.front(), command);
+}
+
+std::string missing(const CLI::App& command) {
+  const auto lacking = command.get_options(
+      [](const CLI::Option* option) { return option->get_required() && option->count() == 0; });
+  if (lacking.size() == 1)
+    return fmt::format("{} is missing ({})", lacking.front()->get_name(),
+                       lacking.front()->get_description());
+  return fmt::format("{} are missing", namesOf(lacking));
+}
+
+/// CLI11's messages about one option begin with its name, "--jobs: …" or "Could not convert: --json
+/// = …".
+const CLI::Option* optionOf(const CLI::ParseError& error, const CLI::App& command) {
+  std::string text = error.what();
+  const std::string_view conversion = "Could not convert: ";
+  if (text.starts_with(conversion)) text.erase(0, conversion.size());
+  return command.get_option_no_throw(text.substr(0, text.find_first_of(": ")));
+}
+
+std::string wrongCount(const CLI::Option& option, const CLI::App& command) {
+  if (option.get_positional() && option.count() > 0)
+    return oneTooMany(option.results().back(), command);
+  if (option.count() > 1) return option.get_name() + " is given twice";
+  return fmt::format("{} needs a value ({})", option.get_name(), option.get_description());
+}
+
+std::string reason(const CLI::ParseError& error, const CLI::App& command) {
+  if (const auto extras = command.remaining(); !extras.empty()) return unexpected(extras, command);
+  const CLI::Option* option = optionOf(error, command);
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing(command);
+  if (option && dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+    return wrongCount(*option, command);
+  if (option && option->get_expected_max() == 0) return option->get_name() + " takes no value";
+  return error.what();
+}
+
+/// What a command line was refused for, in the words of this program, with the help that says what
+/// would be right.
+std::string explain(const CLI::ParseError& error, const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  const bool before = !app.remaining().empty();  // something stands before the command
+  if (commands.empty() && !before) return "no command is given; see crossgrain --help";
+  const bool ofCommand = !commands.empty() && !before;
+  const CLI::App& asked = ofCommand ? *commands.front() : app;
+  return fmt::format("{}; see crossgrain {}{}--help", reason(error, asked),
+                     ofCommand ? asked.get_name() : "", ofCommand ? " " : "");
+}
+
+/// What --help says of all commands.
+struct Named {
+  const char *name, *what;
+};
+
+constexpr Named exitStatuses[] = {
+    {"0", "passed; what is undecided is counted in the output"},
+    {"1",
+     "engines disagree, or something failed or is unstable (an engine failed the law that it "
+     "declares; the scene's only under --strict)"},
+    {"2", "bad input: nothing was judged"},
+    {"3", "an engine failed, or the disk is full (outranks 1)"},
+    {"130", "interrupted"}};
+
+/// Those that the program reads.
+constexpr Named environmentVariables[] = {
+    {"CROSSGRAIN_CACHE",
+     "folder that prepared packings are kept in; else XDG_CACHE_HOME/crossgrain, else "
+     "~/.cache/crossgrain. It may be removed at any time: packings are then prepared anew"},
+    {"CROSSGRAIN_DATA",
+     "folder that holds cases/ and the scripts in engines/ (default: share/crossgrain where the "
+     "program is installed, else its sources)"},
+    {"NO_COLOR", "set to anything: no colours on the terminal"},
+    {"GRAIN_INSTRUCTIONS",
+     "baseline, avx2 or avx512: instructions that the in-house engine uses "
+     "(default: the best there are; all give the same bits)"},
+    {"TMPDIR", "folder for scratch files (default: /tmp)"}};
+
+/// Below the options of a command's help, or of the program's (null).
+std::string footer(const Command* command) {
+  std::string text;
+  if (command) {
+    std::istringstream examples(command->examples);
+    text = "Example:\n";
+    for (std::string line; std::getline(examples, line);)
+      text += "  " + line.substr(line.find_first_not_of(' ')) + "\n";
+    text += "\n";
+  }
+  text += "Exit status:\n";
+  for (const Named& status : exitStatuses)
+    text += fmt::format("  {:<5}{}\n", status.name, status.what);
+  text += "\nEnvironment:\n";
+  for (const Named& variable : environmentVariables)
+    text += fmt::format("  {}  {}\n", variable.name, variable.what);
+  return text.substr(0, text.size() - 1);
+}
 
 /// CLI11 would only say that some subcommand is required.
 void requireKnownCommand(const std::string& name) {
@@ -44,10 +172,8 @@ int runProgram(int argc, char** argv) {
   line.run.commandLine =
       fmt::format("crossgrain {}", fmt::join(std::vector<std::string>(argv + 1, argv + argc), " "));
 
-  CLI::App app{
-      "crossgrain: one granular scene on several engines, averaged and held against each "
-      "other",
-      "crossgrain"};
+  CLI::App app{"crossgrain: one granular scene on several engines, averaged and compared",
+               "crossgrain"};
   app.set_version_flag("-V,--version", programVersion);
   app.require_subcommand(1);
   app.footer(footer(nullptr));

@@ -2,22 +2,30 @@
 
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
-#include "cli/one_case.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
+#include "reports/regression/regression.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/record/record.hpp"
+#include "runs/common/study_cases.hpp"
+#include "runs/regression/recording.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::inline cli {
-
 namespace {
 
-constexpr double mostLooks = 1e6;
+constexpr double mostSnapshots = 1e6;
+
+EngineEntry onlyEngine(const CommandLine& line, const char* command) {
+  const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
+  if (engines.size() != 1)
+    throw BadInput(fmt::format("--engines: {} takes one engine, not {}", command, engines.size()));
+  return engines.front();
+}
 
 int record(const CommandLine& line, const std::string& out, const std::optional<double>& time,
            const std::optional<double>& looks) {
@@ -25,13 +33,11 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   options.time = time;
   if (time && !(*time > 0.0 && std::isfinite(*time)))
     throw BadInput(fmt::format("--time: {:g} must be > 0 s", *time));
-  if (looks && !(*looks >= 1.0 && *looks <= mostLooks && *looks == std::floor(*looks)))
+  if (looks && !(*looks >= 1.0 && *looks <= mostSnapshots && *looks == std::floor(*looks)))
     throw BadInput(
-        fmt::format("--looks: {:g} must be a whole number from 1 to {:g}", *looks, mostLooks));
-  if (looks) options.looks = static_cast<std::size_t>(*looks);
-  const std::vector<EngineEntry> engines = selectEngines(line.run.engines);
-  if (engines.size() != 1)
-    throw BadInput(fmt::format("--engines: record takes one engine, not {}", engines.size()));
+        fmt::format("--looks: {:g} must be a whole number from 1 to {:g}", *looks, mostSnapshots));
+  if (looks) options.snapshots = static_cast<std::size_t>(*looks);
+  const EngineEntry engine = onlyEngine(line, "record");
   const std::filesystem::path file = out;
   if (std::filesystem::exists(file))
     throw BadInput(fmt::format(
@@ -44,12 +50,25 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
                setup.variant, cases.size());
   reportKeysWithoutUse(setup, "record", stdout);
   if (file.has_parent_path()) makeDirectory(file.parent_path());
-  const Recorded recorded = recordRun(engines.front(), setup, file, options);
+  const Recorded recorded = recordRun(engine, setup, file, options);
   fmt::print("{}: {} requests and answers of {} {}, to t = {:g} s of {}\n", out, recorded.exchanges,
-             engines.front().name, recorded.version, recorded.time, setup.name);
+             engine.name, recorded.version, recorded.time, setup.name);
   if (recorded.failure.empty()) return exitHeld;
   printFailure(recorded.failure);
   return exitEngineFailed;
+}
+
+int replay(const CommandLine& line, const std::string& file, const std::optional<double>& given) {
+  const double tolerance = given.value_or(0.0);
+  if (!(tolerance >= 0.0 && tolerance < 1.0))
+    throw BadInput(fmt::format("--tolerance: {:g} must be from 0 to less than 1", tolerance));
+  const ReplayResults found = replayRun(file, onlyEngine(line, "replay"), tolerance);
+  fmt::print("{}", line.json ? toJson(found).dump() + "\n" : reports::replayText(found));
+  if (!found.failure.empty()) {
+    printFailure(found.failure);
+    return exitEngineFailed;
+  }
+  return found.request.empty() && found.declared.empty() ? exitHeld : exitFellShort;
 }
 
 Action declareRecord(CLI::App& app, CommandLine& line) {
@@ -67,6 +86,18 @@ Action declareRecord(CLI::App& app, CommandLine& line) {
   return [&line, out, time, looks] { return record(line, *out, *time, *looks); };
 }
 
+Action declareReplay(CLI::App& app, CommandLine& line) {
+  const auto file = std::make_shared<std::string>();
+  addArgument(app, "recording", *file, "file that `record` wrote", "FILE");
+  addEngines(app, line);
+  const auto tolerance = std::make_shared<std::optional<double>>();
+  addNumber(app, "--tolerance", *tolerance,
+            "numbers are alike that differ by no more than this part of the largest of their array "
+            "(default: 0)");
+  addFlag(app, "--json", line.json, "print the results as JSON");
+  return [&line, file, tolerance] { return replay(line, *file, *tolerance); };
+}
+
 }  // namespace
 
 extern const Command recordCommand = {
@@ -75,5 +106,11 @@ extern const Command recordCommand = {
     "run.rec\n"
     "crossgrain record cases/hard/pile.toml --engines yade --time 0.5 --looks 50 --out run.rec",
     declareRecord};
+
+extern const Command replayCommand = {
+    "replay", "puts the requests of a recording to an engine: the first different answer",
+    "crossgrain replay run.rec --engines examples/python/engine.toml\n"
+    "crossgrain replay run.rec --engines examples/python/engine.toml --tolerance 1e-9 --json",
+    declareReplay};
 
 }  // namespace crossgrain::inline cli

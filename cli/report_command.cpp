@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <unistd.h>
+#include <cstring>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
-#include "cli/open_page.hpp"
 #include "cli/option_groups.hpp"
 #include "reports/report.hpp"
 #include "results/json_fields.hpp"
@@ -15,12 +19,36 @@
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
 #include "support/json_text.hpp"
+#include "support/program.hpp"
 
 namespace crossgrain::inline cli {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+/// @throws BadInput if nothing here opens pages
+void requireBrowser() {
+  if (!isOnPath("xdg-open"))
+    throw BadInput("--open: there is no program 'xdg-open' in PATH (Debian: package xdg-utils)");
+}
+
+/// Shows a page in the user's browser, which is left to itself.
+/// @throws std::runtime_error, one line, if it could not be started
+void openPage(const std::filesystem::path& page) {
+  std::string program = "xdg-open", path = std::filesystem::absolute(page).string();
+  char* const arguments[] = {program.data(), path.data(), nullptr};
+  posix_spawn_file_actions_t silent;
+  posix_spawn_file_actions_init(&silent);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&silent, stream, "/dev/null", O_RDWR, 0);
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, program.c_str(), &silent, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&silent);
+  if (error != 0)
+    throw std::runtime_error(
+        fmt::format("xdg-open could not be started: {}", std::strerror(error)));
+}
 
 /// What is concluded from runs follows from them anew; all else is as it was.
 nlohmann::json concludedAnew(const nlohmann::json& results, const fs::path& folder,
@@ -60,7 +88,7 @@ int rebuildReports(const CommandLine& line, const ReportOptions& options) {
 }
 
 /// A plan's folder stands for those of its jobs, as far as they can be merged.
-/// @returns whether all is as planned; what is not is told on standard error, a line each
+/// @returns whether all is as planned; what is not is reported on standard error, a line each
 bool addFolders(const fs::path& input, std::vector<fs::path>& folders) {
   if (!fs::exists(input / planFile)) {
     folders.push_back(input);

@@ -2,7 +2,7 @@
 #   bin/crossgrain                 the program; finds share/crossgrain beside its own folder, so a prefix can be moved
 #   share/crossgrain/cases, engines  what it reads at run time
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
-#   share/man/man1, share/bash-completion/completions  made by the program itself
+#   share/bash-completion/completions
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -11,15 +11,7 @@ install(TARGETS crossgrain RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 if(TARGET crossgrain-chipmunk)
   install(TARGETS crossgrain-chipmunk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-# The program itself writes its manual pages and the completion for bash.
-install(CODE [[
-  set(share "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share")
-  set(program "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/bin/crossgrain")
-  file(MAKE_DIRECTORY "${share}/bash-completion/completions")
-  execute_process(COMMAND "${program}" __manual "${share}/man/man1" COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND "${program}" __completion COMMAND_ERROR_IS_FATAL ANY
-                  OUTPUT_FILE "${share}/bash-completion/completions/crossgrain")
-]])
+install(FILES cli/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME crossgrain)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md")
 install(DIRECTORY engines/lammps engines/yade engines/python engines/cpp engines/liggghts engines/siconos engines/node engines/rapier engines/box2d-v3

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
-#include "continuum/cosserat_solution.hpp"
+#include "continuum/cosserat.hpp"
 
 namespace crossgrain::inline continuum {
 
@@ -21,23 +19,6 @@ struct CellScale {
 /// rest with R̄_i and ε as the cell has them.
 CosseratParameters parametersOf(const CellScale& cell, CosseratParameters rest = {});
 
-/// The model's fields at some radii, to be drawn with averaged ones.
-struct ModelFields {
-  std::vector<double> radius;    ///< [m]
-  std::vector<double> velocity;  ///< v_φ/(ΩR_i) [-]
-  std::vector<double> spin;      ///< −ω ΩR_i/H: clockwise [rad/s]
-  std::vector<double> stressPr;  ///< σ_φr, the model's σ_rφ [N/m²]
-  std::vector<double> stressRp;  ///< σ_rφ, the model's σ_φr [N/m²]
-  /// M_zr, the model's −M_rz: of that sign is a couple that 9.24 balances with σ_rφ − σ_φr [N/m]
-  std::vector<double> coupleZr;
-};
-
-/// @param sigmaC  σ_c, the normal stress [N/m²]
-/// @param radii   between R_i and R_i + H [m]
-/// @throws std::invalid_argument for a radius beyond these
-ModelFields fieldsIn(const CellScale& cell, const CosseratSolution& solution, double sigmaC,
-                     std::span<const double> radii);
-
 /// Averages of one ring near the wheel.
 struct RingStress {
   double radius = 0.0;        ///< of its centre [m]
@@ -50,8 +31,6 @@ struct RingStress {
 struct FittedFriction {
   double wallFriction;      ///< δ [rad]
   double internalFriction;  ///< ψ [rad]
-  double sigmaC;            ///< σ_c = (σ_rr + σ_φφ)/2, which the model has equal [N/m²]
-  double s, q, m;           ///< of the ring, as the model has them
 };
 
 /// ψ is the angle of the yield condition that the ring's own s, q and m meet,

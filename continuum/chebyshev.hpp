@@ -15,15 +15,11 @@ class ChebyshevGrid {
   std::span<const double> points() const { return points_; }  ///< ascending, from 0 to 1
   std::size_t count() const { return points_.size(); }
 
-  /// Row k: what gives the derivative at ξ_k from the values at all points.
-  std::span<const double> derivativeRow(std::size_t k) const;
-  /// The derivative at the points.
-  std::vector<double> derivative(std::span<const double> values) const;
   /// The polynomial at ξ (barycentric form).
   double at(double xi, std::span<const double> values) const;
 
  private:
-  std::vector<double> points_, weights_, matrix_;
+  std::vector<double> points_, weights_;
 };
 
 }  // namespace crossgrain::inline continuum

@@ -42,6 +42,9 @@ struct CollisionStart {
   /// Spin added to the first disk and taken from the second, times a_j/a_i there: it leaves v_t as
   /// it is [rad/s]
   double counterSpin = 0.0;
+  /// How long after the touch the law is evaluated first [s]: until then the disks fly on without a
+  /// force, as in a step of that length. 0: the law in continuous time.
+  double late = 0.0;
 };
 
 /// Motion of i against j, in the frame of the normal n (from j to i) and s = z × n.

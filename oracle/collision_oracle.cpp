@@ -37,12 +37,32 @@ State TwoBodyProblem::firstTouch(const CollisionStart& start) const {
   const PairMotion touch = motionBefore(pair_, start);
   State state{reach_, 0.0, touch.normal, touch.tangential, touch.spin[0], touch.spin[1], 0.0, 0.0,
               0.0,    0.0, 0.0};
-  if (!law_.stiffens()) return state;
-  const double later = std::max(1e-12 * contactTime(start.vn), visibleLength() / start.vn);
+  double later = start.late;
+  if (law_.stiffens())
+    later = std::max({later, 1e-12 * contactTime(start.vn), visibleLength() / start.vn});
+  if (later == 0.0) return state;
   state.x += later * state.vx;
   state.y += later * state.vy;
-  if (!remembersForce()) state.spring = later * kinematics(state).tangentialVelocity;
+  const Kinematics k = kinematics(state);
+  if (start.late > 0.0)
+    state.spring = stretchedShare() * later * k.tangentialVelocity *
+                   (remembersForce() ? tangentialStiffness(k.overlap).value : 1.0);
+  else if (!remembersForce())
+    state.spring = later * k.tangentialVelocity;
   return state;
+}
+
+/// The share of v_t t that a spring is stretched by where its contact is first evaluated at t.
+double TwoBodyProblem::stretchedShare() const {
+  switch (law_.conventions.springUpdate) {
+    case SpringUpdate::after:
+      return 0.0;
+    case SpringUpdate::midpoint:
+      return 0.5;
+    case SpringUpdate::before:
+      break;
+  }
+  return 1.0;
 }
 
 /// Differences of positions below this are rounding [m].
@@ -265,6 +285,15 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
 
 bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start) {
   return law.soft() && TwoBodyProblem(law, pair).jumpsAtTouch(start);
+}
+
+bool stepMissesSlip(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
+                    double dt) {
+  if (!law.soft()) return false;
+  TwoBodyProblem problem(law, pair);
+  CollisionStart late = start;
+  late.late = dt;
+  return problem.hasJump() && problem.slipsAtFirst(start) && !problem.slipsAtFirst(late);
 }
 
 }  // namespace crossgrain::inline oracle

@@ -21,6 +21,15 @@ CollisionEnd oracleOutcome(const ContactLaw& law, const CollidingPair& pair,
 /// (oracle/two_body_events.cpp has the derivation).
 bool jumpsAtTouch(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start);
 
+/// Whether a step of `dt` misses the slip that a contact begins with under a law that jumps at Ψ_j
+/// = µγ_n/γ_t: above Ψ_j the dashpots alone exceed the bound at the first touch, and the slip goes
+/// on until v_t = 0. But the bound rises by µ k_n v_n per time, so that a contact that is evaluated
+/// first when µ(γ_n + k_n t) > (γ_t + share·k_t t) Ψ_i sticks: within a step the jump lies anywhere
+/// between Ψ_j and the Ψ_i where both are equal at t = dt. `share` of v_t t is what the law has
+/// stretched its spring by then: 0, ½ or 1 by its spring_update.
+bool stepMissesSlip(const ContactLaw& law, const CollidingPair& pair, const CollisionStart& start,
+                    double dt);
+
 /// Walton's law, an impulse at the first touch: Ψ_f = max(−e_t0 Ψ_i, Ψ_i − (1 + 1/q)(1 + e_n) µ)
 /// for Ψ_i > 0, odd in Ψ_i (Walton 1992; Luding 1998), 1 + 1/q = tangentialCompliance()·m₁₂. It
 /// has no duration, no overlap, and does not separate sticking's loss from sliding's.

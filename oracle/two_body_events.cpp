@@ -121,10 +121,7 @@ double TwoBodyProblem::firstGuard(const State& s) const {
 /// with float32 velocities, cannot distinguish from it.
 bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
   constexpr double alike = 1e-6;
-  const LawConventions& how = law_.conventions;
-  if (law_.tangential != TangentialLaw::springDashpot || !(law_.gt > 0.0) || !(law_.gn > 0.0) ||
-      how.dashpot == Dashpot::outside || how.springReset == SpringReset::springOnly)
-    return false;
+  if (!hasJump()) return false;
   const State s = firstTouch(start);
   const Phase before = phase_;
   phase_ = {Phase::Tangential::stick, 0.0, true};
@@ -144,6 +141,21 @@ bool TwoBodyProblem::jumpsAtTouch(const CollisionStart& start) {
   }
   phase_ = before;
   return jumps;
+}
+
+/// Whether the law has such a start at all.
+bool TwoBodyProblem::hasJump() const {
+  const LawConventions& how = law_.conventions;
+  return law_.tangential == TangentialLaw::springDashpot && law_.gt > 0.0 && law_.gn > 0.0 &&
+         how.dashpot == Dashpot::inside && how.springReset == SpringReset::total;
+}
+
+/// Whether the contact begins with a slip.
+bool TwoBodyProblem::slipsAtFirst(const CollisionStart& start) {
+  const State s = firstTouch(start);
+  phase_ = {Phase::Tangential::stick, 0.0, true};
+  const Kinematics touch = kinematics(s);
+  return std::abs(testedForce(touch, s.spring)) > bound(normalForce(touch));
 }
 
 /// Begins the phase that holds right after `s`, an event or the start. While a contact slips, the

@@ -54,6 +54,8 @@ class TwoBodyProblem {
   CollisionEnd solve(const CollisionStart& start);
   /// As the free function below.
   bool jumpsAtTouch(const CollisionStart& start);
+  bool hasJump() const;
+  bool slipsAtFirst(const CollisionStart& start);
   /// What v_t is let grow from where a slip ends at 0 and CollisionEnd::noLimit may hold; rounding
   /// without it. @param speed  [m/s]
   void overshoot(double speed) { overshoot_ = speed; }
@@ -113,6 +115,7 @@ class TwoBodyProblem {
   // Integration
   double contactTime(double speed) const;
   State firstTouch(const CollisionStart& start) const;
+  double stretchedShare() const;
   double visibleLength() const;
   State along(const State& s, double time) const;
   double roundingOfForce(const State& s) const;

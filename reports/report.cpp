@@ -16,7 +16,6 @@
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "reports/conformance/report.hpp"
-#include "reports/cost/overview.hpp"
 #include "reports/cost/report.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
@@ -28,10 +27,6 @@
 #include "reports/scale/report.hpp"
 #include "reports/stability/overview.hpp"
 #include "reports/stability/report.hpp"
-#include "reports/thesis/figures.hpp"
-#include "reports/thesis/overview.hpp"
-#include "reports/thesis/reading_changes.hpp"
-#include "reports/thesis/regime_map.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
@@ -53,8 +48,6 @@ struct Kind {
   std::vector<Picture> (*pictures)(const Results&);
   std::string (*page)(const Results&, const Illustrations&);
   Overview (*overview)(const Results&) = nullptr;  ///< null: its report opens with none
-  /// Of what the folder keeps beside the results; null: it shows none.
-  std::vector<Picture> (*films)(const Results&, const std::filesystem::path& folder) = nullptr;
   /// Numbers beside the matrix, to be followed over versions; null: there are none.
   std::vector<DigestValue> (*values)(const Results&) = nullptr;
 };
@@ -82,7 +75,6 @@ const Kind<CompareResults> compareKind = {{{"profiles.csv", profilesCsv},
                                           comparePictures,
                                           comparePage,
                                           compareOverview,
-                                          compareFilms,
                                           compareValues};
 
 const Kind<CompareResults> averageKind = {{{"profiles.csv", profilesCsv},
@@ -137,7 +129,7 @@ const Kind<ScaleResults> scaleKind = {
 const Kind<ThesisResults> thesisKind = {{{"claims.csv", claimsCsv},
                                          {"history.csv", historyCsv},
                                          {"regime_map.csv", regimeMapCsv},
-                                         {"readings.csv", readingsCsv}},
+                                         {"readings.csv", interpretationsCsv}},
                                         thesisFigures,
                                         noPictures,
                                         thesisPage,
@@ -171,10 +163,10 @@ std::vector<EngineRow> enginesOf(const Results& results) {
     return {{results.engine, "", "", "", EngineStatus::ran, ""}};  // whose snapshots
 }
 
-/// @param document  results.json  @param from  the folder of its runs, with what they kept
+/// @param document  results.json
 template <typename Results>
 ReportDigest write(const Kind<Results>& kind, const Results& results, Json document,
-                   const std::filesystem::path& dir, const std::filesystem::path& from) {
+                   const std::filesystem::path& dir) {
   makeDirectory(dir);
   ReportDigest digest{results.head, enginesOf(results), {}};
   if (kind.overview) {
@@ -189,8 +181,7 @@ ReportDigest write(const Kind<Results>& kind, const Results& results, Json docum
   const auto plots = dir / "plots";
   const auto figures = kind.figures(results);
   const auto missing = draw(figures, plots);
-  auto pictures = kind.pictures(results);
-  if (kind.films) std::ranges::move(kind.films(results, from), std::back_inserter(pictures));
+  const auto pictures = kind.pictures(results);
   for (const Picture& picture : pictures) writePicture(picture, plots);
 
   writeFile(dir / "report.html", kind.page(results, {figures, pictures, plots, missing}));
@@ -198,71 +189,68 @@ ReportDigest write(const Kind<Results>& kind, const Results& results, Json docum
   return digest;
 }
 
-ReportDigest writeKind(const Json& results, const std::filesystem::path& dir,
-                       const std::filesystem::path& from) {
+ReportDigest writeKind(const Json& results, const std::filesystem::path& dir) {
   checkSchema(results, "results");
   const std::string kind = results.at("kind");
-  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir, from);
+  if (kind == kindCollide) return write(collideKind, collideFromJson(results), results, dir);
   if (kind == kindConformance)
-    return write(conformanceKind, conformanceFromJson(results), results, dir, from);
-  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir, from);
-  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir, from);
-  if (kind == kindLockstep)
-    return write(lockstepKind, lockstepFromJson(results), results, dir, from);
-  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir, from);
-  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir, from);
-  if (kind == kindStability)
-    return write(stabilityKind, stabilityFromJson(results), results, dir, from);
-  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir, from);
+    return write(conformanceKind, conformanceFromJson(results), results, dir);
+  if (kind == kindCost) return write(costKind, costFromJson(results), results, dir);
+  if (kind == kindEffects) return write(effectsKind, effectsFromJson(results), results, dir);
+  if (kind == kindLockstep) return write(lockstepKind, lockstepFromJson(results), results, dir);
+  if (kind == kindRev) return write(revKind, revFromJson(results), results, dir);
+  if (kind == kindScale) return write(scaleKind, scaleFromJson(results), results, dir);
+  if (kind == kindStability) return write(stabilityKind, stabilityFromJson(results), results, dir);
+  if (kind == kindThesis) return write(thesisKind, thesisFromJson(results), results, dir);
   const CompareResults compared = compareFromJson(results);
-  return write(kindOf(compared), compared, results, dir, from);
+  return write(kindOf(compared), compared, results, dir);
 }
 
 }  // namespace
 
 void writeReport(const CollideResults& results, const std::filesystem::path& dir) {
-  write(collideKind, results, toJson(results), dir, dir);
+  write(collideKind, results, toJson(results), dir);
 }
 
 void writeReport(const ConformanceResults& results, const std::filesystem::path& dir) {
-  write(conformanceKind, results, toJson(results), dir, dir);
+  write(conformanceKind, results, toJson(results), dir);
 }
 
 void writeReport(const CostResults& results, const std::filesystem::path& dir) {
-  write(costKind, results, toJson(results), dir, dir);
+  write(costKind, results, toJson(results), dir);
 }
 
 void writeReport(const LockstepResults& results, const std::filesystem::path& dir) {
-  write(lockstepKind, results, toJson(results), dir, dir);
+  write(lockstepKind, results, toJson(results), dir);
 }
 
 void writeReport(const ScaleResults& results, const std::filesystem::path& dir) {
-  write(scaleKind, results, toJson(results), dir, dir);
+  write(scaleKind, results, toJson(results), dir);
 }
 
 void writeReport(const StabilityResults& results, const std::filesystem::path& dir) {
-  write(stabilityKind, results, toJson(results), dir, dir);
+  write(stabilityKind, results, toJson(results), dir);
 }
 
 void writeReport(const CompareResults& results, const std::filesystem::path& dir) {
-  write(kindOf(results), results, toJson(results), dir, dir);
+  write(kindOf(results), results, toJson(results), dir);
 }
 
 void writeReport(const EffectsResults& results, const std::filesystem::path& dir) {
-  write(effectsKind, results, toJson(results), dir, dir);
+  write(effectsKind, results, toJson(results), dir);
 }
 
 void writeReport(const RevResults& results, const std::filesystem::path& dir) {
-  write(revKind, results, toJson(results), dir, dir);
+  write(revKind, results, toJson(results), dir);
 }
 
 void writeReport(const ThesisResults& results, const std::filesystem::path& dir) {
-  write(thesisKind, results, toJson(results), dir, dir);
+  write(thesisKind, results, toJson(results), dir);
 }
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                          const std::filesystem::path& from) {
-  return understood(from / "results.json", [&] { return writeKind(results, dir, from); });
+  return understood(from / "results.json", [&] { return writeKind(results, dir); });
 }
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir) {

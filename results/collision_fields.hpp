@@ -7,22 +7,6 @@
 
 namespace crossgrain::inline results {
 
-template <>
-inline Json jsonOf(const LawValue& value) {
-  return std::visit([](const auto& held) { return Json(held); }, value);
-}
-template <>
-inline void readFrom(const Json& json, LawValue& value) {
-  if (json.is_string())
-    value = json.get<std::string>();
-  else if (json.is_number())
-    value = json.get<double>();
-  else if (json.is_null())
-    value = std::numeric_limits<double>::quiet_NaN();
-  else
-    detail::expected("a text or a number", json);
-}
-
 template <typename T>
 void fields(auto& io, PerQuantity<T>& values) {
   for (const CollisionQuantity& quantity : collisionQuantities())

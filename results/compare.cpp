@@ -54,7 +54,11 @@ Json toJson(const CompareResults& results) {
   return jsonOf(results);
 }
 CompareResults compareFromJson(const Json& json) {
-  return readAs<CompareResults>(json);
+  auto results = readAs<CompareResults>(json);
+  // Pages and tables of a comparison begin with the first engine, the reference.
+  if (results.head.kind == kindCompare && results.engines.empty())
+    throw FieldError("engines: are none");
+  return results;
 }
 
 }  // namespace crossgrain::inline results

@@ -1,29 +1,53 @@
 #include "results/cost.hpp"
 
-#include "results/cost_fields.hpp"
 #include "results/couette_fields.hpp"
 #include "results/engine_fields.hpp"
 
 namespace crossgrain::inline results {
+
+namespace {
+constexpr std::string_view ownSuffix = "_own";
+}
+
+bool isOwn(const std::string& measure) {
+  return measure.ends_with(ownSuffix);
+}
+
+std::string ownOf(const std::string& measure) {
+  return measure + std::string(ownSuffix);
+}
+
+std::string withoutOwn(const std::string& measure) {
+  const bool hasOther = isOwn(measure) && !measure.starts_with("position_rms_");
+  return hasOther ? measure.substr(0, measure.size() - ownSuffix.size()) : measure;
+}
+
+std::optional<std::string> schemeOf(const std::string& knob, const std::string& setting) {
+  if (knob == "time_step") return std::string();
+  const auto comma = setting.find(',');
+  if (knob != "integrator" || comma == std::string::npos) return std::nullopt;
+  return setting.substr(0, comma);
+}
+
+std::size_t CostResults::count(CostStatus status) const {
+  return static_cast<std::size_t>(std::ranges::count(points, status, &CostPoint::status));
+}
 
 void fields(auto& io, CostResults& results) {
   fields(io, static_cast<CouetteFrame&>(results));
   io("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("packings", results.packings);
+  io.present("want", results.target);
   io("budget_s", results.budget);
   io("budget_for_the_rest_s", results.budgetForTheRest);
   io("points", results.points);
   io("references", results.references);
   io("models", results.models);
-  io.present("trajectory", results.trajectory);
-  io("averages", results.averages);
+  io("window_s", results.window);
   io("startup", results.startup);
-  io("theory", results.theory);
   io("engine_failures", results.engineFailures);
-  io("orders", results.orders);
   io("fronts", results.fronts);
-  io("cheapest", results.cheapest);
   io("advice", results.advice);
   io("cells", results.cells);
 }

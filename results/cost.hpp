@@ -1,20 +1,135 @@
 #pragma once
 
-#include <map>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "results/cost_analysis.hpp"
-#include "results/cost_chaos.hpp"
-#include "results/cost_point.hpp"
+#include "cases/cost.hpp"
 #include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
+#include "results/json_fields.hpp"
 
+/// What `crossgrain cost` finds out: results of kind "cost" (reports/README.md). Targets are
+/// accuracies that are wanted: 0.01 is 1 %. Places are indices into CostResults::points.
 namespace crossgrain::inline results {
 
-/// What the points of one kind of error are held against.
+/// The name of a knob, or "effect:NAME".
+inline constexpr Words aKnob{
+    [](std::string_view text) {
+      constexpr std::string_view effect = "effect:";
+      return isName(text.starts_with(effect) ? text.substr(effect.size()) : text);
+    },
+    "a knob"};
+
+/// What became of a point.
+enum class CostStatus {
+  ran,
+  failed,      ///< its engine broke down, or the step was beyond its stability limit
+  refused,     ///< its engine has no such setting
+  notMeasured  ///< the budget did not allow it; in files "undecided"
+};
+constexpr auto namesOf(CostStatus) {
+  return std::array<std::string_view, 4>{"ran", "failed", "refused", "undecided"};
+}
+
+/// What one setting of one engine costs and how wrong it is, in one kind of error and one measure:
+/// a point of a work–precision plot, a row of cost.csv.
+struct CostPoint {
+  std::string engine;
+  std::string knob;      ///< one of costKnobs, an engine's setting, or "effect:NAME"
+  std::string setting;   ///< readable, e.g. "t_c/50"
+  std::string fragment;  ///< TOML that, in a case that extends this one, gives this setting
+  CostKind kind = CostKind::collision;    ///< of error
+  std::string measure;                    ///< what the error is of: "psi_f", "stress_rr", …
+  std::optional<double> dt;               ///< absent where an engine refused [s]
+  std::optional<double> stepsPerContact;  ///< t_c of the stiffest, lightest pair divided by dt
+
+  /// Relative to a scale that the kind names (a curve's range, d, a profile's largest value) [-].
+  std::optional<double> error;
+  /// Of averages: the standard error in `error`, and |bias| with that part removed; absent where
+  /// they cannot be separated [-].
+  std::optional<double> statistical, systematic;
+  std::optional<double> referenceError;  ///< what the reference itself is uncertain by [-]
+  /// Of averages: ends of the error's confidence interval, all rings and measures together [-].
+  std::optional<double> intervalLow, intervalHigh;
+
+  /// Of the advance alone, per unit that all points of one kind and measure share: a sweep of
+  /// collisions, the trajectory's window, one rotation [s].
+  std::optional<double> wallSeconds, cpuSeconds;
+  std::optional<std::uint64_t> steps, contactEvaluations;  ///< per the same unit
+
+  CostStatus status = CostStatus::ran;
+  std::string reason;  ///< unless it ran: one line
+
+  bool ran() const { return status == CostStatus::ran; }
+  bool measured() const { return ran() && error; }
+  /// Averages over a single packing: their scatter is not known, so that they count nowhere.
+  bool saysNothing() const { return kind == CostKind::averages && !statistical; }
+  /// Ends of the interval that the true error lies in, the lower at least 0. @pre measured()
+  double low() const {
+    return intervalLow && intervalHigh ? *intervalLow : std::max(0.0, *error - uncertainty());
+  }
+  double high() const {
+    return intervalLow && intervalHigh ? *intervalHigh : *error + uncertainty();
+  }
+  /// Whether the error is below its own standard error or that of its reference.
+  bool mayBeChance() const {
+    return error && (*error < statistical.value_or(0.0) || *error < referenceError.value_or(0.0));
+  }
+  /// What it counts with on a front and in plots: its error, the upper end where that may be
+  /// chance. Absent unless it ran and its error says anything.
+  std::optional<double> counted() const {
+    if (!measured() || saysNothing()) return std::nullopt;
+    return mayBeChance() ? high() : *error;
+  }
+
+ private:
+  double uncertainty() const {
+    return saysNothing() ? std::numeric_limits<double>::infinity()
+                         : statistical.value_or(0.0) + referenceError.value_or(0.0);
+  }
+};
+
+void fields(auto& io, CostPoint& point) {
+  io("engine", point.engine, aName);
+  io("knob", point.knob, aKnob);
+  io("setting", point.setting);
+  io("fragment", point.fragment);
+  io("error_kind", point.kind);
+  io("measure", point.measure, aName);
+  io("dt_s", point.dt);
+  io("steps_per_contact", point.stepsPerContact);
+  io("error", point.error);
+  io("statistical", point.statistical);
+  io("systematic", point.systematic);
+  io("reference_error", point.referenceError);
+  io("low", point.intervalLow);
+  io("high", point.intervalHigh);
+  io("wall_s", point.wallSeconds);
+  io("cpu_s", point.cpuSeconds);
+  io("steps", point.steps);
+  io("contact_evaluations", point.contactEvaluations);
+  io("status", point.status);
+  io("reason", point.reason);
+}
+
+/// Measures exist twice: against the case's law, and against the engine's own limit of small steps,
+/// whose law may be another: "psi_f" and "psi_f_own".
+bool isOwn(const std::string& measure);
+std::string ownOf(const std::string& measure);
+/// "psi_f_own" → "psi_f"; of positions, whose measures name their reference, as it is.
+std::string withoutOwn(const std::string& measure);
+
+/// Which series of time steps a setting belongs to: that of an engine's own integrator (empty), or
+/// of another one, whose settings are "INTEGRATOR, STEP". Absent of settings of other knobs.
+std::optional<std::string> schemeOf(const std::string& knob, const std::string& setting);
+
+/// What the points of one kind of error are compared with.
 struct CostReference {
   CostKind kind = CostKind::collision;
   std::string engine, setting;
@@ -22,15 +137,31 @@ struct CostReference {
   std::string note;
 };
 
+void fields(auto& io, CostReference& reference) {
+  io("error_kind", reference.kind);
+  io("engine", reference.engine, aName);
+  io("setting", reference.setting);
+  io("error", reference.error);
+  io("note", reference.note);
+}
+
 /// How far an engine's own limit of small steps lies from what the case's law gives: no time step
-/// lessens it.
+/// lessens it. In the unit of the points' errors.
 struct CostModel {
   std::string engine;
   CostKind kind = CostKind::collision;
   std::string measure;
-  double error = 0.0;            ///< in the unit of the points' errors
-  double low = 0.0, high = 0.0;  ///< between which it lies
+  double error = 0.0, low = 0.0, high = 0.0;  ///< and between which it lies
 };
+
+void fields(auto& io, CostModel& model) {
+  io("engine", model.engine, aName);
+  io("error_kind", model.kind);
+  io("measure", model.measure, aName);
+  io("error", model.error);
+  io("low", model.low);
+  io("high", model.high);
+}
 
 /// What it takes before the first step [s].
 struct Startup {
@@ -38,54 +169,158 @@ struct Startup {
   double start = 0.0, load = 0.0;
 };
 
-/// The statistical part of averages over the first part of the runs.
-struct StatisticalFall {
-  std::string engine, measure;
-  double rotations = 0.0;
-  double statistical = 0.0;
-};
-/// What changing a constant does to an average, of the in-house engine over all packings, in the
-/// unit of the points' errors.
-struct CostResponse {
-  std::string measure, constant;
-  double change = 0.0;                    ///< of the constant, relative
-  std::optional<double> response, bound;  ///< as measured; the upper end of its interval
+void fields(auto& io, Startup& startup) {
+  io("engine", startup.engine, aName);
+  io("start_s", startup.start);
+  io("load_s", startup.load);
+}
+
+/// The points of one kind and measure that no other beats in both error and time.
+struct Front {
+  CostKind kind = CostKind::collision;
+  std::string measure;
+  std::string engine;  ///< empty: over all engines
+  std::vector<std::size_t> points;
+  std::vector<double> errors;  ///< that these points count with
 };
 
-struct CostAverages {
-  std::vector<StatisticalFall> falls;
-  std::vector<CostResponse> responses;
+void fields(auto& io, Front& front) {
+  io("error_kind", front.kind);
+  io("measure", front.measure, aName);
+  io("engine", front.engine, aName);
+  io("points", front.points);
+  io("errors", front.errors);
+}
+
+/// Whether a target is reached.
+enum class CostVerdict {
+  reached,
+  undecided,   ///< the error's interval holds the target
+  notReached,  ///< and every setting of the plan that may do better was run
+  notMeasured  ///< nor was every such setting
+};
+constexpr auto namesOf(CostVerdict) {
+  return std::array<std::string_view, 4>{"reached", "undecided", "not reached", "not measured"};
+}
+
+/// The setting of an engine for a target: the cheapest that collisions show to reach it and that
+/// averages, whose scatter seldom decides, do not contradict. Where no collision was measured
+/// averages have to show it.
+struct Advice {
+  std::string engine;
+  double target = 0.0;
+  CostVerdict verdict = CostVerdict::notMeasured;
+  /// Reached: the cheapest; else the one whose largest upper end is smallest. Empty: none.
+  std::string knob, setting, fragment;
+  std::vector<CostKind> kinds;  ///< in which it was measured
+  /// Of a sweep of collisions or of one rotation, whichever costKind() says [s].
+  std::optional<double> wallSeconds;
+  /// Simulated time that makes the statistical part as small as the target, in units of what was
+  /// simulated: (statistical/target)², of the measure that takes longest.
+  std::optional<double> length;
+  /// The point that stands in the way, if it is not reached; if it is, an average that does not
+  /// decide and has the largest upper end. `decides`: what would decide on it.
+  std::optional<std::size_t> obstacle;
+  std::string decides;
+  bool cheapest = false;  ///< of the engines that reach this target in the same kinds
+
+  /// Whose time counts: averages if they were measured.
+  std::optional<CostKind> costKind() const {
+    return kinds.empty() ? std::nullopt : std::optional(kinds.back());
+  }
 };
 
-/// What accuracy costs: results of kind "cost" (reports/README.md).
+void fields(auto& io, Advice& advice) {
+  io("engine", advice.engine, aName);
+  io("want", advice.target);
+  io("verdict", advice.verdict);
+  io("knob", advice.knob, aKnob);
+  io("setting", advice.setting);
+  io("fragment", advice.fragment);
+  io("kinds", advice.kinds);
+  io("wall_s", advice.wallSeconds);
+  const auto kind = advice.costKind();
+  std::string costKind = kind ? toString(*kind) : "";  // for readers of the file: it follows
+  io("cost_kind", costKind);
+  io("length", advice.length);
+  io("obstacle", advice.obstacle);
+  io("decides", advice.decides);
+  io("cheapest", advice.cheapest);
+}
+
+/// What an engine's error is compared with.
+enum class CostBasis {
+  own,   ///< its own limit of small steps: what is left is discretisation
+  scene  ///< the case's law: its model included
+};
+constexpr auto namesOf(CostBasis) {
+  return std::array<std::string_view, 2>{"own", "scene"};
+}
+inline constexpr std::array costBases = {CostBasis::own, CostBasis::scene};
+
+/// Which setting of an engine reaches a target in one kind of error, in all its measures, for the
+/// least time. Nothing is interpolated. A setting meets the target if the upper ends of its errors
+/// do; it may, if only the lower ends do.
+struct CostCell {
+  std::string engine;
+  CostKind kind = CostKind::collision;
+  CostBasis basis = CostBasis::own;
+  double target = 0.0;
+  CostVerdict verdict = CostVerdict::notMeasured;
+  std::string knob = {}, setting = {};     ///< as of Advice
+  std::optional<double> wallSeconds = {};  ///< of that setting [s]
+  std::optional<std::size_t> point = {};   ///< its measured figure: the measure that decides
+  /// Not reached, of the case's law: place in CostResults::models of a model error that alone lies
+  /// above the target.
+  std::optional<std::size_t> model = {};
+  std::string decides = {};  ///< what would decide
+
+  bool decided() const {
+    return verdict == CostVerdict::reached || verdict == CostVerdict::notReached;
+  }
+};
+
+void fields(auto& io, CostCell& cell) {
+  io("engine", cell.engine, aName);
+  io("error_kind", cell.kind);
+  io("basis", cell.basis);
+  io("want", cell.target);
+  io("verdict", cell.verdict);
+  io("knob", cell.knob, aKnob);
+  io("setting", cell.setting);
+  io("wall_s", cell.wallSeconds);
+  io("point", cell.point);
+  io("model", cell.model);
+  io("decides", cell.decides);
+}
+
 struct CostResults : CouetteFrame {
   std::optional<double> elapsed;  ///< [s]
   std::vector<EngineRow> engines;
   std::vector<PackingRow> packings;
 
+  std::optional<double> target;            ///< --want: an accuracy asked for besides the usual
   std::optional<double> budget;            ///< for all that was measured [s]
   std::optional<double> budgetForTheRest;  ///< for what did not fit, all else kept [s]
   std::vector<CostPoint> points;           ///< by kind, engine and setting
   std::vector<CostReference> references;
   std::vector<CostModel> models;
-  std::optional<ChaosStudy> trajectory;  ///< if trajectories were compared
-  CostAverages averages;
+  std::optional<double> window;  ///< over which trajectories were compared, if they were [s]
   std::vector<Startup> startup;
-  /// Order claimed for "ENGINE INTEGRATOR", and for "ENGINE" that of the one it has by itself.
-  std::map<std::string, int> theory;
   /// For other reasons than a step beyond the stability limit: one line each.
   std::vector<std::string> engineFailures;
 
-  // Worked out from the points.
-  std::vector<OrderFit> orders;
+  // Worked out from the points (runs/cost/analysis.hpp).
   std::vector<Front> fronts;
-  std::vector<Cheapest> cheapest;
   std::vector<Advice> advice;
   std::vector<CostCell> cells;
+
+  /// How many points have that status.
+  std::size_t count(CostStatus status) const;
 };
 
-nlohmann::json toJson(const CostResults& results);
+Json toJson(const CostResults& results);
 /// @throws FieldError
-CostResults costFromJson(const nlohmann::json& json);
+CostResults costFromJson(const Json& json);
 
 }  // namespace crossgrain::inline results

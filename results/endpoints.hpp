@@ -32,6 +32,7 @@ struct EndpointRow {
   std::optional<int> needsAtMost;  ///< and at most so many; absent: no telling
   std::string carrierA, carrierB;  ///< the mirror whose runs stand for a, for b; empty: its own
   std::optional<double> bound;     ///< B of those mirrors, in margins
+  std::optional<double> reach;     ///< part of B: what the followed runs could have missed
 };
 
 /// One look as planned.
@@ -58,24 +59,46 @@ struct EndpointResponse {
   int packings = 0;
 };
 
-/// One endpoint of a canary, in margins.
+/// One endpoint of the averaged run of a spot check, in margins.
 struct CanaryNumber {
   std::string endpoint;
   std::optional<double> difference;  ///< the engine's run less its mirror's
   std::optional<double> floor;       ///< scatter of two runs of one packing: chaos
   std::optional<double> chance;      ///< of one as large by chaos alone, times the endpoints tested
+  std::optional<double> reach;       ///< the smallest difference that would be an alarm
 };
 
-/// An engine that lockstep found to be its mirror, which then carries the packings; one whole run
-/// of the engine itself is held against the mirror's, for what begins late.
+/// A change of a constant, relative, that separates the mirror from itself as far as the engine is
+/// from its mirror.
+struct EquivalentChange {
+  std::string constant;  ///< "kn"
+  double change = 0.0;
+};
+
+/// The followed run of a spot check: windows one after the other within one run of the engine,
+/// each compared with the mirror that begins from the state and forces found there.
+struct LateWindows {
+  int packing = 0;            ///< index
+  std::vector<double> times;  ///< at which they begin, since the hand-over [s]
+  double length = 0.0;        ///< of each [s]
+  /// Of each constant that endpoints' responses are known to: the mean over all windows, upper end
+  /// of its interval (95 %). A constant that moves nothing has none.
+  std::vector<EquivalentChange> equivalents;
+  std::string failure;  ///< why there are none; empty: there are
+};
+
+/// An engine that lockstep found to be its mirror, which then carries the packings. The engine's
+/// own runs are a spot check, for what begins after lockstep's windows: one is averaged and
+/// compared with the mirror's, one is followed by late windows.
 struct CarriedEngine {
   std::string engine, mirror;
-  double equivalent = 0.0;  ///< ε_eq
+  double equivalent = 0.0;  ///< ε_eq, the upper end of its interval
   std::size_t starts = 0;   ///< that lockstep followed
   int canaryPacking = 0;    ///< index
   std::vector<CanaryNumber> canary;
   std::string alarm;     ///< why the mirror does not stand for it after all; empty: it does
-  bool carried = false;  ///< the canary ran to its end and raised no alarm
+  bool carried = false;  ///< both runs of the spot check ended without an alarm
+  LateWindows late = {};
 };
 
 /// What nobody needs a test for.

@@ -31,6 +31,7 @@ void fields(auto& io, EndpointRow& row) {
   io.when(!row.carrierA.empty(), "carrier_a", row.carrierA, aName);
   io.when(!row.carrierB.empty(), "carrier_b", row.carrierB, aName);
   io.present("bound", row.bound);
+  io.present("reach", row.reach);
 }
 
 void fields(auto& io, LookRow& look) {
@@ -61,6 +62,20 @@ void fields(auto& io, CanaryNumber& number) {
   io("difference", number.difference);
   io("floor", number.floor);
   io("chance", number.chance);
+  io("reach", number.reach);
+}
+
+void fields(auto& io, EquivalentChange& equivalent) {
+  io("constant", equivalent.constant);
+  io("change", equivalent.change);
+}
+
+void fields(auto& io, LateWindows& late) {
+  io("packing", late.packing);
+  io("times_s", late.times);
+  io("length_s", late.length);
+  io("equivalents", late.equivalents);
+  io("failure", late.failure);
 }
 
 void fields(auto& io, CarriedEngine& carried) {
@@ -72,6 +87,7 @@ void fields(auto& io, CarriedEngine& carried) {
   io("canary", carried.canary);
   io("alarm", carried.alarm);
   io("carried", carried.carried);
+  io("late", carried.late);
 }
 
 void fields(auto& io, AlarmRow& alarm) {

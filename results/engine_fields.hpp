@@ -23,32 +23,4 @@ void fields(auto& io, Stats& stats) {
   io("counters", stats.counters);
 }
 
-/// What the worker protocol says of a type, its errors as those of a file.
-template <typename T>
-T readAsProtocol(const Json& json, T (*read)(const Json&)) {
-  try {
-    return read(json);
-  } catch (const std::exception& error) {
-    throw FieldError(": " + asOneLine(withoutPrefix(error.what()), 200));
-  }
-}
-
-template <>
-inline Json jsonOf(const Realised& realised) {
-  return crossgrain::toJson(realised);
-}
-template <>
-inline void readFrom(const Json& json, Realised& realised) {
-  realised = readAsProtocol(json, realisedFromJson);
-}
-
-template <>
-inline Json jsonOf(const Capabilities& capabilities) {
-  return crossgrain::toJson(capabilities);
-}
-template <>
-inline void readFrom(const Json& json, Capabilities& capabilities) {
-  capabilities = readAsProtocol(json, capabilitiesFromJson);
-}
-
 }  // namespace crossgrain::inline results

@@ -77,6 +77,7 @@ void fields(auto& io, LockstepRow& row) {
   io("read", row.read);
   io("beyond", row.beyond);
   io("share_high", row.shareHigh);
+  io.when(row.severalAtOnce, "several_at_once", row.severalAtOnce);
   io("resolution", row.resolution);
   io("starts", row.starts);
   io("same_to_its_precision", row.precise);

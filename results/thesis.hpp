@@ -17,13 +17,14 @@
 /// The thesis' cell over volume fractions, rates, walls and laws, and what its claims come to.
 namespace crossgrain::inline results {
 
-/// One case of the ladder: what it differs in, so that a claim finds the legs that it is about.
-struct ThesisLeg {
+/// One case of the parameter sweep: what it differs in, so that a claim finds the cases it is
+/// about.
+struct ThesisCase {
   std::string name;     ///< "nu-0.804", "nu-0.804-omega-0.01"
   std::string purpose;  ///< one sentence
   std::string file;     ///< of the case
-  /// Family of legs that differ in one thing: "packings", "rate", "spacing", "kn", "mass",
-  /// "radius", "bottom", "friction", "time". A leg may belong to several.
+  /// Families of cases that differ in one thing: "packings", "rate", "spacing", "kn", "mass",
+  /// "radius", "bottom", "friction", "time". A case may belong to several.
   std::vector<std::string> families;
   CouetteCell cell;
   double label = 0.0;  ///< ν̄ as the thesis' Table 3.2 has it; the cell's own beside it [-]
@@ -33,6 +34,8 @@ struct ThesisLeg {
   double settleRotations = 0.0;    ///< since the ring had closed
   double averagedRotations = 0.0;  ///< after them
   std::string caseToml;            ///< as resolved
+
+  double endRotation() const { return settleRotations + averagedRotations; }
 };
 
 /// Means over one part of a run, most often one rotation, of what single snapshots show; the
@@ -50,6 +53,20 @@ struct ThesisSpan {
   std::optional<double> kineticEnergy;          ///< [J]
   std::optional<double> maxOverlap, meanOverlap;  ///< [m]
 };
+using SpanNumber = std::optional<double> ThesisSpan::*;
+
+/// All numbers of a span, in the order of history.csv.
+inline constexpr std::array<SpanNumber, 11> spanNumbers = {&ThesisSpan::outerPressure,
+                                                           &ThesisSpan::wheelTorque,
+                                                           &ThesisSpan::wheelContacts,
+                                                           &ThesisSpan::wheelTouched,
+                                                           &ThesisSpan::coordination,
+                                                           &ThesisSpan::volumeFractionAtWheel,
+                                                           &ThesisSpan::volumeFractionOutside,
+                                                           &ThesisSpan::velocityAtWheel,
+                                                           &ThesisSpan::kineticEnergy,
+                                                           &ThesisSpan::maxOverlap,
+                                                           &ThesisSpan::meanOverlap};
 
 /// Averages over rings of another width than the case's.
 struct RingAverages {
@@ -58,14 +75,14 @@ struct RingAverages {
   std::vector<Profile> profiles;  ///< of all the case's methods, without n_eff and dof
 };
 
-/// One engine on one packing of one leg.
+/// One engine on one packing of one case.
 struct ThesisRun {
-  std::string leg, engine;
+  std::string setup, engine;  ///< names of the case and the engine
   int packing = 0;
   std::uint64_t seed = 0;
-  std::string key = {};      ///< of all that it depends on, so that another sitting takes it up
+  std::string key = {};      ///< of all that it depends on, so that another session loads it
   std::string program = {};  ///< that made it: "0.3.0 (7902f0e)"
-  CouetteRun run;            ///< averaged over the leg's last rotations, on the case's rings
+  CouetteRun run;            ///< averaged over the case's last rotations, on the case's rings
   std::vector<RingAverages> finer;  ///< the same time on narrower rings: about d/3
   std::vector<ThesisSpan> history;  ///< from the closing of the ring to the end
 };
@@ -82,32 +99,32 @@ struct ClaimFigure {
   std::optional<double> value, standardError;  ///< over packings
   std::optional<double> low, high;             ///< what the rule asks for; absent: no bound there
   std::string key = {};                        ///< the rule's name of it: "exponent_rp"
-  std::optional<ClaimVerdict> verdict = {};    ///< absent: told, not judged
+  std::optional<ClaimVerdict> verdict = {};    ///< absent: reported, not judged
 };
 
-/// What one claim comes to for one engine, under one reading of what the thesis leaves open.
+/// What one claim comes to for one engine, under one interpretation of what the thesis leaves open.
 struct ClaimRow {
-  std::string id;       ///< "C7"
-  std::string claim;    ///< in one sentence
-  std::string engine;   ///< "-" where no engine takes part (a model, the averaging alone)
-  std::string carrier;  ///< the mirror whose runs these are; empty: the engine's own
-  std::string reading;  ///< "wall spacing 2.5 mm, as printed"
+  std::string id;              ///< "C7"
+  std::string claim;           ///< in one sentence
+  std::string engine;          ///< "-" where no engine takes part (a model, the averaging alone)
+  std::string mirror;          ///< whose runs stand for the engine's, too; empty: the engine's own
+  std::string interpretation;  ///< "wall spacing 2.5 mm, as printed"
   std::vector<ClaimFigure> figures;  ///< the first is the one that the table shows
   ClaimVerdict verdict = ClaimVerdict::undecided;
   std::string why;  ///< the reason, by rule, with the numbers
   /// Of a refuted claim: why it fails, or where it would hold, as far as that was found.
   std::vector<std::string> reasons;
-  std::vector<std::string> legs;  ///< that it rests on
-  std::string plot;               ///< "figure 7.14": the report's redrawn one; empty: none
+  std::vector<std::string> cases;  ///< that it rests on
+  std::string plot;                ///< "figure 7.14": the report's redrawn one; empty: none
 };
 
-/// An engine that lockstep held against its mirror, so that the mirror's runs may stand for it.
-struct ThesisCarrier {
+/// An engine that lockstep compared with its mirror, whose runs may stand for it.
+struct ThesisSurrogate {
   std::string engine, mirror;
-  bool carries = false;              ///< the mirror's runs are the engine's, too
+  bool accepted = false;             ///< the mirror's runs are the engine's, too
   std::optional<double> equivalent;  ///< ε_eq: a change of k_n that would make the same difference
   std::size_t starts = 0;            ///< windows that were followed to the end
-  std::string why;                   ///< the verdict in words
+  std::string why;                   ///< the verdict as a sentence
 };
 
 /// Kind "thesis".
@@ -115,12 +132,12 @@ struct ThesisResults {
   ResultsHead head;
   std::optional<double> elapsed;  ///< wall time of the last command [s]
   std::vector<EngineRow> engines;
-  std::vector<ThesisCarrier> carriers;
+  std::vector<ThesisSurrogate> surrogates;
   std::string rules;  ///< the claims' rules, the file's text as it was applied
   /// Reasons that somebody found for what is refuted, and when they hold; the file's text, or none.
   std::string reasons;
-  std::optional<CollideResults> collisions;  ///< of the ladder's case of them
-  std::vector<ThesisLeg> legs;
+  std::optional<CollideResults> collisions;  ///< of the sweep's case of them
+  std::vector<ThesisCase> cases;
   std::vector<ThesisRun> runs;
   std::vector<ClaimRow> claims;
   std::vector<std::string> notes;  ///< what was left out, and why
@@ -129,5 +146,17 @@ struct ThesisResults {
 Json toJson(const ThesisResults& results);
 /// @throws FieldError
 ThesisResults thesisFromJson(const Json& json);
+
+/// Claims, tables and figures are made of this alone, about a tenth of the runs: profiles of the
+/// fields that they read; finer rings and distributions of Table 3.2's cases and their
+/// interpretations, the latter on the rings that are read; no series, checks and pictures; of
+/// collisions e_n and Ψ_f. Profiles and collisions have 6 significant digits (their errors 3),
+/// distributions 4, all else is as it was; compacted(compacted(r)) == compacted(r).
+///
+/// A campaign compacts before it judges, so that the file says all that its claims rest on, to the
+/// bit. The whole of each run stays in the command's folder (runs/).
+ThesisResults compacted(ThesisResults results);
+/// Whether profiles of that field are kept, so that claims and figures may read it.
+bool isReadByFormulas(std::string_view field);
 
 }  // namespace crossgrain::inline results

@@ -4,22 +4,22 @@
 #include "results/couette_fields.hpp"
 #include "results/thesis.hpp"
 
-/// Members of what `thesis` finds out (results/json_fields.hpp).
+/// Members of `thesis`' results (results/json_fields.hpp).
 namespace crossgrain::inline results {
 
-void fields(auto& io, ThesisLeg& leg) {
-  io("name", leg.name, aName);
-  io("purpose", leg.purpose);
-  io("file", leg.file);
-  io("families", leg.families);
-  io("cell", leg.cell);
-  io("label", leg.label);
-  io("kn", leg.kn);
-  io("mu", leg.mu);
-  io("bottom_friction", leg.bottomFriction);
-  io("settle_rotations", leg.settleRotations);
-  io("averaged_rotations", leg.averagedRotations);
-  io("toml", leg.caseToml);
+void fields(auto& io, ThesisCase& setup) {
+  io("name", setup.name, aName);
+  io("purpose", setup.purpose);
+  io("file", setup.file);
+  io("families", setup.families);
+  io("cell", setup.cell);
+  io("label", setup.label);
+  io("kn", setup.kn);
+  io("mu", setup.mu);
+  io("bottom_friction", setup.bottomFriction);
+  io("settle_rotations", setup.settleRotations);
+  io("averaged_rotations", setup.averagedRotations);
+  io("toml", setup.caseToml);
 }
 
 void fields(auto& io, ThesisSpan& span) {
@@ -45,7 +45,7 @@ void fields(auto& io, RingAverages& averages) {
 }
 
 void fields(auto& io, ThesisRun& run) {
-  io("leg", run.leg, aName);
+  io("leg", run.setup, aName);
   io("engine", run.engine, aName);
   io("packing", run.packing);
   io("seed", run.seed);
@@ -71,23 +71,23 @@ void fields(auto& io, ClaimRow& row) {
   io("id", row.id);
   io("claim", row.claim);
   io("engine", row.engine, aName);
-  io("carrier", row.carrier, aName);
-  io("reading", row.reading);
+  io("carrier", row.mirror, aName);
+  io("reading", row.interpretation);
   io("figures", row.figures);
   io("verdict", row.verdict);
   io("why", row.why);
   io("reasons", row.reasons);
-  io("legs", row.legs);
+  io("legs", row.cases);
   io("plot", row.plot);
 }
 
-void fields(auto& io, ThesisCarrier& carrier) {
-  io("engine", carrier.engine, aName);
-  io("mirror", carrier.mirror, aName);
-  io("carries", carrier.carries);
-  io("equivalent", carrier.equivalent);
-  io("starts", carrier.starts);
-  io("why", carrier.why);
+void fields(auto& io, ThesisSurrogate& surrogate) {
+  io("engine", surrogate.engine, aName);
+  io("mirror", surrogate.mirror, aName);
+  io("carries", surrogate.accepted);
+  io("equivalent", surrogate.equivalent);
+  io("starts", surrogate.starts);
+  io("why", surrogate.why);
 }
 
 }  // namespace crossgrain::inline results

@@ -362,7 +362,7 @@ constexpr std::array measures = {
                      "1 − the largest stable time step by that of theory, 2/ω_max of the contacts",
                      nullptr, StabilityProtocol::stepLimit},
     StabilityMeasure{"restart_differs", "diameters",
-                     "between a run and one taken up from a checkpoint at its middle", nullptr,
+                     "between a run and one restarted from a checkpoint at its middle", nullptr,
                      StabilityProtocol::restart},
     StabilityMeasure{"accepted", "-", "1 where a start that no engine can run was not refused",
                      nullptr, StabilityProtocol::acceptance}};

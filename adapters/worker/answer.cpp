@@ -64,9 +64,9 @@ void requireAnswerTo(const std::string& request, const json& answer) {
 }
 
 std::string lastWords(const std::filesystem::path& log) {
-  constexpr std::size_t looked = std::size_t{64} << 10;
+  constexpr std::size_t most = std::size_t{64} << 10;
   constexpr std::size_t lines = 3, longest = 200;
-  std::istringstream in(tailOf(log, looked));
+  std::istringstream in(tailOf(log, most));
   std::deque<std::string> last;
   std::string error;  // of Python: the line after the indented ones says what it was
   bool inTraceback = false;

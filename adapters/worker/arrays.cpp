@@ -2,15 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <system_error>
-
-#include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {
@@ -27,6 +27,24 @@ std::size_t sizeOfType(const std::string& type) {
 
 std::span<const double> flat(std::span<const Vec2> values) {
   return {reinterpret_cast<const double*>(values.data()), 2 * values.size()};
+}
+
+/// One that has grown beyond is made anew rather than spoiled [bytes].
+constexpr off_t longestKept = off_t{16} << 20;
+
+/// Writes at a descriptor's beginning. @throws std::system_error naming the file
+void writeBytes(int descriptor, std::span<const std::byte> bytes,
+                const std::filesystem::path& file) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t put =
+        ::pwrite(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0)
+      throw std::system_error(put < 0 ? errno : EIO, std::generic_category(),
+                              fmt::format("cannot write {}", file.string()));
+    done += static_cast<std::size_t>(put);
+  }
 }
 
 }  // namespace
@@ -54,20 +72,6 @@ void ArrayWriter::add(const std::string& name, std::span<const Vec2> values) {
   add(name, flat(values));
 }
 
-void writeBytes(int descriptor, std::span<const std::byte> bytes,
-                const std::filesystem::path& file) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t put =
-        ::pwrite(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (put < 0 && errno == EINTR) continue;
-    if (put <= 0)
-      throw std::system_error(put < 0 ? errno : EIO, std::generic_category(),
-                              fmt::format("cannot write {}", file.string()));
-    done += static_cast<std::size_t>(put);
-  }
-}
-
 // A worker knows where the next file will be and may have put something there: opening a pipe would
 // wait for ever, following a link would write what it points to.
 nlohmann::json ArrayWriter::write(const std::filesystem::path& file) const {
@@ -93,12 +97,19 @@ ArrayReader::ArrayReader(const std::filesystem::path& file, const nlohmann::json
 
 ArrayReader::ArrayReader(RegularFile in, std::string file, const nlohmann::json& list)
     : file_(std::move(file)), in_(std::move(in)) {
-  if (in_.state() == RegularFile::State::missing)
+  if (in_->state() == RegularFile::State::missing)
     throw std::runtime_error(fmt::format("there is no array file {}", file_));
-  if (in_.state() == RegularFile::State::special)
+  if (in_->state() == RegularFile::State::special)
     throw std::runtime_error(fmt::format("{} is not a regular file", file_));
-  const std::size_t length = in_.size();
+  take(list, in_->size());
+}
 
+ArrayReader::ArrayReader(std::string content, std::string file, const nlohmann::json& list)
+    : file_(std::move(file)), content_(std::move(content)) {
+  take(list, content_.size());
+}
+
+void ArrayReader::take(const nlohmann::json& list, std::size_t length) {
   for (const nlohmann::json& item : list) {
     const auto name = item.at("name").get<std::string>();
     for (const char* key : {"count", "offset"})
@@ -136,7 +147,9 @@ std::vector<Value> ArrayReader::read(const std::string& name, const char* type,
                                          entry.count, entry.type, count, type));
   std::vector<Value> values(count);
   const auto bytes = std::as_writable_bytes(std::span(values));
-  if (in_.read(entry.offset, bytes) != bytes.size())
+  if (!in_)  // take() made sure that it lies within
+    std::memcpy(bytes.data(), content_.data() + entry.offset, bytes.size());
+  else if (in_->read(entry.offset, bytes) != bytes.size())
     throw std::runtime_error(fmt::format("cannot read {} of {}", name, file_));
   return values;
 }
@@ -172,6 +185,61 @@ std::vector<std::int32_t> ArrayReader::i32(const std::string& name, std::size_t 
 
 std::vector<std::uint8_t> ArrayReader::u8(const std::string& name, std::size_t count) const {
   return read<std::uint8_t>(name, "u8", count);
+}
+
+ExchangeFile::~ExchangeFile() {
+  drop();
+}
+
+void ExchangeFile::drop() {
+  kept_.reset();
+  std::error_code ignored;
+  if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  path_.clear();
+}
+
+const std::filesystem::path& ExchangeFile::next(bool keep) {
+  struct stat status {};
+  if (keep && kept_ && ::fstat(kept_->get(), &status) == 0 && status.st_size <= longestKept) {
+    spoil();
+    return path_;
+  }
+  drop();
+  path_ = stem_;
+  path_ += keep ? ".bin" : fmt::format("-{}.bin", ++count_);
+  if (!keep) return path_;
+  // The worker may have put something there: opening a pipe would wait for ever.
+  ::unlink(path_.c_str());
+  kept_.emplace(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (kept_->get() < 0) {
+    const int error = errno;
+    kept_.reset();
+    throw std::system_error(error, std::generic_category(), path_.string());
+  }
+  return path_;
+}
+
+void ExchangeFile::spoil() {
+  struct stat status {};
+  if (::fstat(kept_->get(), &status) != 0 || status.st_size == 0) return;
+  const std::vector<std::byte> nothing(static_cast<std::size_t>(status.st_size), std::byte{0xff});
+  writeBytes(kept_->get(), nothing, path_);
+}
+
+nlohmann::json ExchangeFile::write(const ArrayWriter& arrays) {
+  if (!kept_) return arrays.write(path_);
+  writeBytes(kept_->get(), arrays.bytes(), path_);
+  return arrays.list();
+}
+
+ArrayReader ExchangeFile::read(const nlohmann::json& list) const {
+  const std::string name = path_.filename().string();
+  if (!kept_) return {path_, list};
+  return {RegularFile(Descriptor(::fcntl(kept_->get(), F_DUPFD_CLOEXEC, 5))), name, list};
+}
+
+void ExchangeFile::done() {
+  if (!kept_) drop();
 }
 
 }  // namespace crossgrain

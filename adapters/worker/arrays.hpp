@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "adapters/vec2.hpp"
+#include "support/descriptor.hpp"
 #include "support/regular_file.hpp"
 
 namespace crossgrain {
@@ -46,10 +48,6 @@ class ArrayWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Writes at a descriptor's beginning. @throws std::system_error naming the file
-void writeBytes(int descriptor, std::span<const std::byte> bytes,
-                const std::filesystem::path& file);
-
 /// Reads an array file; nothing in it is trusted. Every failure is a std::runtime_error that names
 /// the file, the array and what was expected. Memory is taken for the arrays that are asked for
 /// alone, however long the file is.
@@ -59,6 +57,8 @@ class ArrayReader {
   ArrayReader(const std::filesystem::path& file, const nlohmann::json& list);
   /// The same of a file that is open. @param file  its name, for messages
   ArrayReader(RegularFile in, std::string file, const nlohmann::json& list);
+  /// The same of its content.
+  ArrayReader(std::string content, std::string file, const nlohmann::json& list);
 
   bool has(const std::string& name) const { return arrays_.contains(name); }
 
@@ -84,9 +84,48 @@ class ArrayReader {
   template <typename Value>
   std::vector<Value> read(const std::string& name, const char* type, std::size_t count) const;
 
+  void take(const nlohmann::json& list, std::size_t length);
+
   std::string file_;
-  RegularFile in_;
+  std::optional<RegularFile> in_;  ///< absent: content_ is all there is
+  std::string content_;
   std::map<std::string, Entry> arrays_;
+};
+
+/// The files in which arrays travel between the harness and one worker, one for each exchange: each
+/// a new one, or, for a worker that writes over what is there, the same again and again. (Making
+/// and removing a file takes as long as the exchange of a small scene does.)
+///
+///   next ── write (load) or read (snapshot) ── done ── next …
+class ExchangeFile {
+ public:
+  /// @param stem  SCRATCH/NAME of files SCRATCH/NAME-1.bin, NAME-2.bin, … or SCRATCH/NAME.bin
+  explicit ExchangeFile(std::filesystem::path stem) : stem_(std::move(stem)) {}
+  ~ExchangeFile();
+  ExchangeFile(const ExchangeFile&) = delete;
+  ExchangeFile& operator=(const ExchangeFile&) = delete;
+
+  /// The file of the next exchange. One that is kept holds 0xff alone: NaN, and an id below 0, so
+  /// that what a worker forgets to write is not taken for what it wrote before.
+  /// @throws std::system_error
+  const std::filesystem::path& next(bool keep);
+
+  /// @returns the list that describes it. @throws std::system_error
+  nlohmann::json write(const ArrayWriter& arrays);
+  /// @throws std::runtime_error as ArrayReader
+  ArrayReader read(const nlohmann::json& list) const;
+
+  /// The exchange is over: a file that is not kept goes.
+  void done();
+
+ private:
+  void drop();
+  void spoil();
+
+  std::filesystem::path stem_;
+  std::filesystem::path path_;
+  unsigned count_ = 0;
+  std::optional<Descriptor> kept_;  ///< ours, whatever the worker puts under its name
 };
 
 }  // namespace crossgrain

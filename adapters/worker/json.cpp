@@ -1,254 +1,259 @@
 #include "adapters/worker/json.hpp"
 
-#include <cmath>
-#include <limits>
+#include <fmt/format.h>
+
 #include <stdexcept>
 
-#include "adapters/law_options.hpp"
-#include "adapters/worker/json_names.hpp"
 #include "support/json_text.hpp"
 
 namespace crossgrain {
 namespace {
 
-using nlohmann::json;
+/// For each disk or wall that contacts can be of. Disks that do not overlap much have three in the
+/// mean, since lines that join neighbours do not cross; more than this is no packing, and is not
+/// read.
+constexpr std::size_t mostContacts = 100;
 
-constexpr std::array<std::string_view, 3> supportNames = {"optional", "always", "never"};
-constexpr std::array<std::string_view, 2> planeNormalNames = {"any", "axis"};
-constexpr std::array<std::string_view, 2> restitutionNames = {"pair", "body"};
-constexpr std::array<std::string_view, 3> reportNames = {"none", "instant", "accumulated"};
+}  // namespace
 
-Effect effectFromName(const std::string& name) {
-  const auto found =
-      std::ranges::find_if(allEffects, [&](Effect effect) { return toString(effect) == name; });
-  if (found == allEffects.end()) throw std::runtime_error(fmt::format("no effect '{}'", name));
-  return *found;
+void fields(auto& io, ContactLaw& law) {
+  for (const LawConstant& constant : lawConstants())
+    io.required(constant.name.data(), law.*constant.value);
+  for (const LawOption& option : lawOptions()) {
+    std::string value = lawOptionValue(law, option.name);
+    io.required(option.name.data(), value);
+    if (io.reading) setLawOption(law, option.name, value);
+  }
 }
 
-/// Whether a contact is carried by springs; else it rebounds with restitutions.
-bool springs(const PairCoefficients& pair) {
-  return pair.kn > 0.0;
+void fields(auto& io, Motion& motion) {
+  io.required("kind", motion.kind);
+  io.required("angular_velocity", motion.angularVelocity);
+  io.required("velocity", motion.velocity);
+  io.required("amplitude", motion.amplitude);
+  io.required("frequency", motion.frequency);
+  io.required("radial_velocity", motion.radialVelocity);
+  io.required("radial_end", motion.radialEnd);
 }
 
-/// A spring, dashpot or friction of strength 0 is none, which is told as absent. (A restitution of
-/// 0 is one.)
-json unlessNone(double constant) {
-  return constant != 0.0 ? json(constant) : json(nullptr);
+void fields(auto& io, BottomPlate& plate) {
+  io.required("mu", plate.mu);
+  io.required("kb", plate.kb);
+  io.required("gb", plate.gb);
+  io.required("tau_m", plate.tauM);
+  io.required("gravity", plate.gravity);
+  io.required("spin", plate.spin);
 }
 
-double orNone(const json& in, const char* key) {
-  const auto found = in.find(key);
-  return found == in.end() || found->is_null() ? 0.0 : member<double>(in, key);
+void fields(auto& io, Plane& plane) {
+  io.required("point", plane.point);
+  io.required("normal", plane.normal);
 }
 
-bool flag(const json& in, const char* key, bool otherwise) {
-  return in.contains(key) ? member<bool>(in, key) : otherwise;
+void fields(auto& io, WallBody& body) {
+  io.required("name", body.name);
+  io.required("centre", body.centre);
+  io.required("planes", body.planes);
+  io.required("motion", body.motion);
+}
+
+void fields(auto& io, Scene& scene) {
+  io.required("name", scene.name);
+  io.required("bodies", scene.bodies);
+  io.required("law", scene.law);
+  io.present("bottom", scene.bottom);
+  io.required("gravity", scene.gravity);
+  io.required("rotation", scene.rotation);
+  io.required("precision", scene.precision);
+  io.required("dt", scene.dt);
+  io("energy_ledger", scene.energyLedger);
+}
+
+void fields(auto& io, BodySnapshot& body) {
+  io.required("centre", body.centre);
+  io.required("angle", body.angle);
+  io.required("velocity", body.velocity);
+  io.required("angular_velocity", body.angularVelocity);
+  io.present("force", body.force);
+  io.present("torque", body.torque);
+}
+
+void fields(auto& io, Energies& energies) {
+  io.required("kinetic", energies.kinetic);
+  io.required("elastic", energies.elastic);
+}
+
+void fields(auto& io, EnergyLedger& ledger) {
+  for (const LedgerTerm& term : ledgerTerms) io.required(term.name.data(), ledger.*term.value);
+}
+
+void fields(auto& io, Snapshot& snapshot) {
+  io.required("position_time", snapshot.positionTime);
+  io.required("velocity_time", snapshot.velocityTime);
+  io.required("contact_time", snapshot.contactTime);
+  io.required("contact_interval", snapshot.contactInterval);
+  io.required("bodies", snapshot.bodies);
+  io.present("energies", snapshot.energies);
+  io.present("energy_ledger", snapshot.ledger);
+}
+
+namespace {
+
+/// Lists go to an array file …
+struct ListWriter {
+  ArrayWriter& arrays;
+  void operator()(const std::string& name, const auto& list, std::size_t) const {
+    arrays.add(name, list);
+  }
+  template <typename List>
+  void present(const std::string& name, const std::optional<List>& list, std::size_t) const {
+    if (list) arrays.add(name, *list);
+  }
+};
+
+/// … and come from it, with so many elements.
+struct ListReader {
+  const ArrayReader& arrays;
+  void operator()(const std::string& name, std::vector<double>& list, std::size_t count) const {
+    list = arrays.f64(name, count);
+  }
+  void operator()(const std::string& name, std::vector<Vec2>& list, std::size_t count) const {
+    list = arrays.vec2(name, count);
+  }
+  void operator()(const std::string& name, std::vector<std::int32_t>& list,
+                  std::size_t count) const {
+    list = arrays.i32(name, count);
+  }
+  template <typename List>
+  void present(const std::string& name, std::optional<List>& list, std::size_t count) const {
+    if (arrays.has(name)) (*this)(name, list.emplace(), count);
+  }
+};
+
+void lists(const auto& io, auto& disks, std::size_t count) {
+  io("disks.radius", disks.radius, count);
+  io("disks.mass", disks.mass, count);
+  io("disks.inertia", disks.inertia, count);
+  io("disks.position", disks.position, count);
+  io("disks.velocity", disks.velocity, count);
+  io("disks.spin", disks.spin, count);
+}
+
+void bodyLists(const auto& io, auto& body, std::size_t index, std::size_t count) {
+  io(fmt::format("bodies.{}.disk_position", index), body.diskPosition, count);
+  io(fmt::format("bodies.{}.disk_radius", index), body.diskRadius, count);
+}
+
+void snapshotLists(const auto& io, auto& snapshot, std::size_t disks, std::size_t wallDisks) {
+  io("position", snapshot.position, disks);
+  io("velocity", snapshot.velocity, disks);
+  io.present("spin", snapshot.spin, disks);
+  io("wall_position", snapshot.wallPosition, wallDisks);
+}
+
+void contactLists(const auto& io, auto& contacts, std::size_t count) {
+  io("contacts.i", contacts.i, count);
+  io("contacts.j", contacts.j, count);
+  io("contacts.normal", contacts.normal, count);
+  io("contacts.overlap", contacts.overlap, count);
+  io("contacts.normal_force", contacts.normalForce, count);
+  io("contacts.tangential_force", contacts.tangentialForce, count);
+}
+
+Contacts contactsFrom(const ArrayReader& arrays, std::size_t ids) {
+  const std::size_t count = arrays.count("contacts.i"), most = mostContacts * ids;
+  if (count > most)
+    throw std::runtime_error(
+        fmt::format("it lists {} contacts, more than {} of {} bodies", count, most, ids));
+  Contacts contacts;
+  contactLists(ListReader{arrays}, contacts, count);
+  if (arrays.has("contacts.sliding")) contacts.sliding = arrays.u8("contacts.sliding", count);
+  for (std::size_t k = 0; k < count; ++k)
+    if (contacts.i[k] < 0 || contacts.i[k] >= contacts.j[k] ||
+        static_cast<std::size_t>(contacts.j[k]) >= ids)
+      throw std::runtime_error(fmt::format("contact {} is of {} and {}, not of 0 ≤ i < j < {}", k,
+                                           contacts.i[k], contacts.j[k], ids));
+  return contacts;
 }
 
 /// A count: converted as it is −1 would be 2⁶⁴ − 1, in silence.
-std::uint64_t countFrom(const json& in, const char* key) {
+std::uint64_t countFrom(const Json& in, const char* key) {
   constexpr double most = 9007199254740992.0;  // 2⁵³: beyond it numbers of JSON have gaps
-  const json& value = in.at(key);
+  const Json& value = in.at(key);
   const double number = value.is_number() ? value.get<double>() : -1.0;
   if (!(number >= 0.0 && number <= most && number == std::floor(number)))
-    throw std::runtime_error(fmt::format("{} is {}, not a whole number ≥ 0", key, value.dump()));
+    throw FieldError(fmt::format("{} is {}, not a whole number ≥ 0", key, value.dump()));
   return static_cast<std::uint64_t>(number);
 }
 
 /// @throws std::exception naming a time that no clock shows
-double secondsFrom(const json& in, const char* key) {
+double secondsFrom(const Json& in, const char* key) {
   const auto seconds = member<double>(in, key);
-  if (!(seconds >= 0.0)) throw std::runtime_error(fmt::format("{} is {} s", key, seconds));
+  if (!(seconds >= 0.0)) throw FieldError(fmt::format("{} is {} s", key, seconds));
   return seconds;
-}
-
-/// @throws std::exception naming an option or a value that no law has
-void checkLawOptions(const Capabilities& can) {
-  ContactLaw law;
-  for (const auto& [name, values] : can.lawOptions) {
-    if (values.empty()) throw std::runtime_error(fmt::format("law_options: {} has no value", name));
-    for (const std::string& value : values) setLawOption(law, name, value);
-  }
-}
-
-json motionsJson(const std::vector<Motion::Kind>& kinds) {
-  json names = json::array();
-  for (const Motion::Kind kind : kinds) names.push_back(toString(kind));
-  return names;
-}
-
-std::optional<std::vector<Motion::Kind>> motionsFrom(const json& in, const char* key) {
-  if (!in.contains(key)) return std::nullopt;
-  std::vector<Motion::Kind> kinds;
-  for (const json& name : in.at(key)) kinds.push_back(valueOf<Motion::Kind>(name, motionNames));
-  return kinds;
-}
-
-void addLimits(json& out, const SceneLimits& limits) {
-  if (limits.inertia) out["inertia"] = *limits.inertia;
-  if (limits.wallMotions) out["wall_motions"] = motionsJson(*limits.wallMotions);
-  if (limits.planeMotions) out["plane_motions"] = motionsJson(*limits.planeMotions);
-  if (limits.planesAlongAxes) out["plane_normals"] = std::string(planeNormalNames[1]);
-  if (limits.restitutionPerBody) out["restitution"] = std::string(restitutionNames[1]);
-}
-
-/// @throws std::exception naming what is none
-SceneLimits limitsFrom(const json& in) {
-  SceneLimits limits;
-  if (in.contains("inertia")) {
-    limits.inertia = in.at("inertia").get<std::vector<double>>();
-    if (limits.inertia->empty()) throw std::runtime_error("inertia has no value");
-  }
-  limits.wallMotions = motionsFrom(in, "wall_motions");
-  limits.planeMotions = motionsFrom(in, "plane_motions");
-  enum class PlaneNormals { any, axis };
-  if (in.contains("plane_normals"))
-    limits.planesAlongAxes =
-        valueOf<PlaneNormals>(in.at("plane_normals"), planeNormalNames) == PlaneNormals::axis;
-  enum class Restitution { pair, body };
-  if (in.contains("restitution"))
-    limits.restitutionPerBody =
-        valueOf<Restitution>(in.at("restitution"), restitutionNames) == Restitution::body;
-  return limits;
-}
-
-json toJson(const SettingValue& value) {
-  return std::visit([](const auto& held) { return json(held); }, value);
-}
-
-SettingValue settingFromJson(const json& in) {
-  if (in.is_boolean()) return in.get<bool>();
-  if (in.is_number()) return in.get<double>();
-  return in.get<std::string>();
 }
 
 }  // namespace
 
-json toJson(const Capabilities& can) {
-  json effects = json::object();
-  for (const auto& [effect, support] : can.effects)
-    effects[toString(effect)] = nameOf(support, supportNames);
-  json precisions = json::array();
-  for (const Precision precision : can.precisions) precisions.push_back(toString(precision));
-  json settings = json::array();
-  for (const SettingSpec& spec : can.settings) {
-    settings.push_back({{"name", spec.name},
-                        {"default", toJson(spec.defaultValue)},
-                        {"unit", spec.unit},
-                        {"doc", spec.doc},
-                        {"choices", spec.choices},
-                        {"least", spec.least},
-                        {"whole", spec.whole}});
-    if (std::isfinite(spec.most)) settings.back()["most"] = spec.most;
+Json toJson(const Scene& scene, ArrayWriter& arrays) {
+  Json out = jsonOf(scene);
+  const ListWriter writer{arrays};
+  lists(writer, scene.disks, 0);
+  out["disks"] = scene.disks.size();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    bodyLists(writer, scene.bodies[b], b, 0);
+    out["bodies"][b]["disks"] = scene.bodies[b].diskRadius.size();
   }
-  json out = {{"version", can.version},
-              {"effects", effects},
-              {"law_options", can.lawOptions},
-              {"precisions", precisions},
-              {"instant_contacts", can.instantContacts},
-              {"accumulated_contacts", can.accumulatedContacts},
-              {"warm_handover", can.warmHandover},
-              {"checkpoints", can.checkpoints},
-              {"sliding_flags", can.slidingFlags},
-              {"energy_ledger", can.energyLedger},
-              {"tangential_restitution", can.tangentialRestitution},
-              {"settings", settings}};
-  addLimits(out, can.limits);
   return out;
 }
 
-Capabilities capabilitiesFromJson(const json& in) {
-  Capabilities can;
-  can.version = member<std::string>(in, "version");
-  for (const Effect effect : allEffects) can.effects[effect] = Support::never;  // if missing
-  for (const auto& [name, support] : in.at("effects").items())
-    can.effects[effectFromName(name)] = valueOf<Support>(support, supportNames);
-  can.lawOptions = member<decltype(can.lawOptions)>(in, "law_options");
-  checkLawOptions(can);
-  for (const json& name : in.at("precisions"))
-    can.precisions.push_back(valueOf<Precision>(name, precisionNames));
-  can.instantContacts = member<bool>(in, "instant_contacts");
-  can.accumulatedContacts = member<bool>(in, "accumulated_contacts");
-  can.warmHandover = member<bool>(in, "warm_handover");
-  can.checkpoints = flag(in, "checkpoints", false);
-  can.slidingFlags = member<bool>(in, "sliding_flags");
-  can.energyLedger = flag(in, "energy_ledger", false);
-  can.tangentialRestitution = flag(in, "tangential_restitution", true);
-  for (const json& item : in.at("settings"))
-    can.settings.push_back({member<std::string>(item, "name"), settingFromJson(item.at("default")),
-                            member<std::string>(item, "unit"), member<std::string>(item, "doc"),
-                            member<std::vector<std::string>>(item, "choices"),
-                            item.contains("least") ? member<double>(item, "least") : 0.0,
-                            item.contains("most") ? member<double>(item, "most")
-                                                  : std::numeric_limits<double>::infinity(),
-                            flag(item, "whole", false)});
-  can.limits = limitsFrom(in);
-  return can;
+Scene sceneFromJson(const Json& in, const ArrayReader& arrays) {
+  auto scene = readAs<Scene>(in);
+  const ListReader reader{arrays};
+  lists(reader, scene.disks, member<std::size_t>(in, "disks"));
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bodyLists(reader, scene.bodies[b], b, member<std::size_t>(in.at("bodies")[b], "disks"));
+  return scene;
 }
 
-json toJson(const Settings& settings) {
-  json out = json::object();
-  for (const auto& [name, value] : settings) out[name] = toJson(value);
-  return out;
+Json toJson(const Snapshot& snapshot, ArrayWriter& arrays) {
+  const ListWriter writer{arrays};
+  snapshotLists(writer, snapshot, 0, 0);
+  if (const auto& contacts = snapshot.contacts) {
+    contactLists(writer, *contacts, 0);
+    if (!contacts->sliding.empty()) arrays.add("contacts.sliding", contacts->sliding);
+  }
+  return jsonOf(snapshot);
 }
 
-Settings settingsFromJson(const json& in) {
-  Settings settings;
-  for (const auto& [name, value] : in.items()) settings[name] = settingFromJson(value);
-  return settings;
+Snapshot snapshotFromJson(const Json& in, const ArrayReader& arrays, const Scene& scene) {
+  auto snapshot = readAs<Snapshot>(in);
+  const std::size_t disks = scene.disks.size(), wallDisks = scene.wallDiskCount();
+  snapshotLists(ListReader{arrays}, snapshot, disks, wallDisks);
+  if (snapshot.bodies.size() != scene.bodies.size())
+    throw std::runtime_error(fmt::format("it has {} wall bodies, the scene {}",
+                                         snapshot.bodies.size(), scene.bodies.size()));
+  if (arrays.has("contacts.i"))
+    snapshot.contacts = contactsFrom(arrays, disks + wallDisks + scene.planeCount());
+  return snapshot;
 }
 
-json toJson(const Realised& realised) {
-  json effects = json::array();
-  for (const Effect effect : realised.effects) effects.push_back(toString(effect));
-  json pairs = json::array();
-  for (const PairCoefficients& pair : realised.pairs)
-    pairs.push_back({{"pair", pair.pair},
-                     {"kn", unlessNone(pair.kn)},
-                     {"gn", unlessNone(pair.gn)},
-                     {"kt", unlessNone(pair.kt)},
-                     {"gt", unlessNone(pair.gt)},
-                     {"mu", unlessNone(pair.mu)},
-                     {"en", springs(pair) ? json(nullptr) : json(pair.en)},
-                     {"et0", springs(pair) || pair.mu == 0.0 ? json(nullptr) : json(pair.et0)}});
-  json deviations = json::array();
-  for (const Deviation& deviation : realised.deviations)
-    deviations.push_back({{"name", deviation.name},
-                          {"value", deviation.value},
-                          {"unit", deviation.unit},
-                          {"note", deviation.note}});
-  return {{"engine", realised.engine},
-          {"version", realised.version},
-          {"dt", realised.dt},
-          {"precision", realised.precision},
-          {"integrator", realised.integrator},
-          {"velocity_lag", realised.velocityLag},
-          {"effects", effects},
-          {"pairs", pairs},
-          {"deviations", deviations}};
+void checkLawOptions(const Capabilities& can) {
+  ContactLaw law;
+  for (const auto& [name, values] : can.lawOptions) {
+    if (values.empty()) throw FieldError(fmt::format("law_options: {} has no value", name));
+    for (const std::string& value : values) {
+      try {
+        setLawOption(law, name, value);
+      } catch (const std::invalid_argument& error) {
+        throw FieldError(fmt::format("law_options: {}", error.what()));
+      }
+    }
+  }
 }
 
-Realised realisedFromJson(const json& in) {
-  Realised realised;
-  realised.engine = member<std::string>(in, "engine");
-  realised.version = member<std::string>(in, "version");
-  realised.dt = member<double>(in, "dt");
-  realised.precision = member<std::string>(in, "precision");
-  realised.integrator = member<std::string>(in, "integrator");
-  realised.velocityLag = orNone(in, "velocity_lag");
-  for (const json& effect : in.at("effects")) realised.effects.insert(effectFromName(effect));
-  for (const json& pair : in.at("pairs"))
-    realised.pairs.push_back({member<std::string>(pair, "pair"), orNone(pair, "kn"),
-                              orNone(pair, "gn"), orNone(pair, "kt"), orNone(pair, "gt"),
-                              orNone(pair, "mu"), orNone(pair, "en"), orNone(pair, "et0")});
-  for (const json& deviation : in.at("deviations"))
-    realised.deviations.push_back(
-        {member<std::string>(deviation, "name"), member<double>(deviation, "value"),
-         member<std::string>(deviation, "unit"), member<std::string>(deviation, "note")});
-  return realised;
-}
-
-json toJson(const Stats& stats) {
+// Results write and read the times of a clock under other names.
+Json toJson(const Stats& stats) {
   return {{"steps", stats.steps},
           {"contact_evaluations", stats.contactEvaluations},
           {"wall_seconds", stats.wallSeconds},
@@ -256,22 +261,10 @@ json toJson(const Stats& stats) {
           {"counters", stats.counters}};
 }
 
-Stats statsFromJson(const json& in) {
-  Stats stats;
-  stats.steps = countFrom(in, "steps");
-  stats.contactEvaluations = countFrom(in, "contact_evaluations");
-  stats.wallSeconds = secondsFrom(in, "wall_seconds");
-  stats.cpuSeconds = secondsFrom(in, "cpu_seconds");
-  stats.counters = member<decltype(stats.counters)>(in, "counters");
-  return stats;
-}
-
-json toJson(ContactReport report) {
-  return nameOf(report, reportNames);
-}
-
-ContactReport contactReportFromJson(const json& in) {
-  return valueOf<ContactReport>(in, reportNames);
+Stats statsFromJson(const Json& in) {
+  return {countFrom(in, "steps"), countFrom(in, "contact_evaluations"),
+          secondsFrom(in, "wall_seconds"), secondsFrom(in, "cpu_seconds"),
+          member<decltype(Stats::counters)>(in, "counters")};
 }
 
 }  // namespace crossgrain

@@ -1,14 +1,20 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "adapters/engine.hpp"
+#include "adapters/law_options.hpp"
 #include "adapters/worker/arrays.hpp"
+#include "support/json_fields.hpp"
 
-/// What the worker protocol says of each shared type. Names and values are those of the case files;
-/// numbers are printed so that they read back to the same bits. Reading throws std::exception with
-/// one line on whatever is missing or malformed. README.md of this folder is the reference.
-
+/// What the worker protocol says of each shared type: README.md of this folder is the reference.
+/// Names and values are those of the case files; numbers are printed so that they read back to the
+/// same bits. Reading throws std::exception with one line on whatever is missing or malformed.
 namespace crossgrain {
 
 /// Lists go to the array writer; the JSON holds the rest.
@@ -21,19 +27,139 @@ nlohmann::json toJson(const Snapshot& snapshot, ArrayWriter& arrays);
 Snapshot snapshotFromJson(const nlohmann::json& json, const ArrayReader& arrays,
                           const Scene& scene);
 
-nlohmann::json toJson(const Capabilities& capabilities);
-Capabilities capabilitiesFromJson(const nlohmann::json& json);
-
-nlohmann::json toJson(const Settings& settings);
-Settings settingsFromJson(const nlohmann::json& json);
-
-nlohmann::json toJson(const Realised& realised);
-Realised realisedFromJson(const nlohmann::json& json);
-
 nlohmann::json toJson(const Stats& stats);
 Stats statsFromJson(const nlohmann::json& json);
 
-nlohmann::json toJson(ContactReport report);
-ContactReport contactReportFromJson(const nlohmann::json& json);
+// All else is written by jsonOf() and read by readAs().
+
+/// @name Enumerators by name, in enum order
+/// @{
+constexpr auto namesOf(Precision) {
+  return precisionNames;
+}
+constexpr auto namesOf(Motion::Kind) {
+  return motionNames;
+}
+constexpr auto namesOf(Effect) {
+  return effectNames;
+}
+constexpr auto namesOf(Support) {
+  return std::array<std::string_view, 3>{"optional", "always", "never"};
+}
+constexpr auto namesOf(ContactReport) {
+  return std::array<std::string_view, 3>{"none", "instant", "accumulated"};
+}
+enum class PlaneNormals { any, axis };
+constexpr auto namesOf(PlaneNormals) {
+  return std::array<std::string_view, 2>{"any", "axis"};
+}
+enum class RestitutionOf { pair, body };
+constexpr auto namesOf(RestitutionOf) {
+  return std::array<std::string_view, 2>{"pair", "body"};
+}
+/// @}
+
+/// @name Members of what results hold, too (support/json_fields.hpp)
+/// @{
+/// @throws FieldError naming an option or a value that no law has
+void checkLawOptions(const Capabilities& can);
+
+void fields(auto& io, SettingSpec& spec) {
+  std::optional<double> most;
+  if (std::isfinite(spec.most)) most = spec.most;
+  io.required("name", spec.name);
+  io.required("default", spec.defaultValue);
+  io.required("unit", spec.unit);
+  io.required("doc", spec.doc);
+  io.required("choices", spec.choices);
+  io("least", spec.least);
+  io.present("most", most);
+  io("whole", spec.whole);
+  if (io.reading) spec.most = most.value_or(std::numeric_limits<double>::infinity());
+}
+
+void fields(auto& io, SceneLimits& limits) {
+  std::optional<PlaneNormals> normals;
+  if (limits.planesAlongAxes) normals = PlaneNormals::axis;
+  std::optional<RestitutionOf> restitution;
+  if (limits.restitutionPerBody) restitution = RestitutionOf::body;
+  io.present("inertia", limits.inertia);
+  io.present("wall_motions", limits.wallMotions);
+  io.present("plane_motions", limits.planeMotions);
+  io.present("plane_normals", normals);
+  io.present("restitution", restitution);
+  if (io.reading) {
+    limits.planesAlongAxes = normals == PlaneNormals::axis;
+    limits.restitutionPerBody = restitution == RestitutionOf::body;
+    if (const auto& inertia = limits.inertia)
+      if (inertia->empty() || !std::ranges::all_of(*inertia, [](double q) { return q >= 0.0; }))
+        throw FieldError("inertia: is no list of numbers ≥ 0");
+  }
+}
+
+void fields(auto& io, Capabilities& can) {
+  std::map<std::string, Support> effects;
+  for (const auto& [effect, support] : can.effects) effects[toString(effect)] = support;
+  io.required("version", can.version);
+  io.required("effects", effects);
+  io.required("law_options", can.lawOptions);
+  io.required("precisions", can.precisions);
+  io.required("instant_contacts", can.instantContacts);
+  io.required("accumulated_contacts", can.accumulatedContacts);
+  io.required("warm_handover", can.warmHandover);
+  io("checkpoints", can.checkpoints);
+  io.required("sliding_flags", can.slidingFlags);
+  io("energy_ledger", can.energyLedger);
+  io("tangential_restitution", can.tangentialRestitution);
+  io.required("settings", can.settings);
+  fields(io, can.limits);
+  if (io.reading) {
+    for (const Effect effect : allEffects) can.effects[effect] = Support::never;  // if missing
+    for (const auto& [name, support] : effects) can.effects[readAs<Effect>(name)] = support;
+    checkLawOptions(can);
+  }
+}
+
+void fields(auto& io, Deviation& deviation) {
+  io.required("name", deviation.name);
+  io.required("value", deviation.value);
+  io.required("unit", deviation.unit);
+  io.required("note", deviation.note);
+}
+
+/// A spring, dashpot or friction of strength 0 is none, which is null; a restitution of 0 is one.
+/// Contacts have springs, or they rebound with restitutions.
+void fields(auto& io, PairCoefficients& pair) {
+  const auto constant = [&](const char* key, double& value, bool there) {
+    std::optional<double> shown;
+    if (there) shown = value;
+    io(key, shown);
+    if (io.reading) value = shown.value_or(0.0);
+  };
+  const bool springs = pair.kn > 0.0;
+  io.required("pair", pair.pair);
+  constant("kn", pair.kn, pair.kn != 0.0);
+  constant("gn", pair.gn, pair.gn != 0.0);
+  constant("kt", pair.kt, pair.kt != 0.0);
+  constant("gt", pair.gt, pair.gt != 0.0);
+  constant("mu", pair.mu, pair.mu != 0.0);
+  constant("en", pair.en, !springs);
+  constant("et0", pair.et0, !springs && pair.mu != 0.0);
+}
+
+void fields(auto& io, Realised& realised) {
+  std::optional<double> lag = realised.velocityLag;
+  io.required("engine", realised.engine);
+  io.required("version", realised.version);
+  io.required("dt", realised.dt);
+  io.required("precision", realised.precision);
+  io.required("integrator", realised.integrator);
+  io("velocity_lag", lag);
+  io.required("effects", realised.effects);
+  io.required("pairs", realised.pairs);
+  io.required("deviations", realised.deviations);
+  if (io.reading) realised.velocityLag = lag.value_or(0.0);
+}
+/// @}
 
 }  // namespace crossgrain

@@ -6,25 +6,126 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <mutex>
+#include <semaphore>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
-#include "adapters/worker/launcher.hpp"
-#include "adapters/worker/stray_processes.hpp"
 #include "support/descriptor.hpp"
 
 namespace crossgrain {
 namespace {
+
+/// The variable in a worker's environment, and so in that of all that it starts, by which they are
+/// found again in whatever process group, session or parent they are.
+inline constexpr const char* workerMark = "CROSSGRAIN_WORKER";
+
+/// Whether that is in its environment as it was started.
+bool hasVariable(const std::filesystem::path& process, const std::string& variable) {
+  std::ifstream in(process / "environ", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(in), {}};
+  for (std::size_t at = all.find(variable); at != std::string::npos;
+       at = all.find(variable, at + 1)) {
+    const std::size_t end = at + variable.size();
+    if ((at == 0 || all[at - 1] == '\0') && (end == all.size() || all[end] == '\0')) return true;
+  }
+  return false;
+}
+
+/// @returns whether any was found
+bool killOnce(const std::string& variable) {
+  bool found = false;
+  std::error_code gone;
+  for (std::filesystem::directory_iterator each("/proc", gone), end; !gone && each != end;
+       each.increment(gone)) {
+    const std::string name = each->path().filename().string();
+    if (!std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; })) continue;
+    const pid_t pid = std::atoi(name.c_str());
+    if (pid == ::getpid()) continue;
+    // Opened before its environment is read: its number may pass to another process, the
+    // descriptor does not.
+    const Descriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+    if (process.get() < 0 || !hasVariable(each->path(), variable)) continue;
+    found |= ::syscall(SYS_pidfd_send_signal, process.get(), SIGKILL, nullptr, 0) == 0;
+  }
+  return found;
+}
+
+/// A value of it that no other worker has.
+std::string newWorkerMark() {
+  static std::atomic<unsigned> count{0};
+  return fmt::format("{}-{}-{}", ::getpid(), ++count,
+                     std::chrono::system_clock::now().time_since_epoch().count());
+}
+
+/// Kills every process that has this mark. What has started with an environment of its own making,
+/// or belongs to another user, is not found; nor is anything where there is no /proc.
+void killMarkedProcesses(const std::string& mark) {
+  const std::string variable = fmt::format("{}={}", workerMark, mark);
+  // One that was being forked meanwhile is found the next time.
+  constexpr int rounds = 10;
+  for (int k = 0; k < rounds && killOnce(variable); ++k) {
+  }
+}
+
+class Launcher {
+ public:
+  Launcher() {
+    std::thread([this] { serve(); }).detach();
+  }
+
+  pid_t launch(const std::function<pid_t()>& work) {
+    const std::scoped_lock one(mutex_);
+    work_ = &work;
+    asked_.release();
+    done_.acquire();
+    return launched_;
+  }
+
+  const pid_t process = ::getpid();
+
+ private:
+  [[noreturn]] void serve() {
+    for (;;) {
+      asked_.acquire();
+      launched_ = (*work_)();
+      done_.release();
+    }
+  }
+
+  std::mutex mutex_;  ///< one who asks at a time
+  std::binary_semaphore asked_{0}, done_{0};
+  const std::function<pid_t()>* work_ = nullptr;
+  pid_t launched_ = -1;
+};
+
+/// Forks in the one thread of this process that never ends, whoever asks: the kernel ties a child
+/// that is to die with its parent to the *thread* that forked it (PR_SET_PDEATHSIG).
+/// @param work  forks, and returns what fork() returned; in the child it does not return
+pid_t inTheLastingThread(const std::function<pid_t()>& work) {
+  static std::mutex mutex;
+  // Never deleted: its thread waits until the process is gone. A fork of this process without exec,
+  // as tests make, has no such thread and gets one of its own.
+  static Launcher* known = nullptr;
+  const std::scoped_lock lock(mutex);
+  if (!known || known->process != ::getpid()) known = new Launcher;
+  return known->launch(work);
+}
 
 [[noreturn]] void systemFailure(const std::string& what, int error) {
   throw std::runtime_error(fmt::format("{}: {}", what, std::generic_category().message(error)));
@@ -86,7 +187,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 /// This process' environment and what the call adds, with another HOME where its own cannot be
 /// used.
 std::vector<std::string> environmentOf(const ProgramCall& call, const std::string& mark,
-                                       const std::filesystem::path& otherwise) {
+                                       const std::filesystem::path& otherHome) {
   const char* home = std::getenv("HOME");
   std::error_code missing;
   const bool usable =
@@ -101,7 +202,7 @@ std::vector<std::string> environmentOf(const ProgramCall& call, const std::strin
   for (const auto& [name, value] : call.environment) variables.push_back(name + "=" + value);
   variables.push_back(fmt::format("{}={}", workerMark, mark));
   if (!usable && !call.environment.contains("HOME"))
-    variables.push_back("HOME=" + otherwise.string());
+    variables.push_back("HOME=" + otherHome.string());
   return variables;
 }
 
@@ -206,7 +307,7 @@ std::string ChildProcess::receiveLine(Clock::time_point deadline, std::size_t lo
       received_.erase(0, end + 1);
       return line;
     }
-    if (received_.size() > longest) throw ProcessBabble("its line does not end");
+    if (received_.size() > longest) throw OversizedMessage("its line does not end");
     searched = received_.size();
     await(out_, POLLIN, deadline);
     char buffer[65536];
@@ -244,7 +345,8 @@ bool ChildProcess::isAlive() const {
 bool ChildProcess::waitForExit(std::chrono::milliseconds patience) {
   const auto deadline = Clock::now() + patience;
   while (pid_ > 0) {
-    // The zombie stays until reap(): its number must not pass to a stranger before the group's end.
+    // The zombie stays until reap(): its number must not pass to another process before the group's
+    // end.
     siginfo_t info{};
     if (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
         info.si_pid == pid_) {

@@ -25,7 +25,7 @@ struct ProcessEnded : std::runtime_error {
 };
 
 /// The child's line is longer than it may be.
-struct ProcessBabble : std::runtime_error {
+struct OversizedMessage : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -38,8 +38,8 @@ inline constexpr std::uint64_t longestFile = std::uint64_t{4} << 30;
 ///
 /// It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and the whole
 /// group is killed when this object goes, and so are children that have left it, as far as they are
-/// found (stray_processes.hpp). It does not outlive this process either: the kernel kills it
-/// (Linux' PR_SET_PDEATHSIG; launcher.hpp). Any thread may make it, and another end it.
+/// found by a variable in their environment. It does not outlive this process either: the kernel
+/// kills it (Linux' PR_SET_PDEATHSIG). Any thread may make it, and another end it.
 ///
 ///   ChildProcess ── sendLine ── receiveLine ── … ── closeInput ── waitForExit ── ~ChildProcess
 class ChildProcess {
@@ -59,7 +59,7 @@ class ChildProcess {
 
   /// The next line without its end.
   /// @param longest  that it may be [bytes]; little more than that is ever kept
-  /// @throws ProcessTimeout, ProcessEnded, ProcessBabble
+  /// @throws ProcessTimeout, ProcessEnded, OversizedMessage
   std::string receiveLine(Clock::time_point deadline, std::size_t longest);
 
   /// The line that the child has said, or begun, and nobody has received; empty: none.

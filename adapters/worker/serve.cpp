@@ -19,28 +19,22 @@ using nlohmann::json;
 constexpr int requestDescriptor = 3;
 constexpr int replyDescriptor = 4;
 
-class LineReader {
- public:
-  std::optional<std::string> next() {
-    for (;;) {
-      const std::size_t end = buffer_.find('\n');
-      if (end != std::string::npos) {
-        std::string line = buffer_.substr(0, end);
-        buffer_.erase(0, end + 1);
-        return line;
-      }
-      char chunk[65536];
-      const ssize_t count = ::read(requestDescriptor, chunk, sizeof chunk);
-      if (count > 0)
-        buffer_.append(chunk, static_cast<std::size_t>(count));
-      else if (count == 0 || errno != EINTR)
-        return std::nullopt;
+/// The next request without its end; absent when there are no more.
+std::optional<std::string> nextLine(std::string& buffer) {
+  for (;;) {
+    if (const std::size_t end = buffer.find('\n'); end != std::string::npos) {
+      std::string line = buffer.substr(0, end);
+      buffer.erase(0, end + 1);
+      return line;
     }
+    char chunk[65536];
+    const ssize_t count = ::read(requestDescriptor, chunk, sizeof chunk);
+    if (count > 0)
+      buffer.append(chunk, static_cast<std::size_t>(count));
+    else if (count == 0 || errno != EINTR)
+      return std::nullopt;
   }
-
- private:
-  std::string buffer_;
-};
+}
 
 bool writeLine(const std::string& line) {
   const std::string text = line + '\n';
@@ -64,18 +58,18 @@ json answer(Engine& engine, const json& request) {
   const auto what = request.at("request").get<std::string>();
   if (what == "hello")
     return {{"protocol", protocolVersion},
-            {"capabilities", toJson(engine.capabilities())},
+            {"capabilities", jsonOf(engine.capabilities())},
             {"writes_over", true}};
   if (what == "load") {
     const ArrayReader arrays(fileOf(request), request.at("arrays"));
-    return {{"realised", toJson(engine.load(sceneFromJson(request.at("scene"), arrays),
-                                            settingsFromJson(request.at("settings"))))}};
+    return {{"realised", jsonOf(engine.load(sceneFromJson(request.at("scene"), arrays),
+                                            readAs<Settings>(request.at("settings"))))}};
   }
   if (what == "advance") return {{"time", engine.advance(request.at("time"))}};
   if (what == "snapshot") {
     ArrayWriter arrays;
     json reply = {{"snapshot",
-                   toJson(engine.snapshot(contactReportFromJson(request.at("contacts"))), arrays)}};
+                   toJson(engine.snapshot(readAs<ContactReport>(request.at("contacts"))), arrays)}};
     reply["arrays"] = arrays.writeOver(fileOf(request));
     return reply;
   }
@@ -98,8 +92,8 @@ json refusal(const char* kind, const std::exception& error) {
 }  // namespace
 
 int serve(Engine& engine) {
-  LineReader requests;
-  while (const auto line = requests.next()) {
+  std::string buffer;
+  while (const auto line = nextLine(buffer)) {
     json reply;
     bool last = false;
     try {

@@ -1,12 +1,20 @@
 #include "adapters/worker/worker_engine.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <span>
+#include <system_error>
 
 #include "adapters/worker/answer.hpp"
 #include "adapters/worker/json.hpp"
-#include "adapters/worker/moved_log.hpp"
 #include "adapters/worker/serve.hpp"
 #include "support/busy_time.hpp"
+#include "support/descriptor.hpp"
+#include "support/regular_file.hpp"
 
 namespace crossgrain {
 namespace {
@@ -22,6 +30,42 @@ std::size_t bodiesIn(const Scene& scene) {
   std::size_t bodies = scene.disks.size();
   for (const WallBody& body : scene.bodies) bodies += body.diskRadius.size() + body.planes.size();
   return bodies;
+}
+
+/// The longest array file that a listener gets of an exchange [bytes]; of a longer one, and of what
+/// is no regular file, it gets nothing.
+constexpr std::size_t longestKeptFile = std::size_t{1} << 30;
+
+std::string keptContent(const std::filesystem::path& file) {
+  const RegularFile in(file);
+  if (in.size() > longestKeptFile) return {};
+  std::string content(in.size(), '\0');
+  content.resize(in.read(0, std::as_writable_bytes(std::span(content))));
+  return content;
+}
+
+/// A worker that goes on to another run keeps writing to the file that it was started with. From
+/// here on that file has the name `to`, and what was said before stays, as a copy, under `from`: a
+/// run's log is what was said during that run.
+/// @pre the worker appends to it
+/// @throws std::runtime_error if `from` is no file of text any more, or `to` is on another disk
+void moveLog(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (from == to) return;
+  const auto require = [&](bool done) {
+    if (!done)
+      throw std::runtime_error(
+          fmt::format("{}: {}", from.string(), std::generic_category().message(errno)));
+  };
+  // The worker may have put anything there: a link would be cut where it points to, a pipe would
+  // hold who opens it.
+  const Descriptor log(::open(from.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  require(log.get() >= 0 && ::fstat(log.get(), &status) == 0);
+  if (!S_ISREG(status.st_mode)) throw std::runtime_error(from.string() + ": is no regular file");
+  require(::rename(from.c_str(), to.c_str()) == 0);
+  if (status.st_size == 0) return;
+  std::filesystem::copy_file(to, from);
+  require(::ftruncate(log.get(), 0) == 0);
 }
 
 /// Says that the exchange is over, however it ends.
@@ -74,7 +118,7 @@ WorkerEngine::WorkerEngine(std::string name, const ProgramCall& call, std::files
       throw std::runtime_error(
           fmt::format("it speaks protocol {}, this program speaks {}", spoken, protocolVersion));
     writesOver_ = reply.value("writes_over", false);
-    return capabilitiesFromJson(reply.at("capabilities"));
+    return readAs<Capabilities>(reply.at("capabilities"));
   });
   if (!call.stamp.empty()) capabilities_.version += fmt::format(" ({})", call.stamp);
 }
@@ -125,7 +169,7 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   const Exchanging exchanging(*exchangeFile_);
   ArrayWriter arrays;
   json request = {
-      {"request", "load"}, {"scene", toJson(scene, arrays)}, {"settings", toJson(settings)}};
+      {"request", "load"}, {"scene", toJson(scene, arrays)}, {"settings", jsonOf(settings)}};
   try {
     request["file"] = exchangeFile_->next(keepsFile_).string();
     request["arrays"] = exchangeFile_->write(arrays);
@@ -134,7 +178,7 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   }
   const json reply = ask(request, "load");
   return understand("load", [&] {
-    Realised realised = realisedFromJson(reply.at("realised"));
+    auto realised = readAs<Realised>(reply.at("realised"));
     // Less than this is no step but a mistake, and a run of such steps would never end.
     if (!(realised.dt >= 1e-6 * scene.dt))
       throw std::runtime_error(fmt::format("dt = {:g} s is no time step, with {:g} s in the scene",
@@ -153,7 +197,7 @@ double WorkerEngine::advance(double t) {
 
 Snapshot WorkerEngine::snapshot(ContactReport contacts) {
   const Exchanging exchanging(*exchangeFile_);
-  json request = {{"request", "snapshot"}, {"contacts", toJson(contacts)}};
+  json request = {{"request", "snapshot"}, {"contacts", jsonOf(contacts)}};
   try {
     request["file"] = exchangeFile_->next(keepsFile_).string();
   } catch (const std::exception& error) {
@@ -227,7 +271,7 @@ json WorkerEngine::answerTo(const json& request, const std::string& what) const 
     fail(fmt::format("no answer within {} s to {}", timeout_, what));
   } catch (const ProcessEnded&) {
     fail(howItEnded(what));
-  } catch (const ProcessBabble&) {
+  } catch (const OversizedMessage&) {
     fail(fmt::format("its answer to {} is longer than {} MiB", what, longestAnswer >> 20));
   }
   try {

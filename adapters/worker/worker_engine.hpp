@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,11 +10,23 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
-#include "adapters/worker/exchange.hpp"
-#include "adapters/worker/exchange_file.hpp"
+#include "adapters/worker/arrays.hpp"
 #include "adapters/worker/process.hpp"
 
 namespace crossgrain {
+
+/// A request to a worker and what came of it, as they travelled.
+struct Exchange {
+  nlohmann::json request;
+  std::string sent;  ///< content of the array file of `load`
+  /// Null where none came: `failure` says why, as the user reads it.
+  nlohmann::json answer;
+  std::string received;  ///< content of the array file of `snapshot`
+  std::string failure;
+};
+
+/// Gets every exchange with a worker once it is over, before anything in it is believed.
+using ExchangeListener = std::function<void(const Exchange&)>;
 
 /// An engine in a process of its own, spoken to by the worker protocol (README.md).
 ///
@@ -27,7 +40,7 @@ class WorkerEngine final : public Engine {
   /// @param call     the program; its stamp becomes part of the version
   /// @param scratch  directory for array files and the log NAME.log; made if there is none
   /// @param timeout  longest wait for one answer [s]
-  /// @param listener is told every exchange, hello too
+  /// @param listener gets every exchange, hello too
   /// @throws EngineFailure
   WorkerEngine(std::string name, const ProgramCall& call, std::filesystem::path scratch,
                double timeout, ExchangeListener listener = {});
@@ -49,7 +62,7 @@ class WorkerEngine final : public Engine {
   /// @throws EngineFailure if the log cannot move along
   void moveTo(const std::filesystem::path& scratch, double timeout);
 
-  /// Tells it to end, and does not wait for that. Nothing can be asked of it any more.
+  /// Asks it to end, and does not wait for that. Nothing can be asked of it any more.
   void dismiss();
 
   /// Of the worker, which is also its process group; −1 once it has gone.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engines/grain/contact_force.hpp"
 #include "engines/grain/fingerprint.hpp"
 
 namespace grain {
@@ -159,19 +160,167 @@ void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
 template <class Real>
 void Core<Real>::start() {
   renumber();
-  MotionConstants<Real> still = motionConstants_;
-  still.kick = still.drift = still.ahead = Real(0);
-  std::swap(still, motionConstants_);
-  advanceDisks();
-  std::swap(still, motionConstants_);
-  const Real halfStep = std::exchange(law_.halfStep, Real(0));
-  addForces(true);
-  law_.halfStep = halfStep;
+  addForcesOfStart(false);
   if (ledger_) ledger_->begin();
   if (integrator_ == Integrator::positionVerlet) {
     halfKick_ = 0.5 * dt_;  // from here on velocities live half a step before positions
     kick(static_cast<Real>(-halfKick_));
   }
+}
+
+/// @param underWay  implicit damping is half a step ahead, as in the middle of a run
+template <class Real>
+void Core<Real>::addForcesOfStart(bool underWay) {
+  MotionConstants<Real> still = motionConstants_;
+  still.kick = still.drift = still.ahead = Real(0);
+  std::swap(still, motionConstants_);
+  advanceDisks();
+  std::swap(still, motionConstants_);
+  const Real halfStep = std::exchange(law_.halfStep, underWay ? law_.halfStep : Real(0));
+  addForces(true);
+  law_.halfStep = halfStep;
+}
+
+/// A step under way has v(t) − a dt/2 where the forces are evaluated. They need a, which needs
+/// them: the error falls by about γ dt/m a round. Meanwhile tangential forces are the wanted ones,
+/// so that no bound is met that is not the right one. Then, with the right velocities, springs
+/// follow.
+template <class Real>
+void Core<Real>::beginUnderWay(const std::vector<Contact>& forces) {
+  if (steps_ > 0 || ledger_)
+    throw std::logic_error("a run begins as one under way at its start, where no ledger is kept");
+  PairMap<const Contact*> wanted;
+  for (const Contact& contact : forces) wanted[{contact.i, contact.j}] = &contact;
+  // Euler's velocities are those that dashpots see. Predicted ones need the forces of the step
+  // before; those of the start stand for them.
+  const bool lags = integrator_ != Integrator::semiImplicitEuler && seenVelocity_.empty();
+  const std::uint64_t evaluations = contactEvaluations_;
+  kick(static_cast<Real>(halfKick_));
+  const auto velocity = velocity_;  // of the start
+  const auto spin = spin_;
+  const auto goBack = [&](double by) {
+    velocity_ = velocity;
+    spin_ = spin;
+    kick(static_cast<Real>(-by));
+  };
+  const auto evaluate = [&](const PairMap<double>& springs) {
+    setSprings(springs);
+    known_.reset();
+    std::ranges::fill(plateSpring_, Vec<Real>{});
+    addForcesOfStart(lags);
+  };
+  constexpr int roundsOfVelocities = 20, mostOfSprings = 30;
+  for (int round = 0; lags && round < roundsOfVelocities; ++round) {
+    addMissing(wanted);
+    goBack(0.5 * dt_);
+    evaluate({});
+  }
+  PairMap<double> springs;
+  for (int round = 0; round < mostOfSprings; ++round) {
+    if (stretch(wanted, springs)) break;
+    evaluate(springs);
+  }
+  contactEvaluations_ = evaluations;
+  if (!lags || integrator_ == Integrator::velocityVerlet) goBack(halfKick_);
+}
+
+/// Adds to the disks' forces what contacts lack of their wanted tangential ones.
+template <class Real>
+void Core<Real>::addMissing(const PairMap<const Contact*>& wanted) {
+  for (const Contact& contact : contacts()) {
+    const auto found = wanted.find({contact.i, contact.j});
+    if (found == wanted.end()) continue;
+    const double lacking = found->second->tangentialForce - contact.tangentialForce;
+    const auto add = [&](std::int32_t number, double sign, double arm) {
+      if (static_cast<std::size_t>(number) >= moving_) return;
+      const std::size_t n = placeOf(number);
+      force_[n] += {static_cast<Real>(-sign * lacking * contact.ny),
+                    static_cast<Real>(sign * lacking * contact.nx)};
+      if (law_.rotation) torque_[n] -= static_cast<Real>(arm * lacking);
+    };
+    const double own = ownRadius(contact);
+    if (static_cast<std::size_t>(contact.j) >= position_.size()) {
+      add(contact.i, 1.0, planeArmOf(law_.lever, law_.planeLever, own, own - contact.overlap));
+      continue;
+    }
+    const double other = static_cast<double>(radius_[placeOf(contact.j)]);
+    add(contact.i, 1.0, armOf(law_.lever, own, other, contact.overlap));
+    add(contact.j, -1.0, armOf(law_.lever, other, own, contact.overlap));
+  }
+}
+
+/// Brings ξ of each contact nearer to its wanted force. While it sticks, f_t falls by k_t with
+/// every unit of ξ: one step of Newton's method is exact. Where the dashpot alone takes it beyond
+/// the bound, each step brings it nearer by a bound.
+/// @return whether all have it
+template <class Real>
+bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<double>& springs) const {
+  if (wanted.empty() || !lists_.springs()) return true;
+  bool settled = true;
+  for (const Contact& contact : contacts()) {
+    const auto found = wanted.find({contact.i, contact.j});
+    if (found == wanted.end()) continue;
+    const double now = contact.tangentialForce, want = found->second->tangentialForce;
+    const double unit = forcePerStretch(contact);
+    if (!(unit > 0.0)) continue;
+    double& spring = springs[found->first];
+    const bool sameWay = now * want >= 0.0;
+    if (found->second->sliding) {
+      // It is to slip here, too, which leaves ξ as the law resets it, whatever it was: at the
+      // bound itself rounding would decide, and a dashpot outside of the bound does not help.
+      // Where it carries nothing, as in tension, any stretch is beyond the bound.
+      if (contact.sliding && sameWay) continue;
+      constexpr double least = 1e-30;  // [N]
+      spring = spring == 0.0 ? -(want == 0.0 ? least : 2.0 * want) / unit : 2.0 * spring;
+    } else {
+      const bool atBound = contact.sliding && sameWay && std::abs(now) <= std::abs(want);
+      const double scale = std::abs(want) + unit * std::abs(spring);
+      if (atBound || std::abs(now - want) <= 1e-12 * scale) continue;
+      spring += (now - want) / unit;
+    }
+    settled = false;
+  }
+  return settled;
+}
+
+/// Of a disk, a wall disk or a plane.
+template <class Real>
+std::size_t Core<Real>::placeOf(std::int32_t number) const {
+  const auto n = static_cast<std::size_t>(number);
+  return n < moving_ ? static_cast<std::size_t>(placeOf_[n]) : n;
+}
+
+/// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1.
+template <class Real>
+double Core<Real>::forcePerStretch(const Contact& contact) const {
+  if (law_.history == History::force) return 1.0;
+  ContactMotion<Real> motion{};
+  motion.overlap = static_cast<Real>(contact.overlap);
+  motion.radius = pairRadius(placeOf(contact.i), placeOf(contact.j));
+  return static_cast<double>(tangentialStiffness(law_, motion));
+}
+
+/// @param springs  ξ by numbers i < j; all others are relaxed
+template <class Real>
+void Core<Real>::setSprings(const PairMap<double>& springs) {
+  if (!lists_.springs()) return;
+  std::vector<KeptSpring> pairs;
+  for (PlacedPlane& placed : placedPlanes_) std::ranges::fill(placed.spring, Real(0));
+  for (const auto& [numbers, spring] : springs) {
+    const auto i = static_cast<std::int32_t>(placeOf(numbers.first));
+    const std::size_t other = placeOf(numbers.second);
+    if (other >= position_.size()) {
+      placedPlanes_[other - position_.size()].spring[static_cast<std::size_t>(i)] =
+          static_cast<Real>(spring);
+      continue;
+    }
+    const auto j = static_cast<std::int32_t>(other);
+    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
+    pairs.push_back({std::min(i, j), std::max(i, j), spring});
+  }
+  lists_.restoreSprings(std::move(pairs), places(), travel(), team_);
+  findReachedWallDisks();
+  rememberChoice();
 }
 
 template <class Real>

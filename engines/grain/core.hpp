@@ -1,10 +1,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engines/grain/impacts.hpp"
@@ -27,6 +29,7 @@ class Core {
 
   /// @param record  whether contacts() is to know this step's forces
   void step(bool record);
+  void beginUnderWay(const std::vector<Contact>& forces);
   void findNeighbours();
 
   double time() const { return static_cast<double>(steps_) * dt_; }
@@ -91,6 +94,15 @@ class Core {
   void buildWalls(std::vector<Wall> walls);
   void allocate(const Disks& disks, const MotionEffects& effects);
   void start();
+  void addForcesOfStart(bool underWay);
+  /// By numbers i < j.
+  template <class T>
+  using PairMap = std::map<std::pair<std::int32_t, std::int32_t>, T>;
+  void addMissing(const PairMap<const Contact*>& wanted);
+  bool stretch(const PairMap<const Contact*>& wanted, PairMap<double>& springs) const;
+  std::size_t placeOf(std::int32_t number) const;
+  double forcePerStretch(const Contact& contact) const;
+  void setSprings(const PairMap<double>& springs);
 
   // Housekeeping.
   void renumber();

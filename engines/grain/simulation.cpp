@@ -31,6 +31,10 @@ void Simulation::advance(std::uint64_t steps) {
   });
 }
 
+void Simulation::beginUnderWay(const std::vector<Contact>& forces) {
+  with(core_, [&](auto& core) { core.beginUnderWay(forces); });
+}
+
 void Simulation::findNeighbours() {
   with(core_, [](auto& core) { core.findNeighbours(); });
 }

@@ -35,6 +35,15 @@ class Simulation {
   void step() { advance(1); }
   void advance(std::uint64_t steps);
 
+  /// Begins as a run does that has come here, with the velocities of the setup, and goes on to the
+  /// bits of its rounding: springs are stretched so that contacts have these tangential forces,
+  /// those of other contacts are relaxed, and dashpots of this instant see the velocities of half a
+  /// step before. (Where damping is predicted, those of the instant.) A force that the law's bound
+  /// does not allow slips at it.
+  /// @pre no step is done, and no ledger is kept
+  /// @param forces  i < j, the tangential force and whether it slides; nothing else is read
+  void beginUnderWay(const std::vector<Contact>& forces);
+
   /// Lists the neighbours anew, as the step does by itself where needed. The contacts of the last
   /// step are no longer known then.
   void findNeighbours();

@@ -4,6 +4,7 @@ is a fix of its own."""
 import math
 
 import numpy as np
+from crossgrain_answers import demand_plain_walls
 from crossgrain_worker import Unsupported
 
 DISKS = 1  # the type of moving disks; wall bodies are 2, 3, …
@@ -24,18 +25,9 @@ def shape_of(arrays):
 
 def check(scene, bodies, arrays):
     """@raise Unsupported for what LAMMPS cannot do and its capabilities do not say"""
-    bottom = scene.get("bottom")
-    if bottom and bottom["mu"] > 0:
-        raise Unsupported("has no bottom_friction")
+    demand_plain_walls(scene, bodies)
     if scene["rotation"] and shape_of(arrays) is None:
         raise Unsupported("has moments of inertia of disks (m a²/2) or spheres (2/5 m a²) only")
-    for body in bodies:
-        for plane in body.planes:
-            if sorted(map(abs, plane["normal"])) != [0, 1]:
-                raise Unsupported(
-                    f"has planes along x or y only; one of {body.name} has the normal "
-                    f"{tuple(plane['normal'])}"
-                )
 
 
 class Scene:

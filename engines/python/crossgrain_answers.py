@@ -47,6 +47,22 @@ def demand_tangential(law, kinds):
         raise Unsupported(f'has tangential = {" | ".join(kinds)}, not "{law["tangential"]}"')
 
 
+def demand_plain_walls(scene, bodies):
+    """Of `load`: no plate below the disks, and planes along x or y only.
+
+    @raise Unsupported"""
+    bottom = scene.get("bottom")
+    if bottom and bottom["mu"] > 0:
+        raise Unsupported("has no bottom_friction")
+    for body in bodies:
+        for plane in body.planes:
+            if sorted(map(abs, plane["normal"])) != [0, 1]:
+                raise Unsupported(
+                    f"has planes along x or y only; one of {body.name} has the normal "
+                    f"{tuple(plane['normal'])}"
+                )
+
+
 def effects_called(law, scene):
     """Of `load`: which of EFFECTS a scene calls for. law has gn, kt and gt as they act, and friction."""
     called = (

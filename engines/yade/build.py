@@ -3,7 +3,6 @@ of YADE's own (hubs, clumps) come after them."""
 
 import math
 
-from crossgrain_worker import Unsupported
 from yade import (
     Bo1_Sphere_Aabb,
     Bo1_Wall_Aabb,
@@ -21,20 +20,6 @@ from yade import (
 
 DISK_MASK, WALL_MASK, HUB_MASK = 1, 3, 0  # two walls share all bits: the collider skips them
 WHITE = (1, 1, 1)  # without a colour YADE reseeds Python's random numbers for one
-
-
-def check(scene, bodies):
-    """@raise Unsupported for what YADE cannot do and its capabilities do not say"""
-    bottom = scene.get("bottom")
-    if bottom and bottom["mu"] > 0:
-        raise Unsupported("has no bottom_friction")
-    for body in bodies:
-        for plane in body.planes:
-            if sorted(map(abs, plane["normal"])) != [0, 1]:
-                raise Unsupported(
-                    f"has planes along x or y only; one of {body.name} has the normal "
-                    f"{tuple(plane['normal'])}"
-                )
 
 
 def place_disks(arrays, rotation):

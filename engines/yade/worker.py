@@ -23,7 +23,7 @@ from yade import O, utils
 import build
 import crossgrain_worker
 from contacts import read_contacts, xy, z
-from crossgrain_answers import effects_called, effects_without_bottom, setting
+from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting
 from crossgrain_walls import Body
 from law import representative_pairs
 from mindlin import Mindlin
@@ -89,7 +89,7 @@ class Yade:
             Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
             for b, body in enumerate(scene["bodies"])
         ]
-        build.check(scene, self.bodies)
+        demand_plain_walls(scene, self.bodies)
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = scene["gravity"]
         self.disks = scene["disks"]

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/collision.hpp"
+#include "results/collision_outcome.hpp"
 
 /// Looking into the results of collisions.
 namespace crossgrain::reports {
@@ -27,45 +27,6 @@ const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::
 /// An engine's curves of a variant, by descending time step.
 std::vector<const CollisionCurve*> curvesOf(const CollisionVariant& variant,
                                             const std::string& engine);
-
-/// How a sweep came out, by the law that its engine declares and by the scene's.
-enum class SweepOutcome {
-  held,  ///< to both
-  /// Short of the scene's law, true to its own: conventions that the case lets it have
-  modelDifference,
-  /// Short of the law that it declares, or of its own scheme; or of the scene's, and nothing is
-  /// known of its own
-  fellShort,
-  notJudged,
-  refused,
-  failed
-};
-constexpr auto namesOf(SweepOutcome) {
-  return std::array<std::string_view, 6>{"held",       "model difference", "fell short",
-                                         "not judged", "refused",          "failed"};
-}
-SweepOutcome outcomeOf(const CollisionCurve& curve);
-
-/// The score against the law that the engine declares; the scene's where that is the same, or
-/// nothing is known of its own.
-const CurveScore& declaredScore(const CollisionCurve& curve);
-
-/// The larger of both deviations; absent where there is no discrete oracle.
-std::optional<double> ownDeviation(const CollisionCurve& curve);
-
-/// A mirror that runs because its peer does.
-bool runsBesideItsPeer(const CollideResults& results, const std::string& engine);
-
-/// How the sweeps of all engines came out, but for mirrors that run beside their peers: they say
-/// what a peer should do, and are not asked themselves. One that failed counts as failed.
-struct CollideCount {
-  int held = 0, modelDifference = 0, fellShort = 0, notJudged = 0, refused = 0, failed = 0;
-  int judged() const { return held + modelDifference + fellShort; }
-};
-CollideCount countOf(const CollideResults& results);
-
-/// Why no sweep was judged, in a clause; empty if one was. Nothing judged is no success.
-std::string nothingJudged(const CollideResults& results);
 
 /// A number of a list; absent where it is beyond its end or not finite.
 std::optional<double> numberAt(const std::vector<double>& list, std::size_t place);

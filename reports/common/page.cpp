@@ -101,8 +101,7 @@ Json imageView(const Illustrations& shown, const std::string& file, const std::s
           {"least", ""},
           {"most", ""},
           {"data", ""},
-          {"engine", ""},
-          {"film", ""}};
+          {"engine", ""}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -199,7 +198,6 @@ Json pictureViews(const Illustrations& shown, Picture::Shows shows) {
           !view.is_null()) {
         // Pictures of one scene, to be put upon each other.
         if (shows != Picture::Shows::worst) view["engine"] = picture.engine;
-        view["film"] = picture.film;
         views.push_back(std::move(view));
       }
   return views;

@@ -4,21 +4,42 @@
 #include <string>
 #include <vector>
 
-#include "reports/common/strokes.hpp"
 #include "results/scene_picture.hpp"
 
+/// Pictures of scenes, made of round-ended strokes: a disk is a stroke without length. That is
+/// little enough for thousands of disks to stay small in a page.
 namespace crossgrain::reports {
+
+struct Stroke {
+  double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
+};
+
+/// Strokes of one colour and width; later groups cover earlier ones.
+struct StrokeGroup {
+  std::string colour;  ///< "#rrggbb"
+  double width = 0.0;
+  std::vector<Stroke> strokes;
+};
+
+/// A square window on the plane, centred on the origin, y upward.
+struct Drawing {
+  double halfWidth = 1.0;
+  std::vector<StrokeGroup> groups;
+};
+
+/// Both scale the window to `size` [px at 96 per inch].
+std::string toSvg(const Drawing& drawing, double size, const std::string& title);
+std::string toPdf(const Drawing& drawing, double size);
 
 /// One drawing of a cell at one instant.
 struct Picture {
-  enum class Shows { origins, forces, motion, worst };
-  std::string name;  ///< of its files: origins_1_ENGINE, forces_…, motion_…, worst_1_ENGINE
+  enum class Shows { origins, forces, worst };
+  std::string name;  ///< of its files: origins_1_ENGINE, forces_…, worst_1_ENGINE
   std::string engine;
   std::string title;
   std::string scale;  ///< what the drawing's scale is, in words; may be empty
   Shows shows = Shows::origins;
   Drawing drawing;
-  std::string film{};  ///< motionData() of what moves; else empty
 };
 
 /// Disks coloured by where they started, sectors of angle crossed with bands of radius, so that

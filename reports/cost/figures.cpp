@@ -2,35 +2,67 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "reports/cost/panels.hpp"
+#include "reports/common/engines.hpp"
+#include "reports/common/figure.hpp"
+#include "reports/common/labels.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/cost/words.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
-using CostEngines = std::vector<CostEngine>;
+using Points = std::vector<CostPoint>;
 
-std::optional<double> wallOf(const CostPoint& point) {
-  return point.wallSeconds;
-}
-std::optional<double> contactsOf(const CostPoint& point) {
-  return point.contactEvaluations;
-}
-
+/// Larger errors say no more than that the run is wrong: they stand at the upper edge.
+constexpr double offScale = 10.0;
+/// gnuplot's marks
+constexpr int crossMark = 2, openTriangle = 10;
 constexpr const char* frontName = "Pareto front";
 
+LineStyle openMarks(LineStyle style) {
+  if (style.pointType % 2 == 1) style.pointType -= 1;
+  return style;
+}
+
+/// Whole decades around the errors, with room for what stands at the upper edge.
+Range errorRange(const Points& points) {
+  double low = offScale, high = 0.0;
+  for (const CostPoint& point : points)
+    if (const auto error = point.counted(); error && *error > 0.0 && *error <= offScale) {
+      low = std::min(low, *error);
+      high = std::max(high, *error);
+    }
+  if (high == 0.0) return {0.1, offScale};
+  return {std::pow(10.0, std::floor(std::log10(low) - 0.1)),
+          std::pow(10.0, std::ceil(std::log10(high) + 0.3))};
+}
+
+/// With what the point counts with; absent off scale or without a time. Bars are of the statistical
+/// part.
+std::optional<Point> markOf(const CostPoint& point) {
+  const auto error = point.counted();
+  if (!error || *error > offScale || !point.wallSeconds) return std::nullopt;
+  Point mark{*point.wallSeconds, *error, {}};
+  if (point.statistical && !point.mayBeChance()) mark.error = point.statistical;
+  return mark;
+}
+
+void addCurve(Panel& panel, Curve curve) {
+  std::ranges::sort(curve.points, {}, &Point::x);
+  if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+}
+
 /// Steps down from point to point: what the best setting reaches in a given time.
-Curve frontCurve(const CostResults& results, const CostMeasure& measure, const CostAxis& axis) {
+Curve frontCurve(const CostResults& results, const CostMeasure& measure) {
   Curve curve{frontName, {"#c9d3dc", 7, false}, Draw::lines, {}, 6.0};
   for (const Front& front : results.fronts) {
     if (!front.engine.empty() || front.kind != measure.kind || front.measure != measure.name)
       continue;
     for (const std::size_t place : front.points) {
-      const CostPoint* point = pointAt(results.points, place);
-      const auto mark = point ? errorPoint(*point, axis) : std::nullopt;
+      const auto mark =
+          place < results.points.size() ? markOf(results.points[place]) : std::nullopt;
       if (!mark) continue;
       if (!curve.points.empty()) curve.points.push_back({mark->x, curve.points.back().y, {}});
       curve.points.push_back({mark->x, mark->y, {}});
@@ -41,141 +73,103 @@ Curve frontCurve(const CostResults& results, const CostMeasure& measure, const C
 
 /// Each of an engine's schemes at its time steps, joined; its other settings, numbered; what may be
 /// chance; what failed.
-void addEngine(Panel& panel, const CostPoints& points, const CostEngine& engine,
-               const CostAxis& axis, const std::vector<OtherSetting>& others) {
-  std::vector<Curve> schemes = {{engine.name, engine.style, Draw::linesAndPoints, {}, 1.5}};
-  Curve marks{"", openMarks(engine.style), Draw::points, {}, 1.5};
-  Curve chance{"", {engine.style.colour, openTriangle, false}, Draw::points, {}, 1.5};
+void addEngine(Panel& panel, const Points& points, const std::string& engine,
+               const LineStyle& style, const std::vector<OtherSetting>& others) {
+  std::vector<Curve> schemes = {{engine, style, Draw::linesAndPoints, {}, 1.5}};
+  Curve marks{"", openMarks(style), Draw::points, {}, 1.5};
+  Curve chance{"", {style.colour, openTriangle, false}, Draw::points, {}, 1.5};
+  Curve failures{"", {style.colour, crossMark, false}, Draw::points, {}, 1.5};
+  constexpr double belowEdge = 1.35;
   for (const CostPoint& point : points) {
-    auto mark = errorPoint(point, axis);
-    if (point.engine != engine.name || !mark) continue;
-    const auto scheme = schemeOf(point);
+    if (point.engine != engine) continue;
+    if ((point.status == CostStatus::failed || point.counted().value_or(0.0) > offScale) &&
+        point.wallSeconds)
+      failures.points.push_back({*point.wallSeconds, panel.yRange->high / belowEdge, {}});
+    auto mark = markOf(point);
+    if (!mark) continue;
+    const auto scheme = schemeOf(point.knob, point.setting);
     if (!scheme) {
       const auto place = std::ranges::find(others, OtherSetting{point.knob, point.setting});
       mark->label = std::to_string(place - others.begin() + 1);
     }
-    if (mayBeChance(point) || !scheme) {
-      (mayBeChance(point) ? chance : marks).points.push_back(*mark);
+    if (point.mayBeChance() || !scheme) {
+      (point.mayBeChance() ? chance : marks).points.push_back(*mark);
       continue;
     }
-    const std::string name = scheme->empty() ? engine.name : engine.name + ", " + *scheme;
+    const std::string name = scheme->empty() ? engine : engine + ", " + *scheme;
     auto curve = std::ranges::find(schemes, name, &Curve::name);
     if (curve == schemes.end()) {
-      curve = schemes.insert(curve, {name, openMarks(engine.style), Draw::linesAndPoints, {}, 1.0});
+      curve = schemes.insert(curve, {name, openMarks(style), Draw::linesAndPoints, {}, 1.0});
       curve->style.dashed = true;
     }
     curve->points.push_back(*mark);
   }
-  for (Curve& scheme : schemes) std::ranges::sort(scheme.points, {}, &Point::x);
-  addCurves(panel, std::move(schemes));
-  addCurves(panel, {std::move(marks), std::move(chance), failures(panel, points, engine, axis)});
+  for (Curve& scheme : schemes) addCurve(panel, std::move(scheme));
+  for (Curve* const curve : {&marks, &chance, &failures}) addCurve(panel, std::move(*curve));
 }
 
-Panel costPanel(const CostPoints& all, const CostEngines& engines, const CostMeasure& measure,
-                const CostAxis& axis, Curve behind) {
-  const CostPoints points = pointsOf(all, measure);
-  Panel panel = errorPanel(points, measure.name, axis);
-  addCurves(panel, {std::move(behind)});
-  for (const CostEngine& engine : engines)
-    addEngine(panel, points, engine, axis, otherSettings(all));
+/// Errors of one measure on log axes; grey up to the largest uncertainty of a reference.
+Panel panelOf(const CostResults& results, const CostMeasure& measure) {
+  Points points = results.points;
+  std::erase_if(points, [&](const CostPoint& point) { return !measure.has(point); });
+  Panel panel;
+  panel.title = mathGnuplot(measureText(measure.name));
+  panel.xLabel = fmt::format("wall time of {} [s]", timeUnit(measure.kind));
+  panel.yLabel = "error";
+  panel.logX = panel.logY = true;
+  panel.key = Key::none;
+  panel.yRange = errorRange(points);
+  double uncertain = 0.0;
+  for (const CostPoint& point : points)
+    uncertain = std::max(uncertain, point.referenceError.value_or(0.0));
+  if (uncertain > panel.yRange->low) panel.shadedTo = std::min(uncertain, panel.yRange->high);
+  if (Curve front = frontCurve(results, measure); !front.points.empty())
+    panel.curves.push_back(std::move(front));
+  const std::vector<LineStyle> styles = engineStyles(results.engines);
+  const auto others = otherSettings(results.points);
+  for (std::size_t k = 0; k < results.engines.size(); ++k)
+    addEngine(panel, points, results.engines[k].name, styles[k], others);
   return panel;
 }
 
-std::string numbersInWords(const CostPoints& points, CostKind kind) {
+std::string captionOf(const Points& points, CostKind kind) {
+  std::string caption = fmt::format(
+      "Error against the wall time of {}. Lines join the time steps of an engine, dashed with "
+      "another integrator; pale line: Pareto front; grey: uncertainty of the reference; bars: the "
+      "statistical part; ▽ may be chance: drawn at its upper end; ×, at the upper edge: failed.",
+      timeUnit(kind));
   const auto all = otherSettings(points);
-  std::vector<std::string> words;
+  std::vector<std::string> numbers;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (std::ranges::any_of(points, [&](const CostPoint& point) {
-          return point.kind == kind && countedError(point) &&
+          return point.kind == kind && point.counted() &&
                  OtherSetting{point.knob, point.setting} == all[k];
         }))
-      words.push_back(fmt::format("{} {}", k + 1, settingWords(all[k].knob, all[k].setting)));
-  return words.empty() ? "" : fmt::format(" Other settings: {}.", fmt::join(words, ", "));
-}
-
-/// What the figure's marks and colours mean, of those that are in it.
-std::string drawnInWords(const Figure& figure) {
-  std::string words = " Lines join the time steps of an engine";
-  if (draws(figure, [](const Curve& curve) {
-        return curve.style.dashed && curve.draw == Draw::linesAndPoints;
-      }))
-    words += ", dashed with another integrator";
-  if (draws(figure, [](const Curve& curve) {
-        return std::ranges::any_of(curve.points, [](const Point& p) { return !p.label.empty(); });
-      }))
-    words += "; numbered open marks: other settings";
-  words += ".";
-  if (draws(figure, [](const Curve& curve) { return curve.name == frontName; }))
-    words += " Pale line: Pareto front.";
-  if (std::ranges::any_of(figure.panels, [](const Panel& p) { return p.shadedTo.has_value(); }))
-    words += " Grey: what the reference is uncertain by.";
-  if (drawsMark(figure, openTriangle)) words += " ▽ may be chance: drawn at its upper bound.";
-  if (drawsMark(figure, crossMark)) words += " ×, at the upper edge: failed.";
-  return words;
-}
-
-std::string barsInWords(const CostPoints& points, CostKind kind) {
-  const bool any = std::ranges::any_of(
-      points, [&](const CostPoint& point) { return point.kind == kind && point.statistical; });
-  return any ? " Bars: the statistical part." : "";
+      numbers.push_back(fmt::format("{} {}", k + 1, settingText(all[k].knob, all[k].setting)));
+  if (numbers.empty()) return caption;
+  return caption + fmt::format(" Open, numbered: other settings: {}.", fmt::join(numbers, ", "));
 }
 
 }  // namespace
 
-Figure costTimeFigure(const CostResults& results, const CostEngines& engines, CostKind kind) {
-  const CostPoints& points = results.points;
-  const CostAxis axis{wallOf, fmt::format("wall time of {} [s]", timeUnit(kind))};
-  Figure figure;
-  figure.name = "cost_" + toString(kind);
-  figure.title = "Error against time: " + toString(kind);
-  for (const CostMeasure& measure : measuresDrawn(points))
-    if (measure.kind == kind)
-      figure.panels.push_back(
-          costPanel(points, engines, measure, axis, frontCurve(results, measure, axis)));
-  figure.caption =
-      fmt::format("Error against the wall time of {}.{}{}{}", timeUnit(kind), drawnInWords(figure),
-                  barsInWords(points, kind), numbersInWords(points, kind));
-  arrange(figure);
-  figure.png = true;
-  return figure;
-}
-
-Figure costContactsFigure(const CostPoints& points, const CostEngines& engines) {
-  Figure figure;
-  figure.name = "cost_contacts";
-  figure.title = "Error against contact evaluations";
-  figure.caption =
-      "The same errors at the time steps, the first measure of each kind, against what does not "
-      "depend on the machine: how often a contact's force was worked out. What then remains "
-      "between "
-      "engines is the method, not the code's speed.";
-  CostPoints steps = points;
-  std::erase_if(steps, [](const CostPoint& point) { return !schemeOf(point); });
-  const auto measures = measuresDrawn(steps);
-  for (const CostKind kind : kindsIn(steps)) {
-    const auto measure = std::ranges::find(measures, kind, &CostMeasure::kind);
-    Panel panel = costPanel(steps, engines, *measure,
-                            {contactsOf, "contact evaluations in " + timeUnit(kind)}, {});
-    panel.title = toString(kind) + ": " + panel.title;
-    figure.panels.push_back(std::move(panel));
-  }
-  arrange(figure);
-  return figure;
-}
-
 std::vector<Figure> costFigures(const CostResults& results) {
-  const CostPoints& points = results.points;
-  const CostEngines engines = costEngines(results);
   std::vector<Figure> figures;
-  for (const CostKind kind : kindsIn(points)) {
-    figures.push_back(costTimeFigure(results, engines, kind));
-    figures.push_back(costOrderFigure(results, engines, kind));
+  for (const CostKind kind : kindsIn(results.points)) {
+    Figure figure;
+    figure.name = "cost_" + toString(kind);
+    figure.title = "Error against time: " + toString(kind);
+    for (const CostMeasure& measure : measuresIn(results.points))
+      if (measure.kind == kind) figure.panels.push_back(panelOf(results, measure));
+    std::erase_if(figure.panels, [](const Panel& panel) { return !hasPoints(panel); });
+    if (figure.panels.empty()) continue;
+    figure.caption = captionOf(results.points, kind);
+    figure.keyAbove = true;
+    figure.columns = figure.panels.size() > 1 ? 2 : 1;
+    figure.panelWidth = 1040 / figure.columns;
+    figure.panelHeight = 360;
+    figure.png = true;
+    figures.push_back(std::move(figure));
   }
-  figures.push_back(costPartsFigure(points, engines));
-  figures.push_back(costFallsFigure(results, engines));
-  figures.push_back(costContactsFigure(points, engines));
-  figures.push_back(costGrowthFigure(results));
-  std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
   return figures;
 }
 

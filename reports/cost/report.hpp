@@ -1,28 +1,68 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/common/pages.hpp"
 #include "results/cost.hpp"
+#include "results/overview.hpp"
 
 /// What a study of cost is written as.
 namespace crossgrain::reports {
 
+/// An engine per row, a kind of error and a wanted accuracy per column: the setting that reaches it
+/// against the case's law for the least time, and that time.
+Overview costOverview(const CostResults& results);
+
+/// For a terminal: how many accuracies are decided, and what became of the points.
+std::string costText(const CostResults& results);
+
+/// What --want prints, to be pasted: the fragment of each engine for the results' own target, all
+/// else as TOML comments.
+std::string costToml(const CostResults& results);
+
 /// engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason, then
 /// knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,equivalent,bound
-/// One row per point, those that did not run too; on_front is of the front over all engines.
+/// One row per point, those that did not run too; on_front is of the front over all engines;
+/// equivalent and bound are empty, of earlier versions.
 std::string costCsv(const CostResults& results);
 
-/// cost_KIND, error against time, and cost_orders_KIND, against the step, for each kind of error;
-/// cost_parts, of averages; cost_falls; cost_contacts; cost_growth.
+/// cost_KIND: error against time for each kind of error.
 std::vector<Figure> costFigures(const CostResults& results);
 
-/// For a terminal: per engine, kind of error and basis which setting reaches 10 %, 1 % and 0.1 %
-/// for the least time, with the measured figure; last how much of it is decided.
-std::string costAccuracyText(const CostResults& results);
-
-/// HTML with everything inside: no scripts and nothing to fetch.
 std::string costPage(const CostResults& results, const Illustrations& shown);
+
+/// @name What the report's parts share
+/// @{
+
+/// "precision float", "without friction", "velocity verlet, t_c/50"
+std::string settingText(const std::string& knob, const std::string& setting);
+/// "Ψ_f", "radial stress", "positions, compared with grain"; "Ψ_f, own limit"
+std::string measureText(const std::string& measure);
+/// What one unit of an error kind's time is: "one sweep of collisions".
+std::string timeUnit(CostKind kind);
+
+/// A measure of a kind of error.
+struct CostMeasure {
+  CostKind kind;
+  std::string name;
+  bool operator==(const CostMeasure&) const = default;
+  bool has(const CostPoint& point) const { return point.kind == kind && point.measure == name; }
+};
+
+/// In the order of the points.
+std::vector<CostKind> kindsIn(const std::vector<CostPoint>& points);
+std::vector<CostMeasure> measuresIn(const std::vector<CostPoint>& points);
+
+/// A setting that is no time step and has an error somewhere: what the numbers in plots stand for,
+/// from 1.
+struct OtherSetting {
+  std::string knob, setting;
+  bool operator==(const OtherSetting&) const = default;
+};
+std::vector<OtherSetting> otherSettings(const std::vector<CostPoint>& points);
+
+/// @}
 
 }  // namespace crossgrain::reports

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "reports/common/labels.hpp"
-#include "reports/common/motion.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/common/packings.hpp"
@@ -110,23 +109,6 @@ std::string forcesNote(const Illustrations& shown) {
       names.front());
 }
 
-std::string filmsNote(const CompareResults& results, const Engines& engines,
-                      const Illustrations& shown) {
-  const auto names = enginesIn(shown, Picture::Shows::motion);
-  if (names.empty()) return {};
-  std::vector<std::string> without;
-  for (const EngineRuns& engine : engines)
-    if (!engine.finished.empty() && std::ranges::find(names, engine.name) == names.end())
-      without.push_back(engine.name);
-  const bool turning = results.cell.omega != 0.0 && results.cell.innerRadius > 0.0;
-  return fmt::format(
-      "From the snapshots that runs kept of their first packing: disks coloured by their speed, "
-      "in parts of {}, each colour from where it begins. The pictures show the last of "
-      "them.{}",
-      turning ? "the wheel's rim's" : "the largest of any disk here",
-      without.empty() ? "" : fmt::format(" No two snapshots are kept of {}.", listed(without)));
-}
-
 void addPictures(Json& view, const CompareResults& results, const Engines& engines,
                  const Illustrations& shown) {
   view["origins"] = pictureViews(shown, Picture::Shows::origins);
@@ -139,13 +121,6 @@ void addPictures(Json& view, const CompareResults& results, const Engines& engin
   view["forces"] = pictureViews(shown, Picture::Shows::forces);
   view["hasForces"] = !view["forces"].empty();
   view["forcesNote"] = forcesNote(shown);
-  view["films"] = pictureViews(shown, Picture::Shows::motion);
-  view["hasFilms"] = !view["films"].empty();
-  view["filmsNote"] = filmsNote(results, engines, shown);
-  view["speedColours"] = Json::array();
-  for (const SpeedColour& colour : speedColours())
-    view["speedColours"].push_back(
-        {{"colour", colour.colour}, {"from", fmt::format("{:.2g}", colour.from)}});
 }
 
 }  // namespace

@@ -139,19 +139,19 @@ std::string endpointsCsv(const CompareResults& results) {
   std::string table =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
       "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ,reference,reason\n";
+      "regimes_differ,reference,reason,reach\n";
   for (const EndpointRow& entry : results.endpoints.rows) {
     const auto margin = entry.marginRelative && entry.reference
                             ? std::optional(entry.margin * std::abs(*entry.reference))
                             : std::optional(entry.margin);
-    table +=
-        row(entry.a, entry.b, std::string(nameOf(entry.kind)), entry.endpoint, entry.unit, margin,
-            std::string(nameOf(entry.answer)), entry.difference, entry.low, entry.high,
-            entry.distance, entry.distanceLow, entry.distanceHigh,
-            std::optional<double>(entry.look), static_cast<std::size_t>(entry.packings),
-            static_cast<std::size_t>(entry.lost), std::optional<double>(entry.needs),
-            std::optional<double>(entry.needsAtMost), entry.carrierA, entry.carrierB, entry.bound,
-            regimesDiffer(results.regimes, entry.a, entry.b), entry.reference, entry.reason);
+    table += row(entry.a, entry.b, std::string(nameOf(entry.kind)), entry.endpoint, entry.unit,
+                 margin, std::string(nameOf(entry.answer)), entry.difference, entry.low, entry.high,
+                 entry.distance, entry.distanceLow, entry.distanceHigh,
+                 std::optional<double>(entry.look), static_cast<std::size_t>(entry.packings),
+                 static_cast<std::size_t>(entry.lost), std::optional<double>(entry.needs),
+                 std::optional<double>(entry.needsAtMost), entry.carrierA, entry.carrierB,
+                 entry.bound, regimesDiffer(results.regimes, entry.a, entry.b), entry.reference,
+                 entry.reason, entry.reach);
   }
   return table;
 }

@@ -86,7 +86,11 @@ std::string carrierInWords(const EndpointRow& row) {
   for (const std::string& mirror : {row.carrierA, row.carrierB})
     if (!mirror.empty()) mirrors.push_back(mirror);
   if (mirrors.empty()) return {};
-  return fmt::format("by {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+  std::string words =
+      fmt::format("by {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+  if (row.reach)
+    words += fmt::format(", {} of it what the followed run could have missed", readable(row.reach));
+  return words;
 }
 
 std::string answerInWords(const EndpointRow& row) {
@@ -111,13 +115,25 @@ std::string sentenceOf(const CarriedEngine& own) {
   std::string words = fmt::format(
       "{}: by its mirror {} (ε_eq {}; {} windows alike leave at most {:.0f} % of states unlike)",
       own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
+  words += "; spot check: ";
+  std::vector<std::string> parts;
+  if (!own.late.equivalents.empty()) {
+    std::vector<std::string> changes;
+    for (const EquivalentChange& one : own.late.equivalents)
+      changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
+    parts.push_back(fmt::format(
+        "{} windows of {} over its own run of packing {} differ from the mirror as at most {} "
+        "would",
+        own.late.times.size(), shortDuration(own.late.length), own.late.packing,
+        fmt::join(changes, " or ")));
+  }
   if (const CanaryNumber* const worst = farthest(own.canary))
-    words += fmt::format(
-        "; its own run of packing {} is within chaos of the mirror's: {} margins of {} at most, "
-        "scatter {}",
+    parts.push_back(fmt::format(
+        "its own run of packing {} is within chaos of the mirror's: {} margins of {} at most, "
+        "where less than {} cannot be seen",
         own.canaryPacking, signedNumber(worst->difference.value_or(0.0)), spaced(worst->endpoint),
-        readable(worst->floor));
-  return words + ".";
+        readable(worst->reach)));
+  return words + fmt::format("{}.", fmt::join(parts, "; "));
 }
 
 std::string sentenceOf(const AlarmRow& alarm) {

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <numbers>
 
-#include "reports/common/motion.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
@@ -37,13 +34,6 @@ std::string forceWords(const ForceCount& count, double widest) {
                      verb(count.above, "carries", "carry"), readable(widest));
 }
 
-/// "after 0.83 rotations of the wheel", "after 0.3 s"
-std::string timeWords(const CompareResults& results, double time) {
-  const double turn = std::abs(results.cell.omega) * time / (2.0 * std::numbers::pi);
-  return turn > 0.0 && !results.region ? fmt::format("after {:.2f} rotations of the wheel", turn)
-                                       : fmt::format("after {:.3g} s", time);
-}
-
 }  // namespace
 
 std::vector<Picture> comparePictures(const CompareResults& results) {
@@ -70,43 +60,6 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
   std::ranges::move(forces, std::back_inserter(origins));
   for (Picture& picture : origins) picture.drawing.halfWidth = halfWidth;
   return origins;
-}
-
-double fastestShown(const CompareResults& results, const std::vector<Motion>& motions) {
-  const double rim = std::abs(results.cell.omega) * results.cell.innerRadius;
-  if (rim > 0.0) return rim;
-  double fastest = 0.0;
-  for (const Motion& motion : motions) fastest = std::max(fastest, largestSpeed(motion));
-  return fastest;
-}
-
-std::vector<Picture> compareFilms(const CompareResults& results,
-                                  const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::vector<Motion> motions;
-  for (const EngineRuns& engine : engineRuns(results)) {
-    if (engine.finished.empty()) continue;
-    const auto file = fmt::format("{}-p{}.h5", engine.name, engine.finished.front()->packing);
-    if (auto motion = readMotion(folder / "snapshots" / file)) {
-      names.push_back(engine.name);
-      motions.push_back(std::move(*motion));
-    }
-  }
-  const double fastest = fastestShown(results, motions);
-  double reach = 0.0;
-  for (const Motion& motion : motions) reach = std::max(reach, reachOf(motion));
-  if (fastest <= 0.0 || reach <= 0.0) return {};
-  std::vector<Picture> films;
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    std::vector<std::string> told;
-    for (const MotionFrame& frame : motions[k].frames)
-      told.push_back(timeWords(results, frame.time));
-    films.push_back({fmt::format("motion_{}_{}", k + 1, fileWord(names[k])), names[k],
-                     fmt::format("{}: disks coloured by their speed, {}", names[k], told.back()),
-                     "", Picture::Shows::motion, motionStill(motions[k], fastest, 1.01 * reach),
-                     motionData(motions[k], fastest, 1.01 * reach, told)});
-  }
-  return films;
 }
 
 }  // namespace crossgrain::reports

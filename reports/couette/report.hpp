@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "reports/common/figure.hpp"
-#include "reports/common/motion.hpp"
 #include "reports/common/pages.hpp"
 #include "reports/common/pictures.hpp"
 #include "results/compare.hpp"
@@ -31,15 +30,6 @@ std::vector<Figure> revFigures(const RevResults& results);
 /// forces. All are on one scale, of lengths and, of the first engine that has any, of forces
 /// (widestForce).
 std::vector<Picture> comparePictures(const CompareResults& results);
-
-/// The speed that has the last colour in all films: of the wheel's rim, else the largest of any
-/// disk [m/s]; 0: nothing moves.
-double fastestShown(const CompareResults& results, const std::vector<Motion>& motions);
-
-/// A film per engine of its first finished run, as far as its snapshots are kept in
-/// folder/snapshots.
-std::vector<Picture> compareFilms(const CompareResults& results,
-                                  const std::filesystem::path& folder);
 
 /// engine,packing,method,field,ring,r_m,r_tilde,mean,stderr,n_eff,unit,stderr_kind,dof,
 /// from_rotation,to_rotation,prepared_rotations; of an assembly also x_m,y_m,from_s,to_s: the bin's

@@ -100,12 +100,9 @@ std::string firstInWords(const LockstepRow& row) {
 }
 
 std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
-  if (rules.yardstick != "en" || row.term || !row.first || row.first->touching < 2) return {};
-  return fmt::format(
-      "one of the two touches {} at once, and in which order they collide the law of rigid disks "
-      "leaves "
-      "open",
-      row.first->touching);
+  if (rules.yardstick != "en" || row.term || !row.severalAtOnce) return {};
+  return "where they part a disk touches several at once, and in which order these collide the law "
+         "of rigid disks leaves open";
 }
 
 std::string resolutionInWords(const LockstepRow& row, const LockstepRules& rules) {

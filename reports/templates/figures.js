@@ -205,7 +205,7 @@
     return data;
   }
 
-  for (const source of document.querySelectorAll('figure script[type="application/json"]:not(.film)')) {
+  for (const source of document.querySelectorAll('figure script[type="application/json"]')) {
     const image = source.closest('figure').querySelector('img');
     if (image) figures.push({ image, data: dataOf(source.textContent) });
   }

@@ -1,4 +1,4 @@
-// Distributions of the first packing of a leg.
+// The thesis' figures of distributions, of the first packing of a case.
 
 #include <fmt/format.h>
 
@@ -8,9 +8,7 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/couette/figures.hpp"
-#include "reports/thesis/figures.hpp"
-#include "reports/thesis/findings.hpp"
-#include "reports/thesis/leg_rings.hpp"
+#include "reports/thesis/drawing.hpp"
 
 namespace crossgrain::reports {
 
@@ -58,17 +56,9 @@ struct DensityPanel {
   double (*unit)(const CouetteCell&);
 };
 
-std::optional<int> ringAt(const RingView& view, double rTilde) {
-  const auto& places = view.places.rTilde;
-  const auto nearest =
-      std::ranges::min_element(places, {}, [&](double place) { return std::abs(place - rTilde); });
-  if (nearest == places.end()) return std::nullopt;
-  return static_cast<int>(nearest - places.begin());
-}
-
-Figure densityFigure(const ThesisResults& results, const std::string& number,
-                     const std::string& title, const std::string& says,
-                     const std::vector<double>& labels, const std::vector<DensityPanel>& specs) {
+Figure densitiesFigure(const ThesisResults& results, const std::string& number,
+                       const std::string& title, const std::string& says,
+                       const std::vector<double>& labels, const std::vector<DensityPanel>& specs) {
   std::vector<std::string> clauses;
   std::vector<Panel> panels;
   const auto engines = enginesWithRuns(results);
@@ -81,19 +71,19 @@ Figure densityFigure(const ThesisResults& results, const std::string& number,
     panel.logY = true;
     for (std::size_t l = 0; l < labels.size(); ++l)
       for (std::size_t e = 0; e < engines.size(); ++e) {
-        const ThesisLeg* leg = packingLeg(results, labels[l]);
+        const ThesisCase* const setup = packingCase(results, labels[l]);
         const auto runs =
-            leg ? finishedRuns(results, *leg, engines[e]) : std::vector<const ThesisRun*>{};
-        const auto view = runs.empty() ? std::nullopt : ringViewOf(*leg, *runs.front());
-        if (!view) continue;
+            setup ? finishedRuns(results, *setup, engines[e]) : std::vector<CaseRun>{};
+        const auto ring = runs.empty() ? std::nullopt : ringNear(runs.front(), spec.rTilde);
         const auto* found =
-            thesisDistribution(*runs.front(), spec.quantity, ringAt(*view, spec.rTilde));
+            ring ? thesisDistribution(*runs.front().run, spec.quantity, static_cast<int>(*ring))
+                 : nullptr;
         if (!found) continue;
         const std::string name = e == 0   ? fmt::format("{:.3f}", labels[l])
                                  : l == 0 ? engines[e]
                                           : "";
         Curve curve{name, thesisStyle(l, e), Draw::linesAndPoints,
-                    densityPoints(*found, spec.unit(leg->cell)), 1.0};
+                    densityPoints(*found, spec.unit(setup->cell)), 1.0};
         if (curve.points.empty()) continue;
         if (e == 0) {
           const Spread spread = spreadOf(curve.points);
@@ -103,43 +93,42 @@ Figure densityFigure(const ThesisResults& results, const std::string& number,
         }
         panel.curves.push_back(std::move(curve));
       }
-    bool widened = false;
     if (panel.curves.empty()) continue;
-    panel.yRange = holding(spec.yRange, panel.curves, true, widened);
+    fitAxis(panel, spec.yRange);
     panels.push_back(std::move(panel));
   }
-  Figure figure = thesisFigureOf(number, title, thesisAndFound(says, clauses));
-  figure.panels = std::move(panels);
-  figure.columns = 2;
-  return figure;
+  return thesisFigureOf(number, title, thesisAndFound(says, clauses), std::move(panels));
 }
 
-/// A leg's first packing as a comparison of engines has it; the results must outlive it.
-struct LegStudy {
+/// A case's first packing as a comparison of engines has it; the results must outlive it.
+struct CaseStudy {
   CouetteFrame frame;
   std::vector<EngineRuns> engines;
 };
 
-LegStudy studyOf(const ThesisResults& results, double label) {
-  LegStudy study;
-  const ThesisLeg* leg = packingLeg(results, label);
-  if (!leg) return study;
-  study.frame.cell = leg->cell;
+CaseStudy studyOf(const ThesisResults& results, double label) {
+  CaseStudy study;
+  const ThesisCase* const setup = packingCase(results, label);
+  if (!setup) return study;
+  study.frame.cell = setup->cell;
   for (const std::string& engine : enginesWithRuns(results)) {
-    const auto runs = finishedRuns(results, *leg, engine);
-    const auto view = runs.empty() ? std::nullopt : ringViewOf(*leg, *runs.front());
-    if (!view) continue;
-    study.frame.rings = view->places;
+    const auto runs = finishedRuns(results, *setup, engine);
+    if (runs.empty() || ringCount(runs.front()) == 0) continue;
+    study.frame.rings = {};
+    for (const RingValue& ring : ringPlaces(setup->cell, ringCount(runs.front()))) {
+      study.frame.rings.r.push_back(ring.r);
+      study.frame.rings.rTilde.push_back(ring.rTilde);
+    }
     EngineRuns row;
     row.name = engine;
     row.style = engineStyle(study.engines.size());
-    row.runs = row.finished = {&runs.front()->run};
+    row.runs = row.finished = {&runs.front().run->run};
     study.engines.push_back(std::move(row));
   }
   return study;
 }
 
-std::vector<Panel> panelsNamed(const LegStudy& study, const std::string& name) {
+std::vector<Panel> panelsNamed(const CaseStudy& study, const std::string& name) {
   for (Figure& figure : distributionFigures(study.frame, study.engines))
     if (figure.name == name) return std::move(figure.panels);
   return {};
@@ -166,7 +155,7 @@ Figure jointFigure(const ThesisResults& results) {
   std::vector<Panel> panels;
   std::vector<std::string> clauses;
   for (const double label : {0.800, 0.811}) {
-    const LegStudy study = studyOf(results, label);
+    const CaseStudy study = studyOf(results, label);
     for (Panel& panel : panelsNamed(study, "distribution_joint")) {
       panel.title += fmt::format(", ν̄ = {:.3f}", label);
       panels.push_back(std::move(panel));
@@ -180,9 +169,8 @@ Figure jointFigure(const ThesisResults& results) {
       thesisAndFound(
           "a peak at rest, smaller at higher ν̄, and a ridge on v_φ/(ΩR_i) = 1 + S d/(ΩD)",
           clauses) +
-          " Filled: the densest cells that hold half of the samples, open: nine tenths.");
-  figure.panels = std::move(panels);
-  figure.columns = 2;
+          " Filled: the densest cells that hold half of the samples, open: nine tenths.",
+      std::move(panels));
   figure.panelWidth = 380;
   figure.panelHeight = 300;
   return figure;
@@ -206,13 +194,12 @@ std::vector<Figure> directionFigures(const ThesisResults& results) {
       thesisAndFound(
           "π/2 and π/6 preferred, 5π/6 depleted",
           std::vector(clauses.begin(),
-                      clauses.begin() + std::min<long>(1, static_cast<long>(clauses.size())))));
-  wheel.panels = {panels.front()};
+                      clauses.begin() + std::min<long>(1, static_cast<long>(clauses.size())))),
+      {panels.front()}, 1);
   Figure all = thesisFigureOf(
       "7.9", "Directions of contacts from the wheel to the outer ring, ν̄ = 0.804",
-      thesisAndFound("homogeneous further out, triangular at the outer wall", clauses));
-  all.panels = std::move(panels);
-  all.columns = 3;
+      thesisAndFound("homogeneous further out, triangular at the outer wall", clauses),
+      std::move(panels), 3);
   all.panelWidth = 380;
   all.panelHeight = 300;
   return {std::move(wheel), std::move(all)};
@@ -226,7 +213,7 @@ std::vector<Figure> thesisDistributionFigures(const ThesisResults& results) {
   };
   const auto asItIs = [](const CouetteCell&) { return 1.0; };
   std::vector<Figure> figures = {
-      densityFigure(
+      densitiesFigure(
           results, "6.6", "Radial velocities", "centred on zero, wider near the wheel",
           {0.789, 0.804, 0.811},
           {{"0 < r̃ < 1", "radial_velocity", "v_{r} / d [1/s]", 0.5, {}, {1e-3, 10.0}, perSecond},
@@ -237,17 +224,18 @@ std::vector<Figure> thesisDistributionFigures(const ThesisResults& results) {
             {},
             {1e-3, 10.0},
             perSecond}}),
-      densityFigure(results, "6.10", "Velocities and spins at the wheel",
-                    "a peak at rest, a second one of the velocity near 0.5 and a small one near 1",
-                    {0.800, 0.811},
-                    {{"velocity",
-                      "azimuthal_velocity",
-                      "v_{φ} / (Ω R_{i})",
-                      0.5,
-                      Range{-1.0, 1.5},
-                      {1e-3, 10.0},
-                      asItIs},
-                     {"spin", "spin", "S d / (Ω D)", 0.5, Range{-2.0, 2.0}, {1e-4, 1.0}, asItIs}}),
+      densitiesFigure(
+          results, "6.10", "Velocities and spins at the wheel",
+          "a peak at rest, a second one of the velocity near 0.5 and a small one near 1",
+          {0.800, 0.811},
+          {{"velocity",
+            "azimuthal_velocity",
+            "v_{φ} / (Ω R_{i})",
+            0.5,
+            Range{-1.0, 1.5},
+            {1e-3, 10.0},
+            asItIs},
+           {"spin", "spin", "S d / (Ω D)", 0.5, Range{-2.0, 2.0}, {1e-4, 1.0}, asItIs}}),
       jointFigure(results)};
   for (Figure& figure : directionFigures(results)) figures.push_back(std::move(figure));
   return figures;

@@ -1,21 +1,164 @@
+// The page of a campaign, its matrix, its claims as CSV and for a terminal.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "reports/common/csv_row.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
+#include "reports/common/overview_marks.hpp"
 #include "reports/common/page.hpp"
-#include "reports/thesis/overview.hpp"
-#include "reports/thesis/reading_changes.hpp"
+#include "reports/common/sentences.hpp"
 #include "reports/thesis/report.hpp"
 
 namespace crossgrain::reports {
-
 namespace {
 
-constexpr double secondsPerDay = 86400.0;
+using Names = std::vector<std::string>;
+using Claims = std::vector<const ClaimRow*>;
+
+constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
+
+CellState stateOf(ClaimVerdict verdict) {
+  return verdict == ClaimVerdict::reproduced ? CellState::good
+         : verdict == ClaimVerdict::refuted  ? CellState::bad
+                                             : CellState::undecided;
+}
+
+/// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
+std::string boundsText(const ClaimFigure& figure) {
+  if (figure.low && figure.high)
+    return fmt::format("{} … {}", readableSetting(figure.low), readableSetting(figure.high));
+  if (figure.low) return "≥ " + readableSetting(figure.low);
+  if (figure.high) return "≤ " + readableSetting(figure.high);
+  return "";
+}
+
+std::string withBounds(std::string text, const ClaimFigure& figure) {
+  const std::string bounds = boundsText(figure);
+  return bounds.empty() ? text : text + " [" + bounds + "]";
+}
+
+// ---- The matrix: each claim under its first interpretation.
+
+/// A claim on an engine under all interpretations, the first first.
+Claims interpretationsOf(const ThesisResults& results, const std::string& engine,
+                         const std::string& id) {
+  Claims all;
+  for (const ClaimRow& claim : results.claims)
+    if (claim.engine == engine && claim.id == id) all.push_back(&claim);
+  return all;
+}
+
+/// An engine's claims under their first interpretation.
+Claims firstClaims(const ThesisResults& results, const std::string& engine) {
+  Claims claims;
+  for (const ClaimRow& claim : results.claims)
+    if (claim.engine == engine && std::ranges::find(claims, claim.id, [](const auto* each) {
+                                    return each->id;
+                                  }) == claims.end())
+      claims.push_back(&claim);
+  return claims;
+}
+
+/// Engines that claims are about, as the results have them; then what needs none.
+Names rowsOf(const ThesisResults& results) {
+  Names rows;
+  const auto add = [&](const std::string& name) {
+    const bool judged =
+        std::ranges::find(results.claims, name, &ClaimRow::engine) != results.claims.end();
+    if (judged && std::ranges::find(rows, name) == rows.end()) rows.push_back(name);
+  };
+  for (const EngineRow& engine : results.engines) add(engine.name);
+  for (const ClaimRow& claim : results.claims)
+    if (claim.engine != noEngine) add(claim.engine);
+  add(noEngine);
+  return rows;
+}
+
+OverviewCell cellOf(const Claims& claims) {
+  OverviewCell cell{CellState::notApplicable, {}, {}, {}, {}, {}};
+  if (claims.empty()) return cell;
+  const ClaimRow& claim = *claims.front();
+  cell.state = stateOf(claim.verdict);
+  cell.anchor = claim.id;
+  // The figure that refutes a claim, or leaves it undecided; else the one that stands for it.
+  auto figure = std::ranges::find(claim.figures, claim.verdict, &ClaimFigure::verdict);
+  if (figure == claim.figures.end()) figure = claim.figures.begin();
+  if (figure != claim.figures.end()) cell.words = withBounds(figure->name, *figure);
+  for (const ClaimRow* other : claims)
+    if (other->verdict != claim.verdict && other->verdict != ClaimVerdict::undecided) {
+      cell.words += fmt::format("{}{} under {}", cell.words.empty() ? "" : "; ",
+                                lookOf(stateOf(other->verdict)).mark, other->interpretation);
+      break;  // the table has the others
+    }
+  if (figure == claim.figures.end() || !finite(figure->value)) return cell;
+  cell.value = figure->value;
+  cell.unit = figure->unit;
+  cell.shown = readable(cell.value) + (cell.unit.empty() ? "" : "\u00a0" + cell.unit);
+  return cell;
+}
+
+std::string onEngine(const std::string& engine) {
+  return engine == noEngine ? "without any engine" : "on " + engine;
+}
+
+std::size_t countOf(const Claims& claims, ClaimVerdict verdict) {
+  return static_cast<std::size_t>(
+      std::ranges::count(claims, verdict, [](const ClaimRow* claim) { return claim->verdict; }));
+}
+
+/// "18 reproduced, 5 refuted, 4 undecided"
+std::string countsText(const Claims& claims) {
+  return fmt::format(
+      "{} reproduced, {} refuted, {} undecided", countOf(claims, ClaimVerdict::reproduced),
+      countOf(claims, ClaimVerdict::refuted), countOf(claims, ClaimVerdict::undecided));
+}
+
+/// Which are refuted, and whether a reason is known.
+std::string refutedText(const ThesisResults& results) {
+  constexpr std::size_t mostIds = 6;
+  Names parts;
+  std::size_t all = 0, unexplained = 0;
+  for (const std::string& engine : rowsOf(results)) {
+    Names ids;
+    for (const ClaimRow* claim : firstClaims(results, engine)) {
+      if (claim->verdict != ClaimVerdict::refuted) continue;
+      ids.push_back(claim->id);
+      unexplained += claim->reasons.empty();
+    }
+    all += ids.size();
+    if (!ids.empty())
+      parts.push_back(fmt::format("{} {}", listedShortly(ids, mostIds), onEngine(engine)));
+  }
+  if (parts.empty()) return {};
+  return fmt::format("Refuted: {}; the table of claims has what was found of {}.",
+                     fmt::join(parts, "; "),
+                     unexplained == 0 ? all == 1 ? std::string("the reason") : "their reasons"
+                                      : fmt::format("why, of {} nothing", unexplained));
+}
+
+std::string nextStep(const ThesisResults& results) {
+  const auto left = std::ranges::count_if(results.cases, [&](const ThesisCase& setup) {
+    return std::ranges::none_of(results.runs, [&](const ThesisRun& run) {
+      return run.setup == setup.name && run.run.finished();
+    });
+  });
+  std::size_t undecided = 0;
+  for (const std::string& engine : rowsOf(results))
+    undecided += countOf(firstClaims(results, engine), ClaimVerdict::undecided);
+  if (undecided == 0) return "Nothing is left to decide by these rules.";
+  if (left > 0)
+    return fmt::format(
+        "Next: the same command with a larger --budget runs the {} of {} cases that nobody has "
+        "run; what is undecided may rest on them.",
+        left, results.cases.size());
+  return "Next: see what each undecided claim lacks, in the table of claims.";
+}
+
+// ---- The page.
 
 /// "figure 7.14" is drawn as figure_7_14; empty: it is not drawn.
 std::string drawnPlot(const std::string& plot, const Illustrations& shown) {
@@ -27,113 +170,78 @@ std::string drawnPlot(const std::string& plot, const Illustrations& shown) {
   return drawn ? name : "";
 }
 
-Json figureRows(const ClaimRow& claim) {
-  Json rows = Json::array();
-  for (const ClaimFigure& figure : claim.figures)
-    rows.push_back({{"name", mathHtml(figure.name)},
-                    {"value", readable(figure.value, figure.standardError)},
-                    {"unit", figure.unit},
-                    {"bounds", boundsInWords(figure)}});
-  return rows;
-}
-
-/// How a verdict is shown: class of the style sheet, mark before the word.
-struct ClaimStyle {
-  std::string_view cssClass, mark;
-};
-ClaimStyle styleOf(ClaimVerdict verdict) {
-  if (verdict == ClaimVerdict::reproduced) return {"agree", "✓"};
-  if (verdict == ClaimVerdict::refuted) return {"disagree", "✗"};
-  return {"undecided", "?"};
-}
-
-/// Of a refuted claim each that was found; or that none was.
-Json reasonsOf(const ClaimRow& claim) {
-  Json reasons = Json::array();
-  for (const std::string& reason : claim.reasons) reasons.push_back(mathHtml(reason));
-  if (claim.verdict == ClaimVerdict::refuted && reasons.empty())
-    reasons.push_back("No reason was found.");
-  return reasons;
-}
-
 Json claimRows(const ThesisResults& results, const Illustrations& shown) {
   Json rows = Json::array();
   std::string before;
   for (const ClaimRow& claim : results.claims) {
-    const ClaimStyle style = styleOf(claim.verdict);
     const bool first = claim.id != before;
     before = claim.id;
+    Json figures = Json::array(), reasons = Json::array();
+    for (const ClaimFigure& figure : claim.figures)
+      figures.push_back({{"name", mathHtml(figure.name)},
+                         {"value", readable(figure.value, figure.standardError)},
+                         {"unit", figure.unit},
+                         {"bounds", boundsText(figure)}});
+    for (const std::string& reason : claim.reasons) reasons.push_back(mathHtml(reason));
+    if (claim.verdict == ClaimVerdict::refuted && reasons.empty())
+      reasons.push_back("No reason was found.");
+    constexpr const char* classes[] = {"agree", "disagree", "undecided"};
+    constexpr const char* marks[] = {"✓", "✗", "?"};
+    const auto verdict = static_cast<std::size_t>(claim.verdict);
     rows.push_back({{"id", claim.id},
                     {"first", first},
                     {"claim", first ? mathHtml(claim.claim) : ""},
                     {"engine", claim.engine},
-                    {"carrier", claim.carrier},
-                    {"reading", claim.reading},
-                    {"figures", figureRows(claim)},
-                    {"verdict", fmt::format("{} {}", style.mark, nameOf(claim.verdict))},
-                    {"class", style.cssClass},
+                    {"mirror", claim.mirror},
+                    {"interpretation", claim.interpretation},
+                    {"figures", figures},
+                    {"verdict", fmt::format("{} {}", marks[verdict], nameOf(claim.verdict))},
+                    {"class", classes[verdict]},
                     {"why", mathHtml(claim.why)},
-                    {"reasons", reasonsOf(claim)},
-                    {"legs", fmt::format("{}", fmt::join(claim.legs, ", "))},
+                    {"reasons", reasons},
+                    {"cases", fmt::format("{}", fmt::join(claim.cases, ", "))},
                     {"plot", claim.plot},
                     {"anchor", drawnPlot(claim.plot, shown)}});
   }
   return rows;
 }
 
-/// Of one engine's finished runs of a leg, all packings together.
-struct LegRuns {
-  std::string engine;
-  int packings = 0;
-  double wall = 0.0, cpu = 0.0;  ///< [s]
-  const ThesisRun* first = nullptr;
-};
-
-std::vector<LegRuns> runsOf(const ThesisResults& results, const ThesisLeg& leg) {
-  std::vector<LegRuns> all;
-  for (const ThesisRun& run : results.runs) {
-    if (run.leg != leg.name || !run.run.finished()) continue;
-    auto own = std::ranges::find(all, run.engine, &LegRuns::engine);
-    if (own == all.end()) own = all.insert(all.end(), {run.engine, 0, 0.0, 0.0, &run});
-    ++own->packings;
-    if (!run.run.stats) continue;
-    own->wall += run.run.stats->wallSeconds;
-    own->cpu += run.run.stats->cpuSeconds;
-  }
-  return all;
-}
-
-std::string rotationsOf(const ThesisLeg& leg) {
-  return fmt::format("{} to {}", readableSetting(leg.settleRotations),
-                     readableSetting(leg.settleRotations + leg.averagedRotations));
-}
-
-/// A row for each engine of a leg, the leg itself in the first.
-Json legRows(const ThesisResults& results) {
+/// A row for each engine of a case, the case itself in the first.
+Json caseRows(const ThesisResults& results) {
   Json rows = Json::array();
-  for (const ThesisLeg& leg : results.legs) {
-    const double rotations = leg.settleRotations + leg.averagedRotations;
+  for (const ThesisCase& setup : results.cases) {
     Json row = {{"first", true},
-                {"name", leg.name},
-                {"purpose", leg.purpose},
-                {"families", fmt::format("{}", fmt::join(leg.families, ", "))},
-                {"label", fmt::format("{:.3f}", leg.label)},
-                {"nu", fmt::format("{:.4f}", leg.cell.volumeFraction)},
-                {"counts", fmt::format("{} + {}", leg.cell.small, leg.cell.large)},
-                {"omega", readableSetting(leg.cell.omega)},
-                {"spacing", readableSetting(1e3 * leg.cell.wallSpacing)},
-                {"rotations", rotationsOf(leg)},
-                {"engine", "not run"}};
-    const std::vector<LegRuns> runs = runsOf(results, leg);
-    row["span"] = std::max<std::size_t>(runs.size(), 1);
-    if (runs.empty()) rows.push_back(row);
-    for (const LegRuns& own : runs) {
-      const double each = own.packings * rotations;
-      const auto& history = own.first->history;
-      row["engine"] = own.engine;
-      row["packings"] = own.packings;
-      row["wall"] = readableDuration(own.wall / each);
-      row["cpu"] = readableDuration(own.cpu / each);
+                {"name", setup.name},
+                {"purpose", setup.purpose},
+                {"families", fmt::format("{}", fmt::join(setup.families, ", "))},
+                {"label", fmt::format("{:.3f}", setup.label)},
+                {"nu", fmt::format("{:.4f}", setup.cell.volumeFraction)},
+                {"counts", fmt::format("{} + {}", setup.cell.small, setup.cell.large)},
+                {"omega", readableSetting(setup.cell.omega)},
+                {"spacing", readableSetting(1e3 * setup.cell.wallSpacing)},
+                {"rotations", fmt::format("{} to {}", readableSetting(setup.settleRotations),
+                                          readableSetting(setup.endRotation()))},
+                {"engine", "not run"},
+                {"span", 1}};
+    Names engines;
+    for (const std::string& engine : enginesWithRuns(results))
+      if (!finishedRuns(results, setup, engine).empty()) engines.push_back(engine);
+    if (engines.empty()) rows.push_back(row);
+    row["span"] = std::max<std::size_t>(engines.size(), 1);
+    for (const std::string& engine : engines) {
+      const std::vector<CaseRun> runs = finishedRuns(results, setup, engine);
+      double wall = 0.0, cpu = 0.0;  // s
+      for (const CaseRun& at : runs)
+        if (const auto& stats = at.run->run.stats) {
+          wall += stats->wallSeconds;
+          cpu += stats->cpuSeconds;
+        }
+      const double rotations = static_cast<double>(runs.size()) * setup.endRotation();
+      const auto& history = runs.front().run->history;
+      row["engine"] = engine;
+      row["packings"] = runs.size();
+      row["wall"] = readableDuration(wall / rotations);
+      row["cpu"] = readableDuration(cpu / rotations);
       row["pressures"] = history.empty()
                              ? absentText
                              : fmt::format("{} → {}", readable(history.front().outerPressure),
@@ -145,42 +253,40 @@ Json legRows(const ThesisResults& results) {
   return rows;
 }
 
-/// A row for each reading, with its change of each number.
-void addReadings(Json& view, const ThesisResults& results) {
-  view["readingNumbers"] = Json::array();
-  for (const ProfileNumber& number : profileNumbers())
-    view["readingNumbers"].push_back({{"name", mathHtml(number.label)}, {"unit", number.unit}});
-  view["readings"] = Json::array();
-  for (const ReadingRow& of : readingRows(results)) {
+void addInterpretations(Json& view, const ThesisResults& results) {
+  view["interpretationNumbers"] = Json::array();
+  for (const ProfileNumber& number : profileNumbers)
+    view["interpretationNumbers"].push_back(
+        {{"name", mathHtml(number.label)}, {"unit", number.unit}});
+  view["interpretations"] = Json::array();
+  for (const InterpretationRow& of : interpretationRows(results)) {
     Json cells = Json::array();
-    for (const ReadingChange& change : of.changes)
+    for (const InterpretationChange& change : of.changes)
       cells.push_back({{"change", readableDifference(change.change, change.error)},
                        {"from", readable(change.standard)},
                        {"there", change.change.has_value()}});
-    std::vector<std::string> labels;
+    Names labels;
     for (const double label : of.labels) labels.push_back(fmt::format("{:.3f}", label));
-    view["readings"].push_back({{"words", mathHtml(of.words)},
-                                {"engine", of.engine},
-                                {"labels", fmt::format("{}", fmt::join(labels, ", "))},
-                                {"rotations", of.rotations},
-                                {"pairs", of.pairs},
-                                {"changes", cells}});
+    view["interpretations"].push_back({{"label", mathHtml(of.label)},
+                                       {"engine", of.engine},
+                                       {"labels", fmt::format("{}", fmt::join(labels, ", "))},
+                                       {"rotations", of.rotations},
+                                       {"pairs", of.pairs},
+                                       {"changes", cells}});
   }
-  view["hasReadings"] = !view["readings"].empty();
+  view["hasInterpretations"] = !view["interpretations"].empty();
 }
 
-/// "grain: 75 s of wall time and 74 s of CPU time a rotation at 0.1 /s (the median of 17 runs); …"
-/// @param first  index of the engine among all
+/// "grain: a rotation of the wheel at 0.1 /s takes 75 s of wall time …"; empty without runs.
 std::string speedOf(const ThesisResults& results, const std::string& engine) {
+  constexpr double secondsPerDay = 86400.0, thesisRate = 0.1;
   std::vector<std::pair<double, double>> perRotation;  // wall, CPU, at the thesis' own rate
-  constexpr double thesisRate = 0.1;
   for (const ThesisRun& run : results.runs) {
-    const auto leg = std::ranges::find(results.legs, run.leg, &ThesisLeg::name);
-    if (leg == results.legs.end() || run.engine != engine || !run.run.finished()) continue;
-    if (!run.run.stats || leg->cell.omega <= 0.0) continue;
+    const auto setup = std::ranges::find(results.cases, run.setup, &ThesisCase::name);
+    if (setup == results.cases.end() || run.engine != engine || !run.run.finished()) continue;
+    if (!run.run.stats || setup->cell.omega <= 0.0) continue;
     // Steps of a rotation go as 1/Ω.
-    const double scale =
-        leg->cell.omega / thesisRate / (leg->settleRotations + leg->averagedRotations);
+    const double scale = setup->cell.omega / thesisRate / setup->endRotation();
     perRotation.emplace_back(run.run.stats->wallSeconds * scale, run.run.stats->cpuSeconds * scale);
   }
   if (perRotation.empty()) return "";
@@ -193,51 +299,126 @@ std::string speedOf(const ThesisResults& results, const std::string& engine) {
       readable(secondsPerDay / cpu), readable(2.0 * secondsPerDay / cpu));
 }
 
-std::string sentenceOf(const ThesisCarrier& carrier) {
-  return fmt::format("{} {} {}: {}", carrier.engine,
-                     carrier.carries ? "is carried by" : "is not carried by", carrier.mirror,
-                     carrier.why);
-}
-
-void addThesisSummary(Json& view, const ThesisResults& results) {
-  const std::vector<std::string> counts = claimCounts(results);
-  view["lead"] = counts.empty() ? "No claim was judged." : counts.front() + ".";
-  view["sentences"] = Json::array();
-  for (std::size_t k = 1; k < counts.size(); ++k) view["sentences"].push_back(counts[k] + ".");
+void addSummary(Json& view, const ThesisResults& results) {
+  Names sentences;
+  for (const std::string& engine : rowsOf(results))
+    sentences.push_back(fmt::format("Claims {}: {}.",
+                                    engine == noEngine ? "that need no engine" : "on " + engine,
+                                    countsText(firstClaims(results, engine))));
+  view["lead"] = sentences.empty() ? "No claim was judged." : sentences.front();
+  if (!sentences.empty()) sentences.erase(sentences.begin());
   for (const EngineRow& engine : results.engines)
     if (const std::string speed = speedOf(results, engine.name); !speed.empty())
-      view["sentences"].push_back(speed);
-  for (const ThesisCarrier& carrier : results.carriers)
-    view["sentences"].push_back(sentenceOf(carrier));
+      sentences.push_back(speed);
+  for (const ThesisSurrogate& each : results.surrogates)
+    sentences.push_back(fmt::format(
+        "{} {} {}: {}", each.engine,
+        each.accepted ? "is evaluated through its mirror" : "is not evaluated through its mirror",
+        each.mirror, each.why));
   for (const ThesisRun& run : results.runs)
-    if (run.run.status == RunStatus::failed)
-      view["sentences"].push_back("Failed: " + run.run.reason);
+    if (run.run.status == RunStatus::failed) sentences.push_back("Failed: " + run.run.reason);
+  view["sentences"] = sentences;
 }
 
 }  // namespace
 
+Overview thesisOverview(const ThesisResults& results) {
+  Overview overview;
+  overview.states = {{CellState::good, "reproduced"},
+                     {CellState::bad, "refuted"},
+                     {CellState::notApplicable, "no claim of it"}};
+  for (const ClaimRow& claim : results.claims)
+    if (std::ranges::find(overview.columns, claim.id, &OverviewColumn::name) ==
+        overview.columns.end())
+      overview.columns.push_back({claim.id, claim.claim, claim.id});
+  Names counts;
+  for (const std::string& engine : rowsOf(results)) {
+    OverviewRow row{engine == noEngine ? "no engine" : engine, engine != noEngine, {}};
+    for (const OverviewColumn& column : overview.columns)
+      row.cells.push_back(cellOf(interpretationsOf(results, engine, column.name)));
+    overview.rows.push_back(std::move(row));
+    counts.push_back(onEngine(engine) + ": " + countsText(firstClaims(results, engine)));
+  }
+  if (overview.rows.empty()) return overview;
+  overview.conclusion = {fmt::format("Claims {}.", fmt::join(counts, "; ")), refutedText(results),
+                         nextStep(results)};
+  std::erase(overview.conclusion, "");
+  return overview;
+}
+
 std::string thesisPage(const ThesisResults& results, const Illustrations& shown) {
   Json view = commonView(results.head, results.elapsed, results.notes, shown);
-  addThesisSummary(view, results);
+  addSummary(view, results);
   addOverview(view, thesisOverview(results), results.engines);
   view["claims"] = claimRows(results, shown);
   view["hasClaims"] = !results.claims.empty();
-  view["legs"] = legRows(results);
+  view["cases"] = caseRows(results);
   view["figures"] = figureViews(shown, "figure_");
   view["map"] = figureViews(shown, "map_");
   view["hasMap"] = !view["map"].empty();
   view["hasFigures"] = !view["figures"].empty();
-  addReadings(view, results);
+  addInterpretations(view, results);
   view["rules"] = results.rules;
-  view["ladder"] = results.head.setup.toml;
-  view["toml"] = "";  // of a case: a ladder has many
+  view["sweep"] = results.head.setup.toml;
+  view["toml"] = "";  // of a case: a sweep has many
   view["files"] =
       "Beside this page: results.json (everything), claims.csv (every figure of every claim), "
       "history.csv (every rotation of every run), regime_map.csv (states over ν̄ and rotations) and "
-      "readings.csv (what "
-      "each reading changes). "
+      "readings.csv (what each interpretation changes). "
       "Whole runs, with series and all fields, are in runs/ where they were made.";
   return render("report_thesis.html", view);
+}
+
+std::string claimsText(const ThesisResults& results) {
+  std::string text;
+  for (const ClaimRow& claim : results.claims) {
+    std::string figure;
+    if (!claim.figures.empty()) {
+      const ClaimFigure& first = claim.figures.front();
+      figure = withBounds(
+          fmt::format("{}: {}{}{}", first.name, readable(first.value, first.standardError),
+                      first.unit.empty() ? "" : " ", first.unit),
+          first);
+    }
+    text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, nameOf(claim.verdict),
+                        claim.engine, figure, claim.interpretation);
+  }
+  for (const std::string& note : results.notes) text += note + "\n";
+  return text;
+}
+
+std::string claimsCsv(const ThesisResults& results) {
+  std::string table =
+      "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why,figure_verdict,"
+      "reasons\n";
+  for (const ClaimRow& claim : results.claims) {
+    const auto line = [&](const ClaimFigure& figure) {
+      table += row(claim.id, claim.engine, claim.mirror, claim.interpretation, figure.name,
+                   figure.value, figure.standardError, figure.low, figure.high, figure.unit,
+                   std::string(nameOf(claim.verdict)), claim.why,
+                   figure.verdict ? std::string(nameOf(*figure.verdict)) : std::string(),
+                   fmt::format("{}", fmt::join(claim.reasons, " ")));
+    };
+    for (const ClaimFigure& figure : claim.figures) line(figure);
+    if (claim.figures.empty()) line({});
+  }
+  return table;
+}
+
+std::string historyCsv(const ThesisResults& results) {
+  std::string table =
+      "leg,engine,packing,from_rotation,to_rotation,outer_pressure,wheel_torque,wheel_contacts,"
+      "wheel_touched,coordination,volume_fraction_at_wheel,volume_fraction_outside,"
+      "velocity_at_wheel,kinetic_energy,max_overlap,mean_overlap\n";
+  for (const ThesisRun& run : results.runs)
+    for (const ThesisSpan& span : run.history) {
+      std::string line = row(run.setup, run.engine, static_cast<std::size_t>(run.packing),
+                             finite(span.from), finite(span.to));
+      line.pop_back();
+      for (const SpanNumber number : spanNumbers) line += "," + cell(span.*number);
+      table += line + "\n";
+    }
+  return table;
 }
 
 }  // namespace crossgrain::reports

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 
 namespace crossgrain::inline runs {
 

@@ -6,13 +6,45 @@
 #include <string>
 
 #include "adapters/declared_law.hpp"
+#include "adapters/law_options.hpp"
+#include "adapters/pair_table.hpp"
 #include "adapters/registry.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/collision_flight.hpp"
 #include "runs/collide/contact_account.hpp"
-#include "runs/collide/law_words.hpp"
 
 namespace crossgrain::inline runs {
+
+LawWords lawInWords(const ContactLaw& law) {
+  LawWords words;
+  for (const LawOption& option : lawOptions())
+    if (mattersTo(law, option.name))
+      words[std::string(option.name)] = std::string(option.values[option.get(law)]);
+  const PairCoefficients has = coefficientsOf(law);
+  const std::pair<const char*, double> constants[] = {
+      {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
+  for (const auto& [name, value] : constants)
+    if (value > 0.0) words[name] = value;
+  if (!law.soft()) words["e_n"] = law.en;
+  if (!law.soft() && has.mu > 0.0) words["e_t0"] = law.et0;
+  if (law.normal == NormalLaw::polynomial) words["kn3"] = law.kn3;
+  return words;
+}
+
+LawWords lawDifference(const ContactLaw& law, const ContactLaw& from) {
+  const LawWords before = lawInWords(from);
+  LawWords difference = lawInWords(law);
+  std::erase_if(difference, [&](const auto& word) {
+    const auto found = before.find(word.first);
+    return found != before.end() && found->second == word.second;
+  });
+  // Another normal law has constants of its own; where it is the same one, what is gone is 0.
+  if (law.normal != from.normal) return difference;
+  for (const auto& [name, value] : before)
+    if (std::holds_alternative<double>(value) && !lawInWords(law).contains(name))
+      difference[name] = 0.0;
+  return difference;
+}
 
 namespace {
 
@@ -27,12 +59,14 @@ std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) 
   return margin->second.value * errorUnit(psi).value;
 }
 
+/// Margins by which Ψ_f moves at a jump at least.
+constexpr double steepest = 3.0;
+
 /// Where Ψ_f moves by more than three margins while Ψ_i moves by one. Sticking and sliding move it
 /// by one at most; the rest is room for what is steep but smooth in between.
 void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, OracleCurve& oracle) {
   const auto margin = marginOfPsi(setup, oracle);
   if (!margin || !setup.law.springs() || !setup.law.soft()) return;
-  constexpr double steepest = 3.0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     if (!oracle.ends[k] || !oracle.unsure[k].empty()) continue;
     for (const double side : {-1.0, 1.0}) {
@@ -73,6 +107,28 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
   }
   findJumps(setup, starts, curve);
   return curve;
+}
+
+OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
+                   double dt) {
+  const auto margin = marginOfPsi(setup, oracle);
+  if (!margin) return oracle;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!oracle.ends[k] || !oracle.unsure[k].empty() ||
+        !stepMissesSlip(setup.law, collidingPair(setup), starts[k], dt))
+      continue;
+    CollisionStart late = starts[k];
+    late.late = dt;
+    const double here = oracle.ends[k]->psi;
+    const double there = oracleOutcome(setup.law, collidingPair(setup), late).psi;
+    if (std::abs(there - here) > steepest * *margin)
+      oracle.unsure[k] = fmt::format(
+          "beside the law's jump at psi_i = mu gn/gt: it slips from the first touch on, psi_f "
+          "{:.4g}; "
+          "evaluated first within a step of {:.3g} s it sticks, psi_f {:.4g}",
+          here, dt, there);
+  }
+  return oracle;
 }
 
 const OracleCurve& DeclaredOracles::of(const Case& setup,
@@ -190,6 +246,7 @@ struct SweptCurve {
   const Realised& realised;
   const Outcomes& found;
   bool watch;
+  double step;              ///< that references are taken for: atStep() [s]
   const CurveScore& score;  ///< against the scene's law
 };
 
@@ -202,14 +259,15 @@ std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const Engine
                                            DeclaredOracles& oracles) {
   DeclaredScore score;
   if (!law) {
-    score.oracleReason = "it has another normal law, whose constants it does not tell";
+    score.oracleReason = "it has another normal law, whose constants it does not report";
     return score;
   }
   score.law = lawDifference(*law, swept.setup.law);
   if (score.law.empty()) return std::nullopt;
   Case declared = swept.setup;
   declared.law = *law;
-  const OracleCurve& oracle = oracles.of(declared, swept.starts);
+  const OracleCurve oracle =
+      atStep(oracles.of(declared, swept.starts), declared, swept.starts, swept.step);
   score.oracleReason = oracle.reason;
   const Outcomes reference = referenceOf(oracle);
   const bool known = mostAreKnown(reference);
@@ -244,7 +302,7 @@ Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& set
 }
 
 CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
-                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
                         bool watch, DeclaredOracles* declared) {
   const Scene scene = collisionScene(setup, starts, dt);
   const Realised realised = loadScene(engine, entry, setup, scene);
@@ -256,6 +314,9 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   curve.dt = realised.dt;
   const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
   if (contact > 0.0) curve.stepsPerContact = contact / realised.dt;
+  // An engine of impulses does not resolve a contact: its steps excuse nothing.
+  const double step = std::min(dt, realised.dt);
+  const OracleCurve oracle = atStep(limit, setup, starts, step);
   const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
   if (missing > 0) {
     curve.status = SweepStatus::incomplete;
@@ -277,7 +338,7 @@ CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& se
   curve.score = scoreSweep(setup, starts, found, reference);
   if (declared)
     curve.declared = scoreDeclared(
-        {setup, starts, asRun, realised, found, watch, curve.score}, entry,
+        {setup, starts, asRun, realised, found, watch, step, curve.score}, entry,
         declaredLaw(can, asRun, realised, collidingPair(setup).reducedMass()), *declared);
   return curve;
 }

@@ -5,14 +5,23 @@
 #include <utility>
 #include <vector>
 
+#include "adapters/contact_law.hpp"
 #include "cases/case.hpp"
 #include "cases/collision_scene.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "results/collision.hpp"
+#include "results/collision_score.hpp"
 #include "runs/collide/score.hpp"
 #include "runs/common/engine_access.hpp"
 
 namespace crossgrain::inline runs {
+
+/// Options that matter to the law, and constants that it has.
+LawWords lawInWords(const ContactLaw& law);
+
+/// Those in which a law differs from another; a constant that it lacks is 0. Empty: it is the same
+/// law.
+LawWords lawDifference(const ContactLaw& law, const ContactLaw& from);
 
 /// What the oracle says of each start; absent where it has no outcome.
 struct OracleCurve {
@@ -25,6 +34,13 @@ struct OracleCurve {
   std::vector<std::string> unsure;
 };
 OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
+
+/// The same for a sweep in steps of dt [s]: beside a jump of the law at the first touch (where
+/// stepMissesSlip()) there is no reference either, if the law ends elsewhere by more than jumps are
+/// told by where it is evaluated a step late. That scales with dt, and hides no sweep: what lacks
+/// most of its references is not judged (mostAreKnown()).
+OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
+                   double dt);
 
 /// Oracles of the laws that an engine declares for the starts of one case. The case's time steps
 /// share them.

@@ -4,22 +4,68 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "adapters/audit.hpp"
+#include "adapters/audit_basis.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
-#include "adapters/suitability.hpp"
-#include "adapters/worker/pooled_engine.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/audited_engine.hpp"
-#include "runs/common/engine_step.hpp"
-#include "runs/common/mirror_scene.hpp"
+#include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline runs {
+
 namespace {
+
+/// An engine whose every snapshot is compared with what must be true of it before anybody sees it;
+/// all else is handed on.
+class AuditedEngine final : public Engine {
+ public:
+  AuditedEngine(std::string name, std::unique_ptr<Engine> engine)
+      : name_(std::move(name)), engine_(std::move(engine)) {}
+
+  Capabilities capabilities() const override { return engine_->capabilities(); }
+  Realised load(const Scene& scene, const Settings& settings) override {
+    Realised realised = engine_->load(scene, settings);
+    scene_ = scene;
+    basis_ = auditBasis(scene_, engine_->capabilities(), realised);
+    reached_ = 0.0;
+    return realised;
+  }
+  double advance(double t) override {
+    reached_ = engine_->advance(t);
+    return *reached_;
+  }
+  /// @throws EngineFailure of one line: engine, scene, time, and what cannot be
+  Snapshot snapshot(ContactReport contacts) override {
+    Snapshot seen = engine_->snapshot(contacts);
+    if (const std::string why = whyUnsound(seen, basis_, reached_); !why.empty()) {
+      distrust(*engine_);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}", name_,
+                                      scene_.name, reached_.value_or(seen.positionTime), why));
+    }
+    return seen;
+  }
+  Stats stats() const override { return engine_->stats(); }
+  void checkpoint(const std::filesystem::path& file) override { engine_->checkpoint(file); }
+  void restore(const std::filesystem::path& file) override {
+    engine_->restore(file);
+    reached_.reset();
+  }
+
+  Engine& inner() { return *engine_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Engine> engine_;
+  Scene scene_;  ///< as the engine was given it
+  AuditBasis basis_;
+  std::optional<double> reached_;  ///< what advance() returned last; absent: not known [s]
+};
 
 std::string typeName(const SettingValue& value) {
   return std::visit(
@@ -108,15 +154,20 @@ namespace {
 
 /// @throws BadInput if it is not installed
 WorkerPool::Kind workerOf(const EngineEntry& entry) {
-  if (entry.missing)
-    if (const std::string why = entry.missing(); !why.empty())
-      throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+  requireInstalled({entry});
   return {entry.name, entry.command
                           ? entry.command()
                           : std::vector<std::string>{ownProgram(), "__serve", entry.name}};
 }
 
 }  // namespace
+
+void requireInstalled(const std::vector<EngineEntry>& engines) {
+  for (const EngineEntry& entry : engines)
+    if (entry.missing)
+      if (const std::string why = entry.missing(); !why.empty())
+        throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+}
 
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout) {
@@ -132,7 +183,11 @@ std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem
 
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout) {
-  return std::make_unique<AuditedEngine>(entry.name, startEngine(entry, scratch, timeout));
+  return audited(entry.name, startEngine(entry, scratch, timeout));
+}
+
+std::unique_ptr<Engine> audited(std::string name, std::unique_ptr<Engine> engine) {
+  return std::make_unique<AuditedEngine>(std::move(name), std::move(engine));
 }
 
 void distrust(Engine& engine) {
@@ -263,10 +318,72 @@ void requireSameStep(const Realised& first, const Realised& now) {
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch) {
   LoadedEngine loaded;
-  loaded.engine = startEngine(entry, scratch, setup.run.timeout);
+  loaded.engine = startAudited(entry, scratch, setup.run.timeout);
   loaded.can = loaded.engine->capabilities();
   loaded.realised = loadScene(*loaded.engine, entry, setup, scene);
   return loaded;
+}
+
+namespace {
+
+const double* stepIn(const Settings& settings) {
+  const auto found = settings.find("dt");
+  return found == settings.end() ? nullptr : std::get_if<double>(&found->second);
+}
+
+}  // namespace
+
+Settings settingsSaid(const Case& setup, const std::string& engine) {
+  Settings settings;
+  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
+    settings = section->second;
+  if (const EngineEntry* const entry = findEngine(engine))
+    settings.insert(entry->settings.begin(), entry->settings.end());
+  return settings;
+}
+
+Settings withStep(Settings settings, const Case& setup, const Capabilities& can) {
+  const bool has = std::ranges::find(can.settings, "dt", &SettingSpec::name) != can.settings.end();
+  if (setup.run.dt && has) settings.try_emplace("dt", 0.0);
+  return settings;
+}
+
+std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
+                                   const Capabilities& can) {
+  Settings used;
+  for (const SettingSpec& spec : can.settings) used[spec.name] = spec.defaultValue;
+  Settings given = withStep(settingsSaid(setup, engine), setup, can);
+  given.merge(used);
+  const double* step = stepIn(given);
+  return step && *step > 0.0 ? std::optional(*step) : std::nullopt;
+}
+
+std::optional<Deviation> stepDeviation(double engineStep, double sceneStep) {
+  constexpr double roundings = 1e-12;
+  if (!(std::abs(engineStep - sceneStep) > roundings * sceneStep)) return std::nullopt;
+  return Deviation{
+      "dt", engineStep, "s",
+      fmt::format("takes steps of {:.4g} s, the case's are {:.4g} s", engineStep, sceneStep)};
+}
+
+Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                          const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  settingsFor(setup, entry.name, can);
+  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  std::vector<Deviation> deviations = adapted.deviations;
+  Effects effects = simulatedEffects(can, adapted.scene);
+  Suitability found;
+  if (scene.disks.size() > 0 && whyNoStart(scene).empty()) {
+    const Realised realised = loadAdapted(engine, entry, setup, scene);
+    deviations = realised.deviations;
+    effects = realised.effects;
+    found.dt = realised.dt;
+  }
+  for (const Deviation& deviation : deviations) found.deviations.push_back(deviation.note);
+  for (const Effect effect : effectsOf(scene))
+    if (!effects.contains(effect)) found.notSimulated.emplace_back(toString(effect));
+  return found;
 }
 
 }  // namespace crossgrain::inline runs

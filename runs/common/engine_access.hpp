@@ -4,16 +4,17 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
 
+#include "adapters/engine.hpp"
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "adapters/worker/exchange.hpp"
 #include "adapters/worker/worker_pool.hpp"
 #include "cases/case.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -39,22 +40,29 @@ bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law);
 /// selectEngines() and checkEngineSections()
 std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names);
 
+/// @throws BadInput for the first that is not installed, saying why
+void requireInstalled(const std::vector<EngineEntry>& engines);
+
 /// This program's path, which serves engines as workers, too.
 std::string ownProgram();
 
 /// A worker of the engine, for one run: one that another run has done with, or a new one
-/// (adapters/worker/pooled_engine.hpp). @throws EngineFailure, BadInput if it is not installed
+/// (adapters/worker/worker_pool.hpp). @throws EngineFailure, BadInput if it is not installed
 std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
                                     double timeout);
 
-/// A new process that is nobody else's, where the process itself is looked at: what it is asked
+/// A new process that is nobody else's, where the process itself matters: what it is asked
 /// first, how long it takes to start, the memory that it holds, what it does after another one's
 /// end. @throws likewise
-/// @param listener  is told every request and answer
+/// @param listener  gets every request and answer
 std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
                                  double timeout, ExchangeListener listener = {});
 
-/// startEngine(), every snapshot of it audited (audited_engine.hpp).
+/// The engine, whose every snapshot is compared with what must be true of it (adapters/audit.hpp)
+/// before anybody sees it: what cannot be is an EngineFailure of one line.
+std::unique_ptr<Engine> audited(std::string name, std::unique_ptr<Engine> engine);
+
+/// startEngine(), audited.
 std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
                                      double timeout);
 
@@ -69,7 +77,7 @@ void sayWhatIsAlwaysNew(std::ranges::input_range auto&& engines, Progress& progr
       progress.say(fmt::format("{}: {}; each of its runs gets a new process", entry.name, why));
 }
 
-/// The settings of one engine in a case, its time step by the rule of engine_step.hpp. @throws
+/// The settings of one engine in a case, its time step by the rule below. @throws
 /// BadInput for one that the engine does not have, or of another type or choice, naming the nearest
 Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can);
 
@@ -90,7 +98,7 @@ struct LoadedEngine {
   Capabilities can;
 };
 
-/// Has an engine of startEngine() load the scene as far as the case lets it differ.
+/// Has an engine of startAudited() load the scene as far as the case lets it differ.
 /// @throws UnsupportedScene, EngineFailure, BadInput
 LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
                         const std::filesystem::path& scratch);
@@ -108,5 +116,40 @@ Realised loadScene(Engine& engine, const EngineEntry& entry, const Case& setup, 
 /// What is compared over several starts of a case has one step and one precision.
 /// @throws EngineFailure where the engine has others than from the first start
 void requireSameStep(const Realised& first, const Realised& now);
+
+// Whose time step an engine takes, first to last:
+//   [engines.NAME] dt             of the case, 0 meaning the case's own step
+//   [run] dt                      a step that the case gives is everybody's
+//   the setting's default         5e-4 s of an engine whose contacts need no resolving, say
+//   the case's                    t_c / steps_per_contact
+// A step that is not the scene's is a deviation (loadScene()).
+
+/// The step of the first three lines [s]; absent where the engine follows the case.
+std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
+                                   const Capabilities& can);
+
+/// What the case says under [engines.NAME], and where it is silent the engine's own file.
+Settings settingsSaid(const Case& setup, const std::string& engine);
+
+/// The settings with the rule above spelt out: an engine with a default of its own is set to take
+/// the scene's step where the case gives one.
+Settings withStep(Settings settings, const Case& setup, const Capabilities& can);
+
+/// That the engine takes other steps than the scene's; absent if it does not.
+std::optional<Deviation> stepDeviation(double engineStep, double sceneStep);
+
+/// How an engine runs a case.
+struct Suitability {
+  std::optional<double> dt;               ///< its time step, where it has loaded the scene [s]
+  std::vector<std::string> deviations;    ///< one note each
+  std::vector<std::string> notSimulated;  ///< effects that the scene calls for
+};
+
+/// What `check` says of an engine and a case. The engine has loaded the scene then, so that `check`
+/// and the reports of runs tell the same; of a scene that no engine can start from, it is what is
+/// known before.
+/// @throws UnsupportedScene in the engine's own words, BadInput for a setting
+Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                          const Scene& scene);
 
 }  // namespace crossgrain::inline runs

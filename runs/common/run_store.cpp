@@ -5,10 +5,8 @@
 #include <algorithm>
 
 #include "adapters/registry.hpp"
-#include "cases/cost_knobs.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/version.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -230,16 +228,11 @@ std::string programOf(const fs::path& folder) {
 CaseKeys keysThatMatter(const Case& setup) {
   // Which runs there are: more or fewer of them leave the others as they are. What a worker may
   // take, and what an engine may differ in, decides whether it runs, not what comes out.
-  static const std::vector<std::string> which = [] {
-    std::vector<std::string> keys = {
-        "preparation.packings", "run.mirrors",          "run.may_differ",
-        "run.timeout",          "cost.kinds",           "cost.knobs",
-        "cost.settings",        "cost.collision_steps", "cost.trajectory_steps",
-        "cost.average_steps",   "cost.bound_steps",     "looks"};
-    for (const CostKnob& knob : costKnobs())
-      if (!knob.key.empty() && !knob.sameRun) keys.push_back(fmt::format("cost.{}", knob.key));
-    return keys;
-  }();
+  static const std::vector<std::string> which = {
+      "preparation.packings", "run.mirrors",          "run.may_differ",
+      "run.timeout",          "cost.kinds",           "cost.knobs",
+      "cost.settings",        "cost.collision_steps", "cost.trajectory_steps",
+      "cost.average_steps",   "cost.tangential",      "looks"};
   // How they are judged, all together, when all are there.
   static const std::vector<std::string> judged = {"averaging.margins", "averaging.endpoints",
                                                   "averaging.confidence"};
@@ -258,10 +251,12 @@ std::map<std::string, CaseKeys> soleCase(const Case& setup) {
 
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases) {
   std::map<std::string, CaseKeys> keys;
-  for (const Case& setup : cases)
-    keys[setup.variant.empty() ? setup.name : setup.name + " " + setup.variant] =
-        keysThatMatter(setup);
+  for (const Case& setup : cases) keys[fullName(setup)] = keysThatMatter(setup);
   return keys;
+}
+
+std::string fullName(const Case& setup) {
+  return setup.variant.empty() ? setup.name : setup.name + " " + setup.variant;
 }
 
 CaseKeys runKey(const Case& setup, const std::string& engine, const std::string& version) {

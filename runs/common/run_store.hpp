@@ -10,27 +10,46 @@
 #include "cases/case.hpp"
 #include "cases/case_keys.hpp"
 #include "results/json_fields.hpp"
-#include "runs/common/options.hpp"
 #include "support/folder_lock.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline runs {
 
+/// What every command that runs engines has on its command line.
+struct RunCommand {
+  std::vector<std::string> engines;  ///< names, "all" allowed
+  std::filesystem::path out;
+  int jobs = 1;         ///< engines side by side
+  bool fresh = false;   ///< set aside what an earlier command left in `out`, and begin anew
+  bool dryRun = false;  ///< say what would run; write and hold nothing
+  bool quiet = false;
+  std::string commandLine;  ///< for the report
+};
+
+extern const char* const programVersion;
+
+/// The source that this was built from, as far as git could tell when it was configured: runs of
+/// another build are not loaded.
+extern const char* const programBuild;
+
+/// "0.3.0 (7902f0e)"
+std::string thisProgram();
+
 /// The output folder of one command, with a file for each finished run, so that nothing computed is
 /// ever lost. A folder belongs to one command, one build of the program and one version of each
-/// case; what is finished there is taken up, and nothing else may be put on top of it.
+/// case; what is finished there is loaded, and nothing else may be put on top of it.
 ///
-///   RunStore ── begin ── find, keep …      held against other processes for as long as it lives
+///   RunStore ── begin ── find, keep …      locked against other processes for as long as it lives
 class RunStore {
  public:
   /// Opens the folder, which is made if need be; what is there stays. Of a dry run nothing is made
-  /// and nothing held.
+  /// and nothing locked.
   /// @param name   the command's: "compare"
   /// @param cases  what it is about to run, by name; none for commands that keep no runs
   /// @throws OutputError if it cannot be written to
   /// @throws BadInput, saying what differs, if it holds another command's results, or finished runs
   ///         of another build or of cases that have changed; if another process holds it; if it
-  ///         holds files of strangers. `command.fresh` lifts the first two.
+  ///         holds files of others. `command.fresh` lifts the first two.
   RunStore(const RunCommand& command, std::string name, std::map<std::string, CaseKeys> cases);
   /// A folder that was made for a command that could not begin goes with it.
   ~RunStore();
@@ -85,7 +104,10 @@ CaseKeys keysThatMatter(const Case& setup);
 /// The case of a command that runs one: another one there is that case changed.
 std::map<std::string, CaseKeys> soleCase(const Case& setup);
 
-/// Cases of a command that runs many: by name and variant.
+/// "quick", or "quick without-friction" of a variant.
+std::string fullName(const Case& setup);
+
+/// Cases of a command that runs many: by fullName().
 std::map<std::string, CaseKeys> keysOfEach(const std::vector<Case>& cases);
 
 /// What else a run depends on: the engine, its version (empty: it did not answer) and settings, and

@@ -1,4 +1,4 @@
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 
 #include <fmt/format.h>
 

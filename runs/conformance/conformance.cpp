@@ -16,8 +16,8 @@
 #include "results/schema.hpp"
 #include "runs/collide/collide.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/head.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study.hpp"
 #include "runs/conformance/examination.hpp"
 #include "runs/lockstep/comparison.hpp"
 #include "runs/lockstep/identify.hpp"
@@ -154,27 +154,27 @@ ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curv
   row.name = variant.variant.empty() ? variant.name : variant.variant;
   row.what = "collisions of two come to what the declared law says";
   row.seconds = curve.stats ? curve.stats->wallSeconds : 0.0;
-  switch (reports::outcomeOf(curve)) {
-    case reports::SweepOutcome::held:
-    case reports::SweepOutcome::modelDifference:
+  switch (outcomeOf(curve)) {
+    case SweepOutcome::held:
+    case SweepOutcome::modelDifference:
       break;
-    case reports::SweepOutcome::fellShort: {
+    case SweepOutcome::fellShort: {
       reports::Worst worst;
-      worst.look(reports::declaredScore(curve));
+      worst.look(declaredScore(curve));
       row.outcome = ConformanceOutcome::failed;
       row.faults = 1;
       row.detail = worst.words();
-      if (const auto own = reports::ownDeviation(curve))
+      if (const auto own = ownDeviation(curve))
         row.detail += fmt::format("{}off its own time stepping by {:.2g}",
                                   row.detail.empty() ? "" : "; ", *own);
       break;
     }
-    case reports::SweepOutcome::failed:
+    case SweepOutcome::failed:
       row.outcome = ConformanceOutcome::brokeDown;
       row.detail = curve.reason;
       break;
-    case reports::SweepOutcome::notJudged:
-    case reports::SweepOutcome::refused:
+    case SweepOutcome::notJudged:
+    case SweepOutcome::refused:
       row.outcome = ConformanceOutcome::skipped;
       row.detail = curve.reason.empty() ? "nothing to hold it against" : curve.reason;
       break;
@@ -217,7 +217,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   ConformanceResults results;
   results.head = headOf(kindConformance, Case{}, task.commandLine);
   results.head.setup.name = entry.name;
-  results.engine = {entry.name, entry.summary, "", entry.mirrors, EngineStatus::ran, ""};
+  results.engine = engineRow(entry, "");
   const Capabilities can = startNew(entry, scratch.path / "hello", 60.0)->capabilities();
   results.engine.version = can.version;
   settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
@@ -257,6 +257,13 @@ ConformanceResults runConformance(const ConformanceTask& task) {
     }
   results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return results;
+}
+
+Outcome outcomeOf(const ConformanceResults& results) {
+  using enum ConformanceOutcome;
+  if (results.count(brokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
+  if (results.count(failed) > 0) return {exitFellShort};
+  return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
 }  // namespace crossgrain::inline runs

@@ -5,6 +5,7 @@
 
 #include "adapters/engine_entry.hpp"
 #include "results/conformance.hpp"
+#include "runs/common/study.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -20,5 +21,8 @@ struct ConformanceTask {
 /// likely wrong with an engine that lockstep tells from its mirror. Nothing is kept.
 /// @throws EngineFailure if it cannot be started; BadInput, Interrupted
 ConformanceResults runConformance(const ConformanceTask& task);
+
+/// An engine that broke down failed; a check that failed is a failure of what it declares.
+Outcome outcomeOf(const ConformanceResults& results);
 
 }  // namespace crossgrain::inline runs

@@ -15,6 +15,13 @@
 namespace crossgrain::conformance {
 namespace {
 
+/// " -30 %", " -100 %": two figures, and none of them an exponent.
+std::string percentOf(double change) {
+  const double percent = 100.0 * change;
+  return std::abs(percent) < 99.5 ? fmt::format(" {:+.2g} %", percent)
+                                  : fmt::format(" {:+.0f} %", percent);
+}
+
 constexpr double heavy = 1e9;  // times as heavy as the disk: a wall to nine digits
 
 Case setupOf(const Meeting& meeting) {
@@ -279,8 +286,7 @@ std::string explain(const Meeting& meeting, const Outcome& outcome) {
     }
     if (!(rest <= least)) continue;
     least = rest;
-    best = suspect.fitted ? said(suspect.name, fmt::format(" {:+.2g} %", 100.0 * (factor - 1.0)))
-                          : suspect.name;
+    best = suspect.fitted ? said(suspect.name, percentOf(factor - 1.0)) : suspect.name;
   }
   return best;
 }

@@ -145,6 +145,37 @@ void manyAreAsFew(Exam& it) {
   it.examined(manyDisks);
 }
 
+/// Pressed between two posts, a disk hangs on its two tangential springs, ξ = m g/(2 k_t) from
+/// where they were relaxed. Another falls past it for 2700 steps and 70 mm, through more than
+/// a hundred lists of neighbours: none may lose what the springs hold, and no step what the other
+/// flies with.
+void springsHoldWhileAnotherFalls(Exam& it) {
+  const ContactLaw law = it.law();
+  if (law.normal != NormalLaw::linear || law.tangential != TangentialLaw::springDashpot)
+    it.skip("has no linear law with tangential spring and dashpot");
+  constexpr double gravity = 9.81, depth = 0.02 * smallRadius, end = 0.12;
+  constexpr double post = 2.0 * smallRadius - depth;
+  Scene scene = emptyScene(law, 50.0);
+  scene.gravity = {gravity, 0.0};
+  scene.bodies = {wallOf("posts", Vec2::Zero(), {{0.0, post}, {0.0, -post}})};
+  addDisk(scene, smallRadius, smallMass, {0.0, 20.0 * smallRadius}, Vec2::Zero());
+  addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());
+  it.load(scene);
+  const double stretch = smallMass * gravity / (2.0 * law.kt);
+  for (const double t : {0.25 * end, 0.5 * end, 0.75 * end, end}) {
+    const Snapshot now = it.at(t);
+    const std::string when = said(" after ", it.engine().stats().steps, " steps");
+    // Rounded posts and arms that follow the overlap make two per cent.
+    it.atMost(now.position[1].x() / stretch, 1.2,
+              "sag of a disk that springs hold, in m g/(2 k_t)," + when);
+    const double fallen = 0.5 * gravity * now.positionTime * now.positionTime;
+    const Tolerance scheme = {0.51 * gravity * now.positionTime * it.realised.dt, 1e-5,
+                              "first order, or single precision"};
+    it.expect(close(now.position[0].x(), fallen, scheme), "the way fallen [m]" + when);
+  }
+  it.examined(toString(Effect::tangentialSpring));
+}
+
 }  // namespace
 
 std::span<const Check> checks() {
@@ -152,6 +183,9 @@ std::span<const Check> checks() {
       Check{"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
       Check{"LateIsAsEarly", "a collision two seconds after load is as one at once", lateIsAsEarly},
       Check{"ManyAreAsFew", "each of 150 pairs does what one alone does", manyAreAsFew},
+      Check{"SpringsHoldWhileAnotherFalls",
+            "springs hold a disk while another falls past it, and it falls freely",
+            springsHoldWhileAnotherFalls},
   };
   return list;
 }

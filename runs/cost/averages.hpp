@@ -1,59 +1,56 @@
 #pragma once
 
-#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "averaging/error_bounds.hpp"
-#include "cases/packing.hpp"
-#include "results/cost_averages.hpp"
-#include "runs/cost/settings.hpp"
+#include "runs/cost/study.hpp"
 
 namespace crossgrain::inline runs {
 
-/// How the snapshots of one run are averaged: every run is sampled in several ways at once.
-struct Sampling {
-  std::string method;
-  int every = 1;          ///< only every so many-th snapshot
-  double fraction = 1.0;  ///< only the first part of the run
+/// What the averages of one packing on one engine came to; kept of every run.
+struct AveragedPacking {
+  double dt = 0.0;                                  ///< [s]
+  double wallSeconds = 0.0, cpuSeconds = 0.0;       ///< of a rotation [s]
+  std::uint64_t steps = 0, contactEvaluations = 0;  ///< of a rotation
+  /// By measure; absent where the run has no such number. One per ring of "azimuthal_velocity"
+  /// [ΩR_i], "stress_rr" [N/m²] and "volume_fraction"; a single one of "shear_band_width" [d],
+  /// "wall_slip" (1 − v_φ/(ΩR_i) at the wheel, of the fit) and "stress_level" (σ_rr over all rings
+  /// [N/m²]).
+  std::map<std::string, std::vector<std::optional<double>>> numbers = {};
 };
 
-/// "slicing", "slicing/16", "slicing@0.25"
-std::string nameOf(const Sampling& sampling);
-
-/// The sampling that a setting asks for, and all that a run of the case as it is offers: its
-/// methods, its strides, and a quarter and a half of it.
-Sampling samplingOf(const Case& setup, const CostSetting& setting);
-std::vector<Sampling> allSamplings(const Case& setup);
-
-/// Averages one packing on one engine over the case's rotations, after settling.
-/// @throws EngineFailure (also of a packing that blew up), UnsupportedScene, BadInput, Interrupted
-AveragedPacking averagePacking(Engine& engine, const EngineEntry& entry, const Case& setup,
-                               const Packing& packing, const std::vector<Sampling>& samplings,
-                               const std::function<void(double)>& progress);
+void fields(auto& io, AveragedPacking& run) {
+  io("dt_s", run.dt);
+  io("wall_s", run.wallSeconds);
+  io("cpu_s", run.cpuSeconds);
+  io("steps", run.steps);
+  io("contact_evaluations", run.contactEvaluations);
+  io("numbers", run.numbers);
+}
 
 /// An error of averages with its parts, all relative to the measure's scale: the largest value of
 /// the reference's profile; of slip 1.
-struct WeakError {
+struct PairedError {
   double error;                       ///< rms over rings of |mean paired difference|
   std::optional<double> statistical;  ///< likewise of its standard error; absent: one packing
   std::optional<double> systematic;   ///< √max(0, error² − statistical²)
   /// Rms over rings of the ends nearest to and farthest from 0 of the differences' confidence
   /// intervals, which hold for all rings at once: between them lies the true error.
-  std::optional<ErrorInterval> interval;
+  std::optional<double> low, high;
 };
 
 /// @param runs, reference  over packings, in the same order
 /// @param alpha  chance that the interval does not hold the true error, at most
 /// @returns absent where no packing has it in both
-std::optional<WeakError> weakError(const std::vector<AveragedPacking>& runs,
-                                   const std::string& sampling,
-                                   const std::vector<AveragedPacking>& reference,
-                                   const std::string& referenceSampling, const std::string& measure,
-                                   double alpha);
+std::optional<PairedError> pairedError(const std::vector<AveragedPacking>& runs,
+                                       const std::vector<AveragedPacking>& reference,
+                                       const std::string& measure, double alpha);
 
-/// Names of all measures.
-const std::vector<std::string>& averageMeasures();
+/// Averages of the sheared cell over all packings, packing by packing compared with those of the
+/// in-house engine at a smaller step.
+std::unique_ptr<ErrorKind> averageErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline runs

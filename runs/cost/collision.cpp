@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 
+#include "adapters/declared_law.hpp"
 #include "cases/time_step.hpp"
-#include "runs/cost/limits.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
@@ -36,11 +34,99 @@ CollisionReference collisionReference(const Case& setup) {
   return {starts, oracleCurve(pair, starts)};
 }
 
-double stabilityLimit(const Case& setup) {
-  return 2.0 * std::sqrt(lightestReducedMass(setup) / setup.law.kn);
+namespace {
+
+/// Of the pairs of a sweep.
+std::vector<std::optional<double>> numbersOf(const CollisionTable& table, QuantityId quantity) {
+  std::vector<std::optional<double>> numbers;
+  for (std::size_t k = 0; k < table.size(); ++k) numbers.push_back(table.at(quantity, k));
+  return numbers;
+}
+
+/// What errors of that quantity are in units of, as those of `collide` [its unit].
+double unitOf(const CollisionReference& reference, QuantityId quantity) {
+  std::vector<double> known;
+  for (const auto& number :
+       numbersOf(tableOf(reference.starts, referenceOf(reference.oracle)), quantity))
+    if (number) known.push_back(*number);
+  return errorUnit(known).value;
+}
+
+/// The law that the engine declares for the collision; absent where its constants are not known.
+std::optional<ContactLaw> lawDeclared(Engine& engine, const EngineEntry& entry, const Case& pair,
+                                      double dt, const std::vector<CollisionStart>& starts) {
+  const Scene scene = collisionScene(pair, starts, dt);
+  const Realised realised = loadScene(engine, entry, pair, scene);
+  const Capabilities can = engine.capabilities();
+  return declaredLaw(can, sceneFor(can, entry, pair, scene).scene, realised,
+                     collidingPair(pair).reducedMass());
+}
+
+CollisionNumbers endsOf(const CollisionTable& table) {
+  CollisionNumbers numbers;
+  for (const QuantityId quantity : collisionMeasures)
+    numbers[std::string(collisionQuantity(quantity).name)] = numbersOf(table, quantity);
+  return numbers;
+}
+
+}  // namespace
+
+std::optional<double> rmsDifference(const std::vector<std::optional<double>>& numbers,
+                                    const std::vector<std::optional<double>>& from, double unit) {
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < std::min(numbers.size(), from.size()); ++k) {
+    if (!from[k]) continue;
+    if (!numbers[k]) return std::nullopt;
+    squares += (*numbers[k] - *from[k]) * (*numbers[k] - *from[k]);
+    ++count;
+  }
+  return count > 0 ? std::optional(std::sqrt(squares / count) / unit) : std::nullopt;
+}
+
+CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Case& fine,
+                              const Case& coarse, const CollisionReference& reference) {
+  const Case pair = collisionOf(fine);
+  CollisionLimit limit;
+  CollisionNumbers half;
+  OracleCurve declared;
+  if (const auto law = lawDeclared(engine, entry, pair, timeStep(fine), reference.starts)) {
+    Case own = pair;
+    own.law = *law;
+    declared = oracleCurve(own, reference.starts);
+  }
+  const bool known = std::ranges::any_of(declared.ends, [](const auto& end) { return bool(end); });
+  if (known) {
+    limit.setting = "oracle of the law that it declares";
+    limit.ends = half = endsOf(tableOf(reference.starts, referenceOf(declared)));
+  } else {
+    for (const auto& [setup, numbers] :
+         {std::pair(&coarse, &half), std::pair(&fine, &limit.ends)}) {
+      const CollisionCurve sweep = runSweep(engine, entry, collisionOf(*setup), timeStep(*setup),
+                                            reference.starts, reference.oracle, /*watch=*/false);
+      limit.setting = fmt::format("t_c/{:g}", std::round(costContactTime(*setup) / sweep.dt));
+      if (sweep.status != SweepStatus::finished)
+        return {limit.setting, {}, {}, {}, fmt::format("at {} {}", limit.setting, sweep.reason)};
+      *numbers = endsOf(sweep.points);
+    }
+  }
+  const CollisionNumbers scene = endsOf(tableOf(reference.starts, referenceOf(reference.oracle)));
+  for (const QuantityId quantity : collisionMeasures) {
+    const std::string name(collisionQuantity(quantity).name);
+    const double unit = unitOf(reference, quantity);
+    if (const auto error = rmsDifference(limit.ends[name], half[name], unit))
+      limit.error[name] = *error;
+    if (const auto model = rmsDifference(limit.ends[name], scene.at(name), unit))
+      limit.model[name] = *model;
+  }
+  return limit;
 }
 
 namespace {
+
+/// Sweeps whose pairs touch at different fractions of a step: the dashpot's jump at touch errs by
+/// how far it is from a step, so that one phase alone says little of a setting.
+constexpr int collisionPhases = 8;
 
 struct SweepTime {
   double wall, cpu;
@@ -75,7 +161,7 @@ SweepTime shortestSweep(Engine& engine, const EngineEntry& entry, const Case& pa
 
 /// Why a sweep says nothing about the case, empty if it does.
 std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) {
-  const double ofLimit = dt / stabilityLimit(pair);
+  const double ofLimit = dt / pairLimit(pair);
   const std::string limit =
       ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
   if (sweep.status != SweepStatus::finished) return limit + sweep.reason;
@@ -161,6 +247,96 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
     points.push_back(ownPoint(point, sweeps, measure, reference, own));
   }
   return points;
+}
+
+namespace {
+
+class CollisionErrors final : public ErrorKind {
+ public:
+  using ErrorKind::ErrorKind;
+
+  CostKind kind() const override { return CostKind::collision; }
+
+  std::vector<std::string> measures() const override {
+    std::vector<std::string> names;
+    for (const QuantityId measure : collisionMeasures) {
+      names.emplace_back(collisionQuantity(measure).name);
+      names.push_back(ownOf(names.back()));
+    }
+    return names;
+  }
+
+  double predicted(std::size_t engine, const CostSetting& setting) const override {
+    const TimedEngine& timed = study_.engines[engine];
+    const Cost& cost = study_.setup.cost;
+    const double dt = study_.stepOf(engine, setting.setup);
+    // 2.5 t_c and some steps, of fewer disks than the packing has: an upper bound.
+    const double once = (2.5 * costContactTime(setting.setup) / dt + 21.0) * timed.step;
+    return collisionPhases * once + cost.repeats * std::max(1.3 * cost.timed, once) +
+           (collisionPhases + cost.repeats) * timed.load;
+  }
+
+  double ownTime(std::size_t engine) const override {
+    // 2.5 t_c at the reference's step and at twice that: what it takes where there is no oracle.
+    return 1.5 * 2.5 * study_.setup.cost.collisionReference * study_.engines[engine].step;
+  }
+
+  void makeReferences() override { reference_ = collisionReference(study_.setup); }
+
+  std::vector<CostPoint> measure(const PlannedPoint& point) override {
+    const EngineEntry& entry = study_.entryOf(point.engine);
+    const auto at = [&](double steps) {
+      return atSteps(study_.setup, entry.name, study_.canOf(point.engine), steps);
+    };
+    const auto [name, key] = limitOf(point.engine);
+    const CollisionLimit limit = keptOr(study_.campaign.store(), name, key, [&] {
+      const double steps = study_.setup.cost.collisionReference;
+      return collisionLimit(study_.workerOf(point.engine), entry, at(steps), at(steps / 2.0),
+                            reference_);
+    });
+    return measureCollision(study_.workerOf(point.engine), entry, study_.settingOf(point),
+                            reference_, limit);
+  }
+
+  void addTo(CostResults& results) const override {
+    results.references.push_back(
+        {.kind = kind(),
+         .engine = "oracle",
+         .setting = "the case's law",
+         .note = reference_.oracle.reason.empty()
+                     ? "planar two-body problem in continuous time, to 1e-9"
+                     : reference_.oracle.reason});
+    for (std::size_t e = 0; e < study_.engines.size(); ++e) {
+      if (!study_.engines[e].takesPart) continue;
+      const auto [file, key] = limitOf(e);
+      const auto limit = study_.campaign.store().findAs<CollisionLimit>(file, key);
+      if (!limit) continue;
+      const std::string& name = study_.entryOf(e).name;
+      for (const auto& [measure, error] : limit->error)
+        results.references.push_back({kind(), name, limit->setting, error,
+                                      fmt::format("its own limit of small steps: {}", measure)});
+      for (const auto& [measure, model] : limit->model) {
+        const double unsure = limit->error.contains(measure) ? limit->error.at(measure) : 0.0;
+        results.models.push_back(
+            {name, kind(), measure, model, std::max(0.0, model - unsure), model + unsure});
+      }
+    }
+  }
+
+ private:
+  /// Name and key of an engine's own limit, which is kept.
+  std::pair<std::string, CaseKeys> limitOf(std::size_t engine) const {
+    return {"limit-collision-" + study_.entryOf(engine).name,
+            study_.campaign.keyOf(engine, 0, "cost: collision limit")};
+  }
+
+  CollisionReference reference_;
+};
+
+}  // namespace
+
+std::unique_ptr<ErrorKind> collisionErrors(CostStudy& study) {
+  return std::make_unique<CollisionErrors>(study);
 }
 
 }  // namespace crossgrain::inline runs

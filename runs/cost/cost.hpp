@@ -1,34 +1,21 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "results/cost.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/run_store.hpp"
-#include "runs/cost/advice.hpp"
-#include "runs/cost/settings.hpp"
+#include "runs/common/study.hpp"
 
 namespace crossgrain::inline runs {
 
-struct CostRequest {
-  RunCommand run;
-  double budget = 720.0;  ///< for all that is measured [s]
-  /// Told the plan before anything of it runs.
-  std::function<void(const std::string&)> tellPlan = {};
-  std::vector<double> targets = usualTargets();  ///< accuracies to find settings for
+struct CostOptions {
+  std::optional<std::string> budget, target;  ///< as they are given: "10m", "1%"
 };
 
 /// Measures what accuracy costs: every setting of [cost] on every engine, one at a time, engines in
 /// turn. Three kinds of error, never mixed (docs/methods.md). What is measured is kept in the store
 /// at once. A setting that an engine fails at ends by itself.
 /// @throws BadInput, UnsupportedScene, OutputError, Interrupted
-CostResults measureCost(const Case& setup, const CostRequest& request, RunStore& store);
-
-/// Which settings that would measure, for people. Engines are asked what they can do; nothing is
-/// computed, so that neither the time nor what fits into a budget is known.
-/// @throws BadInput, UnsupportedScene, Interrupted
-std::string costPlan(const Case& setup, const CostRequest& request, RunStore& store);
+extern const Study<CostOptions, CostResults> costStudy;
 
 }  // namespace crossgrain::inline runs

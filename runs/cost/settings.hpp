@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
-#include "adapters/registry.hpp"
 #include "cases/case.hpp"
-#include "results/cost_point.hpp"
+#include "results/cost.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -15,27 +14,28 @@ struct CostSetting {
   std::string knob, setting;  ///< as in CostPoint
   std::string fragment;       ///< TOML; empty: the case as it is
   Case setup;                 ///< what the loader makes of case and fragment
-  std::string refusal;        ///< why the engine has no such setting; empty if it has
-  bool sameLaw = false;       ///< as of CostKnob; also of the case as it is
-  /// Averages are bounded over short windows, and not measured.
-  bool windowsOnly = false;
+  std::string refusal = {};   ///< why the engine has no such setting; empty if it has
 
   /// Of another integrator which; empty: the one the engine has by itself.
   std::string integrator() const { return schemeOf(knob, setting).value_or(""); }
-  /// Whether it samples the runs of the case as it is differently, and needs none of its own.
-  bool isSampling() const;
 };
+
+/// Every setting of [cost] that matters to that kind of error, the case as it is first. Settings
+/// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that
+/// does not exist
+std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
+                                      const Capabilities& can);
 
 /// What the time step of an engine is set by: an engine with a step of its own does not follow the
 /// case's. @param steps  per contact time t_c
 std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
                          double steps);
 
+/// The case with that step.
+Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps);
+
 /// t_c of two small disks, which steps are counted in [s]. @throws BadInput for a law without one
 double costContactTime(const Case& setup);
-
-/// Snapshots per rotation where only every so many-th is taken: a whole number, at least one.
-int snapshotsPerRotation(const Case& setup, double every);
 
 /// The step that an engine will take [s].
 double engineStep(const Case& setup, const std::string& engine, const Capabilities& can);
@@ -45,11 +45,5 @@ CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKin
 
 /// What was done per unit of a point's time; 0 is not known.
 void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations);
-
-/// Every setting of [cost] that matters to that kind of error, the case as it is first. Settings
-/// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that
-/// does not exist
-std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
-                                      const Capabilities& can);
 
 }  // namespace crossgrain::inline runs

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 
 #include "cases/couette.hpp"
-#include "runs/cost/kept.hpp"
+#include "cases/time_step.hpp"
+#include "runs/common/engine_access.hpp"
 #include "runs/cost/trajectory.hpp"
 #include "support/interrupt.hpp"
 
@@ -23,18 +25,38 @@ double secondsSince(Clock::time_point start) {
 
 }  // namespace
 
-Engine& Workers::of(std::size_t engine) {
-  auto& worker = running_[engine];
-  const EngineEntry& entry = campaign_.engines()[engine];
-  if (!worker) worker = startNew(entry, campaign_.store().scratch(entry.name), timeout_);
-  return *worker;
+double pairLimit(const Case& setup) {
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / setup.law.kn);
+}
+
+double packingLimit(const Case& setup) {
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / (6.0 * setup.law.kn));
+}
+
+void requireSound(const Case& setup, const Snapshot& snapshot) {
+  // A packing whose springs are dropped, or that loses its friction, lets go at several times ΩR_i;
+  // an instability grows without bound.
+  constexpr double mostSpeed = 10.0;
+  double squares = 0.0;
+  for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
+    const double radius = snapshot.position[k].norm();
+    if (!(radius < setup.cell.outerRadius) || !(radius > setup.cell.innerRadius))
+      throw EngineFailure(fmt::format("{}: disk {} left the cell by t = {:.3g} s", beyondLimit, k,
+                                      snapshot.positionTime));
+    squares += snapshot.velocity[k].squaredNorm();
+  }
+  const double speed = std::sqrt(squares / static_cast<double>(snapshot.position.size()));
+  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  if (!(speed < mostSpeed * rim))
+    throw EngineFailure(
+        fmt::format("{}: at t = {:.3g} s the disks' rms speed is {:.3g} times the wheel's rim",
+                    beyondLimit, snapshot.positionTime, speed / rim));
 }
 
 CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
     : setup(of),
       jobs(command.jobs),
       campaign(setup, command, selectEngines(command.engines), store),
-      workers(campaign, setup.run.timeout),
       engines(campaign.engines().size()),
       inHouse(engineRegistry().front()),
       inHouseEngine(inHouse.make()) {
@@ -45,7 +67,7 @@ void CostStudy::ask() {
   campaign.askEngines();
   campaign.lookForPackings();
   for (std::size_t e = 0; e < engines.size(); ++e)
-    if (const auto& can = campaign.capabilities(e)) listSettings(e, *can);
+    if (campaign.capabilities(e)) listSettings(e);
 }
 
 void CostStudy::prepare() {
@@ -55,7 +77,6 @@ void CostStudy::prepare() {
   campaign.progress().begin("timing starts and steps", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
     throwIfInterrupted();
-    const auto& can = campaign.capabilities(e);
     if (!campaign.refusal(e).empty()) continue;
     try {
       timeStart(e);
@@ -63,8 +84,8 @@ void CostStudy::prepare() {
       engineFailures.push_back(failure.what());
       continue;
     }
-    if (!can) continue;
-    listSettings(e, *can);
+    if (!campaign.capabilities(e)) continue;
+    listSettings(e);
     engines[e].takesPart = true;
     campaign.progress().finish(
         e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].step));
@@ -72,18 +93,24 @@ void CostStudy::prepare() {
   timeInHouse();
 }
 
-void CostStudy::listSettings(std::size_t engine, const Capabilities& can) {
-  for (const CostKind kind : costKinds)
-    if (std::ranges::find(setup.cost.kinds, kind) != setup.cost.kinds.end())
-      engines[engine].settings[static_cast<std::size_t>(kind)] =
-          costSettings(setup, kind, entryOf(engine).name, can);
+Engine& CostStudy::workerOf(std::size_t engine) {
+  auto& worker = engines[engine].worker;
+  const EngineEntry& entry = entryOf(engine);
+  if (!worker) worker = startNew(entry, campaign.store().scratch(entry.name), setup.run.timeout);
+  return *worker;
+}
+
+void CostStudy::listSettings(std::size_t engine) {
+  for (const CostKind kind : setup.cost.kinds)
+    engines[engine].settings[static_cast<std::size_t>(kind)] =
+        costSettings(setup, kind, entryOf(engine).name, canOf(engine));
 }
 
 void CostStudy::timeStart(std::size_t engine) {
   constexpr int warmUp = 50, steps = 200;
   TimedEngine& timed = engines[engine];
   const Clock::time_point start = Clock::now();
-  Engine& worker = workers.of(engine);
+  Engine& worker = workerOf(engine);
   worker.capabilities();
   timed.start = secondsSince(start);
   const Scene scene = couetteScene(setup, campaign.packings().front(), campaign.dt());
@@ -98,28 +125,21 @@ void CostStudy::timeStart(std::size_t engine) {
 
 void CostStudy::timeInHouse() {
   constexpr int steps = 2000;
-  const Scene scene = couetteScene(setup, campaign.packings().front(), campaign.dt());
-  const Track track = followPacking(*inHouseEngine, inHouse, setup, scene, {steps * campaign.dt()});
+  const Track track = followPacking(*inHouseEngine, inHouse, setup, campaign.packings().front(),
+                                    steps * campaign.dt());
   inHouseStep = track.wallSeconds / static_cast<double>(track.steps);
 }
 
-std::vector<std::string> CostStudy::engineNames() const {
-  std::vector<std::string> names;
-  for (const EngineEntry& entry : campaign.engines()) names.push_back(entry.name);
-  return names;
-}
-
 double CostStudy::stepOf(std::size_t engine, const Case& of) const {
-  return engineStep(of, entryOf(engine).name, *campaign.capabilities(engine));
+  return engineStep(of, entryOf(engine).name, canOf(engine));
 }
 
-std::string CostStudy::nameOf(const PlannedPoint& point, int packing) const {
+std::string CostStudy::nameOf(const PlannedPoint& point) const {
   const CostSetting& setting = settingOf(point);
   std::string what = fmt::format("{}-{}", setting.knob, setting.setting);
   std::ranges::replace_if(
       what, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_'; }, '-');
-  return fmt::format("{}-{}-{}-p{}", toString(point.kind), entryOf(point.engine).name, what,
-                     packing);
+  return fmt::format("{}-{}-{}", toString(point.kind), entryOf(point.engine).name, what);
 }
 
 CaseKeys CostStudy::keyOf(const PlannedPoint& point, int packing) const {
@@ -135,22 +155,8 @@ CaseKeys CostStudy::inHouseKey(std::size_t packing, const std::string& part) con
   return key;
 }
 
-bool CostStudy::isKept(const PlannedPoint& point) const {
-  if (settingOf(point).windowsOnly)
-    return campaign.store().find(windowsName(point), keyOf(point, 0)).has_value();
-  const int last =
-      point.kind == CostKind::averages ? static_cast<int>(campaign.packings().size()) - 1 : 0;
-  return knownFailure(point) || campaign.store().find(nameOf(point, last), keyOf(point, last));
-}
-
-std::optional<std::string> CostStudy::knownFailure(const PlannedPoint& point) const {
-  const auto kept =
-      findAs<KeptFailure>(campaign.store(), nameOf(point, 0) + "-failed", keyOf(point, 0));
-  return kept ? std::optional(kept->reason) : std::nullopt;
-}
-
-void CostStudy::keepFailure(const PlannedPoint& point, const std::string& reason) const {
-  campaign.store().keep(nameOf(point, 0) + "-failed", keyOf(point, 0), jsonOf(KeptFailure{reason}));
+bool ErrorKind::isKept(const PlannedPoint& point) const {
+  return study_.campaign.store().find(study_.nameOf(point), study_.keyOf(point)).has_value();
 }
 
 }  // namespace crossgrain::inline runs

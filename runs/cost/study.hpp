@@ -3,34 +3,55 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "cases/case.hpp"
+#include "results/cost.hpp"
+#include "runs/common/run_store.hpp"
 #include "runs/cost/plan.hpp"
 #include "runs/cost/settings.hpp"
 #include "runs/couette/campaign.hpp"
 
 namespace crossgrain::inline runs {
 
-/// One worker per engine, started when it is first needed and again after it failed.
-class Workers {
- public:
-  Workers(const Campaign& campaign, double timeout) : campaign_(campaign), timeout_(timeout) {}
-  Engine& of(std::size_t engine);
-  void drop(std::size_t engine) { running_.erase(engine); }
+/// @name Stability limits
+/// @{
 
- private:
-  const Campaign& campaign_;
-  double timeout_;
-  std::map<std::size_t, std::unique_ptr<Engine>> running_;
-};
+/// What every point past a stability limit begins its reason with: such a failure is a result.
+inline constexpr const char* beyondLimit = "beyond its stability limit";
 
-/// An engine, what it takes to start and to step, and what there is to measure on it.
+/// The largest stable step of a contact, 2/ω with ω² = k_n/m₁₂ [s]: what a symplectic integrator
+/// bears of an undamped oscillator.
+double pairLimit(const Case& setup);
+
+/// The smallest step at which a packing may be unstable [s]: 2/ω of a disk between six others, six
+/// times as stiff as a pair (Gershgorin: ω² ≤ 6 · 2 k_n/m).
+double packingLimit(const Case& setup);
+
+/// Whether a packing has blown up: a position is no number, a disk has left the cell, or the disks'
+/// rms speed exceeds ten times the rim's ΩR_i, which nothing in the cell is driven faster than.
+/// @throws EngineFailure that says which, after `beyondLimit`
+void requireSound(const Case& setup, const Snapshot& snapshot);
+
+/// @}
+
+/// What the store has by that name, else what `make` makes, which is then kept.
+template <class Make>
+auto keptOr(const RunStore& store, const std::string& name, const CaseKeys& key, Make make) {
+  using Run = decltype(make());
+  if (auto kept = store.findAs<Run>(name, key)) return std::move(*kept);
+  Run made = make();
+  store.keep(name, key, jsonOf(made));
+  return made;
+}
+
+/// An engine, its worker, what it takes to start and to step, and what there is to measure on it.
 struct TimedEngine {
   std::array<std::vector<CostSetting>, costKinds.size()> settings;  ///< by CostKind
   double start = 0.0, load = 0.0, step = 0.0;                       ///< [s]
   bool takesPart = false;
+  std::unique_ptr<Engine> worker;  ///< null: to be started anew
 };
 
 /// What planning and measuring work with: engines and packings, the settings to measure, and by
@@ -48,7 +69,9 @@ struct CostStudy {
   void prepare();
 
   const EngineEntry& entryOf(std::size_t engine) const { return campaign.engines()[engine]; }
-  std::vector<std::string> engineNames() const;
+  const Capabilities& canOf(std::size_t engine) const { return *campaign.capabilities(engine); }
+  /// Its worker, started when it is first needed and again after it failed.
+  Engine& workerOf(std::size_t engine);
   const std::vector<CostSetting>& settingsOf(std::size_t engine, CostKind kind) const {
     return engines[engine].settings[static_cast<std::size_t>(kind)];
   }
@@ -58,23 +81,15 @@ struct CostStudy {
   double stepOf(std::size_t engine, const Case& setup) const;  ///< that it will take [s]
   double packingCount() const { return static_cast<double>(campaign.packings().size()); }
 
-  /// By what it is, not by its place in lists that may grow:
-  /// "averages-grain-time_step-t_c-50-p0".
-  std::string nameOf(const PlannedPoint& point, int packing) const;
-  /// Of the windows that bound what it changes averages by.
-  std::string windowsName(const PlannedPoint& point) const { return nameOf(point, 0) + "-windows"; }
-  CaseKeys keyOf(const PlannedPoint& point, int packing) const;
+  /// By what it is, not by its place in lists that may grow: "averages-grain-time_step-t_c-50".
+  std::string nameOf(const PlannedPoint& point) const;
+  CaseKeys keyOf(const PlannedPoint& point, int packing = 0) const;
   /// Of what the in-house engine does for all: it need not be among the engines named.
   CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;
-  /// Whether an earlier command in the same folder has measured it, or seen it fail past its limit.
-  bool isKept(const PlannedPoint& point) const;
-  std::optional<std::string> knownFailure(const PlannedPoint& point) const;
-  void keepFailure(const PlannedPoint& point, const std::string& reason) const;
 
   const Case& setup;
   const int jobs;
   Campaign campaign;
-  Workers workers;
   std::vector<TimedEngine> engines;
   const EngineEntry& inHouse;  ///< whose runs are references for all
   std::unique_ptr<Engine> inHouseEngine;
@@ -83,9 +98,41 @@ struct CostStudy {
   std::vector<std::string> engineFailures;
 
  private:
-  void listSettings(std::size_t engine, const Capabilities& can);
+  void listSettings(std::size_t engine);
   void timeStart(std::size_t engine);
   void timeInHouse();
+};
+
+/// One kind of error: how its points are predicted and measured, and what against.
+///
+///   predicted, commonTime, ownTime ── makeReferences ── measure … ── addTo
+class ErrorKind {
+ public:
+  explicit ErrorKind(CostStudy& study) : study_(study) {}
+  virtual ~ErrorKind() = default;
+  ErrorKind(const ErrorKind&) = delete;
+  ErrorKind& operator=(const ErrorKind&) = delete;
+
+  virtual CostKind kind() const = 0;
+  virtual std::vector<std::string> measures() const = 0;
+  /// What measuring a setting on an engine will take; what references take that all engines share,
+  /// and an engine's own [s].
+  virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
+  virtual double commonTime() const { return 0.0; }
+  virtual double ownTime(std::size_t engine) const = 0;
+  /// Whether an earlier command has measured it.
+  virtual bool isKept(const PlannedPoint& point) const;
+  /// Those references that all points need. Not called where they take too long.
+  virtual void makeReferences() {}
+  /// @returns one point per measure @throws as Engine does
+  virtual std::vector<CostPoint> measure(const PlannedPoint& point) = 0;
+  /// Whether points are kept as they are; else measure() keeps what they are made of.
+  virtual bool keepsPoints() const { return true; }
+  /// Adds its references and what else it has found out.
+  virtual void addTo(CostResults& results) const = 0;
+
+ protected:
+  CostStudy& study_;
 };
 
 }  // namespace crossgrain::inline runs

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "results/schema.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/averages.hpp"
 #include "runs/couette/frame.hpp"
 #include "runs/couette/snapshot_file.hpp"
@@ -48,5 +49,17 @@ CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& 
                                reader.count(), file.string())};
   return results;
 }
+
+const Study<AverageOptions, CompareResults> averageStudy = {
+    "average",
+    {.input = SharedOptions::Input::snapshots, .engines = false},
+    Keeps::nothing,
+    [](AverageOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
+    [](const CommandLine& line, AverageOptions&) { return std::vector{onlyCase(line, "average")}; },
+    nullptr,
+    [](const StudyWork& work, const AverageOptions&) {
+      return averageSnapshots(work.setup(), work.line.snapshots, work.line.run.commandLine);
+    },
+    [](const CompareResults&, const CommandLine&, const AverageOptions&) { return Outcome(); }};
 
 }  // namespace crossgrain::inline runs

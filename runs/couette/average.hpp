@@ -5,6 +5,7 @@
 
 #include "cases/case.hpp"
 #include "results/compare.hpp"
+#include "runs/common/study.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -15,5 +16,11 @@ namespace crossgrain::inline runs {
 /// @throws BadInput naming the file and what does not fit
 CompareResults averageSnapshots(const Case& setup, const std::filesystem::path& file,
                                 const std::string& commandLine);
+
+/// The options of averaging: none of its own.
+struct AverageOptions {};
+
+/// averageSnapshots() as a command.
+extern const Study<AverageOptions, CompareResults> averageStudy;
 
 }  // namespace crossgrain::inline runs

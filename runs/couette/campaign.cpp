@@ -13,7 +13,8 @@
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
 #include "results/couette_fields.hpp"
-#include "runs/common/brief_timing.hpp"
+#include "runs/common/engine_running.hpp"
+#include "runs/couette/frame.hpp"
 #include "runs/couette/run.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -240,14 +241,14 @@ std::vector<Variant> Campaign::wholeCase() const {
 }
 
 void Campaign::run(const std::vector<Variant>& variants) {
-  runs_ = runSome({{variants, {0, static_cast<int>(packings_.size())}}}, "running engines");
+  const PlannedRuns all{variants, {0, static_cast<int>(packings_.size())}};
+  runs_ = doOrTakeUp(tasksOf(all), store_, progress_, "running engines", command_.jobs);
 }
 
-std::vector<CouetteRun> Campaign::runSome(const std::vector<PlannedRuns>& lists,
-                                          const std::string& stage) {
+RunsById Campaign::runSome(const std::vector<PlannedRuns>& lists, const std::string& stage) {
   std::vector<KeptTask<CouetteRun>> tasks;
   for (const PlannedRuns& list : lists) std::ranges::move(tasksOf(list), std::back_inserter(tasks));
-  return doOrTakeUp(tasks, store_, progress_, stage, command_.jobs);
+  return byId(tasks, doOrTakeUp(tasks, store_, progress_, stage, command_.jobs));
 }
 
 double Campaign::elapsed() const {
@@ -274,8 +275,8 @@ double Campaign::secondsOf(const std::vector<PlannedRuns>& lists) const {
   return std::max(all / std::max(command_.jobs, 1), longest);
 }
 
-void Campaign::add(std::vector<CouetteRun> runs) {
-  std::ranges::move(runs, std::back_inserter(runs_));
+void Campaign::add(RunsById runs) {
+  for (auto& [id, run] : runs) runs_.push_back(std::move(run));
   const auto place = [this](const CouetteRun& run) {
     const auto own = std::ranges::find(engines_, run.engine,
                                        [](const CampaignEngine& one) { return one.entry.name; });
@@ -293,7 +294,8 @@ std::vector<KeptTask<CouetteRun>> Campaign::tasksOf(const PlannedRuns& list) con
                        keyOf(variant.engine, k, partOf(variant)), own.predicted,
                        [this, &variant, k](const std::function<void(double)>& progress) {
                          return runOne(variant, k, progress);
-                       }});
+                       },
+                       std::nullopt, RunId{own.entry.name, partOf(variant), k}});
   }
   return tasks;
 }
@@ -324,6 +326,46 @@ std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) co
   for (const CampaignEngine& own : engines_)
     if (!own.refusal.empty()) works.push_back({own.entry.name, "runs", own.refusal});
   return works;
+}
+
+std::vector<EngineRow> Campaign::engineRows() const {
+  std::vector<EngineRow> rows;
+  for (const CampaignEngine& own : engines_) {
+    EngineRow row{own.entry.name,    own.entry.summary, own.version,
+                  own.entry.mirrors, EngineStatus::ran, own.refusal};
+    if (!own.refusal.empty()) row.status = EngineStatus::refused;
+    for (const CouetteRun& run : runs_)
+      if (run.engine == row.name && run.status == RunStatus::failed && row.reason.empty()) {
+        row.status = EngineStatus::failed;
+        row.reason = run.reason;
+      }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+CouetteStudy Campaign::study(std::string_view kind) const {
+  CouetteStudy study;
+  static_cast<CouetteFrame&>(study) =
+      couetteFrame(kind, setup_, command_.commandLine, packings_.front().disks);
+  study.engines = engineRows();
+  for (std::size_t k = 0; k < packings_.size(); ++k)
+    study.packings.push_back(
+        {k, setup_.preparation.seed, packings_[k].hash, packings_[k].fromCache});
+  study.runs = runs_;
+  const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
+  for (const EngineEntry& entry : engineRegistry())
+    if (all && entry.missing && !entry.missing().empty())
+      study.notes.push_back(
+          fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
+  if (const EngineRow& first = study.engines.front(); !all && !command_.engines.empty() &&
+                                                      first.name != command_.engines.front() &&
+                                                      first.mirrors.empty())
+    study.notes.push_back(
+        fmt::format("{} was named first and cannot run the case: the reference is {}.",
+                    command_.engines.front(), first.name));
+  study.elapsed = elapsed();
+  return study;
 }
 
 }  // namespace crossgrain::inline runs

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
@@ -11,11 +12,8 @@
 #include "cases/case.hpp"
 #include "cases/flow.hpp"
 #include "results/compare.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {
@@ -49,8 +47,11 @@ struct PlannedRuns {
   PackingRange packings;
 };
 
+/// Runs by engine, what was switched off or changed, and packing.
+using RunsById = std::map<RunId, CouetteRun>;
+
 /// Engines on the packings of one Couette case, side by side where `jobs` allows. Every finished
-/// run is kept in out/runs at once and taken up by the next campaign there; a failed one ends by
+/// run is kept in out/runs at once and loaded by the next campaign there; a failed one ends by
 /// itself and is reported.
 ///
 ///   askEngines ── preparePackings ── timeEngines ── run ── study
@@ -76,12 +77,11 @@ class Campaign {
   std::vector<Variant> wholeCase() const;
   /// On all packings that are prepared.
   void run(const std::vector<Variant>& variants);
-  /// On some of them, all side by side. @returns the runs list by list, variant by variant; keeps
-  /// none in runs()
-  std::vector<CouetteRun> runSome(const std::vector<PlannedRuns>& lists, const std::string& stage);
+  /// On some of them, all side by side; keeps none in runs().
+  RunsById runSome(const std::vector<PlannedRuns>& lists, const std::string& stage);
   /// Runs that are to be in results, whoever did them: by engine as they take part, then by
   /// packing.
-  void add(std::vector<CouetteRun> runs);
+  void add(RunsById runs);
   const std::vector<CouetteRun>& runs() const { return runs_; }
   double elapsed() const;  ///< since the campaign was made [s]
   /// Seconds of one core that preparing up to so many packings still takes, by those so far.

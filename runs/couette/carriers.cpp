@@ -1,12 +1,14 @@
 #include "runs/couette/carriers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "cases/endpoints.hpp"
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -47,18 +49,17 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
   for (const LockstepRow& row : found.rows) {
     const bool same =
         row.verdict == LockstepVerdict::sameToRounding || row.verdict == LockstepVerdict::sameLaw;
-    if (!same || !row.failure.empty() || !row.equivalent) continue;
+    if (!same || !row.failure.empty() || !row.equivalentHigh) continue;
     for (std::size_t e = 0; e < campaign.engines().size(); ++e)
       if (campaign.engines()[e].mirrors == row.engine && campaign.refusal(e).empty() &&
           !isNamed(names, campaign.engines()[e]))
         carried.push_back({row.engine,
                            campaign.engines()[e].name,
-                           *row.equivalent,
+                           *row.equivalentHigh,
                            row.starts,
                            canaryPacking,
                            {},
-                           {},
-                           false});
+                           {}});
   }
   return carried;
 }
@@ -80,19 +81,46 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
   }
 }
 
+void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& responses,
+                      LateWindows late, CarriedEngine& engine) {
+  engine.late = std::move(late);
+  const LateWindows& found = engine.late;
+  if (!found.failure.empty())
+    engine.alarm = fmt::format("its own run cannot be followed: {}", found.failure);
+  double farthest = largestReach;
+  for (const auto& [name, margin] : setup.averaging.endpoints)
+    if (const auto reach = reachOf(name, found, responses); reach && !(*reach <= farthest)) {
+      farthest = *reach;
+      std::vector<std::string> changes;
+      for (const EquivalentChange& one : found.equivalents)
+        changes.push_back(fmt::format("{:.2g} % of {}", 100.0 * one.change, one.constant));
+      engine.alarm = fmt::format(
+          "{} windows of its own run of packing {} differ from the mirror as {} would, by which {} "
+          "may differ by {:.2g} margins ({:g} is the most)",
+          found.times.size(), found.packing, fmt::join(changes, " or "),
+          endpointSpec(setup, name).words, *reach, largestReach);
+    }
+  engine.carried = engine.carried && engine.alarm.empty();
+}
+
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
                                                 const std::string& engine,
                                                 const std::vector<ChangedCase>& changed,
-                                                std::span<const CouetteRun> runs, int packings) {
+                                                const RunsById& runs, int packings) {
   const auto count = static_cast<std::size_t>(packings);
   std::vector<CouetteRun> own;
   for (const CouetteRun& run : campaign.runs())
     if (run.engine == engine && run.packing < packings) own.push_back(run);
   std::vector<EndpointResponse> responses;
-  for (std::size_t k = 0; k < changed.size(); ++k)
+  for (const ChangedCase& one : changed) {
+    std::vector<CouetteRun> with;
+    for (int k = 0; k < packings; ++k)
+      if (const auto run = runs.find({engine, one.name, k}); run != runs.end())
+        with.push_back(run->second);
     for (const auto& [endpoint, margin] : setup.averaging.endpoints)
-      responses.push_back(responseTo(setup, own, runs.subspan(k * count, count), endpoint,
-                                     changed[k].constant, responseChange, count));
+      responses.push_back(
+          responseTo(setup, own, with, endpoint, one.constant, responseChange, count));
+  }
   return responses;
 }
 

@@ -21,16 +21,21 @@ std::vector<CarriedEngine> carriedEngines(const Campaign& campaign,
 /// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ.
 /// @param engine   one that has run the first `packings` of the campaign with the case as it is
 /// @param changed  the case with its law changed
-/// @param runs     of that engine on as many packings with each of these in turn
+/// @param runs     among which are that engine's on as many packings with each of these
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,
                                                 const std::string& engine,
                                                 const std::vector<ChangedCase>& changed,
-                                                std::span<const CouetteRun> runs, int packings);
+                                                const RunsById& runs, int packings);
 
-/// Holds the whole run of each against its mirror's on the same packing, where chaos is as the
-/// responses show it. Sets `carried`, or the alarm.
+/// The first part of the spot check: compares the averaged run of each with its mirror's on the
+/// same packing, where chaos is as the responses show it. Sets `carried`, or the alarm.
 void judgeCanaries(const Case& setup, const Campaign& campaign,
                    const std::vector<EndpointResponse>& responses,
                    std::vector<CarriedEngine>& engines);
+
+/// The second: what windows within a run of its own show. Where they leave more than largestReach
+/// of an endpoint open, the mirror does not stand for the engine, and that is the alarm.
+void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& responses,
+                      LateWindows late, CarriedEngine& engine);
 
 }  // namespace crossgrain::inline runs

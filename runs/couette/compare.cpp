@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "cases/flow.hpp"
 #include "results/schema.hpp"
-#include "runs/common/nothing_judged.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/alarms.hpp"
 #include "runs/couette/campaign.hpp"
@@ -15,6 +16,7 @@
 #include "runs/couette/looks.hpp"
 #include "runs/couette/state_table.hpp"
 #include "runs/couette/velocity_notes.hpp"
+#include "runs/lockstep/rules.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -25,7 +27,7 @@ ComparedPair byRuns(const EndpointPair& pair) {
   return {pair.runsOfA, pair.runsOfB, pair.kind, ""};
 }
 
-/// What is told of runs as told of the engines that they stand for.
+/// What runs show, under the names of the engines that they stand for.
 void nameEngines(auto& rows, const EndpointPair& pair) {
   for (auto& row : rows) {
     row.a = pair.a;
@@ -54,17 +56,51 @@ void requireTwo(const Campaign& campaign, const std::vector<std::string>& named)
 
 }  // namespace
 
-std::string comparePlan(const Case& setup, const RunCommand& command, RunStore& store) {
-  Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
-  campaign.askEngines();
-  requireTwo(campaign, command.engines);
-  campaign.lookForPackings();
-  return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), store, command);
+std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const EndpointRow> rows,
+                                           std::size_t named) {
+  const auto judged = [](const EndpointRow& row) {
+    return row.kind == PairKind::closedForm && row.answer != Answer::undecided;
+  };
+  if (std::ranges::any_of(rows, judged)) return std::nullopt;
+  if (hasClosedForms(setup))
+    return NothingJudged{"no engine has a value that comes back when its one start is run again"};
+  if (named < 2) return NothingJudged{"one engine has nothing to be compared with", true};
+  if (setup.averaging.endpoints.empty())
+    return NothingJudged{setup.average ? "the case has no [[endpoints]]"
+                                       : "the case has no [averaging.endpoints]"};
+  constexpr int fewest = 4;  // of packings, for any test
+  int endpoints = 0, most = 0;
+  for (const EndpointRow& row : rows) {
+    if (row.kind != PairKind::peer) continue;
+    ++endpoints;
+    most = std::max(most, row.packings);
+  }
+  if (endpoints == 0)
+    return NothingJudged{"no two engines finished a run that shows an endpoint with a margin"};
+  if (most == 0) return NothingJudged{"no endpoint has a value on two engines"};
+  if (most >= fewest) return std::nullopt;
+  return NothingJudged{fmt::format("{} packing{} of both engines, and a verdict needs at least {}",
+                                   most, most == 1 ? "" : "s", fewest)};
 }
 
-CompareResults compareEngines(const Case& setup, const RunCommand& command, RunStore& store,
-                              std::size_t starts, double budget) {
-  Campaign campaign(setup, command, enginesFor(setup, command.engines), store);
+namespace {
+
+std::string comparePlan(const StudyWork& work, const CompareOptions&) {
+  Campaign campaign(work.setup(), work.line.run, enginesFor(work.setup(), work.line.run.engines),
+                    work.store);
+  campaign.askEngines();
+  requireTwo(campaign, work.line.run.engines);
+  campaign.lookForPackings();
+  return dryRunInWords(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
+                       work.line.run);
+}
+
+CompareResults compare(const StudyWork& work, const CompareOptions& own) {
+  const Case& setup = work.setup();
+  const RunCommand& command = work.line.run;
+  const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
+  const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
+  Campaign campaign(setup, command, enginesFor(setup, command.engines), work.store);
   campaign.askEngines();
   requireTwo(campaign, command.engines);
   campaign.preparePackings();
@@ -98,5 +134,69 @@ CompareResults compareEngines(const Case& setup, const RunCommand& command, RunS
   std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
   return results;
 }
+
+std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
+  const Case setup = onlyFlow(line, "compare");
+  printWarnings(setup);
+  if (own.budget) secondsOf(*own.budget);  // throws for what is none
+  return {setup};
+}
+
+/// Only the verdicts on engines that the user named decide.
+Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
+                         const CompareOptions& own) {
+  const auto any = [&](Answer answer) {
+    return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
+      return row.answer == answer &&
+             (row.kind == PairKind::peer || row.kind == PairKind::closedForm);
+    });
+  };
+  const auto anyLockstep = [&](LockstepVerdict verdict) {
+    return results.lockstep &&
+           std::ranges::find(results.lockstep->rows, verdict, &LockstepRow::verdict) !=
+               results.lockstep->rows.end();
+  };
+  Outcome outcome;
+  if (const auto& nothing = results.nothingJudged)
+    outcome = notJudged(nothing->reason, (nothing->byRequest || line.quick) && !own.strict);
+  for (const CouetteRun& run : results.runs)
+    if (run.status == RunStatus::failed) outcome.failures.push_back(run.reason);
+  const bool failed = !outcome.failures.empty();
+  const std::vector<std::string> refused = refusals(results.engines, line.run.engines);
+  outcome.failures.insert(outcome.failures.end(), refused.begin(), refused.end());
+  // Another law than it declares is a disagreement, whatever averages make of it.
+  const bool disagree =
+      any(Answer::disagree) || anyLockstep(LockstepVerdict::differs) ||
+      std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
+  const bool open = any(Answer::undecided) || any(Answer::borderline) || !refused.empty() ||
+                    anyLockstep(LockstepVerdict::undecided);
+  if (failed)
+    outcome.status = exitEngineFailed;
+  else if (disagree || (own.strict && open))
+    outcome.status = exitFellShort;
+  return outcome;
+}
+
+}  // namespace
+
+const Study<CompareOptions, CompareResults> compareStudy = {
+    "compare",
+    {.packings = true},
+    Keeps::oneCase,
+    [](CompareOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--budget",
+           "no interim analysis of more packings begins that would end later, e.g. 90s, 10m, 1h "
+           "(default: looks.budget of the case)",
+           &own.budget, "TIME"},
+          {"--strict",
+           "undecided and borderline verdicts, engines that cannot run the case and nothing judged "
+           "count as failed",
+           &own.strict}};
+    },
+    caseToCompare,
+    comparePlan,
+    compare,
+    outcomeOfCompare};
 
 }  // namespace crossgrain::inline runs

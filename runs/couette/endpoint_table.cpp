@@ -18,6 +18,11 @@ namespace {
 
 constexpr int fewestPackings = 4;  // of any verdict
 
+/// B and the part of it that is the spot check's, in margins.
+struct Bound {
+  double all = 0.0, late = 0.0;
+};
+
 /// One endpoint as it is put to the test: by difference, or by the logarithm of the ratio.
 struct TestedEndpoint {
   EndpointSpec endpoint;
@@ -25,7 +30,7 @@ struct TestedEndpoint {
   PairedSample sample;
   double sign = 1.0;       ///< of the values whose ratio is tested
   double reference = 0.0;  ///< mean over packings of a [unit]
-  std::optional<double> bound;
+  std::optional<Bound> bound;
   std::string reason;  ///< EndpointRow::reason
 };
 
@@ -84,13 +89,20 @@ std::string whyNoRatio(const EndpointSpec& endpoint, const Numbers& reference,
   return {};
 }
 
-/// B in margins: the largest over the constants tried. Absent without a response.
-std::optional<double> boundOf(std::string_view endpoint, double equivalent,
-                              const std::vector<EndpointResponse>& responses) {
-  std::optional<double> bound;
-  for (const EndpointResponse& response : responses)
-    if (response.endpoint == endpoint && response.bound)
-      bound = std::max(bound.value_or(0.0), equivalent / response.change * *response.bound);
+/// Of all mirrors together. Absent where a response or an equivalent change is not known.
+std::optional<Bound> boundOf(std::string_view endpoint, const std::vector<CarriedEngine>& mirrors,
+                             const std::vector<EndpointResponse>& responses) {
+  Bound bound;
+  for (const CarriedEngine& mirror : mirrors) {
+    const auto late = reachOf(endpoint, mirror.late, responses);
+    if (!late) return std::nullopt;
+    double start = 0.0;
+    for (const EndpointResponse& response : responses)
+      if (response.endpoint == endpoint && response.bound)
+        start = std::max(start, mirror.equivalent / response.change * *response.bound);
+    bound.all += start + *late;
+    bound.late += *late;
+  }
   return bound;
 }
 
@@ -126,10 +138,10 @@ std::vector<TestedEndpoint> familyOf(const Case& setup, std::span<const CouetteR
     for (const Runs& engine : {ours, theirs})
       if (tested.reason.empty()) tested.reason = whyWithout(endpoint, setup, engine);
     if (isCarried(pair)) {
-      tested.bound = boundOf(endpoint.name, pair.equivalent, responses);
+      tested.bound = boundOf(endpoint.name, pair.by, responses);
       // Nothing is known of the true difference: no verdict can stand on these runs.
       if (!tested.bound) continue;
-      tested.sample.bias = *tested.bound * tested.sample.margin;
+      tested.sample.bias = tested.bound->all * tested.sample.margin;
     }
     family.push_back(std::move(tested));
   }
@@ -158,7 +170,10 @@ EndpointRow rowOf(const EndpointPair& pair, const TestedEndpoint& tested,
   row.reason = tested.reason;
   if (pair.runsOfA != pair.a) row.carrierA = pair.runsOfA;
   if (pair.runsOfB != pair.b) row.carrierB = pair.runsOfB;
-  row.bound = tested.bound;
+  if (tested.bound) {
+    row.bound = tested.bound->all;
+    row.reach = tested.bound->late;
+  }
   if (!found) row.lost = looked;  // neither has anything
   if (!found) return row;
   row.answer = found->answer;
@@ -219,11 +234,13 @@ void addNeeds(std::vector<JudgedEndpoint>& judged, const LookPlan& plan) {
   for (JudgedEndpoint& one : judged) {
     const Pooled& pooled = scatter[one.tested.endpoint.name];
     if (one.row.answer != Answer::undecided || !one.found || pooled.dof == 0) continue;
-    const double margin = one.tested.sample.margin - one.tested.sample.bias;
-    const bool toAgree = std::abs(one.found->difference) < margin;
-    const auto range =
-        packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof), pooled.dof,
-                    margin, toAgree ? plan.agreeAlpha : plan.alpha.back());
+    const double margin = one.tested.sample.margin, bias = one.tested.sample.bias;
+    const double distance = std::abs(one.found->difference);
+    const bool toAgree = distance < margin - bias;
+    if (!toAgree && distance < margin + bias) continue;  // what a mirror leaves open, none decide
+    const auto range = packingsFor(one.found->difference, std::sqrt(pooled.squares / pooled.dof),
+                                   pooled.dof, toAgree ? margin - bias : margin + bias,
+                                   toAgree ? plan.agreeAlpha : plan.alpha.back());
     if (!range) continue;
     const int more = one.row.packings + 1;
     one.row.needs = std::max(range->low, more);
@@ -334,8 +351,7 @@ PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, 
 std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<EndpointValues>& family,
                                       const std::pair<std::string, std::string>& names,
                                       const LookPlan& plan) {
-  const EndpointPair pair{names.first, names.second, PairKind::peer,
-                          names.first, names.second, 0.0};
+  const EndpointPair pair{names.first, names.second, PairKind::peer, names.first, names.second};
   std::vector<TestedEndpoint> endpoints;
   for (const EndpointValues& values : family)
     endpoints.push_back(
@@ -356,6 +372,16 @@ std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const Couette
     judge(pair, familyOf(setup, runs, pair, responses), plan, available, judged);
   }
   return rowsOf(std::move(judged), plan);
+}
+
+std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
+                              const std::vector<EndpointResponse>& responses) {
+  std::optional<double> reach;
+  for (const EndpointResponse& response : responses)
+    for (const EquivalentChange& found : late.equivalents)
+      if (response.endpoint == endpoint && response.bound && response.constant == found.constant)
+        reach = std::max(reach.value_or(0.0), found.change / response.change * *response.bound);
+  return reach;
 }
 
 EndpointResponse responseTo(const Case& setup, std::span<const CouetteRun> runs,
@@ -389,7 +415,7 @@ std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
   std::vector<CanaryNumber> numbers;
   for (const auto& [name, allowed] : setup.averaging.endpoints) {
     const EndpointSpec endpoint = endpointSpec(setup, name);
-    CanaryNumber number{name, {}, {}, {}};
+    CanaryNumber number{name, {}, {}, {}, {}};
     const Numbers own = {endpointOf(endpoint, setup, mirror)};
     const Numbers pair =
         onScale(endpoint, {own.front(), endpointOf(endpoint, setup, engine)}, signOf(own));
@@ -397,9 +423,13 @@ std::vector<CanaryNumber> canaryOf(const Case& setup, const CouetteRun& engine,
       number.difference = (*pair[1] - *pair[0]) / testMargin(endpoint, allowed);
     const Pooled chaos = chaosOf(name, responses);
     if (chaos.dof > 0) number.floor = std::sqrt(chaos.squares / chaos.dof);
-    if (number.difference && number.floor && *number.floor > 0.0)
-      number.chance = chanceOfOneAsFar(*number.difference, *number.floor, chaos.dof,
-                                       setup.averaging.endpoints.size());
+    const std::size_t tests = setup.averaging.endpoints.size();
+    if (number.floor && *number.floor > 0.0) {
+      number.reach =
+          *number.floor * farthestByChance(1.0 - setup.averaging.confidence, chaos.dof, tests);
+      if (number.difference)
+        number.chance = chanceOfOneAsFar(*number.difference, *number.floor, chaos.dof, tests);
+    }
     numbers.push_back(std::move(number));
   }
   return numbers;

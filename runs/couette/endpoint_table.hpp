@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "averaging/looks.hpp"
@@ -16,8 +17,8 @@ namespace crossgrain::inline runs {
 struct EndpointPair {
   std::string a, b;
   PairKind kind = PairKind::peer;
-  std::string runsOfA, runsOfB;  ///< a and b themselves, or mirrors that carry their packings
-  double equivalent = 0.0;       ///< ε_eq of those mirrors, together
+  std::string runsOfA, runsOfB;        ///< a and b themselves, or mirrors that carry their packings
+  std::vector<CarriedEngine> by = {};  ///< what is known of those mirrors
 };
 
 /// The looks of a case: at its packings, and as many more each time.
@@ -28,8 +29,15 @@ LookPlan looksOf(const Case& setup);
 /// allow; the endpoints of a pair are one family.
 ///
 /// Where mirrors stand for engines, their averages follow under the assumption that averages
-/// respond linearly to so small a change: they differ by at most B = ε_eq/change × bound of the
-/// response, over the constants tried. Without responses there is no bound and no row.
+/// respond linearly to so small a change, and to whatever separates trajectories as far as a
+/// constant's change no more than to that. Each differs from its mirror by at most
+///
+///     B = (ε_eq R + max over constants c of ε_late,c R_c) / change,   R = max R_c
+///
+/// R_c the upper end of the response's interval to that change, ε_eq what lockstep's windows at
+/// the beginning show and ε_late,c what windows over a whole run of the engine's own do, the upper
+/// ends of their intervals. The second term is what the followed run of the spot check could have
+/// missed. Without responses, or late windows, there is no bound and no row.
 std::vector<EndpointRow> endpointRows(const Case& setup, std::span<const CouetteRun> runs,
                                       const std::vector<EndpointPair>& pairs, const LookPlan& plan,
                                       int available,
@@ -58,6 +66,10 @@ std::vector<EndpointRow> endpointRows(const Case& setup, const std::vector<Endpo
 /// ratio, for which all values of the reference need one sign. @param margin  the case's
 PairedSample endpointSample(const EndpointSpec& endpoint, const Margin& margin, Numbers reference,
                             Numbers other);
+
+/// max over constants c of ε_late,c R_c / change, in margins; absent where nothing is known of it.
+std::optional<double> reachOf(std::string_view endpoint, const LateWindows& late,
+                              const std::vector<EndpointResponse>& responses);
 
 /// What the change of a constant does to an endpoint: runs with it against runs without, packing by
 /// packing.

@@ -6,7 +6,7 @@
 #include "averaging/grid.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/flow.hpp"
-#include "runs/common/head.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/flow_averages.hpp"
 #include "runs/couette/run.hpp"
 

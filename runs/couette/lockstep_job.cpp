@@ -5,7 +5,11 @@
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
+#include "results/endpoints_fields.hpp"
 #include "results/schema.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study_cases.hpp"
+#include "runs/lockstep/late_windows.hpp"
 #include "runs/lockstep/lockstep.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/lockstep/starts.hpp"
@@ -27,22 +31,37 @@ LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunComm
                             campaign.store(), campaign.progress());
 }
 
-LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,
-                            std::size_t starts) {
-  checkEngineSections(setup);
-  Campaign campaign(setup, command, selectEngines(command.engines), store);
-  campaign.askEngines();
-  campaign.preparePackings();
-  LockstepFindings findings =
-      lockstepOf(campaign, setup, command, starts, [](const EngineEntry&) { return true; });
-  LockstepResults results{campaign.study(kindLockstep), std::move(findings)};
-  for (EngineRow& engine : results.engines)
-    for (const LockstepRow& row : results.lockstep.rows)
-      if (row.engine == engine.name && !row.failure.empty()) {
-        engine.status = EngineStatus::failed;
-        engine.reason = row.failure;
+std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
+                                       const RunCommand& command,
+                                       const std::vector<std::size_t>& engines) {
+  const int packing = campaign.packings().size() > 1 ? 1 : 0;
+  std::vector<KeptTask<LateWindows>> tasks;
+  for (const std::size_t e : engines) {
+    const EngineEntry& entry = campaign.engines()[e];
+    KeptTask<LateWindows> task;
+    task.name = "late-" + entry.name;
+    task.label = entry.name;
+    task.key = campaign.keyOf(e, packing, "late windows");
+    task.work = [&campaign, &setup, &entry, packing](const std::function<void(double)>& progress) {
+      LateWindows found;
+      try {
+        const auto worker =
+            startAudited(entry, campaign.store().scratch("late-" + entry.name), setup.run.timeout);
+        found = followLate(*worker, entry, setup,
+                           campaign.packings()[static_cast<std::size_t>(packing)], packing,
+                           campaign.dt(), lateWindowsMeasured, progress);
+      } catch (const EngineFailure& failure) {
+        found.failure = failure.what();
       }
-  return results;
+      const bool finished = found.failure.empty();
+      const std::string line =
+          finished ? fmt::format("{} windows", found.times.size()) : found.failure;
+      return KeptTask<LateWindows>::Outcome{std::move(found), finished, line};
+    };
+    tasks.push_back(std::move(task));
+  }
+  return doOrTakeUp(tasks, campaign.store(), campaign.progress(), "windows late in own runs",
+                    command.jobs);
 }
 
 Identification runIdentify(const Case& setup, const RunCommand& command) {
@@ -66,21 +85,91 @@ Identification runIdentify(const Case& setup, const RunCommand& command) {
                   [&](double fraction) { progress.update(0, entry.name, fraction); });
 }
 
-std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,
-                         std::size_t starts) {
+namespace {
+
+std::size_t startsOf(const CommandLine& line, const LockstepOptions& own) {
+  if (!own.starts) return line.quick ? quickLockstepStarts : lockstepStarts;
+  return static_cast<std::size_t>(wholeNumberOf("--starts", *own.starts, 1.0, 10000.0));
+}
+
+std::vector<Case> caseForLockstep(const CommandLine& line, LockstepOptions& own) {
+  startsOf(line, own);  // throws for what is none
+  return {onlyFlow(line, "lockstep")};
+}
+
+std::string lockstepPlan(const StudyWork& work, const LockstepOptions& own) {
+  const Case& setup = work.setup();
   checkEngineSections(setup);
-  Campaign campaign(setup, command, selectEngines(command.engines), store);
+  Campaign campaign(setup, work.line.run, selectEngines(work.line.run.engines), work.store);
   campaign.askEngines();
   campaign.lookForPackings();
   std::vector<PlannedWork> works;
   for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
-    PlannedWork work{campaign.engines()[e].name, "windows", campaign.refusal(e)};
+    PlannedWork planned{campaign.engines()[e].name, "windows", campaign.refusal(e)};
     const auto& can = campaign.capabilities(e);
-    if (can && work.refusal.empty()) work.refusal = whyNoMirror(campaign.engines()[e], *can, setup);
-    if (work.refusal.empty()) work.total = starts;
-    works.push_back(work);
+    if (can && planned.refusal.empty())
+      planned.refusal = whyNoMirror(campaign.engines()[e], *can, setup);
+    if (planned.refusal.empty()) planned.total = startsOf(work.line, own);
+    works.push_back(planned);
   }
-  return dryRunInWords(campaign.planHead(), works, store, command);
+  return dryRunInWords(campaign.planHead(), works, work.store, work.line.run);
 }
+
+LockstepResults lockstep(const StudyWork& work, const LockstepOptions& own) {
+  const Case& setup = work.setup();
+  checkEngineSections(setup);
+  Campaign campaign(setup, work.line.run, selectEngines(work.line.run.engines), work.store);
+  campaign.askEngines();
+  campaign.preparePackings();
+  LockstepFindings findings = lockstepOf(campaign, setup, work.line.run, startsOf(work.line, own),
+                                         [](const EngineEntry&) { return true; });
+  LockstepResults results{campaign.study(kindLockstep), std::move(findings)};
+  for (EngineRow& engine : results.engines)
+    for (const LockstepRow& row : results.lockstep.rows)
+      if (row.engine == engine.name && !row.failure.empty()) {
+        engine.status = EngineStatus::failed;
+        engine.reason = row.failure;
+      }
+  return results;
+}
+
+Outcome outcomeOfLockstep(const LockstepResults& results, const CommandLine& line,
+                          const LockstepOptions& own) {
+  bool judged = false, differs = false, failed = false;
+  Outcome outcome{exitHeld, refusals(results.engines, line.run.engines)};
+  for (const LockstepRow& row : results.lockstep.rows) {
+    judged |= row.verdict != LockstepVerdict::notMeasured;
+    differs |= row.verdict == LockstepVerdict::differs ||
+               (own.strict && row.verdict == LockstepVerdict::undecided);
+    if (row.failure.empty()) continue;
+    outcome.failures.push_back(row.failure);
+    failed = true;
+  }
+  if (failed)
+    outcome.status = exitEngineFailed;
+  else if (!judged) {
+    outcome.status = exitFellShort;
+    outcome.nothingJudged = "no engine here has a mirror in this scene";
+  } else if (differs)
+    outcome.status = exitFellShort;
+  return outcome;
+}
+
+}  // namespace
+
+const Study<LockstepOptions, LockstepResults> lockstepStudy = {
+    "lockstep",
+    {.packings = true},
+    Keeps::oneCase,
+    [](LockstepOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--starts", "states of the flow to start from; 16 unless given, 4 with --quick",
+           &own.starts},
+          {"--strict", "an engine that is undecided counts as one that differs", &own.strict}};
+    },
+    caseForLockstep,
+    lockstepPlan,
+    lockstep,
+    outcomeOfLockstep};
 
 }  // namespace crossgrain::inline runs

@@ -2,8 +2,11 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "results/endpoints.hpp"
 #include "results/lockstep.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/lockstep/identify.hpp"
 
@@ -15,18 +18,23 @@ LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunComm
                             std::size_t starts,
                             const std::function<bool(const EngineEntry&)>& takesPart);
 
-/// Holds each engine named against its mirror.
-/// @throws BadInput, UnsupportedScene (an engine named cannot run the case), OutputError,
-/// Interrupted
-LockstepResults runLockstep(const Case& setup, const RunCommand& command, RunStore& store,
-                            std::size_t starts);
+/// Late windows in a run of each of these engines of its own, on the packing after the one that
+/// spot checks average, where there is one; they stay in the store.
+/// @param engines  indices into Campaign::engines()
+std::vector<LateWindows> lateWindowsOf(Campaign& campaign, const Case& setup,
+                                       const RunCommand& command,
+                                       const std::vector<std::size_t>& engines);
+
+struct LockstepOptions {
+  std::optional<double> starts;
+  bool strict = false;
+};
+
+/// Whether engines are the laws that they declare, step by step from equal states.
+extern const Study<LockstepOptions, LockstepResults> lockstepStudy;
 
 /// Finds out what the one engine named does, on the case's first packing; keeps nothing.
 /// @throws BadInput, UnsupportedScene, EngineFailure, Interrupted
 Identification runIdentify(const Case& setup, const RunCommand& command);
-
-/// What lockstep would run, for people.
-std::string lockstepPlan(const Case& setup, const RunCommand& command, RunStore& store,
-                         std::size_t starts);
 
 }  // namespace crossgrain::inline runs

@@ -9,6 +9,7 @@
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/carriers.hpp"
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/couette/lockstep_job.hpp"
 
 namespace crossgrain::inline runs {
 
@@ -26,11 +27,11 @@ bool isMirrorOfCarried(const std::vector<CarriedEngine>& carried, const std::str
 }
 
 EndpointPair standingIn(const ComparedPair& pair, const std::vector<CarriedEngine>& carried) {
-  EndpointPair own{pair.reference, pair.other, pair.kind, pair.reference, pair.other, 0.0};
+  EndpointPair own{pair.reference, pair.other, pair.kind, pair.reference, pair.other};
   for (std::string* const runs : {&own.runsOfA, &own.runsOfB})
     if (const CarriedEngine* const by = carriedBy(carried, *runs)) {
       *runs = by->mirror;
-      own.equivalent += by->equivalent;
+      own.by.push_back(*by);
     }
   return own;
 }
@@ -96,31 +97,45 @@ class Sequence {
     const int packings = plan_.packings.front();
     const std::vector<PlannedRuns> all = {
         {whole, {0, packings}}, {canaries, {0, 1}}, {changed, {0, packings}}};
-    sayWhetherBeyondBudget(campaign_.secondsOf(all));
-    std::vector<CouetteRun> runs = campaign_.runSome(all, "running engines");
-    const auto firstChanged = runs.end() - static_cast<std::ptrdiff_t>(cases.size()) * packings;
-    std::vector<CouetteRun> ofChanged(firstChanged, runs.end());
-    runs.erase(firstChanged, runs.end());
+    // The followed run of a spot check takes as long as the averaged one.
+    sayWhetherBeyondBudget(campaign_.secondsOf(all) + campaign_.secondsOf({{canaries, {0, 1}}}));
+    RunsById runs = campaign_.runSome(all, "running engines"), ofChanged;
+    for (auto next = runs.begin(); next != runs.end();)
+      if (const auto run = next++; !run->first.variant.empty()) ofChanged.insert(runs.extract(run));
     campaign_.add(std::move(runs));
     if (canaries.empty()) return;
     if (!cases.empty()) respond(responding, cases, std::move(ofChanged));
     judgeCanaries(setup_, campaign_, findings_.responses, findings_.carried);
+    followOwnRuns(canaries);
     std::vector<Variant> themselves;
     for (const Variant& variant : canaries)
       if (!carriedBy(findings_.carried, nameOf(variant.engine))) themselves.push_back(variant);
     if (!themselves.empty() && packings > 1)
-      campaign_.add(
-          campaign_.runSome({{themselves, {1, packings}}}, "running what no mirror carries"));
+      campaign_.add(campaign_.runSome({{themselves, {1, packings}}},
+                                      "running engines without a mirror in their place"));
+  }
+
+  /// Only of those whose averaged run raised no alarm: the others run all packings anyway.
+  void followOwnRuns(const std::vector<Variant>& canaries) {
+    std::vector<std::size_t> engines;
+    for (const Variant& variant : canaries)
+      if (carriedBy(findings_.carried, nameOf(variant.engine))) engines.push_back(variant.engine);
+    std::vector<LateWindows> late = lateWindowsOf(campaign_, setup_, command_, engines);
+    for (std::size_t k = 0; k < engines.size(); ++k)
+      judgeLateWindows(
+          setup_, findings_.responses, std::move(late[k]),
+          *std::ranges::find(findings_.carried, nameOf(engines[k]), &CarriedEngine::engine));
   }
 
   /// Without the first look there is no answer at all, so it is taken even so: who cannot wait is
   /// to know at once.
   void sayWhetherBeyondBudget(double seconds) {
     if (const double end = campaign_.elapsed() + seconds; end > findings_.looks.budget)
-      campaign_.progress().say(fmt::format(
-          "the first look, at {} packings, is likely to end after {:.2g} s, by a timing of some "
-          "steps: beyond the budget of {:g} s, to which only further looks are held",
-          plan_.packings.front(), end, findings_.looks.budget));
+      campaign_.progress().say(
+          fmt::format("the first analysis, at {} packings, is likely to end after {:.2g} s, by a "
+                      "timing of some "
+                      "steps: beyond the budget of {:g} s, which limits only further ones",
+                      plan_.packings.front(), end, findings_.looks.budget));
   }
 
   static std::vector<Variant> changedOf(std::size_t e, const std::vector<ChangedCase>& cases) {
@@ -132,7 +147,7 @@ class Sequence {
   /// How averages respond, by the first of these engines that finished its runs.
   /// @param ofChanged  the very first one's runs of the changed cases
   void respond(const std::vector<std::size_t>& engines, const std::vector<ChangedCase>& cases,
-               std::vector<CouetteRun> ofChanged) {
+               RunsById ofChanged) {
     const int packings = plan_.packings.front();
     for (const std::size_t e : engines) {
       if (finishedIn(nameOf(e)) == 0) continue;
@@ -181,7 +196,7 @@ class Sequence {
       return fmt::format("{} packings are the most", plan_.packings.back());
     if (campaign_.elapsed() + nextLook() > findings_.looks.budget)
       return fmt::format(
-          "the next look, at {} packings, would have ended after the budget of {:g} s",
+          "the next analysis, at {} packings, would have ended after the budget of {:g} s",
           plan_.packings[taken], findings_.looks.budget);
     return {};
   }

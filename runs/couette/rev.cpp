@@ -9,7 +9,8 @@
 
 #include "averaging/profiles.hpp"
 #include "results/schema.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/frame.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/snapshot_file.hpp"
@@ -132,15 +133,14 @@ std::vector<RevMeeting> meetingsOf(const Curves& curves) {
   return rows;
 }
 
-}  // namespace
-
-RevResults revStudy(const Case& setup, const std::filesystem::path& file,
-                    const std::string& commandLine, bool quiet) {
+RevResults averagePerWidth(const StudyWork& work, const AverageOptions&) {
+  const Case& setup = work.setup();
+  const std::filesystem::path& file = work.line.snapshots;
   requireReadable(file, setup);
   const SnapshotReader reader(file, setup);
   requireFit(reader, setup);
   requireSound(reader, setup);
-  Progress progress(quiet);
+  Progress progress(work.line.run.quiet);
   const std::vector<double> all = widths();
   progress.begin("averaging", std::vector<double>(all.size(), 1.0));
   Curves curves;
@@ -148,8 +148,10 @@ RevResults revStudy(const Case& setup, const std::filesystem::path& file,
     addWidth(setup, reader, all[k], curves);
     progress.update(k, "ring widths", 1.0);
   }
-  RevResults results{
-      couetteFrame(kindRev, setup, commandLine, reader.scene().disks), reader.engine(), {}, {}};
+  RevResults results{couetteFrame(kindRev, setup, work.line.run.commandLine, reader.scene().disks),
+                     reader.engine(),
+                     {},
+                     {}};
   results.averaging.snapshots = static_cast<std::int64_t>(reader.count());
   results.averaging.lineWidth = setup.averaging.lineWidth;
   results.notes = {fmt::format("Averaged from the {} snapshots of {}; nothing was run.",
@@ -161,5 +163,19 @@ RevResults revStudy(const Case& setup, const std::filesystem::path& file,
         if (curve.method == method && curve.field == field.name) results.curves.push_back(curve);
   return results;
 }
+
+}  // namespace
+
+const Study<AverageOptions, RevResults> revStudy = {
+    "rev",
+    {.input = SharedOptions::Input::snapshots, .engines = false},
+    Keeps::nothing,
+    [](AverageOptions&, CommandLine& line) {
+      return std::vector<StudyOption>{{"--quiet", "no progress", &line.run.quiet}};
+    },
+    [](const CommandLine& line, AverageOptions&) { return std::vector{onlyCase(line, "rev")}; },
+    nullptr,
+    averagePerWidth,
+    [](const RevResults&, const CommandLine&, const AverageOptions&) { return Outcome(); }};
 
 }  // namespace crossgrain::inline runs

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapters/audit.hpp"
 #include "cases/flow.hpp"
-#include "runs/common/audited_looks.hpp"
-#include "runs/common/picture.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/study.hpp"
 #include "runs/couette/flow_averages.hpp"
 #include "runs/couette/snapshot_file.hpp"
 #include "runs/couette/unfinished_run.hpp"
@@ -38,7 +39,6 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   const Scene scene = flowScene(setup, *task.packing, task.dt);
   LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
   Engine& engine = *loaded.engine;
-  const AuditedLooks audited(engine, task.entry, setup, scene, loaded.realised);
   // Forces of one instant belong to the positions beside them; those summed over an interval do not
   // where the wheel's disks moved on meanwhile.
   const ContactReport report =
@@ -93,12 +93,11 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   for (int k = 1; k <= settleSlices; ++k) {
     advanceTo(settled * k / settleSlices);
     if (k <= settlingSeen || k > watch.settlingSnapshots) continue;
-    watch.settling(audited.look(report, reached));
+    watch.settling(engine.snapshot(report));
     settlingSeen = k;
   }
   if (watch.state) watched = watch.state();
-  if (report == ContactReport::accumulated)
-    audited.look(report, reached);  // starts the first interval
+  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
 
   const auto averages = flowAverages(setup, scene);
   SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
@@ -115,13 +114,19 @@ CouetteRun runCouette(const CouetteTask& task, const std::function<void(double)>
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {
     advanceTo(settled + (taken + 1) * interval);
-    const Snapshot snapshot = audited.look(report, reached);
+    const Snapshot snapshot = engine.snapshot(report);
     take(snapshot);
     unfinished.took(snapshot);
   }
   kept.close();
 
-  Stats stats = before || !reached ? engine.stats() : audited.stats(*reached);
+  Stats stats = engine.stats();
+  if (!before && reached)
+    if (const std::string why = whyNoStats(stats, loaded.realised.dt, *reached); !why.empty()) {
+      distrust(engine);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its stats cannot be: {}",
+                                      task.entry.name, setup.name, *reached, why));
+    }
   if (before) {
     stats.wallSeconds += before->wallSeconds;
     stats.cpuSeconds += before->cpuSeconds;

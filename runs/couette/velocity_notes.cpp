@@ -76,7 +76,7 @@ std::string mirrorSentence(const CouetteStudy& study, const std::string& peer,
     const char* reading = rest->holds() && !model->holds() ? "the model makes the difference"
                           : model->holds() && !rest->holds()
                               ? "what it mirrors is not what makes the difference"
-                              : "it explains a part, as far as these packings can tell";
+                              : "it explains a part, as far as these packings show";
     return fmt::format(" Its mirror {} (same {}) is {} off the reference and {} off it: {}.",
                        engine.name, bin, percent(*model), percent(*rest), reading);
   }

@@ -9,6 +9,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/couette.hpp"
 #include "results/schema.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/couette/agreement_table.hpp"
 #include "runs/couette/campaign.hpp"
 #include "runs/effects/changes.hpp"
@@ -75,8 +76,15 @@ class EffectCampaign {
     campaign_.preparePackings();
     campaign_.timeEngines();
     planVariants();
-    timeVariants();
-    campaign_.run(variantsThatRun());
+    const auto tasks = timingTasks();
+    const auto times =
+        doOrTakeUp(tasks, campaign_.store(), campaign_.progress(), "timing steps", 1);
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+      std::size_t which = 0;
+      for (const PlannedVariant* planned : variantsThatRun(tasks[k].of.engine))
+        times_[idOf(*planned)] = times[k].at(which++);
+    }
+    campaign_.run(asVariants(variantsThatRun()));
   }
 
   /// What run() would do.
@@ -84,17 +92,13 @@ class EffectCampaign {
     campaign_.askEngines();
     campaign_.lookForPackings();
     planVariants();
-    std::vector<PlannedWork> works = campaign_.plan(variantsThatRun());
+    std::vector<PlannedWork> works = campaign_.plan(asVariants(variantsThatRun()));
     for (const PlannedVariant& planned : variants_)
       if (!planned.refusal.empty())
         works.push_back({fmt::format("{} without {}", nameOf(planned), planned.without()), "runs",
                          planned.refusal});
-    for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
-      if (!campaign_.refusal(e).empty()) continue;
-      PlannedWork timing{campaign_.engines()[e].name, "timing of steps"};
-      count(timing, campaign_.store().find(timingName(e), timingKey(e)));
-      works.push_back(timing);
-    }
+    for (PlannedWork& work : plannedWork(timingTasks(), "timing of steps", campaign_.store()))
+      works.push_back(std::move(work));
     return dryRunInWords(campaign_.planHead(), works, campaign_.store(), command);
   }
 
@@ -119,18 +123,22 @@ class EffectCampaign {
     return campaign_.engines()[planned.engine].name;
   }
 
-  std::vector<Variant> variantsThatRun() const {
-    std::vector<Variant> variants;
+  RunId idOf(const PlannedVariant& planned) const { return {nameOf(planned), planned.without()}; }
+
+  /// Of one engine, or of all.
+  std::vector<const PlannedVariant*> variantsThatRun(const std::string& engine = {}) const {
+    std::vector<const PlannedVariant*> variants;
     for (const PlannedVariant& planned : variants_)
-      if (planned.refusal.empty())
-        variants.push_back({planned.engine, planned.without(), caseOf(planned)});
+      if (planned.refusal.empty() && (engine.empty() || nameOf(planned) == engine))
+        variants.push_back(&planned);
     return variants;
   }
 
-  std::string timingName(std::size_t e) const { return "timing-" + campaign_.engines()[e].name; }
-  CaseKeys timingKey(std::size_t e) const {
-    return campaign_.keyOf(e, 0,
-                           fmt::format("timing {} rounds of {} s", plan_.rounds, plan_.seconds));
+  std::vector<Variant> asVariants(const std::vector<const PlannedVariant*>& planned) const {
+    std::vector<Variant> variants;
+    for (const PlannedVariant* one : planned)
+      variants.push_back({one->engine, one->without(), caseOf(*one)});
+    return variants;
   }
 
   void planVariants() {
@@ -143,41 +151,31 @@ class EffectCampaign {
     }
   }
 
-  void timeVariants() {
-    const std::size_t engines = campaign_.engines().size();
-    campaign_.progress().begin("timing steps", std::vector<double>(engines, 1.0));
-    for (std::size_t e = 0; e < engines; ++e) timeEngine(e);
+  /// The variants of each engine against each other, one engine after the other.
+  std::vector<KeptTask<std::vector<StepTimes>>> timingTasks() const {
+    std::vector<KeptTask<std::vector<StepTimes>>> tasks;
+    for (std::size_t e = 0; e < campaign_.engines().size(); ++e) {
+      if (!campaign_.refusal(e).empty()) continue;
+      const std::string name = campaign_.engines()[e].name;
+      KeptTask<std::vector<StepTimes>> task;
+      task.of = {name};
+      task.name = "timing-" + name;
+      task.label = "timing " + name;
+      task.key = campaign_.keyOf(
+          e, 0, fmt::format("timing {} rounds of {} s", plan_.rounds, plan_.seconds));
+      task.work = [this, name](const std::function<void(double)>& progress) {
+        std::vector<TimedVariant> timed;
+        for (const PlannedVariant* one : variantsThatRun(name)) timed.push_back(timedVariant(*one));
+        auto times = timeSteps(timed, plan_, progress);
+        const bool finished = std::ranges::all_of(times, &std::string::empty, &StepTimes::failure);
+        return KeptTask<std::vector<StepTimes>>::Outcome{std::move(times), finished, "done"};
+      };
+      tasks.push_back(std::move(task));
+    }
+    return tasks;
   }
 
-  void timeEngine(std::size_t e) {
-    const std::string& name = campaign_.engines()[e].name;
-    std::vector<const PlannedVariant*> planned;
-    for (const PlannedVariant& one : variants_)
-      if (one.engine == e && one.refusal.empty()) planned.push_back(&one);
-    if (planned.empty()) return;
-    const std::vector<StepTimes> times = stepTimesOf(e, planned);
-    for (std::size_t k = 0; k < planned.size(); ++k) times_[planned[k]] = times.at(k);
-    campaign_.progress().finish(e, "timed " + name);
-  }
-
-  /// Kept from an earlier run, or measured.
-  std::vector<StepTimes> stepTimesOf(std::size_t e,
-                                     const std::vector<const PlannedVariant*>& planned) {
-    const std::string kept = timingName(e);
-    const CaseKeys key = timingKey(e);
-    const auto before = campaign_.store().findAs<std::vector<StepTimes>>(kept, key);
-    if (before && !before->empty()) return *before;
-    std::vector<TimedVariant> timed;
-    for (const PlannedVariant* one : planned) timed.push_back(timedVariant(*one));
-    const auto times = timeSteps(timed, plan_, [&](double fraction) {
-      campaign_.progress().update(e, "timing " + campaign_.engines()[e].name, fraction);
-    });
-    if (std::ranges::all_of(times, &std::string::empty, &StepTimes::failure))
-      campaign_.store().keep(kept, key, jsonOf(times));
-    return times;
-  }
-
-  TimedVariant timedVariant(const PlannedVariant& planned) {
+  TimedVariant timedVariant(const PlannedVariant& planned) const {
     const EngineEntry& entry = campaign_.engines()[planned.engine];
     const Case& setup = *caseOf(planned);
     const auto scratch =
@@ -202,32 +200,29 @@ class EffectCampaign {
       variant.status = EngineStatus::refused;
       return variant;
     }
-    if (const auto found = times_.find(&planned); found != times_.end())
-      addTimes(variant, planned, found->second);
+    if (const auto found = times_.find(idOf(planned)); found != times_.end())
+      addTimes(variant, found->second);
     for (const CouetteRun& run : runs)
       if (run.engine == variant.engine && run.without == variant.effect) addRun(variant, run);
     if (planned.off) variant.changes = effectChanges(setup_, runs, variant.engine, variant.effect);
     return variant;
   }
 
-  void addTimes(EffectVariant& variant, const PlannedVariant& planned,
-                const StepTimes& times) const {
+  void addTimes(EffectVariant& variant, const StepTimes& times) const {
     variant.step = shortestStep(times);
     variant.contacts = times.contacts;
     if (!times.failure.empty()) {
       variant.status = EngineStatus::failed;
       variant.reason = times.failure;
     }
-    for (const auto& [other, whole] : times_) {
-      if (other->engine != planned.engine || other->off) continue;
-      const auto ratio = timeRatio(times, whole);
-      if (!ratio) continue;
-      variant.timeRatio = ratio->value;
-      variant.timeRatioError = ratio->standardError;
-    }
+    const auto whole = times_.find({variant.engine});
+    const auto ratio = whole == times_.end() ? std::nullopt : timeRatio(times, whole->second);
+    if (!ratio) return;
+    variant.timeRatio = ratio->value;
+    variant.timeRatioError = ratio->standardError;
   }
 
-  /// A run that failed is its variant's trouble; one that finished tells what was simulated.
+  /// A run that failed is its variant's trouble; one that finished says what was simulated.
   static void addRun(EffectVariant& variant, const CouetteRun& run) {
     if (run.status == RunStatus::failed && variant.status == EngineStatus::ran) {
       variant.status = EngineStatus::failed;
@@ -245,23 +240,45 @@ class EffectCampaign {
   std::vector<EffectSwitch> switches_;
   Campaign campaign_;
   std::vector<PlannedVariant> variants_;
-  std::map<const PlannedVariant*, StepTimes> times_;
+  std::map<RunId, StepTimes> times_;
 };
+
+TimingPlan timingOf(const CommandLine& line) {
+  TimingPlan plan;
+  if (line.quick) plan.seconds = 0.02;
+  return plan;
+}
+
+Outcome outcomeOfEffects(const EffectsResults& results, const CommandLine& line,
+                         const EffectsOptions&) {
+  Outcome outcome{exitHeld, refusals(results.engines, line.run.engines)};
+  for (const EffectVariant& variant : results.variants)
+    if (variant.status == EngineStatus::failed) {
+      outcome.failures.push_back(variant.reason);
+      outcome.status = exitEngineFailed;
+    }
+  return outcome;
+}
 
 }  // namespace
 
-EffectsResults measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
-                              const TimingPlan& plan) {
-  checkEngineSections(setup);
-  EffectCampaign campaign(setup, command, store, plan);
-  campaign.run();
-  return campaign.results();
-}
-
-std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
-                        const TimingPlan& plan) {
-  checkEngineSections(setup);
-  return EffectCampaign(setup, command, store, plan).plan(command);
-}
+const Study<EffectsOptions, EffectsResults> effectsStudy = {
+    "effects",
+    {.packings = true},
+    Keeps::oneCase,
+    [](EffectsOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
+    [](const CommandLine& line, EffectsOptions&) { return std::vector{onlyCase(line, "effects")}; },
+    [](const StudyWork& work, const EffectsOptions&) {
+      checkEngineSections(work.setup());
+      return EffectCampaign(work.setup(), work.line.run, work.store, timingOf(work.line))
+          .plan(work.line.run);
+    },
+    [](const StudyWork& work, const EffectsOptions&) {
+      checkEngineSections(work.setup());
+      EffectCampaign campaign(work.setup(), work.line.run, work.store, timingOf(work.line));
+      campaign.run();
+      return campaign.results();
+    },
+    outcomeOfEffects};
 
 }  // namespace crossgrain::inline runs

@@ -5,8 +5,7 @@
 #include "cases/case.hpp"
 #include "cases/effect_switch.hpp"
 #include "results/effects.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/run_store.hpp"
+#include "runs/common/study.hpp"
 #include "runs/effects/step_times.hpp"
 
 namespace crossgrain::inline runs {
@@ -15,17 +14,13 @@ namespace crossgrain::inline runs {
 /// be switched off, cannot do without it, or lacks what takes its place. Empty: it can.
 std::string switchRefusal(const Capabilities& can, const Case& setup, const EffectSwitch& off);
 
+struct EffectsOptions {};
+
 /// Runs a Couette case as it is and with each of its effects switched off, on every engine that can
 /// do without it and on the case's packings; and times a step of each, one at a time. Everything
 /// finished is kept in the store at once.
 /// @throws BadInput, UnsupportedScene (an engine named cannot run the case itself), OutputError,
 /// Interrupted
-EffectsResults measureEffects(const Case& setup, const RunCommand& command, RunStore& store,
-                              const TimingPlan& plan);
-
-/// What that would run, for people. Engines are asked what they can do; nothing is computed.
-/// @throws BadInput, UnsupportedScene, Interrupted
-std::string effectsPlan(const Case& setup, const RunCommand& command, RunStore& store,
-                        const TimingPlan& plan);
+extern const Study<EffectsOptions, EffectsResults> effectsStudy;
 
 }  // namespace crossgrain::inline runs

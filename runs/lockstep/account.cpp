@@ -41,9 +41,15 @@ void readMedian(LockstepRow& row) {
   row.equivalentHigh = values[high];
 }
 
+/// Whether so many of the starts read are shown to be a larger share than chance may part.
+bool exceedsStrayShare(std::size_t count, std::size_t read) {
+  return count > 1 && gsl_cdf_binomial_Q(static_cast<unsigned>(count - 1), strayShare,
+                                         static_cast<unsigned>(read)) < 1.0 - shareConfidence;
+}
+
 }  // namespace
 
-void judge(LockstepRow& row, bool moved) {
+void judge(LockstepRow& row, bool moved, std::size_t alone) {
   readMedian(row);
   for (const StartReading& reading : row.readings) {
     row.read += reading.until > 0.0;
@@ -57,9 +63,10 @@ void judge(LockstepRow& row, bool moved) {
   const ContactKinds& kinds = row.kinds;
   const bool touched = kinds.sticking + kinds.sliding + kinds.made + kinds.opened > 0;
   row.verdict = LockstepVerdict::undecided;
-  if (beyond > 1 && gsl_cdf_binomial_Q(beyond - 1, strayShare, read) < 1.0 - shareConfidence)
+  if (exceedsStrayShare(beyond, read)) {
     row.verdict = LockstepVerdict::differs;
-  else if (!moved && !touched)
+    row.severalAtOnce = !exceedsStrayShare(alone, read);
+  } else if (!moved && !touched)
     row.reason = "nothing touches in these windows: no law was compared";
   else if (std::ranges::max(row.track) < lockstepRounding)
     row.verdict = LockstepVerdict::sameToRounding;
@@ -114,9 +121,11 @@ void SeparationAccount::add(std::size_t start, const LockstepWindow& window,
   row_.kinds.wall += kinds.wall;
 
   const std::vector<double> rounding(times_.size(), lockstepRounding);
+  touching_.push_back(0);
   if (auto first =
           firstExceedance(window, diameter_, limits.empty() ? rounding : limits, wallFrom)) {
     first->start = start;
+    touching_.back() = first->touching;
     if (!row_.first || first->until < row_.first->until) row_.first = std::move(first);
   }
   if (const auto forces = forcesOfFirstStep(window))
@@ -190,12 +199,16 @@ LockstepRow SeparationAccount::row() const {
   }
   row.trackTime = times_;
   for (std::size_t k = 0; k < told_.size(); ++k) row.separations.push_back(separationAt(k));
-  for (std::size_t s = 0; s < tracks_.size(); ++s) row.readings.push_back(readingOf(s));
+  std::size_t alone = 0;
+  for (std::size_t s = 0; s < tracks_.size(); ++s) {
+    row.readings.push_back(readingOf(s));
+    alone += row.readings[s].beyond && touching_[s] < 2;
+  }
   bool moved = false;
   for (const Responses& responses : responses_)
     for (const std::vector<double>& then : responses)
       moved |= std::ranges::max(then) > lockstepRounding;
-  judge(row, moved);
+  judge(row, moved, alone);
   if (row.verdict == LockstepVerdict::sameToPrecision) row.resolution = resolution();
   return row;
 }

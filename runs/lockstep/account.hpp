@@ -15,7 +15,9 @@ using Responses = std::vector<std::vector<double>>;
 /// The verdict and what it rests on, from readings and what else a row has: track, kinds, starts,
 /// precise.
 /// @param moved  whether the yardstick moves anything from any start
-void judge(LockstepRow& row, bool moved);
+/// @param alone  of the starts beyond the rule, how many first part at two disks that touch nothing
+///               else, or at one that touches nothing
+void judge(LockstepRow& row, bool moved, std::size_t alone);
 
 /// Adds up what windows show of an engine and of what it is held against, start by start.
 class SeparationAccount {
@@ -45,6 +47,7 @@ class SeparationAccount {
   std::vector<double> times_;
   std::vector<std::size_t> told_;
   std::vector<std::vector<double>> tracks_;  ///< by start and frame [d]
+  std::vector<std::size_t> touching_;        ///< by start, FirstExceedance::touching; 0 without one
   /// By start, time told and disk [d].
   std::vector<std::vector<std::vector<double>>> apart_;
   std::vector<Responses> responses_;         ///< by start

@@ -6,15 +6,20 @@
 
 namespace crossgrain::inline runs {
 
+void changeConstant(ContactLaw& law, const std::string& constant, double by) {
+  if (constant == "mu")
+    law.mu *= 1.0 + by;
+  else
+    changeYardstick(law, by);
+}
+
 std::vector<ChangedCase> changedCases(const Case& setup) {
-  const auto changed = [&](const std::string& constant) {
-    return ChangedCase{constant, fmt::format("{}+{:g}%", constant, 100.0 * responseChange), setup};
-  };
-  std::vector<ChangedCase> cases = {changed(yardstickOf(setup.law))};
-  changeYardstick(cases.front().setup.law, responseChange);
-  if (setup.law.mu > 0.0) {
-    cases.push_back(changed("mu"));
-    cases.back().setup.law.mu *= 1.0 + responseChange;
+  std::vector<std::string> constants = {yardstickOf(setup.law)};
+  if (setup.law.mu > 0.0) constants.emplace_back("mu");
+  std::vector<ChangedCase> cases;
+  for (const std::string& constant : constants) {
+    cases.push_back({constant, fmt::format("{}+{:g}%", constant, 100.0 * responseChange), setup});
+    changeConstant(cases.back().setup.law, constant, responseChange);
   }
   return cases;
 }

@@ -18,6 +18,9 @@ struct ChangedCase {
   Case setup;
 };
 
+/// Changes the yardstick, or µ, by that part of itself. @param constant  by name
+void changeConstant(ContactLaw& law, const std::string& constant, double by);
+
 /// The constant that ε_eq is told in, and µ where there is friction.
 std::vector<ChangedCase> changedCases(const Case& setup);
 

@@ -8,7 +8,7 @@
 #include "adapters/suitability.hpp"
 #include "results/lockstep_fields.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/kept_task.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/lockstep/comparison.hpp"
 #include "runs/lockstep/rules.hpp"
 #include "runs/lockstep/starts.hpp"

@@ -8,7 +8,7 @@
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 #include "results/lockstep_findings.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
 #include "runs/common/run_store.hpp"
 
 namespace crossgrain::inline runs {

@@ -67,6 +67,13 @@ inline constexpr double leastNamed = 1e-6;  // of the yardstick
 inline constexpr std::size_t lockstepStarts = 16;
 inline constexpr std::size_t quickLockstepStarts = 4;  ///< of commands in a hurry
 
+/// Windows within an engine's own run that the yardstick is applied to: as many as starts.
+inline constexpr std::size_t lateWindowsMeasured = lockstepStarts;
+
+/// A mirror whose spot check leaves more than a margin of an endpoint open says nothing of it that
+/// the engine's own runs would not say better.
+inline constexpr double largestReach = 1.0;  // [margins]
+
 /// Every engine runs seven windows from each start of a baseline, and a start takes some megabytes.
 inline constexpr std::size_t baselineStarts = 8;
 

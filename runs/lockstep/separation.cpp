@@ -62,8 +62,8 @@ std::optional<Pair> contactOf(std::size_t disk, const LockstepFrame& engine,
 }
 
 /// How many contacts the busier of the two disks has.
-std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wallFrom) {
-  std::size_t most = 0;
+std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wallFrom,
+                     std::size_t most) {
   for (const std::int32_t id : {of.first, of.second}) {
     if (static_cast<std::size_t>(id) >= wallFrom) continue;
     std::size_t count = 0;
@@ -187,8 +187,10 @@ std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, dou
       first.partner =
           static_cast<std::size_t>(contact->first == id ? contact->second : contact->first);
       first.contact = kindInWords(*contact, before, mirror, wallFrom);
-      first.touching =
-          std::max(touching(*contact, engine, wallFrom), touching(*contact, mirror, wallFrom));
+      // Impulses of a step show in the positions of the next, when the disks may have parted.
+      for (const auto* frames : {&window.engine, &window.mirror})
+        for (std::size_t back = 0; back <= std::min<std::size_t>(k, 1); ++back)
+          first.touching = touching(*contact, (*frames)[k - back], wallFrom, first.touching);
     }
     return first;
   }

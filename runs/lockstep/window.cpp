@@ -11,14 +11,14 @@
 namespace crossgrain::inline runs {
 namespace {
 
-LockstepFrame frameOf(Snapshot&& seen) {
+LockstepFrame frameOf(Snapshot&& seen, double since = 0.0) {
   LockstepFrame frame;
-  frame.time = seen.positionTime;
-  frame.velocityTime = seen.velocityTime;
+  frame.time = seen.positionTime - since;
+  frame.velocityTime = seen.velocityTime - since;
   frame.position = std::move(seen.position);
   if (seen.spin) frame.spin = std::move(*seen.spin);
   frame.contacts = std::move(seen.contacts);
-  frame.contactTime = seen.contactTime;
+  frame.contactTime = seen.contactTime - since;
   frame.bodies = std::move(seen.bodies);
   return frame;
 }
@@ -28,8 +28,8 @@ double timeOf(std::uint64_t steps, double dt) {
 }
 
 /// @throws EngineFailure also for what an engine in this process throws, a mirror for one
-void takeTo(Engine& engine, std::uint64_t steps, double dt) {
-  const double wanted = timeOf(steps, dt);
+void takeTo(Engine& engine, std::uint64_t steps, double dt, double since = 0.0) {
+  const double wanted = since + timeOf(steps, dt);
   double reached = 0.0;
   try {
     reached = engine.advance(wanted);
@@ -39,7 +39,7 @@ void takeTo(Engine& engine, std::uint64_t steps, double dt) {
     throw EngineFailure(error.what());
   }
   if (std::abs(reached - wanted) > 0.5 * dt)
-    throw EngineFailure("stopped at another time than it was told to");
+    throw EngineFailure("stopped at another time than it was asked for");
 }
 
 void requireFinite(const LockstepFrame& frame) {
@@ -76,14 +76,15 @@ std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double t
 }
 
 LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
-                          const std::vector<std::uint64_t>& steps, bool contacts) {
+                          const std::vector<std::uint64_t>& steps, bool contacts, double since) {
   LockstepWindow window;
   for (const std::uint64_t step : steps) {
     throwIfInterrupted();
-    takeTo(engine, step, dt);
+    takeTo(engine, step, dt, since);
     Snapshot theirs = engine.snapshot(contacts ? ContactReport::instant : ContactReport::none);
-    const auto stepOfForces = static_cast<std::uint64_t>(std::llround(theirs.contactTime / dt));
-    window.engine.push_back(frameOf(std::move(theirs)));
+    window.engine.push_back(frameOf(std::move(theirs), since));
+    const auto stepOfForces =
+        static_cast<std::uint64_t>(std::llround(window.engine.back().contactTime / dt));
     requireFinite(window.engine.back());
 
     // Forces of a step before are held against those that the mirror had then.

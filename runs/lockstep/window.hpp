@@ -38,11 +38,14 @@ std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt);
 /// Which of lockstepSteps() is nearest to that time.
 std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time);
 
-/// Takes both, loaded and not yet advanced, through the window.
-/// @param contacts  whether the engine can tell the forces of an instant
+/// Takes both through the window; the mirror is loaded and not yet advanced.
+/// @param contacts  whether the engine reports the forces of an instant
+/// @param since     the engine's time at the beginning [s]: it may be in the middle of a run, and
+///                  up to a step ahead
 /// @throws EngineFailure, Interrupted
 LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
-                          const std::vector<std::uint64_t>& steps, bool contacts);
+                          const std::vector<std::uint64_t>& steps, bool contacts,
+                          double since = 0.0);
 
 /// One alone, loaded and not yet advanced, up to the last of the steps.
 /// @param before  called before each look, with the steps done and those of the look; may throw

@@ -49,87 +49,74 @@ bool belongsTo(const PlannedJob& job, const JobResults& results) {
       job.engines, [&](const std::string& name) { return results.versions.contains(name); });
 }
 
-class LookAtAll {
- public:
-  LookAtAll(const JobPlan& plan, const fs::path& folder) : plan_(plan), folder_(folder) {}
+/// A version, and the job that it was first seen in, by engine.
+using Versions = std::map<std::string, std::pair<std::string, std::string>>;
 
-  std::vector<JobOutcome> all() {
-    for (const PlannedJob& job : plan_.jobs) outcomes_.push_back(outcomeOf(job));
-    addStrangers();
-    return std::move(outcomes_);
+std::string whoseElse(const JobPlan& plan, const PlannedJob& job, const JobResults& results) {
+  for (const PlannedJob& other : plan.jobs)
+    if (other.name != job.name && belongsTo(other, results))
+      return fmt::format("doubled: its folder holds the results of {}", other.name);
+  return results.setup == job.setup ? "holds the results of other engines than its own"
+                                    : "holds the results of another case than its own";
+}
+
+/// Of this program, and of engines that a job before had; empty: they are the same.
+std::string otherVersion(const JobPlan& plan, const PlannedJob& job, const fs::path& folder,
+                         const JobResults& results, Versions& versions) {
+  const std::string program = programOf(folder);
+  if (program != plan.program)
+    return fmt::format("of another version: of {}, and the plan is of {}",
+                       program.empty() ? "an unknown build" : "crossgrain " + program,
+                       plan.program);
+  for (const auto& [engine, version] : results.versions) {
+    const auto& [first, of] = *versions.insert({engine, {version, job.name}}).first;
+    if (of.first != version)
+      return fmt::format("of another version: of {} {}, and {} is of {}", engine, version,
+                         of.second, of.first);
   }
+  return {};
+}
 
- private:
-  fs::path folderOf(const PlannedJob& job) const { return folder_ / "results" / job.name; }
-
-  JobOutcome outcomeOf(const PlannedJob& job) {
-    const auto lost = [&](const std::string& why) { return JobOutcome{job.name, {}, why}; };
-    const fs::path folder = folderOf(job);
-    std::error_code none;
-    if (!fs::exists(folder, none)) return lost("missing: it has not begun");
-    if (!fs::exists(folder / "results.json", none))
-      return lost("unfinished: it has left no results.json; submitted again it goes on");
-    JobResults results;
-    try {
-      results = resultsIn(folder);
-    } catch (const std::exception& error) {
-      return lost(fmt::format("broken: {}", error.what()));
-    }
-    if (!belongsTo(job, results)) return lost(whoseElse(job, results));
-    if (const std::string why = otherVersion(job, results); !why.empty()) return lost(why);
-    JobOutcome outcome{job.name, folder, ""};
-    if (results.failed > 0)
-      outcome.trouble =
-          fmt::format("{} of {} runs failed; the others are merged", results.failed, results.runs);
-    return outcome;
+JobOutcome outcomeOf(const JobPlan& plan, const PlannedJob& job, const fs::path& folder,
+                     Versions& versions) {
+  const auto lost = [&](const std::string& why) { return JobOutcome{job.name, {}, why}; };
+  std::error_code none;
+  if (!fs::exists(folder, none)) return lost("missing: it has not begun");
+  if (!fs::exists(folder / "results.json", none))
+    return lost("unfinished: it has left no results.json; submitted again it goes on");
+  JobResults results;
+  try {
+    results = resultsIn(folder);
+  } catch (const std::exception& error) {
+    return lost(fmt::format("broken: {}", error.what()));
   }
-
-  std::string whoseElse(const PlannedJob& job, const JobResults& results) const {
-    for (const PlannedJob& other : plan_.jobs)
-      if (other.name != job.name && belongsTo(other, results))
-        return fmt::format("doubled: its folder holds the results of {}", other.name);
-    return results.setup == job.setup ? "holds the results of other engines than its own"
-                                      : "holds the results of another case than its own";
-  }
-
-  /// Of this program, and of engines that a job before had.
-  std::string otherVersion(const PlannedJob& job, const JobResults& results) {
-    const std::string program = programOf(folderOf(job));
-    if (program != plan_.program)
-      return fmt::format("of another version: of {}, and the plan is of {}",
-                         program.empty() ? "an unknown build" : "crossgrain " + program,
-                         plan_.program);
-    for (const auto& [engine, version] : results.versions) {
-      const auto& [first, of] = *versions_.insert({engine, {version, job.name}}).first;
-      if (of.first != version)
-        return fmt::format("of another version: of {} {}, and {} is of {}", engine, version,
-                           of.second, of.first);
-    }
-    return {};
-  }
-
-  void addStrangers() {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (fs::directory_iterator each(folder_ / "results", none), end; !none && each != end;
-         each.increment(none))
-      names.push_back(each->path().filename().string());
-    std::ranges::sort(names);
-    for (const std::string& name : names)
-      if (std::ranges::find(plan_.jobs, name, &PlannedJob::name) == plan_.jobs.end())
-        outcomes_.push_back({name, {}, "belongs to no job of this plan"});
-  }
-
-  const JobPlan& plan_;
-  const fs::path& folder_;
-  std::map<std::string, std::pair<std::string, std::string>> versions_;  ///< and whose, by engine
-  std::vector<JobOutcome> outcomes_;
-};
+  if (!belongsTo(job, results)) return lost(whoseElse(plan, job, results));
+  if (const std::string why = otherVersion(plan, job, folder, results, versions); !why.empty())
+    return lost(why);
+  JobOutcome outcome{job.name, folder, ""};
+  if (results.failed > 0)
+    outcome.trouble =
+        fmt::format("{} of {} runs failed; the others are merged", results.failed, results.runs);
+  return outcome;
+}
 
 }  // namespace
 
 std::vector<JobOutcome> lookAtJobs(const JobPlan& plan, const fs::path& folder) {
-  return LookAtAll(plan, folder).all();
+  std::vector<JobOutcome> outcomes;
+  Versions versions;
+  for (const PlannedJob& job : plan.jobs)
+    outcomes.push_back(outcomeOf(plan, job, folder / "results" / job.name, versions));
+  std::vector<std::string> names;
+  std::error_code none;
+  for (fs::directory_iterator each(folder / "results", none), end; !none && each != end;
+       each.increment(none))
+    names.push_back(each->path().filename().string());
+  std::ranges::sort(names);
+  for (const std::string& name : names)
+    if (std::ranges::find(plan.jobs, name, &PlannedJob::name) == plan.jobs.end())
+      outcomes.push_back({name, {}, "belongs to no job of this plan"});
+  return outcomes;
 }
 
 }  // namespace crossgrain::inline runs

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "results/json_fields.hpp"
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"

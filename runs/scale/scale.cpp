@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "cases/case_keys.hpp"
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/scaled_cell.hpp"
 #include "cases/time_step.hpp"
 #include "results/scale_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/common/dry_run.hpp"
 #include "runs/common/engine_access.hpp"
-#include "runs/common/head.hpp"
-#include "runs/common/progress.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/scale/timing.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
@@ -43,67 +45,75 @@ ScaleCell cellOf(const Case& scaled) {
           static_cast<std::size_t>(walls), cell.outerRadius, volumeFraction(scaled), ""};
 }
 
-class ScaleStudy {
+/// An engine whose steps are timed.
+struct TimedEngine {
+  EngineEntry entry;
+  std::string version;   ///< empty: it did not answer
+  std::string failure;   ///< why it did not; its points fail, the others are timed
+  ScaleSharing sharing;  ///< how its steps are shared
+};
+
+/// @throws BadInput for a setting that it does not have
+TimedEngine asked(const EngineEntry& entry, const StudyWork& work) {
+  throwIfInterrupted();
+  const Case& setup = work.setup();
+  TimedEngine own{entry, "", "", {entry.name, {}}};
+  try {
+    const auto engine = startNew(entry, work.store.scratch("ask-" + entry.name), setup.run.timeout);
+    const Capabilities can = engine->capabilities();
+    settingsFor(setup, entry.name, can);
+    own.version = can.version;
+    own.sharing.workers = sharingOf(can);
+  } catch (const EngineFailure& failure) {
+    own.failure = failure.what();
+  }
+  return own;
+}
+
+std::string outcomeOf(const ScalePoint& point) {
+  if (point.status != EngineStatus::ran)
+    return fmt::format("{}: {}", results::nameOf(point.status), point.reason);
+  return fmt::format("{:.3g} µs a step", 1e6 * std::ranges::min(point.seconds));
+}
+
+/// The points of the plan and their tasks, of one size all engines in turn.
+class ScaleTimings {
  public:
-  ScaleStudy(const ScalePlan& plan, const std::vector<std::string>& overrides,
-             const RunCommand& command, RunStore& store)
-      : plan_(plan),
-        overrides_(overrides),
-        command_(command),
-        store_(store),
-        base_(scaleCase(overrides)),
-        engines_(selectEngines(command.engines)),
-        progress_(command.quiet) {
-    checkEngineSections(base_);
+  ScaleTimings(const StudyWork& work, ScalePlan plan)
+      : work_(work), plan_(std::move(plan)), progress_(work.line.run.quiet) {
+    const std::vector<EngineEntry> entries = selectEngines(work.line.run.engines);
+    checkEngineSections(work.setup());
+    std::vector<bool> shares;
+    for (const EngineEntry& entry : entries) {
+      engines_.push_back(asked(entry, work));
+      shares.push_back(!engines_.back().sharing.workers.empty());
+    }
+    for (const PlannedTiming& planned : plannedPoints(plan_, shares)) add(planned);
   }
 
-  void askEngines() {
-    std::vector<bool> shares;
-    for (const EngineEntry& entry : engines_) {
-      throwIfInterrupted();
-      versions_.emplace_back();
-      failures_.emplace_back();
-      sharing_.push_back({entry.name, {}});
-      try {
-        const auto engine = startNew(entry, store_.scratch("ask-" + entry.name), base_.run.timeout);
-        const Capabilities can = engine->capabilities();
-        settingsFor(base_, entry.name, can);  // throws for one that it does not have
-        versions_.back() = can.version;
-        sharing_.back().workers = sharingOf(can);
-      } catch (const EngineFailure& failure) {
-        failures_.back() = failure.what();  // of its own points; the others are timed
-      }
-      shares.push_back(!sharing_.back().workers.empty());
-    }
-    for (const PlannedTiming& planned : plannedPoints(plan_, shares)) {
-      ScalePoint point;
-      point.engine = engines_[planned.engine].name;
-      point.disks = planned.disks;
-      point.workers = planned.workers;
-      point.steps = plan_.steps.value_or(stepsFor(planned.disks));
-      if (const std::string& why = failures_[planned.engine]; !why.empty()) {
-        point.status = EngineStatus::failed;
-        point.reason = why;
-      }
-      if (points_.empty() || points_.back().disks != point.disks)
-        cells_.push_back(cellOf(scaledCase(point.disks, overrides_)));
-      planned_.push_back(planned);
-      points_.push_back(std::move(point));
-    }
+  /// What run() would do.
+  std::string planInWords() const {
+    std::vector<std::size_t> sizes;
+    for (const ScaleCell& cell : cells_) sizes.push_back(cell.disks);
+    return dryRunInWords(fmt::format("scale: cells of {} disks\n", fmt::join(sizes, ", ")),
+                         plannedWork(tasks_, "timings", work_.store), work_.store, work_.line.run);
   }
 
   void run() {
-    store_.begin();
-    takeUp();
+    work_.store.begin();
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      if (auto before = work_.store.findAs<ScalePoint>(tasks_[k].name, tasks_[k].key)) {
+        points_[k] = *std::move(before);
+        loaded_[k] = true;
+      }
     std::vector<double> weights;
-    for (const ScalePoint& point : points_)
-      weights.push_back(static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6);
+    for (const auto& task : tasks_) weights.push_back(task.weight);
     progress_.begin("timing steps", weights);
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (taken_[k])
-        progress_.finish(k, labelOf(k) + ": finished in an earlier run");
+      if (loaded_[k])
+        progress_.finish(k, tasks_[k].label + ": finished in an earlier run");
       else if (points_[k].status == EngineStatus::failed)
-        progress_.finish(k, labelOf(k) + ": " + outcomeOf(points_[k]));
+        finish(k);
     for (std::size_t from = 0, to = 0; from < points_.size(); from = to) {
       while (to < points_.size() && points_[to].disks == points_[from].disks) ++to;
       measureSize(from, to);
@@ -112,78 +122,74 @@ class ScaleStudy {
 
   ScaleResults results() const {
     ScaleResults results;
-    results.head = headOf(kindScale, base_, command_.commandLine);
+    results.head = headOf(kindScale, work_.setup(), work_.line.run.commandLine);
     results.head.setup.name = "scaled cell";
     results.repetitions = static_cast<std::size_t>(plan_.repetitions);
-    for (std::size_t e = 0; e < engines_.size(); ++e) results.engines.push_back(rowOf(e));
-    results.sharing = sharing_;
+    for (const TimedEngine& own : engines_) {
+      results.engines.push_back(rowOf(own));
+      results.sharing.push_back(own.sharing);
+    }
     results.cells = cells_;
     results.points = points_;
     return results;
   }
 
-  /// What run() would do.
-  std::string planInWords() {
-    std::vector<PlannedWork> works;
-    for (const EngineEntry& entry : engines_) {
-      PlannedWork work{entry.name, "timings"};
-      for (std::size_t k = 0; k < points_.size(); ++k)
-        if (points_[k].engine == entry.name) count(work, store_.find(nameOf(k), keyOf(k)));
-      works.push_back(work);
-    }
-    std::vector<std::size_t> sizes;
-    for (const ScaleCell& cell : cells_) sizes.push_back(cell.disks);
-    return dryRunInWords(fmt::format("scale: cells of {} disks\n", fmt::join(sizes, ", ")), works,
-                         store_, command_);
-  }
-
  private:
-  /// What an earlier command has timed.
-  void takeUp() {
-    taken_.assign(points_.size(), false);
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      if (auto before = store_.findAs<ScalePoint>(nameOf(k), keyOf(k))) {
-        points_[k] = *std::move(before);
-        taken_[k] = true;
-      }
+  void add(const PlannedTiming& planned) {
+    const TimedEngine& own = engines_[planned.engine];
+    ScalePoint point;
+    point.engine = own.entry.name;
+    point.disks = planned.disks;
+    point.workers = planned.workers;
+    point.steps = plan_.steps.value_or(stepsFor(planned.disks));
+    if (!own.failure.empty()) {
+      point.status = EngineStatus::failed;
+      point.reason = own.failure;
+    }
+    KeptTask<ScalePoint> task;
+    task.of = {point.engine};
+    task.name = fmt::format("{}-{}-disks-{}", point.engine, point.disks, point.workers);
+    task.label = fmt::format("{}, {} disks, {}", point.engine, point.disks,
+                             workersInWords(own.sharing, point.workers));
+    task.key = runKey(work_.setup(), point.engine, own.version);
+    task.key["steps"] = fmt::format("{}", point.steps);
+    task.key["repetitions"] = fmt::format("{}", plan_.repetitions);
+    task.weight = static_cast<double>(point.disks) * static_cast<double>(point.steps) + 1e6;
+    if (points_.empty() || points_.back().disks != point.disks)
+      cells_.push_back(cellOf(scaledCase(point.disks, work_.line.overrides)));
+    tasks_.push_back(std::move(task));
+    points_.push_back(std::move(point));
+    loaded_.push_back(false);
   }
 
-  std::string nameOf(std::size_t k) const {
-    return fmt::format("{}-{}-disks-{}", points_[k].engine, points_[k].disks, points_[k].workers);
-  }
+  bool isOpen(std::size_t k) const { return !loaded_[k] && points_[k].status == EngineStatus::ran; }
 
-  std::string labelOf(std::size_t k) const {
-    const ScalePoint& point = points_[k];
-    return fmt::format("{}, {} disks, {}", point.engine, point.disks,
-                       workersInWords(sharing_[planned_[k].engine], point.workers));
-  }
-
-  CaseKeys keyOf(std::size_t k) const {
-    CaseKeys key = runKey(base_, points_[k].engine, versions_[planned_[k].engine]);
-    key["steps"] = fmt::format("{}", points_[k].steps);
-    key["repetitions"] = fmt::format("{}", plan_.repetitions);
-    return key;
+  void finish(std::size_t k) {
+    progress_.finish(k, tasks_[k].label + ": " + outcomeOf(points_[k]));
   }
 
   /// Points from … to, which have one size.
   void measureSize(std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k)
-      if (!taken_[k] && points_[k].status == EngineStatus::ran) refuseWithoutMemory(k);
-    const auto isOpen = [&](std::size_t k) {
-      return !taken_[k] && points_[k].status == EngineStatus::ran;
-    };
     std::vector<std::size_t> open;
-    for (std::size_t k = from; k < to; ++k)
-      if (isOpen(k)) open.push_back(k);
+    for (std::size_t k = from; k < to; ++k) {
+      if (!isOpen(k)) continue;
+      if (const auto lack = lackOfMemory(points_, k)) {
+        points_[k].status = EngineStatus::refused;
+        points_[k].reason = *lack;
+        finish(k);
+      } else {
+        open.push_back(k);
+      }
+    }
     if (open.empty()) return;
-    const Case scaled = scaledCase(points_[from].disks, overrides_);
+    const Case scaled = scaledCase(points_[from].disks, work_.line.overrides);
     const Scene scene = sceneOf(scaled, open.front());
     for (int repetition = 0; repetition < plan_.repetitions; ++repetition)
       for (const std::size_t k : open)
         if (isOpen(k)) timed(k, scaled, scene, repetition);
     for (const std::size_t k : open) {
-      if (isOpen(k)) store_.keep(nameOf(k), keyOf(k), jsonOf(points_[k]));
-      progress_.finish(k, labelOf(k) + ": " + outcomeOf(points_[k]));
+      if (isOpen(k)) work_.store.keep(tasks_[k].name, tasks_[k].key, jsonOf(points_[k]));
+      finish(k);
     }
   }
 
@@ -204,11 +210,13 @@ class ScaleStudy {
   void timed(std::size_t k, const Case& scaled, const Scene& scene, int repetition) {
     ScalePoint& point = points_[k];
     throwIfInterrupted();
-    progress_.update(k, labelOf(k), static_cast<double>(repetition) / plan_.repetitions);
+    progress_.update(k, tasks_[k].label, static_cast<double>(repetition) / plan_.repetitions);
     if (point.measured.empty()) point.measured = timeStamp();
     try {
-      const std::size_t e = planned_[k].engine;
-      timeSteps(point, engines_[e], sharing_[e].workers, scaled, scene, store_.scratch(nameOf(k)));
+      const TimedEngine& own = *std::ranges::find(
+          engines_, point.engine, [](const TimedEngine& one) { return one.entry.name; });
+      timeSteps(point, own.entry, own.sharing.workers, scaled, scene,
+                work_.store.scratch(tasks_[k].name));
     } catch (const UnsupportedScene& refusal) {
       point.status = EngineStatus::refused;
       point.reason = refusal.what();
@@ -218,26 +226,17 @@ class ScaleStudy {
     }
   }
 
-  void refuseWithoutMemory(std::size_t k) {
-    const auto lack = lackOfMemory(points_, k);
-    if (!lack) return;
-    points_[k].status = EngineStatus::refused;
-    points_[k].reason = *lack;
-    progress_.finish(k, labelOf(k) + ": refused: " + *lack);
-  }
-
-  static std::string outcomeOf(const ScalePoint& point) {
-    if (point.status != EngineStatus::ran)
-      return fmt::format("{}: {}", results::nameOf(point.status), point.reason);
-    return fmt::format("{:.3g} µs a step", 1e6 * std::ranges::min(point.seconds));
-  }
-
-  EngineRow rowOf(std::size_t e) const {
-    EngineRow row{engines_[e].name,    engines_[e].summary,   versions_[e],
-                  engines_[e].mirrors, EngineStatus::refused, ""};
+  /// Failed where any of its points did, refused where all were; with the first reason.
+  EngineRow rowOf(const TimedEngine& own) const {
+    EngineRow row = engineRow(own.entry, own.version);
+    row.status = EngineStatus::refused;
     for (const ScalePoint& point : points_) {
       if (point.engine != row.name) continue;
-      if (point.status == EngineStatus::failed) return failedRow(row, point);
+      if (point.status == EngineStatus::failed) {
+        row.status = EngineStatus::failed;
+        row.reason = point.reason;
+        return row;
+      }
       if (point.status == EngineStatus::ran) row.status = EngineStatus::ran;
       if (row.reason.empty()) row.reason = point.reason;
     }
@@ -245,30 +244,17 @@ class ScaleStudy {
     return row;
   }
 
-  static EngineRow failedRow(EngineRow row, const ScalePoint& point) {
-    row.status = EngineStatus::failed;
-    row.reason = point.reason;
-    return row;
-  }
-
-  const ScalePlan& plan_;
-  const std::vector<std::string>& overrides_;
-  const RunCommand& command_;
-  RunStore& store_;
-  Case base_;
-  std::vector<EngineEntry> engines_;
+  const StudyWork& work_;
+  ScalePlan plan_;
   Progress progress_;
-  std::vector<std::string> versions_;  ///< of the engines
-  std::vector<std::string> failures_;  ///< likewise: why one did not even answer; empty: it did
-  std::vector<ScaleSharing> sharing_;  ///< likewise
-  std::vector<PlannedTiming> planned_;
-  std::vector<ScalePoint> points_;  ///< of `planned_`, in its order
-  std::vector<bool> taken_;         ///< up from an earlier command
+  std::vector<TimedEngine> engines_;
+  std::vector<ScalePoint> points_;
+  std::vector<KeptTask<ScalePoint>> tasks_;  ///< of points_, in its order
+  std::vector<bool> loaded_;                 ///< likewise: finished by an earlier command
   std::vector<ScaleCell> cells_;
 };
 
-}  // namespace
-
+/// @throws BadInput for a change of the case that is none of engines' settings or of [run]
 Case scaleCase(const std::vector<std::string>& overrides) {
   for (const std::string& each : overrides) {
     const std::string key = each.substr(0, each.find('='));
@@ -282,23 +268,94 @@ Case scaleCase(const std::vector<std::string>& overrides) {
   return scaledCase(leastScaled, overrides);
 }
 
-ScaleResults measureScale(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                          const RunCommand& command, RunStore& store) {
+std::size_t soleNumber(const std::string& option, const std::string& text, std::size_t most) {
+  const auto numbers = wholeNumbers(option, text, 1, most);
+  if (numbers.size() > 1)
+    throw BadInput(fmt::format("{} '{}': one number is wanted", option, text));
+  return numbers.front();
+}
+
+/// @throws BadInput for an option that is none
+ScalePlan planOf(const ScaleOptions& own, bool quick) {
+  constexpr std::size_t mostWorkers = 1024, mostSteps = 100'000'000, mostRepetitions = 1000;
+  ScalePlan plan;
+  plan.disks =
+      wholeNumbers("--disks", own.disks.value_or(quick ? "1000,2000" : "1000,10000,100000,1000000"),
+                   leastScaled, mostScaled);
+  plan.workers = usualWorkers(std::thread::hardware_concurrency());
+  if (own.threads) {
+    plan.workers.clear();
+    for (const std::size_t count : wholeNumbers("--threads", *own.threads, 1, mostWorkers))
+      plan.workers.push_back(static_cast<int>(count));
+  }
+  if (quick) {
+    plan.steps = 200;
+    plan.repetitions = 2;
+  }
+  if (own.steps) plan.steps = soleNumber("--steps", *own.steps, mostSteps);
+  if (own.repetitions)
+    plan.repetitions =
+        static_cast<int>(soleNumber("--repetitions", *own.repetitions, mostRepetitions));
+  return plan;
+}
+
+std::vector<Case> caseToScale(const CommandLine& line, ScaleOptions& own) {
+  planOf(own, line.quick);  // throws for an option that is none
+  const Case cell = scaleCase(line.overrides);
+  for (const std::string& key : keysWithoutUse(cell, "scale"))
+    if (const std::string where = whereSaid(cell, key); where.starts_with("--set "))
+      throw BadInput(fmt::format("{}: scale does not use {}", where, key));
+  return {cell};
+}
+
+ScaleResults scale(const StudyWork& work, const ScaleOptions& own) {
   const auto started = std::chrono::steady_clock::now();
-  ScaleStudy study(plan, overrides, command, store);
-  study.askEngines();
-  study.run();
-  ScaleResults results = study.results();
+  ScaleTimings timings(work, planOf(own, work.line.quick));
+  timings.run();
+  ScaleResults results = timings.results();
   results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }
 
-std::string scalePlan(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                      const RunCommand& command, RunStore& store) {
-  ScaleStudy study(plan, overrides, command, store);
-  study.askEngines();
-  return study.planInWords();
+Outcome outcomeOfScale(const ScaleResults& results, const CommandLine&, const ScaleOptions&) {
+  Outcome outcome;
+  for (const ScalePoint& point : results.points)
+    if (point.status == EngineStatus::failed) outcome.failures.push_back(point.reason);
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (std::ranges::find(results.points, EngineStatus::ran, &ScalePoint::status) ==
+           results.points.end())
+    return {exitFellShort, {"nothing was timed: " + results.points.front().reason}};
+  return outcome;
 }
+
+}  // namespace
+
+const Study<ScaleOptions, ScaleResults> scaleStudy = {
+    "scale",
+    {.input = SharedOptions::Input::none, .inHouse = true, .jobs = false},
+    Keeps::oneCase,
+    [](ScaleOptions& own, CommandLine& line) {
+      return std::vector<StudyOption>{
+          {"--disks",
+           "sizes of the cell (default: 1000,10000,100000,1000000); 10^7 take about an hour to "
+           "prepare, once",
+           &own.disks, "N,N"},
+          {"--threads",
+           "threads, of lammps ranks, that share a step; one is always timed (default: 1, 2, 4, … "
+           "up to the cores)",
+           &own.threads, "P,P"},
+          {"--steps", "timed in each repetition (default: 2*10^7 over disks, at least 50)",
+           &own.steps, "N"},
+          {"--repetitions", "of each timing (default: 3)", &own.repetitions, "N"},
+          {"--quick", "two small cells and few steps, to see that it works", &line.quick}};
+    },
+    caseToScale,
+    [](const StudyWork& work, const ScaleOptions& own) {
+      return ScaleTimings(work, planOf(own, work.line.quick)).planInWords();
+    },
+    scale,
+    outcomeOfScale};
 
 }  // namespace crossgrain::inline runs

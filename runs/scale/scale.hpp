@@ -1,32 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "results/scale.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/run_store.hpp"
-#include "runs/scale/plan.hpp"
+#include "runs/common/study.hpp"
 
 namespace crossgrain::inline runs {
 
-/// The cell that grows, as it is before, with the changes of the command line: of engines' settings
-/// and of [run] alone, for `scale` has the cell, its law and its packings for itself.
-/// @throws BadInput for any other
-Case scaleCase(const std::vector<std::string>& overrides);
+struct ScaleOptions {
+  std::optional<std::string> disks, threads, steps, repetitions;
+};
 
 /// Times steps of each engine on cells of growing size (cases/scaled_cell.hpp), with one worker and
 /// with several. Nothing else of this command runs meanwhile; of one size all engines take turns,
 /// in a fresh process for every repetition. What is timed is kept in the store at once.
 ///
-/// A size that would take more memory than there is, judged by the size before, is refused.
+/// The cell, its law and its packings are the study's own: settings of engines and of [run] alone
+/// can be changed. A size that would take more memory than there is, judged by the size before, is
+/// refused.
 /// @throws BadInput, OutputError, Interrupted
-ScaleResults measureScale(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                          const RunCommand& command, RunStore& store);
-
-/// What that would run, for people. Engines are asked for their version; nothing is computed.
-/// @throws BadInput, Interrupted
-std::string scalePlan(const ScalePlan& plan, const std::vector<std::string>& overrides,
-                      const RunCommand& command, RunStore& store);
+extern const Study<ScaleOptions, ScaleResults> scaleStudy;
 
 }  // namespace crossgrain::inline runs

@@ -5,7 +5,7 @@
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/advance.hpp"
+#include "runs/common/engine_running.hpp"
 #include "runs/couette/run.hpp"
 #include "stability/measures.hpp"
 

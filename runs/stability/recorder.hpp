@@ -26,7 +26,7 @@ HardScene hardScene(const Case& setup, const Packing& packing);
 
 /// Has an engine load the scene and takes `samples` samples while it runs. An engine that fails
 /// on the way ends the recording there, with the reason and what was seen before.
-/// @param progress  told the fraction done, 0 … 1
+/// @param progress  called with the fraction done, 0 … 1
 /// @throws UnsupportedScene, BadInput, Interrupted
 Recording record(Engine& engine, const EngineEntry& entry, const HardScene& hard,
                  const std::function<void(double)>& progress);

@@ -12,7 +12,7 @@ namespace crossgrain::inline runs {
 /// What one engine is to do with one hard case.
 struct StabilityTask {
   const Case* setup;
-  const Case* original;  ///< the first variant of its file: what copies are held against
+  const Case* original;  ///< the first variant of its file: what copies are compared with
   EngineEntry entry;
   const Packing* packing;         ///< of a Couette case
   std::filesystem::path scratch;  ///< the worker's
@@ -20,7 +20,7 @@ struct StabilityTask {
 };
 
 /// Runs it in a worker of its own. Whatever the engine does is a verdict.
-/// @param progress  told the fraction done, 0 … 1
+/// @param progress  called with the fraction done, 0 … 1
 /// @throws Interrupted
 StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress);
 

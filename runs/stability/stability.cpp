@@ -4,43 +4,38 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "cases/case_files.hpp"
-#include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "results/head_fields.hpp"
 #include "results/schema.hpp"
 #include "results/stability_fields.hpp"
-#include "runs/common/dry_run.hpp"
-#include "runs/common/head.hpp"
-#include "runs/common/kept_task.hpp"
-#include "runs/common/progress.hpp"
-#include "runs/common/run_store.hpp"
-#include "runs/stability/recorder.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/executor.hpp"
+#include "runs/common/study_cases.hpp"
 #include "runs/stability/run.hpp"
 #include "runs/stability/transforms.hpp"
 #include "stability/measures.hpp"
 #include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
 
-/// The rows of one engine and case, kept together: they share the run that all are held against.
-struct TransformRows {
-  std::vector<StabilityRun> rows;
-};
-void fields(auto& io, TransformRows& all) {
-  io("rows", all.rows);
-}
-
 namespace {
 
-std::vector<fs::path> filesOf(const fs::path& input) {
-  return fs::is_directory(input) ? caseFilesIn(input) : std::vector{input};
+/// All cases of files and folders. @throws BadInput
+std::vector<Case> casesOf(const std::vector<fs::path>& inputs,
+                          const std::vector<std::string>& overrides) {
+  std::vector<Case> cases;
+  for (const fs::path& input : inputs)
+    for (const fs::path& file : fs::is_directory(input) ? caseFilesIn(input) : std::vector{input})
+      std::ranges::move(loadCase(file, overrides), std::back_inserter(cases));
+  return cases;
 }
 
 bool belongsTo(SuitePart part, const Stability& hard) {
@@ -52,267 +47,282 @@ bool belongsTo(SuitePart part, const Stability& hard) {
 
 std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
                             const std::vector<std::string>& overrides, SuitePart part) {
-  std::vector<Case> cases;
-  for (const fs::path& input : inputs)
-    for (const fs::path& file : filesOf(input))
-      for (Case& setup : loadCase(file, overrides)) {
-        if (!setup.stability)
-          throw BadInput(fmt::format("{}: has no [stability]: it is no hard case", file.string()));
-        cases.push_back(std::move(setup));
-      }
+  std::vector<Case> cases = casesOf(inputs, overrides);
+  for (const Case& setup : cases)
+    if (!setup.stability)
+      throw BadInput(
+          fmt::format("{}: has no [stability]: it is no hard case", setup.file.string()));
   requireOwnNames(cases);
-  if (std::ranges::none_of(cases, [&](const Case& c) { return belongsTo(part, *c.stability); }))
+  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
+  if (cases.empty())
     throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
                                             : "all of these cases are long: --long runs them");
-  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
-  return cases;
-}
-
-std::vector<Case> casesToTransform(const std::vector<fs::path>& inputs,
-                                   const std::vector<std::string>& overrides) {
-  std::vector<Case> cases;
-  for (const fs::path& input : inputs)
-    for (const fs::path& file : filesOf(input))
-      std::ranges::move(loadCase(file, overrides), std::back_inserter(cases));
-  requireOwnNames(cases);
   return cases;
 }
 
 namespace {
 
-class Suite {
- public:
-  Suite(const std::vector<Case>& cases, std::vector<EngineEntry> engines, const RunCommand& command,
-        RunStore& store, SuiteAsks asks, double budget = std::numeric_limits<double>::infinity())
-      : cases_(cases),
-        asks_(asks),
-        command_(command),
-        engines_(std::move(engines)),
-        store_(store),
-        progress_(command.quiet),
-        packings_(cases.size()),
-        unprepared_(cases.size()),
-        versions_(engines_.size()),
-        budget_(budget, cases.size() * engines_.size(), command.jobs) {
-    for (const Case& setup : cases) checkEngineSections(setup);
-    for (const EngineEntry& entry : engines_)
-      if (entry.missing && !entry.missing().empty())
-        startEngine(entry, {}, 1.0);  // throws, saying why
-  }
+/// The rows of one engine and case: one, or those of all transforms, which share the run that they
+/// are compared with.
+using Rows = std::vector<StabilityRun>;
 
-  void askVersions() {
-    std::vector<std::string> failures(engines_.size());
-    std::vector<Task> tasks;
-    for (std::size_t e = 0; e < engines_.size(); ++e)
-      tasks.push_back(
-          {1.0, [this, e, &failures] {
-             const EngineEntry& entry = engines_[e];
-             try {
-               const Capabilities can =
-                   startEngine(entry, store_.scratch("ask-" + entry.name), 60.0)->capabilities();
-               versions_[e] = can.version;
-               for (const Case& setup : cases_)
-                 settingsFor(setup, entry.name, can);  // throws for one that is wrong
-             } catch (const EngineFailure& failure) {
-               failures[e] = failure.what();  // its runs will tell, one by one
-             }
-           }});
-    runTasks(tasks, command_.jobs);
-    for (const std::string& failure : failures)
-      if (!failure.empty()) progress_.say(failure);
-    store_.begin();
-  }
-
-  void preparePackings() {
-    for (std::size_t c = 0; c < cases_.size(); ++c) {
-      if (cases_[c].kind != CaseKind::couette) continue;
-      const auto engine = engineRegistry().front().make();
-      progress_.begin("preparing packings", {1.0});
-      try {
-        packings_[c] = packingOf(cases_[c], 0, timeStep(cases_[c]), *engine, [&](double fraction) {
-          throwIfInterrupted();
-          progress_.update(0, cases_[c].name, fraction);
-        });
-        progress_.finish(0, cases_[c].name + ": packing ready");
-      } catch (const Interrupted&) {
-        throw;
-      } catch (const BadInput&) {
-        throw;
-      } catch (const std::exception& failure) {  // the other cases go on
-        unprepared_[c] = fmt::format("no packing was prepared: {}", failure.what());
-        progress_.finish(0, fmt::format("{}: {}", cases_[c].name, unprepared_[c]));
-      }
-    }
-  }
-
-  /// What run() would do.
-  std::string plan() {
-    for (std::size_t c = 0; c < cases_.size(); ++c)
-      if (cases_[c].kind == CaseKind::couette)
-        packings_[c].hash = packingHash(cases_[c], 0, timeStep(cases_[c]));
-    std::vector<PlannedWork> works;
-    for (std::size_t e = 0; e < engines_.size(); ++e) {
-      PlannedWork work{engines_[e].name, "hard cases"};
-      for (std::size_t c = 0; c < cases_.size(); ++c) {
-        const auto task = taskOf<StabilityRun>(c, e);
-        count(work, store_.find(task.name, task.key));
-      }
-      works.push_back(work);
-    }
-    std::string head;
-    for (const Case& setup : cases_)
-      head += fmt::format("{}{}{}", head.empty() ? "" : ", ", setup.name,
-                          setup.variant.empty() ? "" : " " + setup.variant);
-    return dryRunInWords(head + "\n", works, store_, command_);
-  }
-
-  void run() {
-    if (asks_ == SuiteAsks::limits)
-      runs_ = doAll<StabilityRun>("hard cases");
-    else
-      for (TransformRows& all : doAll<TransformRows>("transforms"))
-        std::ranges::move(all.rows, std::back_inserter(runs_));
-    sayWhatIsAlwaysNew(engines_, progress_);
-  }
-
-  StabilityResults results() const {
-    StabilityResults results;
-    results.head = headOf(kindStability, cases_.front(), command_.commandLine);
-    const bool one =
-        std::ranges::all_of(cases_, [&](const Case& c) { return c.name == cases_.front().name; });
-    const char* const many = asks_ == SuiteAsks::transforms ? "cases told otherwise" : "hard cases";
-    results.head.setup = {one ? cases_.front().name : many, "",
-                          cases_.front().file.parent_path().string(), ""};
-    for (const Case& setup : cases_)
-      std::ranges::move(rowsOf(setup), std::back_inserter(results.cases));
-    results.runs = runs_;
-    for (std::size_t e = 0; e < engines_.size(); ++e)
-      results.engines.push_back({engines_[e].name, engines_[e].summary, versions_[e],
-                                 engines_[e].mirrors, EngineStatus::ran, ""});
-    return results;
-  }
-
- private:
-  /// Roughly, in seconds: the longest start first.
-  double predicted(const Case& setup, const EngineEntry& entry) const {
-    const double perStep = entry.command ? 3e-5 : 2e-6;
-    double steps = 1e4;
-    if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
-    if (setup.kind == CaseKind::assembly && setup.assembly.duration)
-      steps = *setup.assembly.duration / timeStep(setup);
-    std::size_t disks = 1;
-    for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
-    return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
-  }
-
-  const Case& originalOf(const Case& setup) const {
-    return *std::ranges::find(cases_, setup.name, &Case::name);
-  }
-
-  template <typename Result>
-  std::vector<Result> doAll(const std::string& stage) {
-    std::vector<KeptTask<Result>> tasks;
-    for (std::size_t c = 0; c < cases_.size(); ++c)
-      for (std::size_t e = 0; e < engines_.size(); ++e) tasks.push_back(taskOf<Result>(c, e));
-    return doOrTakeUp(tasks, store_, progress_, stage, command_.jobs);
-  }
-
-  KeptTask<StabilityRun>::Outcome done(const StabilityTask& task,
-                                       const std::function<void(double)>& progress,
-                                       StabilityRun* /*of*/) {
-    StabilityRun run = runStability(task, progress);
-    const std::string verdict(nameOf(run.verdict));
-    const bool finished = run.status != HardRunStatus::failed;
-    return {std::move(run), finished, verdict};
-  }
-
-  KeptTask<TransformRows>::Outcome done(const StabilityTask& task,
-                                        const std::function<void(double)>& progress,
-                                        TransformRows* /*of*/) {
-    TransformRows all{runTransforms(task, budget_.next(), progress)};
-    const auto count = [&](auto member, auto value) {
-      return std::ranges::count(all.rows, value, member);
-    };
-    const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
-    const auto late = count(&StabilityRun::status, HardRunStatus::notRun);
-    const bool finished = late + count(&StabilityRun::status, HardRunStatus::failed) == 0;
-    return {std::move(all), finished,
-            fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
-                        late == 0 ? "" : fmt::format(", {} not run", late))};
-  }
-
-  template <typename Result>
-  KeptTask<Result> taskOf(std::size_t c, std::size_t e) {
-    const Case& setup = cases_[c];
-    const EngineEntry& entry = engines_[e];
-    KeptTask<Result> task;
-    task.label = fmt::format("{} {}{}{}", entry.name, setup.name, setup.variant.empty() ? "" : " ",
-                             setup.variant);
-    task.name = task.label;
-    std::ranges::replace(task.name, ' ', '-');
-    task.key = runKey(setup, entry.name, versions_[e]);
-    if (!packings_[c].hash.empty()) task.key["packing"] = packings_[c].hash;
-    if (!setup.assembly.starts.files.empty())  // the case has their paths only
-      task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
-    const Case& original = originalOf(setup);
-    if (asks_ == SuiteAsks::transforms)
-      task.name += "-transforms";
-    else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun)
-      task.key["held against"] = original.variant;
-    task.weight = predicted(setup, entry);
-    // What is over soon leaves its part to the others.
-    if (asks_ == SuiteAsks::transforms) task.priority = -task.weight;
-    task.work = [this, &setup, &original, &entry, c,
-                 name = task.name](const std::function<void(double)>& progress) {
-      return done({&setup, &original, entry, &packings_[c], store_.scratch(name), unprepared_[c]},
-                  progress, static_cast<Result*>(nullptr));
-    };
-    return task;
-  }
-
-  std::vector<HardCase> rowsOf(const Case& setup) const {
-    if (asks_ == SuiteAsks::transforms) return transformRows(setup);
-    const Stability& hard = *setup.stability;
-    const StabilityMeasure& measure = stabilityMeasure(hard.measure);
-    return {{setup.name, setup.variant, setup.file.string(), hard.tests, hard.measure,
-             std::string(measure.what), std::string(measure.unit), hard.limit, hard.degraded,
-             hard.why, setup.resolvedToml}};
-  }
-
-  const std::vector<Case>& cases_;
-  SuiteAsks asks_;
-  const RunCommand& command_;
-  std::vector<EngineEntry> engines_;
-  RunStore& store_;
-  Progress progress_;
-  std::vector<Packing> packings_;        ///< of Couette cases
-  std::vector<std::string> unprepared_;  ///< why they have none
-  std::vector<std::string> versions_;
-  TimeBudget budget_;
-  std::vector<StabilityRun> runs_;  ///< case by case, engine by engine
+/// What tasks need of cases and engines; it outlives them.
+struct Suite {
+  const std::vector<Case>& cases;
+  const std::vector<EngineEntry>& engines;
+  const RunCommand& command;
+  RunStore& store;
+  SuiteAsks asks;
+  Progress progress{command.quiet};
+  std::vector<std::string> versions = {};    ///< of engines; empty: it did not answer
+  std::vector<Packing> packings = {};        ///< of cases that are Couette cells
+  std::vector<std::string> unprepared = {};  ///< why they have none
+  TimeBudget* budget = nullptr;              ///< of transforms
 };
+
+void askEngines(Suite& suite) {
+  for (const Case& setup : suite.cases) checkEngineSections(setup);
+  requireInstalled(suite.engines);
+  suite.versions.resize(suite.engines.size());
+  std::vector<std::string> failures(suite.engines.size());
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < suite.engines.size(); ++e)
+    tasks.push_back(
+        {1.0, [&suite, e, &failures] {
+           const EngineEntry& entry = suite.engines[e];
+           try {
+             const Capabilities can =
+                 startEngine(entry, suite.store.scratch("ask-" + entry.name), 60.0)->capabilities();
+             suite.versions[e] = can.version;
+             for (const Case& setup : suite.cases)
+               settingsFor(setup, entry.name, can);  // throws for one that is wrong
+           } catch (const EngineFailure& failure) {
+             failures[e] = failure.what();  // its runs will tell, one by one
+           }
+         }});
+  runTasks(tasks, suite.command.jobs);
+  for (const std::string& failure : failures)
+    if (!failure.empty()) suite.progress.say(failure);
+  suite.store.begin();
+}
+
+void preparePackings(Suite& suite) {
+  for (std::size_t c = 0; c < suite.cases.size(); ++c) {
+    const Case& setup = suite.cases[c];
+    if (setup.kind != CaseKind::couette) continue;
+    const auto engine = engineRegistry().front().make();
+    suite.progress.begin("preparing packings", {1.0});
+    try {
+      suite.packings[c] = packingOf(setup, 0, timeStep(setup), *engine, [&](double fraction) {
+        throwIfInterrupted();
+        suite.progress.update(0, setup.name, fraction);
+      });
+      suite.progress.finish(0, setup.name + ": packing ready");
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const BadInput&) {
+      throw;
+    } catch (const std::exception& failure) {  // the other cases go on
+      suite.unprepared[c] = fmt::format("no packing was prepared: {}", failure.what());
+      suite.progress.finish(0, fmt::format("{}: {}", setup.name, suite.unprepared[c]));
+    }
+  }
+}
+
+/// Roughly, in seconds: the longest start first.
+double predicted(const Case& setup, const EngineEntry& entry) {
+  const double perStep = entry.command ? 3e-5 : 2e-6;
+  double steps = 1e4;
+  if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
+  if (setup.kind == CaseKind::assembly && setup.assembly.duration)
+    steps = *setup.assembly.duration / timeStep(setup);
+  std::size_t disks = 1;
+  for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
+  return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
+}
+
+KeptTask<Rows>::Outcome limitsOf(const StabilityTask& task,
+                                 const std::function<void(double)>& progress) {
+  StabilityRun run = runStability(task, progress);
+  const std::string verdict(nameOf(run.verdict));
+  const bool finished = run.status != HardRunStatus::failed;
+  return {{std::move(run)}, finished, verdict};
+}
+
+KeptTask<Rows>::Outcome transformsOf(const StabilityTask& task, TimeBudget& budget,
+                                     const std::function<void(double)>& progress) {
+  Rows rows = runTransforms(task, budget.next(), progress);
+  const auto count = [&](auto member, auto value) {
+    return std::ranges::count(rows, value, member);
+  };
+  const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
+  const auto late = count(&StabilityRun::status, HardRunStatus::notRun);
+  const bool finished = late + count(&StabilityRun::status, HardRunStatus::failed) == 0;
+  return {std::move(rows), finished,
+          fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
+                      late == 0 ? "" : fmt::format(", {} not run", late))};
+}
+
+KeptTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
+  const Case& setup = suite.cases[c];
+  const EngineEntry& entry = suite.engines[e];
+  const Case& original = *std::ranges::find(suite.cases, setup.name, &Case::name);
+  const bool transforms = suite.asks == SuiteAsks::transforms;
+  KeptTask<Rows> task;
+  task.of = {entry.name, fullName(setup)};
+  task.label = entry.name + " " + fullName(setup);
+  task.name = task.label;
+  std::ranges::replace(task.name, ' ', '-');
+  task.key = runKey(setup, entry.name, suite.versions[e]);
+  if (const std::string& hash = suite.packings[c].hash; !hash.empty()) task.key["packing"] = hash;
+  if (!setup.assembly.starts.files.empty())  // the case has their paths only
+    task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
+  task.weight = predicted(setup, entry);
+  if (transforms) {
+    task.name += "-transforms";
+    task.priority = -task.weight;  // what is over soon leaves its part of the budget to the others
+  } else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun) {
+    task.key["compared with"] = original.variant;
+  }
+  task.work = [&suite, &setup, &original, &entry, c, transforms,
+               scratch = suite.store.scratch(task.name)](const auto& progress) {
+    const StabilityTask own{&setup,  &original,          entry, &suite.packings[c],
+                            scratch, suite.unprepared[c]};
+    return transforms ? transformsOf(own, *suite.budget, progress) : limitsOf(own, progress);
+  };
+  return task;
+}
+
+/// Case by case, engine by engine.
+std::vector<KeptTask<Rows>> tasksOf(const Suite& suite) {
+  std::vector<KeptTask<Rows>> tasks;
+  for (std::size_t c = 0; c < suite.cases.size(); ++c)
+    for (std::size_t e = 0; e < suite.engines.size(); ++e) tasks.push_back(taskOf(suite, c, e));
+  return tasks;
+}
+
+std::vector<HardCase> describe(const Case& setup, SuiteAsks asks) {
+  if (asks == SuiteAsks::transforms) return transformRows(setup);
+  const Stability& hard = *setup.stability;
+  const StabilityMeasure& measure = stabilityMeasure(hard.measure);
+  return {{setup.name, setup.variant, setup.file.string(), hard.tests, hard.measure,
+           std::string(measure.what), std::string(measure.unit), hard.limit, hard.degraded,
+           hard.why, setup.resolvedToml}};
+}
+
+std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
+  if (own.budget && !own.transforms) throw BadInput("--budget: goes with --transforms only");
+  if (own.budget) secondsOf(*own.budget);  // throws for what is none
+  std::vector<fs::path> inputs = line.inputs;
+  if (inputs.empty()) inputs.push_back(hereOrInstalled("cases/hard"));
+  std::vector<Case> cases;
+  if (own.transforms) {  // of any cases
+    cases = casesOf(inputs, line.overrides);
+    requireOwnNames(cases);
+  } else {
+    cases = hardCases(inputs, line.overrides,
+                      line.quick      ? SuitePart::quick
+                      : own.longCases ? SuitePart::withLong
+                                      : SuitePart::usual);
+  }
+  if (line.only) cases = selectedCases(cases, *line.only);
+  reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
+  return cases;
+}
+
+std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
+  const std::vector<EngineEntry> engines = selectEngines(work.line.run.engines);
+  Suite suite{work.cases, engines, work.line.run, work.store, own.asks()};
+  suite.packings.resize(work.cases.size());
+  suite.unprepared.resize(work.cases.size());
+  askEngines(suite);
+  std::string head;
+  for (std::size_t c = 0; c < work.cases.size(); ++c) {
+    const Case& setup = work.cases[c];
+    if (setup.kind == CaseKind::couette)
+      suite.packings[c].hash = packingHash(setup, 0, timeStep(setup));
+    head += (head.empty() ? "" : ", ") + fullName(setup);
+  }
+  return dryRunInWords(head + "\n", plannedWork(tasksOf(suite), "hard cases", work.store),
+                       work.store, work.line.run);
+}
+
+StabilityResults stability(const StudyWork& work, const StabilityOptions& own) {
+  return testStability(
+      work.cases, selectEngines(work.line.run.engines), work.line.run, work.store, own.asks(),
+      own.budget ? secondsOf(*own.budget) : std::numeric_limits<double>::infinity());
+}
+
+Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
+                           const StabilityOptions&) {
+  const auto count = [&](StabilityVerdict verdict) {
+    return std::ranges::count(results.runs, verdict, &StabilityRun::verdict);
+  };
+  const auto all = std::ssize(results.runs), refused = count(StabilityVerdict::refused);
+  if (refused == all)
+    return notJudged(
+        fmt::format("all runs were refused, the first because it {}", results.runs.front().reason));
+  if (refused + count(StabilityVerdict::notRun) == all)
+    return notJudged("the budget ended before any run could be judged");
+  return {count(StabilityVerdict::unstable) > 0 ? exitFellShort : exitHeld};
+}
 
 }  // namespace
 
-StabilityResults testStability(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                               const RunCommand& command, RunStore& store, SuiteAsks asks,
-                               double budget) {
+StabilityResults testStability(const std::vector<Case>& cases,
+                               const std::vector<EngineEntry>& engines, const RunCommand& command,
+                               RunStore& store, SuiteAsks asks, double seconds) {
   const auto started = std::chrono::steady_clock::now();
-  Suite suite(cases, std::move(engines), command, store, asks, budget);
-  suite.askVersions();
-  suite.preparePackings();
-  suite.run();
-  StabilityResults results = suite.results();
+  TimeBudget budget(seconds, cases.size() * engines.size(), command.jobs);
+  Suite suite{cases, engines, command, store, asks};
+  suite.budget = &budget;
+  suite.packings.resize(cases.size());
+  suite.unprepared.resize(cases.size());
+  askEngines(suite);
+  preparePackings(suite);
+  StabilityResults results;
+  for (Rows& rows :
+       doOrTakeUp(tasksOf(suite), store, suite.progress,
+                  asks == SuiteAsks::limits ? "hard cases" : "transforms", command.jobs))
+    std::ranges::move(rows, std::back_inserter(results.runs));
+  sayWhatIsAlwaysNew(engines, suite.progress);
+  results.head = headOf(kindStability, cases.front(), command.commandLine);
+  const bool one =
+      std::ranges::all_of(cases, [&](const Case& c) { return c.name == cases.front().name; });
+  const char* const many = asks == SuiteAsks::transforms ? "transformed cases" : "hard cases";
+  results.head.setup = {one ? cases.front().name : many, "",
+                        cases.front().file.parent_path().string(), ""};
+  for (const Case& setup : cases)
+    std::ranges::move(describe(setup, asks), std::back_inserter(results.cases));
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    results.engines.push_back(engineRow(engines[e], suite.versions[e]));
   results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }
 
-std::string stabilityPlan(const std::vector<Case>& cases, std::vector<EngineEntry> engines,
-                          const RunCommand& command, RunStore& store, SuiteAsks asks) {
-  Suite suite(cases, std::move(engines), command, store, asks);
-  suite.askVersions();
-  return suite.plan();
-}
+const Study<StabilityOptions, StabilityResults> stabilityStudy = {
+    "stability",
+    {.input = SharedOptions::Input::anyCases,
+     .inputIs = "case files or folders of them (default: cases/hard)",
+     .selection = true},
+    Keeps::eachCase,
+    [](StabilityOptions& own, CommandLine& line) {
+      return std::vector<StudyOption>{
+          {"--quick", "only cases marked as quick", &line.quick},
+          {"--long", "also cases marked as long", &own.longCases},
+          {"--transforms",
+           "whether any case, turned, mirrored, in other units, renumbered, restarted and in "
+           "one go, does the same",
+           &own.transforms},
+          {"--budget",
+           "of --transforms: no run begins that would end later, e.g. 90s, 10m, 1h (default: none)",
+           &own.budget, "TIME"}};
+    },
+    casesToTest,
+    stabilityPlan,
+    stability,
+    outcomeOfStability,
+    {{"--quick", "--long"}, {"--transforms", "--quick"}, {"--transforms", "--long"}}};
 
 }  // namespace crossgrain::inline runs

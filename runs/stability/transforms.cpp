@@ -3,27 +3,91 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "results/stability_fields.hpp"
-#include "runs/common/audited_engine.hpp"
+#include "runs/common/engine_access.hpp"
 #include "runs/lockstep/separation.hpp"
 #include "runs/lockstep/window.hpp"
 #include "runs/stability/recorder.hpp"
-#include "runs/stability/setting_units.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline runs {
 
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+}  // namespace
+
+void TimeShare::require(double seconds) const {
+  if (const double left = all_ - secondsSince(began_); !(seconds <= left))
+    throw OutOfTime(fmt::format("its part of the budget, {:.3g} s, leaves no time for it", all_));
+}
+
+TimeShare TimeBudget::next() {
+  const std::scoped_lock lock(mutex_);
+  const double left = std::max(0.0, all_ - secondsSince(began_));
+  const double parts = static_cast<double>(std::max(pieces_, std::size_t{1}));
+  if (pieces_ > 0) --pieces_;
+  return TimeShare(left * std::min(1.0, static_cast<double>(jobs_) / parts));
+}
+
+namespace {
+
+/// A unit of SI and its powers of length, mass and time.
+struct Dimension {
+  std::string_view unit;
+  int length, mass, time;
+};
+constexpr std::array dimensions = {
+    Dimension{"", 0, 0, 0},       Dimension{"-", 0, 0, 0},
+    Dimension{"rad", 0, 0, 0},    Dimension{"m", 1, 0, 0},
+    Dimension{"s", 0, 0, 1},      Dimension{"kg", 0, 1, 0},
+    Dimension{"m/s", 1, 0, -1},   Dimension{"m/s²", 1, 0, -2},
+    Dimension{"1/s", 0, 0, -1},   Dimension{"/s", 0, 0, -1},
+    Dimension{"Hz", 0, 0, -1},    Dimension{"rad/s", 0, 0, -1},
+    Dimension{"N", 1, 1, -2},     Dimension{"N/m", 0, 1, -2},
+    Dimension{"kg/s", 0, 1, -1},  Dimension{"Pa", -1, 1, -2},
+    Dimension{"J", 2, 1, -2},     Dimension{"1/m", -1, 0, 0},
+    Dimension{"kg/m³", -3, 1, 0}, Dimension{"smallest radius", 0, 0, 0}};
+
+}  // namespace
+
+std::optional<double> factorOf(const std::string& unit, const Units& units) {
+  const auto found = std::ranges::find(dimensions, unit, &Dimension::unit);
+  if (found == dimensions.end()) return std::nullopt;
+  return units.of(found->length, found->mass, found->time);
+}
+
+Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const Units& units) {
+  if (units == Units{}) return settings;
+  for (const SettingSpec& spec : specs) {
+    const auto said = settings.find(spec.name);
+    const SettingValue value = said == settings.end() ? spec.defaultValue : said->second;
+    const auto* number = std::get_if<double>(&value);
+    if (!number || *number == 0.0) continue;
+    const auto factor = factorOf(spec.unit, units);
+    if (!factor)
+      throw UnsupportedScene(fmt::format("how its setting {} scales is not known: its unit is '{}'",
+                                         spec.name, spec.unit));
+    if (*factor != 1.0) settings[spec.name] = *number * *factor;
+  }
+  return settings;
+}
+
 std::vector<CaseTransform> caseTransforms(std::size_t disks) {
   const auto turned = [](double angle) { return Transform{.placement = {.turn = angle}}; };
   const auto told = [](Units units) { return Transform{.units = units}; };
-  const std::string rescaled =
-      "Told in other units the same happens: nothing has a unit of its own.";
+  const std::string rescaled = "In other units the same happens: nothing has a unit of its own.";
   return {{"turned", "turned by 90°", "A turned scene does the same, turned.",
            turned(0.5 * std::numbers::pi)},
           {"turned", "turned by 1 rad", "A turned scene does the same, turned.", turned(1.0)},
@@ -40,10 +104,10 @@ std::vector<CaseTransform> caseTransforms(std::size_t disks) {
            {.order = shuffledOrder(disks, transformSeed)}},
           {"restarted",
            "restarted",
-           "Taken up from a checkpoint in its middle a run goes on as if uninterrupted.",
+           "Restarted from a checkpoint in its middle a run goes on as if uninterrupted.",
            {},
            TransformRun::restart},
-          {"split", "in one go", "Who stops to look changes nothing.", {}, TransformRun::oneGo}};
+          {"split", "in one go", "A snapshot changes nothing.", {}, TransformRun::oneGo}};
 }
 
 namespace {
@@ -85,9 +149,10 @@ class Trial {
   void judge(StabilityRun& row, const CaseTransform& transform) {
     if (blind_ == 0) {
       const double limit = limits_.front();
-      throw UnsupportedScene(fmt::format(
-          "its own rounding may part two runs by {:.2g} d within {} steps: nothing is told apart",
-          limit, steps_.front()));
+      throw UnsupportedScene(
+          fmt::format("its own rounding may separate two runs by {:.2g} d within {} steps: no "
+                      "difference can be seen",
+                      limit, steps_.front()));
     }
     time_.require(took_);
     switch (transform.run) {
@@ -207,9 +272,8 @@ class Trial {
       load(hard_.scene, {});
       engine_->advance(static_cast<double>(steps_[middle]) * dt_);
       engine_->checkpoint(file);
-      const auto second = std::make_unique<AuditedEngine>(
-          task_.entry.name,
-          startNew(task_.entry, task_.scratch / "second", task_.setup->run.timeout));
+      const auto second = audited(task_.entry.name, startNew(task_.entry, task_.scratch / "second",
+                                                             task_.setup->run.timeout));
       loadInto(*second, hard_.scene, {});
       second->restore(file);
       return follow(*second, dt_, {steps_.begin() + static_cast<long>(middle), steps_.end()},
@@ -227,9 +291,10 @@ class Trial {
   /// @param from  the look that the first of the frames is of
   void compare(StabilityRun& row, const std::vector<LockstepFrame>& frames, std::size_t from) {
     if (from >= blind_)
-      throw UnsupportedScene(fmt::format(
-          "its own rounding may part two runs by more than {:g} d from step {} on: nothing is told",
-          transformBlind, steps_[blind_]));
+      throw UnsupportedScene(
+          fmt::format("its own rounding may separate two runs by more than {:g} d from step {} on: "
+                      "nothing is compared",
+                      transformBlind, steps_[blind_]));
     double worst = -1.0;
     std::size_t disk = 0;
     bool bits = true;
@@ -255,8 +320,8 @@ class Trial {
                  : bits      ? "the same to the bit"
                              : "";
     if (blind_ < steps_.size())
-      row.reason += fmt::format("{}told apart from rounding up to step {}",
-                                row.reason.empty() ? "" : "; ", steps_[blind_ - 1]);
+      row.reason += fmt::format("{}compared up to step {}", row.reason.empty() ? "" : "; ",
+                                steps_[blind_ - 1]);
   }
 
   const StabilityTask& task_;

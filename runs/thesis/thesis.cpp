@@ -1,88 +1,123 @@
 #include "runs/thesis/thesis.hpp"
 
 #include <algorithm>
+#include <chrono>
 
-#include "cases/claim_reasons.hpp"
-#include "results/thesis_kept.hpp"
 #include "runs/collide/collide.hpp"
 #include "runs/lockstep/rules.hpp"
+#include "runs/thesis/campaign.hpp"
 #include "runs/thesis/claims.hpp"
-#include "runs/thesis/climb.hpp"
-#include "runs/thesis/reasons.hpp"
+#include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
 
 namespace crossgrain::inline runs {
-
-std::map<std::string, CaseKeys> keysOfLegs(const ThesisLadder& ladder) {
-  std::map<std::string, CaseKeys> keys;
-  for (auto& [name, own] : keysOfEach(ladder.collisions)) keys["collisions " + name] = own;
-  for (const LadderLeg& leg : ladder.legs) keys[leg.name] = keysThatMatter(leg.setup);
-  return keys;
-}
-
 namespace {
 
-/// Those of each engine's own collisions follow those of the law.
-void addCollisions(const CollideResults& collisions, const ClaimRules& rules,
-                   std::vector<ClaimRow>& claims) {
-  const std::vector<ClaimRow> own = judgeCollisions(collisions, rules);
-  if (own.empty()) return;
-  const auto other =
-      std::ranges::find_if(claims, [&](const ClaimRow& row) { return row.id != own.front().id; });
-  claims.insert(other, own.begin(), own.end());
+constexpr const char* wholeSweep = "cases/couette/thesis/ladder.toml";
+constexpr const char* quickSweep = "cases/couette/thesis/ladder-quick.toml";
+
+std::vector<Case> casesOfThesis(const CommandLine& line, ThesisOptions& own) {
+  if (line.inputs.size() > 1) throw BadInput("thesis runs one parameter sweep at a time");
+  if (own.budget) own.seconds = secondsOf(*own.budget);
+  own.sweep = loadSweep(line.inputs.empty() ? hereOrInstalled(line.quick ? quickSweep : wholeSweep)
+                                            : line.inputs.front(),
+                        line.overrides);
+  std::vector<Case> cases;
+  for (const Case& setup : own.sweep.collisions)
+    cases.emplace_back(setup).name = "collisions " + setup.name;
+  for (const SweepCase& each : own.sweep.cases) cases.emplace_back(each.setup).name = each.name;
+  return cases;
 }
 
-std::vector<ClaimRow> allClaims(const ThesisResults& results, const ClaimRules& rules,
-                                const ClaimReasons& reasons) {
-  std::vector<ClaimRow> claims = judgeClaims(results, rules);
-  if (results.collisions) addCollisions(*results.collisions, rules, claims);
-  addReasons(results, rules, reasons, claims);
-  return claims;
+ThesisCampaign campaignOf(const StudyWork& work, const ThesisOptions& own) {
+  return {own.sweep, work.line.run, work.store, own.seconds,
+          own.earlier ? readEarlierRuns(*own.earlier) : EarlierRuns()};
 }
 
-EarlierRuns earlierIn(const std::optional<std::filesystem::path>& file) {
-  return file ? readEarlierRuns(*file) : EarlierRuns();
+std::string planOfThesis(const StudyWork& work, const ThesisOptions& own) {
+  ThesisCampaign campaign = campaignOf(work, own);
+  campaign.askEngines();
+  return campaign.plan();
 }
 
-}  // namespace
+void judge(ThesisResults& results, const ClaimRules& rules, const ClaimReasons& reasons) {
+  results.reasons = reasons.text;
+  results.claims = judgeClaims(results, rules);
+  addReasons(results, rules, reasons, results.claims);
+}
 
-ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                          double budget, const std::optional<std::filesystem::path>& earlier) {
+ThesisResults runThesis(const StudyWork& work, const ThesisOptions& own) {
   const auto started = std::chrono::steady_clock::now();
-  const ClaimRules rules = loadClaimRules(ladder.rules);  // what is wrong with them is said now
+  const ThesisSweep& sweep = own.sweep;
+  // What is wrong with them is said before anything is run.
+  const ClaimRules rules = loadClaimRules(sweep.rules, &claimSchema());
   ClaimReasons reasons;
-  if (ladder.reasons) reasons = loadClaimReasons(*ladder.reasons, rules);
-  Climb climb(ladder, command, store, budget, earlierIn(earlier));
+  if (sweep.reasons) reasons = loadClaimReasons(*sweep.reasons, rules);
+  ThesisCampaign campaign = campaignOf(work, own);
   std::optional<CollideResults> collisions;
-  if (!ladder.collisions.empty()) collisions = collideEngines(ladder.collisions, command, store);
-  climb.askEngines();
-  climb.holdAgainstMirrors(lockstepStarts);
-  climb.run();
-  ThesisResults results = climb.results();
+  if (!sweep.collisions.empty())
+    collisions = collideEngines(sweep.collisions, work.line.run, work.store);
+  campaign.askEngines();
+  campaign.compareWithMirrors(lockstepStarts);
+  campaign.run();
+  ThesisResults results = campaign.results();
   results.rules = rules.text;
   results.collisions = std::move(collisions);
-  results = kept(std::move(results));
-  results.reasons = reasons.text;
-  results.claims = allClaims(results, rules, reasons);
+  results = compacted(std::move(results));
+  judge(results, rules, reasons);
   results.elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return results;
 }
 
-std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                       const std::optional<std::filesystem::path>& earlier) {
-  Climb climb(ladder, command, store, std::numeric_limits<double>::infinity(), earlierIn(earlier));
-  climb.askEngines();
-  return climb.plan();
+/// A refuted claim is what was to be found out.
+Outcome outcomeOfThesis(const ThesisResults& results, const CommandLine&,
+                        const ThesisOptions& own) {
+  Outcome outcome;
+  for (const ThesisRun& run : results.runs)
+    if (run.run.status == RunStatus::failed) outcome.failures.push_back(run.run.reason);
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (results.runs.empty())
+    return notJudged("no run was finished");
+  else if (own.strict && std::ranges::find(results.claims, ClaimVerdict::undecided,
+                                           &ClaimRow::verdict) != results.claims.end())
+    outcome.status = exitFellShort;
+  return outcome;
 }
 
+}  // namespace
+
+const Study<ThesisOptions, ThesisResults> thesisStudy = {
+    "thesis",
+    {.input = SharedOptions::Input::anyCases,
+     .inputIs = "parameter sweep: what to run, in which order (default: "
+                "cases/couette/thesis/ladder.toml)",
+     .inHouse = true,
+     .packings = true},
+    Keeps::eachCase,
+    [](ThesisOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--budget",
+           "no run begins that would end later, e.g. 90s, 10m, 2h (default: all are run)",
+           &own.budget, "TIME"},
+          {"--from",
+           "results.json of an earlier session: its finished runs are taken, whichever build made "
+           "them",
+           &own.earlier, "FILE"},
+          {"--strict", "a claim that is undecided counts as a failure", &own.strict}};
+    },
+    casesOfThesis,
+    planOfThesis,
+    runThesis,
+    outcomeOfThesis};
+
 ThesisResults judgedAgain(ThesisResults results,
-                          const std::optional<std::filesystem::path>& reasonsFile) {
-  results = kept(std::move(results));
-  const ClaimRules rules = claimRulesOf(results.rules);
-  const ClaimReasons reasons =
-      reasonsFile ? loadClaimReasons(*reasonsFile, rules) : claimReasonsOf(results.reasons, rules);
-  results.reasons = reasons.text;
-  results.claims = allClaims(results, rules, reasons);
+                          const std::optional<std::filesystem::path>& reasons) {
+  results = compacted(std::move(results));
+  const ClaimRules rules = claimRulesOf(results.rules, &claimSchema());
+  judge(results, rules,
+        reasons ? loadClaimReasons(*reasons, rules) : claimReasonsOf(results.reasons, rules));
   return results;
 }
 

@@ -5,34 +5,28 @@
 #include <optional>
 #include <string>
 
-#include "cases/thesis_ladder.hpp"
+#include "cases/thesis_sweep.hpp"
 #include "results/thesis.hpp"
-#include "runs/common/options.hpp"
-#include "runs/common/run_store.hpp"
+#include "runs/common/study.hpp"
 
 namespace crossgrain::inline runs {
 
-/// The keys of all cases, by leg, for the store.
-std::map<std::string, CaseKeys> keysOfLegs(const ThesisLadder& ladder);
+struct ThesisOptions {
+  bool strict = false;
+  std::optional<std::string> budget, earlier;  ///< as they are given
+  // What follows from the command line.
+  ThesisSweep sweep = {};
+  double seconds = std::numeric_limits<double>::infinity();  ///< of the budget
+};
 
-/// Climbs the ladder: every run that is not in the store yet, most important first, several side by
-/// side; then judges the thesis' claims by all that is there.
-/// @param store   of the command, opened with keysOfLegs()
-/// @param budget  no run begins that is predicted to end later than this after the command [s]
-/// @param earlier  results.json of an earlier sitting, whose finished runs are taken as they are
-/// @returns finished and failed runs, as results/thesis_kept.hpp keeps them; what was left out is
-/// in the notes
+/// Runs a sweep: every run that is not in the store yet, most important first, several side by
+/// side; then judges the thesis' claims by all that is there. No run begins that is predicted to
+/// end later than the budget; finished runs of an earlier session's results.json are taken as they
+/// are. Its results are finished and failed runs, compacted; what was left out is in the notes.
 /// @throws BadInput, OutputError, Interrupted
-ThesisResults climbLadder(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                          double budget = std::numeric_limits<double>::infinity(),
-                          const std::optional<std::filesystem::path>& earlier = std::nullopt);
+extern const Study<ThesisOptions, ThesisResults> thesisStudy;
 
-/// What climbLadder() would run, for people.
-std::string ladderPlan(const ThesisLadder& ladder, const RunCommand& command, RunStore& store,
-                       const std::optional<std::filesystem::path>& earlier = std::nullopt);
-
-/// The same runs judged again by the rules that they hold. Whole runs, of earlier files, are kept
-/// as results/thesis_kept.hpp says.
+/// The same runs, compacted, judged again by the rules that they hold.
 /// @param reasons  a file of reasons, in place of those that the results hold
 /// @throws BadInput for a file of reasons that is wrong
 ThesisResults judgedAgain(ThesisResults results,

@@ -116,6 +116,33 @@ TEST(Looks, ABiasNarrowsAgreementAndWidensDisagreement) {
   EXPECT_NE(answer(1.5, 0.4, 0.4), Answer::disagree);
 }
 
+/// A mirror's runs stand for an engine that differs from it by as much as the bias allows. The
+/// true difference is the margin: an agreement is false, and the interval that is widened by the
+/// bias is to hold it as often as it says.
+TEST(Looks, AnIntervalWidenedByABiasHoldsTheDifference) {
+  std::mt19937_64 generator(11);
+  std::normal_distribution<double> normal;
+  const LookPlan plan = looksAt(8, 1, 0.05);
+  constexpr int trials = 4000;
+  constexpr double truth = 1.0, bias = 0.4;
+  int held = 0, narrow = 0, falseAgree = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> differences;  // of the mirror
+    for (int k = 0; k < 8; ++k) differences.push_back(truth - bias + 0.5 * normal(generator));
+    PairedSample sample = differing(differences, truth);
+    sample.bias = bias;
+    const LookAnswer found = answerOf(sample, plan, 8);
+    held += *found.low - bias <= truth && truth <= *found.high + bias;
+    narrow += *found.low <= truth && truth <= *found.high;
+    falseAgree += agrees(found.answer);
+  }
+  // Three standard errors of 5 % among 4000; only one end is tried by a bias of one sign.
+  constexpr double error = 3.0 * 0.00345;
+  EXPECT_NEAR(held / static_cast<double>(trials), 0.95, error);
+  EXPECT_LT(narrow / static_cast<double>(trials), 0.5);
+  EXPECT_NEAR(falseAgree / static_cast<double>(trials), 0.05, error);
+}
+
 /// Families of nine endpoints whose true difference is exactly the margin, which is the hardest
 /// case for both: a fraction of the families at most α may say disagree, and of the endpoints at
 /// most α agree, over all looks together.

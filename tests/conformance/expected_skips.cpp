@@ -21,6 +21,8 @@ std::span<const ExpectedSkip> expectedSkips() {
       ExpectedSkip{"box2d-impulse", "ShrinkingWallPushes", "oscillating, not radial as wall is"},
       ExpectedSkip{"box2d-impulse", "ShrinkingWallStops", "oscillating, not radial as wall is"},
       ExpectedSkip{"box2d-impulse", "SlidingFlagsMarkTheBound", "has no sliding flags"},
+      ExpectedSkip{"box2d-impulse", "SpringsHoldWhileAnotherFalls", "has no linear law"},
+      ExpectedSkip{"grain-as-box2d-impulse", "SpringsHoldWhileAnotherFalls", "has no linear law"},
       ExpectedSkip{"box2d-penalty", "ShrinkingWallPushes", "oscillating, not radial as wall is"},
       ExpectedSkip{"box2d-penalty", "ShrinkingWallStops", "oscillating, not radial as wall is"},
       ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughACollision",

@@ -41,35 +41,38 @@ def verdict(row, readings, rules):
     return "same_law" if beyond == 0 or small else "undecided"
 
 
-def step_of(crossgrain, scene):
-    """The case's own time step [s]."""
+def step_of(crossgrain, scene, engine):
+    """The step that an engine runs the case with [s]: its own of the case's [engines], or the case's."""
     checked = subprocess.run(
-        [crossgrain, "check", scene, "--engines", "grain", "--json", "--no-timing"], capture_output=True, text=True, check=True
+        [crossgrain, "check", scene, "--engines", engine, "--json", "--no-timing"], capture_output=True, text=True, check=False
     )
-    return json.loads(checked.stdout)[0]["dt_s"]
+    known = checked.returncode == 0 and json.loads(checked.stdout)[0]
+    rows = [row for row in known["engines"] if row["name"] == engine and row.get("dt_s")] if known else []
+    return rows[0]["dt_s"] if rows else known and known["dt_s"]
 
 
-def rows_of(arguments, scene, factor):
-    """All engines in one run, or each by itself where one cannot run the scene."""
-    dt = factor * step_of(arguments.crossgrain, scene)
-    found = {}
-    for engine in arguments.engines.split(","):
-        out = arguments.out / f"{scene.stem}-{engine}-{factor:g}"
-        settings = [] if factor == 1.0 else ["--set", f"run.dt={dt:.6g}"]
-        done = subprocess.run(
-            [arguments.crossgrain, "lockstep", scene, "--engines", engine, "--starts", str(arguments.starts), "--quiet",
-             "--out", out, *settings],
-            capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        file = out / "results.json"
-        if file.exists() and done.returncode in (0, 1):
-            results = json.loads(file.read_text(encoding="utf-8"))
-            found[engine] = (results["lockstep"]["rows"][0], results["lockstep"]["rules"])
-        else:
-            reason = (done.stderr.strip().splitlines() or ["failed"])[-1].removeprefix("crossgrain: ")
-            found[engine] = ({"verdict": "not_measured", "reason": reason, "readings": []}, {})
-        print(f"{scene.stem} {engine} {factor:g}: {found[engine][0]['verdict']}", file=sys.stderr)
-    return dt, found
+def row_of(arguments, scene, engine, factor):
+    """A row of lockstep's results and the rules that it was judged by."""
+    out = arguments.out / f"{scene.stem}-{engine}-{factor:g}"
+    dt = step_of(arguments.crossgrain, scene, engine)
+    settings = []
+    if factor != 1.0 and dt:
+        settings = ["--set", f"run.dt={factor * dt:.6g}", "--set", f"engines.{engine}.dt={factor * dt:.6g}"]
+    done = subprocess.run(
+        [arguments.crossgrain, "lockstep", scene, "--engines", engine, "--starts", str(arguments.starts), "--quiet", "--out", out,
+         *settings],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    file = out / "results.json"
+    if file.exists() and done.returncode in (0, 1, 3):
+        results = json.loads(file.read_text(encoding="utf-8"))
+        row, rules = results["lockstep"]["rows"][0], results["lockstep"]["rules"]
+    else:
+        reason = (done.stderr.strip().splitlines() or ["failed"])[-1].removeprefix("crossgrain: ")
+        row, rules = {"verdict": "not_measured", "reason": reason, "readings": []}, {}
+    dt = row["realised"]["dt"] if row.get("realised") else dt and factor * dt
+    print(f"{scene.stem} {engine} {factor:g}: {row['verdict']}", file=sys.stderr)
+    return dt, row, rules
 
 
 def main():
@@ -87,8 +90,8 @@ def main():
     turned = 0
     for scene in map(pathlib.Path, arguments.scenes.split(",")):
         for factor in map(float, arguments.steps.split(",")):
-            dt, found = rows_of(arguments, scene, factor)
-            for engine, (row, rules) in found.items():
+            for engine in arguments.engines.split(","):
+                dt, row, rules = row_of(arguments, scene, engine, factor)
                 readings = row["readings"]
                 verdicts = [verdict(row, readings[:: max(1, len(readings) // count)], rules) for count in counts]
                 if verdicts[-1] != row["verdict"]:
@@ -98,7 +101,7 @@ def main():
                 size = "–" if known[0] is None else "{:.2g} ({:.2g} to {:.2g})".format(*known)
                 read = f"{row['read']}, {row['beyond']}" if readings else row["reason"]
                 words = " | ".join(each.replace("_", " ") for each in verdicts)
-                print(f"| {scene.stem} | {dt:.3g} | `{engine}` | {words} | {read} | {size} |", flush=True)
+                print(f"| {scene.stem} | {dt or 0.0:.3g} | `{engine}` | {words} | {read} | {size} |", flush=True)
     print(f"{turned} of the rows turn into the opposite.", file=sys.stderr)
     return int(turned > 0)
 

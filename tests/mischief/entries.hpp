@@ -19,6 +19,7 @@ namespace crossgrain::test {
 /// "garbage"   answers what is no JSON
 /// "short"     shows one disk too few
 /// "slippery"  loses 98 % of the friction, and its springs
+/// "worn"      loses 30 % of the friction, and nothing else
 ///
 /// Others misbehave from the start, each in one thing that is declared:
 ///

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "adapters/grain.hpp"
+
 namespace crossgrain::test {
 namespace {
 
@@ -68,11 +70,11 @@ void MisbehavingEngine::checkpoint(const std::filesystem::path& file) {
 
 void MisbehavingEngine::restore(const std::filesystem::path& file) {
   engine_->restore(file);
-  beginAnew(1.0);
+  beginAnew(1.0, false);
 }
 
-void MisbehavingEngine::beginAnew(double friction) {
-  const Snapshot now = engine_->snapshot(ContactReport::none);
+void MisbehavingEngine::beginAnew(double friction, bool springs) {
+  const Snapshot now = engine_->snapshot(springs ? ContactReport::instant : ContactReport::none);
   Scene scene = scene_;
   scene.law.mu *= friction;
   scene.disks.position = now.position;
@@ -83,6 +85,7 @@ void MisbehavingEngine::beginAnew(double friction) {
     for (Vec2& place : body.diskPosition) place = *wall++;
   stepsBehind_ = engine_->stats().steps;
   engine_->load(scene, {});
+  if (springs) beginUnderWay(*engine_, *now.contacts);
   behind_ = now.positionTime;
   turned_.clear();
   for (const BodySnapshot& body : now.bodies) turned_.push_back(body.angle);
@@ -90,10 +93,11 @@ void MisbehavingEngine::beginAnew(double friction) {
 
 double MisbehavingEngine::advance(double t) {
   const double until = static_cast<double>(step_) * dt_;
-  if (mischief_ == "slippery") {
+  if (mischief_ == "slippery" || mischief_ == "worn") {
     if (t < until || behind_ > 0.0) return engine_->advance(t - behind_) + behind_;
     engine_->advance(until);
-    beginAnew(0.02);  // not zero: disks go on to have spins
+    const bool worn = mischief_ == "worn";
+    beginAnew(worn ? 0.7 : 0.02, worn);  // not zero: disks go on to have spins
     return engine_->advance(t - behind_) + behind_;
   }
   if (step_ == 0) return engine_->advance(t - behind_) + behind_;

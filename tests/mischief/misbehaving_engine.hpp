@@ -24,8 +24,8 @@ class MisbehavingEngine final : public Engine {
   void restore(const std::filesystem::path& file) override;
 
  private:
-  /// Begins anew from here without springs, and with that part of the friction.
-  void beginAnew(double friction);
+  /// Begins anew from here with that part of the friction; the springs stay or are lost.
+  void beginAnew(double friction, bool springs);
 
   std::unique_ptr<Engine> engine_;
   std::string mischief_;

@@ -169,6 +169,29 @@ TEST(CollisionOracle, WhereTheLawDoesNotJumpItSaysNothing) {
   EXPECT_LT(difference(stiff), 1e-4);
 }
 
+/// µ(γ_n + k_n t) v against (γ_t + share·k_t t) Ψ_i v at t = dt, by hand.
+TEST(CollisionOracle, AStepMissesTheSlipBetweenTheJumpAndWhereTheBoundHasRisen) {
+  constexpr double dt = 4e-5;
+  for (const auto& [update, share] :
+       {std::pair(SpringUpdate::after, 0.0), std::pair(SpringUpdate::midpoint, 0.5),
+        std::pair(SpringUpdate::before, 1.0)}) {
+    ContactLaw law = thesisLaw();
+    law.conventions.springUpdate = update;
+    const double until = law.mu * (law.gn + law.kn * dt) / (law.gt + share * law.kt * dt);
+    const auto misses = [&](double psi) {
+      return stepMissesSlip(law, smallPair(), {psi, 1e-3}, dt);
+    };
+    for (const double sign : {1.0, -1.0}) {
+      EXPECT_FALSE(misses(sign * 0.999 * jumpOf(law)));
+      EXPECT_TRUE(misses(sign * 1.001 * jumpOf(law)));
+      EXPECT_TRUE(misses(sign * 0.999 * until));
+      EXPECT_FALSE(misses(sign * 1.001 * until));
+    }
+    law.conventions.springReset = SpringReset::springOnly;  // does not jump
+    EXPECT_FALSE(misses(0.999 * until));
+  }
+}
+
 /// The law of Hertz has its jump where the dashpots' two γ(δ) meet at δ → 0.
 TEST(CollisionOracle, ALawThatStiffensJumpsWhereItsDashpotsMeet) {
   ContactLaw law = thesisLaw();

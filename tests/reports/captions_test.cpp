@@ -7,8 +7,6 @@
 
 #include "reports/collide/report.hpp"
 #include "reports/common/gnuplot.hpp"
-#include "reports/cost/panels.hpp"
-#include "reports/cost/report.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/has.hpp"
@@ -61,60 +59,6 @@ TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
     ASSERT_TRUE(figure.panels[0].level);
   }
   EXPECT_GT(named, 0);
-}
-
-/// What a cost figure's caption names against what its panels hold.
-TEST(Captions, OfCostNameMarksThatAreThere) {
-  const CostResults results = sample::costResults();
-  const auto check = [](const std::vector<Figure>& figures) {
-    for (const Figure& figure : figures) {
-      if (!figure.name.starts_with("cost_")) continue;
-      const auto shaded = std::ranges::any_of(
-          figure.panels, [](const Panel& panel) { return panel.shadedTo.has_value(); });
-      const auto front = draws(figure, [](const Curve& c) { return c.name == "Pareto front"; });
-      if (figure.name == "cost_contacts") continue;  // its caption names no marks
-      EXPECT_EQ(has(figure.caption, "▽"), drawsMark(figure, openTriangle)) << figure.name;
-      EXPECT_EQ(has(figure.caption, "×"), drawsMark(figure, crossMark)) << figure.name;
-      EXPECT_EQ(has(figure.caption, "Pareto front"), front) << figure.name;
-      EXPECT_EQ(has(figure.caption, "Grey: what the reference"), shaded) << figure.name;
-    }
-  };
-  check(costFigures(results));
-  CostResults bare = results;  // no failure, no front, nothing uncertain
-  bare.fronts.clear();
-  std::erase_if(bare.points, [](const CostPoint& point) { return !point.ran(); });
-  for (CostPoint& point : bare.points) {
-    point.statistical.reset();
-    point.referenceError.reset();
-  }
-  for (OrderFit& fit : bare.orders) {
-    fit.used.clear();
-    fit.leftOut.clear();
-  }
-  check(costFigures(bare));
-}
-
-TEST(Captions, OfAGreyBandThatLiesBelowTheAxisSayNothing) {
-  CostPoint point;
-  point.error = 0.1;
-  point.referenceError = 1e-9;
-  const CostAxis axis{[](const CostPoint&) { return std::optional(1.0); }, "x"};
-  EXPECT_FALSE(errorPanel({point}, "psi_f", axis).shadedTo);
-  point.referenceError = 0.09;
-  EXPECT_EQ(errorPanel({point}, "psi_f", axis).shadedTo, 0.09);
-}
-
-/// Averages over a single packing say nothing: they are neither on a front nor drawn.
-TEST(CostPoints, AveragesWithoutAStatisticalErrorCountNowhere) {
-  CostPoint point;
-  point.kind = CostKind::averages;
-  point.error = 0.1;
-  EXPECT_FALSE(countedError(point));
-  point.statistical = 0.01;
-  EXPECT_EQ(countedError(point), 0.1);
-  point.kind = CostKind::collision;
-  point.statistical.reset();
-  EXPECT_EQ(countedError(point), 0.1);
 }
 
 using Column = std::vector<std::optional<double>>;

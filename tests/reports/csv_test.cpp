@@ -15,7 +15,7 @@ namespace {
 /// A comparison small enough to write its tables down by hand.
 CompareResults tiny() {
   CompareResults results = compareFromJson(Json::parse(R"({
-    "kind": "compare",
+    "kind": "compare", "engines": [{"name": "one"}],
     "rings": {"r": [0.1, 0.2], "r_tilde": [0.5, 1.5]},
     "runs": [
       {"engine": "one", "packing": 0,
@@ -109,10 +109,10 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   const std::string head =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,"
       "distance_high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,"
-      "regimes_differ,reference,reason\n";
+      "regimes_differ,reference,reason,reach\n";
   // Without a reference nobody knows what a quarter of it is: the fraction stands.
   EXPECT_EQ(endpointsCsv(results),
-            head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,\n");
+            head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,\n");
   results.endpoints.rows[0].reference = 200.0;
   results.endpoints.rows[0].answer = Answer::smallDifference;
   results.endpoints.rows[0].difference = 20.0;
@@ -123,11 +123,12 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   results.endpoints.rows[0].reason = "why one is lost";
   results.endpoints.rows[0].carrierB = "mirror";
   results.endpoints.rows[0].bound = 0.01;
+  results.endpoints.rows[0].reach = 0.002;
   results.regimes = {{"one", "two", PairKind::peer, 4, {1, 3}}};
   EXPECT_EQ(endpointsCsv(results),
             head +
                 "one,two,peer,pressure,N/m²,50,small_difference,20,,,0.4,,,2,15,1,,,,mirror,"
-                "0.01,2,200,why one is lost\n");
+                "0.01,2,200,why one is lost,0.002\n");
 }
 
 TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {

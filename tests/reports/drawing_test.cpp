@@ -6,7 +6,6 @@
 #include "reports/common/engines.hpp"
 #include "reports/common/gnuplot.hpp"
 #include "reports/common/pictures.hpp"
-#include "reports/common/strokes.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/report.hpp"
 #include "support/files.hpp"

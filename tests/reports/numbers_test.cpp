@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/common/base64.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/packings.hpp"
 
@@ -56,15 +55,6 @@ TEST(Numbers, Durations) {
   EXPECT_EQ(readableDuration(59.99), "1 min 00 s");
   EXPECT_EQ(readableDuration(754.2), "12 min 34 s");
   EXPECT_EQ(readableDuration(3720.0), "1 h 02 min");
-}
-
-TEST(Base64, ExamplesOfRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
 TEST(Labels, KnownFieldsHaveSymbolsAndOthersAreEscaped) {

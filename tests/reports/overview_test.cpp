@@ -11,14 +11,14 @@
 #include "reports/common/headings.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/cost/overview.hpp"
+#include "reports/cost/report.hpp"
 #include "reports/couette/endpoint_words.hpp"
 #include "reports/couette/figures.hpp"
 #include "reports/couette/overview.hpp"
 #include "reports/couette/report.hpp"
-#include "reports/diff/overview.hpp"
 #include "reports/effects/overview.hpp"
 #include "reports/lockstep/overview.hpp"
+#include "reports/regression/regression.hpp"
 #include "reports/stability/overview.hpp"
 #include "results/json_fields.hpp"
 #include "tests/reports/has.hpp"
@@ -259,7 +259,7 @@ CompareResults randomResults(std::mt19937& random) {
       }
   CarriedEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
   for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
-    own.canary.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100)});
+    own.canary.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
   results.endpoints.carried = {own};
   return results;
 }

@@ -296,13 +296,13 @@ TEST(CollidePage, NothingJudgedIsNoSuccess) {
   EXPECT_TRUE(has(Written(results).page,
                   "Nothing was judged: the case has no [collision.margins] for what was "
                   "measured."));
-  EXPECT_EQ(reports::countOf(results).judged(), 0);
+  EXPECT_EQ(countOf(results).judged(), 0);
   for (CollisionVariant& variant : results.variants) {
     variant.oracleReason = "no limit";
     for (CollisionCurve& curve : variant.curves) curve.score.of[QuantityId::psiF].reset();
   }
-  EXPECT_EQ(reports::nothingJudged(results), "there is no oracle to judge by: no limit");
-  EXPECT_EQ(reports::nothingJudged(sample::collideResults()), "");
+  EXPECT_EQ(nothingJudged(results), "there is no oracle to judge by: no limit");
+  EXPECT_EQ(nothingJudged(sample::collideResults()), "");
 }
 
 TEST(CollidePage, TellsModelFromImplementation) {
@@ -323,7 +323,7 @@ TEST(CollidePage, TellsModelFromImplementation) {
   EXPECT_TRUE(has(page, "<td class=\"change degraded\"><b>≠ 2, ✓ 4 of 6</b>"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
   EXPECT_TRUE(has(page, "<th>declared</th>"));
-  const reports::CollideCount count = reports::countOf(results);
+  const CollideCount count = countOf(results);
   EXPECT_EQ(count.modelDifference, 2);
   EXPECT_EQ(count.fellShort, 2);
 }
@@ -338,17 +338,17 @@ TEST(CollidePage, ShowsTheOwnScheme) {
   const std::string page = Written(results).page;
   EXPECT_TRUE(has(page, "<small>own scheme 1×10⁻⁹</small>"));
   EXPECT_TRUE(has(page, "<td class=\"disagree\">✗ 1×10⁻⁹</td>"));
-  EXPECT_EQ(reports::outcomeOf(results.variants[0].curves[0]), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::fellShort);
 }
 
 /// A mirror beside its peer says what the peer should do; alone it is an engine like any other.
 TEST(CollidePage, MirrorsBesideTheirPeersAreNotCounted) {
   CollideResults results = sample::collideResults();
-  const int before = reports::countOf(results).judged();
+  const int before = countOf(results).judged();
   results.engines[1].mirrors = "grain";
-  EXPECT_EQ(reports::countOf(results).judged(), before - 6);
+  EXPECT_EQ(countOf(results).judged(), before - 6);
   results.engines[1].mirrors = "somebody else";
-  EXPECT_EQ(reports::countOf(results).judged(), before);
+  EXPECT_EQ(countOf(results).judged(), before);
 }
 
 TEST(CollidePage, NamesPointsWithoutALimitAndWhy) {
@@ -631,10 +631,14 @@ TEST(Report, IsTheSameWhenRebuilt) {
 
 TEST(Report, StandsResultsWithAlmostNothingInThem) {
   const TemporaryFolder folder;
-  for (const char* kind : {"compare", "average", "effects", "rev", "collide"})
+  for (const char* kind : {"average", "effects", "rev", "collide"})
     EXPECT_NO_THROW(
         writeReport(json{{"schema", "crossgrain-results-1"}, {"kind", kind}}, folder.path()))
         << kind;
+  json compared = {{"schema", "crossgrain-results-1"}, {"kind", "compare"}};
+  EXPECT_THROW(writeReport(compared, folder.path()), BadInput);  // there is no reference
+  compared["engines"].push_back({{"name", "one"}});
+  EXPECT_NO_THROW(writeReport(compared, folder.path()));
   json standing = toJson(sample::compareResults(2, 10));
   standing["runs"][0]["picture"] = nullptr;
   standing["cell"]["omega"] = 0.0;

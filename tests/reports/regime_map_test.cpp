@@ -1,37 +1,38 @@
 // States over volume fractions and rotations, and what carries the stress.
-#include "reports/thesis/regime_map.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
-#include "reports/thesis/figures.hpp"
+#include "reports/thesis/drawing.hpp"
+#include "reports/thesis/report.hpp"
 #include "tests/reports/has.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
 namespace {
 
-ThesisLeg legAt(double label, double omega = 0.1) {
-  ThesisLeg leg;
-  leg.name = fmt::format("nu-{:.3f}-{}", label, omega);
-  leg.families = {"packings"};
-  leg.label = label;
-  leg.kn = 352.1;
-  leg.mu = 0.44;
-  leg.cell.small = static_cast<std::size_t>(std::lround(1e4 * label));
-  leg.cell.wallSpacing = 0.0025;
-  leg.cell.smallRadius = 0.0037;
-  leg.cell.omega = omega;
-  return leg;
+ThesisCase caseAt(double label, double omega = 0.1) {
+  ThesisCase setup;
+  setup.name = fmt::format("nu-{:.3f}-{}", label, omega);
+  setup.families = {"packings"};
+  setup.label = label;
+  setup.kn = 352.1;
+  setup.mu = 0.44;
+  setup.cell.small = static_cast<std::size_t>(std::lround(1e4 * label));
+  setup.cell.wallSpacing = 0.0025;
+  setup.cell.smallRadius = 0.0037;
+  setup.cell.omega = omega;
+  return setup;
 }
 
 /// @param until  the rotation up to which the wheel has ten contacts, of so many
-void addRun(ThesisResults& results, const ThesisLeg& leg, int packing, int until, int rotations) {
+void addRun(ThesisResults& results, const ThesisCase& setup, int packing, int until,
+            int rotations) {
   ThesisRun& run = results.runs.emplace_back();
-  run.leg = leg.name;
+  run.setup = setup.name;
   run.engine = "engine";
   run.packing = packing;
   for (int k = 0; k < rotations; ++k) {
@@ -46,74 +47,63 @@ void addRun(ThesisResults& results, const ThesisLeg& leg, int packing, int until
 /// Two packings of each of four ν̄; after five rotations one of those at 0.796 carries no more.
 ThesisResults fourDensities() {
   ThesisResults results;
-  for (const double label : {0.789, 0.793, 0.796, 0.800}) results.legs.push_back(legAt(label));
+  for (const double label : {0.789, 0.793, 0.796, 0.800}) results.cases.push_back(caseAt(label));
   const std::vector<int> untils[] = {{1, 2}, {3, 4}, {4, 99}, {99, 99}};
   for (std::size_t k = 0; k < 4; ++k)
     for (int packing = 0; packing < 2; ++packing)
-      addRun(results, results.legs[k], packing, untils[k][static_cast<std::size_t>(packing)], 8);
+      addRun(results, results.cases[k], packing, untils[k][static_cast<std::size_t>(packing)], 8);
   return results;
 }
 
-TEST(RegimeMap, PackingsThatCarryAndTheCriticalDensityAfterSoManyRotations) {
-  const ThesisResults results = fourDensities();
-  const auto groups = stateGroups(results, "engine");
-  ASSERT_EQ(1u, groups.size());
-  EXPECT_EQ("default, Ω = 0.1 /s", groups[0].words);
-  const std::vector<CriticalRow> rows = criticalRows(groups[0]);
-  ASSERT_EQ(4u, rows.size());  // 1, 2, 5, 8: nothing was followed to 10
-  EXPECT_EQ(8, rows[0].carry);
-  EXPECT_FALSE(rows[0].critical);  // all carry
-  EXPECT_EQ(7, rows[1].carry);
-  EXPECT_EQ(3, rows[2].carry);
-  ASSERT_TRUE(rows[2].critical);
-  EXPECT_NEAR(0.796, rows[2].critical->nu, 0.001);
-  const std::vector<StateRow> states = stateRows(groups[0]);
-  const auto at = std::ranges::find_if(states, [](const StateRow& of) {
-    return of.rotations == 5 && std::abs(of.nu - 0.796) < 1e-9;
-  });
-  ASSERT_NE(states.end(), at);
-  EXPECT_EQ(2, at->packings);
-  EXPECT_EQ(1, at->carry);
-  EXPECT_NEAR(5.25, at->contacts.mean.value(), 1e-12);
-  EXPECT_NEAR(4.75, at->contacts.error.value(), 1e-12);
-  EXPECT_NEAR(50.5, at->pressure.mean.value(), 1e-12);
+/// The rows of a table that begin so.
+std::vector<std::string> rowsOf(const std::string& csv, const std::string& start) {
+  std::vector<std::string> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(start)) rows.push_back(line.substr(start.size()));
+  return rows;
 }
 
-TEST(RegimeMap, AReadingARateAndALawAreNotMixed) {
+const std::string ofDefault = "engine,\"default, Ω = 0.1 /s\",";
+
+TEST(RegimeMap, CriticalDensity_FollowsFromThePackingsThatCarry) {
+  const auto rows = rowsOf(regimeMapCsv(fourDensities()), ofDefault + ",");
+  ASSERT_EQ(4u, rows.size());                       // 1, 2, 5, 8: nothing was followed to 10
+  EXPECT_TRUE(rows[0].starts_with("1,8,8,,,,,,"));  // all carry: none follows
+  EXPECT_TRUE(rows[1].starts_with("2,8,7,"));
+  EXPECT_TRUE(rows[2].starts_with("5,8,3,,,,,0.796")) << rows[2];
+}
+
+TEST(RegimeMap, AnInterpretationARateAndALawAreNotMixed) {
   ThesisResults results = fourDensities();
-  ThesisLeg wide = legAt(0.800);
+  ThesisCase wide = caseAt(0.800);
   wide.name = "wide";
   wide.cell.wallSpacing = 0.007;
-  ThesisLeg soft = legAt(0.800);
+  ThesisCase soft = caseAt(0.800);
   soft.name = "soft";
   soft.kn = 100.0;
-  const ThesisLeg fast = legAt(0.800, 1.0);
-  for (const ThesisLeg& leg : {wide, soft, fast}) {
-    results.legs.push_back(leg);
-    addRun(results, leg, 0, 99, 8);
+  const ThesisCase fast = caseAt(0.800, 1.0);
+  for (const ThesisCase& setup : {wide, soft, fast}) {
+    results.cases.push_back(setup);
+    addRun(results, setup, 0, 99, 8);
   }
-  std::vector<std::string> words;
-  for (const StateGroup& group : stateGroups(results, "engine")) words.push_back(group.words);
-  EXPECT_EQ((std::vector<std::string>{"default, Ω = 0.1 /s", "wall spacing 7 mm, Ω = 0.1 /s",
-                                      "default, Ω = 1 /s"}),
-            words);
+  const std::string csv = regimeMapCsv(results);
+  EXPECT_EQ(4u, rowsOf(csv, "engine,\"wall spacing 7 mm, Ω = 0.1 /s\",,").size());
+  EXPECT_EQ(4u, rowsOf(csv, "engine,\"default, Ω = 1 /s\",,").size());
+  EXPECT_EQ(rowsOf(csv, ofDefault), rowsOf(regimeMapCsv(fourDensities()), ofDefault));
 }
 
 TEST(RegimeMap, TheLongestRunOfAPackingStandsForIt) {
   ThesisResults results = fourDensities();
-  ThesisLeg longer = legAt(0.800);
+  ThesisCase longer = caseAt(0.800);
   longer.name = "time";
   longer.families = {"time"};
-  results.legs.push_back(longer);
+  results.cases.push_back(longer);
   addRun(results, longer, 1, 12, 20);
-  const auto groups = stateGroups(results, "engine");
-  EXPECT_EQ(9u, groups[0].runs.size());
-  EXPECT_EQ(8u, groups[0].packings.size());
-  const auto rows = criticalRows(groups[0]);
+  const auto rows = rowsOf(regimeMapCsv(results), ofDefault + ",");
   ASSERT_EQ(6u, rows.size());
-  EXPECT_EQ(20, rows[5].rotations);
-  EXPECT_EQ(1, rows[5].packings);
-  EXPECT_EQ(0, rows[5].carry);
+  EXPECT_TRUE(rows[0].starts_with("1,8,8,"));
+  EXPECT_TRUE(rows[5].starts_with("20,1,0,"));
 }
 
 TEST(RegimeMap, IsATableToo) {
@@ -153,16 +143,17 @@ TEST(RegimeMap, StatesAreFollowedOverRotations) {
       has(time->caption, "at ν̄ = 0.789 100 → 1.00 (up to 8), ν̄ = 0.800 100 → 100 (up to 8)"))
       << time->caption;
   ThesisResults brief;  // nothing was followed for two rotations
-  brief.legs = {legAt(0.796)};
-  addRun(brief, brief.legs[0], 0, 1, 1);
-  EXPECT_TRUE(timeFigure(stateGroups(brief, "engine")).panels.empty());
+  brief.cases = {caseAt(0.796)};
+  addRun(brief, brief.cases[0], 0, 1, 1);
+  const auto none = mapFigures(brief);
+  EXPECT_TRUE(std::ranges::find(none, "map_time", &Figure::name)->panels.empty());
 }
 
 /// I = γ̇ d √(ρ/p): of the sample at 0.804 in the first ring.
 TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
   ThesisResults results = sample::thesisResults();
   std::erase_if(results.runs, [](const ThesisRun& run) {
-    return run.leg != "nu-0.804" || run.engine != "alpha" || run.packing != 0;
+    return run.setup != "nu-0.804" || run.engine != "alpha" || run.packing != 0;
   });
   const Figure figure = collapseFigure(results);
   ASSERT_EQ(4u, figure.panels.size());
@@ -179,7 +170,7 @@ TEST(RegimeMap, RingsAreDrawnAgainstTheInertialNumber) {
   const Point& plane = figure.panels[3].curves.at(0).points.at(0);
   EXPECT_NEAR(plane.x * plane.x * 4.0 / std::numbers::pi / (inertial * inertial), plane.y,
               1e-9 * plane.y);
-  EXPECT_TRUE(has(figure.caption, "in no regime that was told (1 run)"));
+  EXPECT_TRUE(has(figure.caption, "in no regime that is known (1 run)"));
 }
 
 /// The narrowest rings are those that were averaged; two of them have the mean by their rooms.

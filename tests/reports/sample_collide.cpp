@@ -32,7 +32,7 @@ CollisionCurve curve(const std::string& name, double steps, double stick, double
   curve.engine = name;
   curve.dt = 2.18e-3 / steps;
   curve.stepsPerContact = steps;
-  curve.realised = realisedFromJson(realised(name, curve.dt));
+  curve.realised = readAs<Realised>(realised(name, curve.dt));
   for (int k = 0; k < places; ++k) {
     const double psi = psiAt(k);
     curve.points.psi.push_back(psi);

@@ -295,6 +295,7 @@ Json endpoints(const std::string& a, const std::string& b, const std::string& ki
     if (!carrier.empty()) {
       row["carrier_b"] = carrier;
       row["bound"] = 2e-3;
+      row["reach"] = 1.5e-3;
     }
     rows.push_back(row);
   }
@@ -403,11 +404,17 @@ CompareResults compareResults(int packings, int disks) {
                                        {"b", "box2d-impulse"},
                                        {"kind", "peer"},
                                        {"what", "30 % of the disks are gone from the cell"}}};
-    results["endpoints"]["carried"] = {{{"engine", "yade"},
-                                        {"mirror", "grain~yade"},
-                                        {"equivalent", 1e-5},
-                                        {"starts", 16},
-                                        {"carried", true}}};
+    results["endpoints"]["carried"] = {
+        {{"engine", "yade"},
+         {"mirror", "grain~yade"},
+         {"equivalent", 1e-5},
+         {"starts", 16},
+         {"carried", true},
+         {"late",
+          {{"packing", 1},
+           {"times_s", {0.0, 0.1, 0.2}},
+           {"length_s", 0.1},
+           {"equivalents", {{{"constant", "mu"}, {"change", 2e-5}}}}}}}};
   }
   return compareFromJson(results);
 }

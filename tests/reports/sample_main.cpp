@@ -9,7 +9,6 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path dir = argv[1];
   const crossgrain::CompareResults compared = crossgrain::sample::compareResults(4, 2921);
-  crossgrain::sample::keepSnapshots(compared, dir / "compare");
   crossgrain::writeReport(compared, dir / "compare");
   crossgrain::writeReport(crossgrain::sample::compareResults(1, 244), dir / "single");
   crossgrain::writeReport(crossgrain::sample::collideResults(), dir / "collide");

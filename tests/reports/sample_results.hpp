@@ -20,9 +20,6 @@ namespace crossgrain::sample {
 /// Three engines, a mirror, one engine that refused and one run that failed, text that HTML and
 /// gnuplot must not take literally, and absent numbers here and there.
 CompareResults compareResults(int packings, int disks);
-/// Writes snapshots of the runs that have a picture: its disks on circles, slower from the wheel
-/// on.
-void keepSnapshots(const CompareResults& results, const std::filesystem::path& folder);
 
 /// What `average` writes: one run of one source, nothing run by crossgrain.
 CompareResults averageResults();

@@ -117,22 +117,22 @@ std::vector<Distribution> thesisDistributions() {
   return all;
 }
 
-ThesisLeg thesisLeg(const std::string& name, double label) {
-  ThesisLeg leg;
-  leg.name = name;
-  leg.families = {"packings"};
-  leg.label = label;
-  leg.kn = 352.1;
-  leg.mu = 0.44;
-  leg.cell.small = static_cast<std::size_t>(std::lround(1e4 * label));
-  leg.cell.innerRadius = wheelRadius;
-  leg.cell.outerRadius = ringRadius;
-  leg.cell.diameter = smallDiameter;
-  leg.cell.height = cellHeight;
-  leg.cell.omega = wheelRate;
-  leg.settleRotations = 5.0;
-  leg.averagedRotations = 3.0;
-  return leg;
+ThesisCase thesisLeg(const std::string& name, double label) {
+  ThesisCase setup;
+  setup.name = name;
+  setup.families = {"packings"};
+  setup.label = label;
+  setup.kn = 352.1;
+  setup.mu = 0.44;
+  setup.cell.small = static_cast<std::size_t>(std::lround(1e4 * label));
+  setup.cell.innerRadius = wheelRadius;
+  setup.cell.outerRadius = ringRadius;
+  setup.cell.diameter = smallDiameter;
+  setup.cell.height = cellHeight;
+  setup.cell.omega = wheelRate;
+  setup.settleRotations = 5.0;
+  setup.averagedRotations = 3.0;
+  return setup;
 }
 
 }  // namespace
@@ -142,10 +142,10 @@ ThesisResults thesisResults() {
   results.head.kind = "thesis";
   for (const double label :
        {0.789, 0.796, 0.798, 0.800, 0.804, 0.807, 0.809, 0.810, 0.811, 0.819, 0.828}) {
-    const ThesisLeg leg = thesisLeg("nu-" + std::to_string(label).substr(0, 5), label);
+    const ThesisCase setup = thesisLeg("nu-" + std::to_string(label).substr(0, 5), label);
     const auto add = [&](const char* engine, int packing, double factor) {
       ThesisRun run;
-      run.leg = leg.name;
+      run.setup = setup.name;
       run.engine = engine;
       run.packing = packing;
       RingPlaces where;
@@ -179,7 +179,7 @@ ThesisResults thesisResults() {
     add("alpha", 0, 1.0);
     add("alpha", 1, 1.1);
     if (label < 0.805) add("beta", 0, 1.05);
-    results.legs.push_back(leg);
+    results.cases.push_back(setup);
   }
   return results;
 }
@@ -197,14 +197,14 @@ ThesisResults thesisClaims() {
       claim.id = "C" + std::to_string(k);
       claim.claim = "The band is five diameters wide wherever the shear stress falls off.";
       claim.engine = engine;
-      claim.reading = "default: wall spacing 2.5 mm";
+      claim.interpretation = "default: wall spacing 2.5 mm";
       claim.verdict = static_cast<ClaimVerdict>(k % 3);
       claim.figures = {{"exponent of σ_rφ in the bulk", "d", -1.98, 0.02, -2.25, -1.75}};
       claim.figures.front().verdict = claim.verdict;
       claim.why = "it is −1.98";
       if (k % 6 == 1) claim.reasons = {"The whole claim is reproduced under tension cut."};
       results.claims.push_back(claim);
-      claim.reading = "wall spacing 7 mm";
+      claim.interpretation = "wall spacing 7 mm";
       claim.verdict = ClaimVerdict::reproduced;
       results.claims.push_back(std::move(claim));
     }

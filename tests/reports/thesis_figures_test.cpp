@@ -1,5 +1,3 @@
-#include "reports/thesis/figures.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +6,8 @@
 #include <set>
 
 #include "reports/common/gnuplot.hpp"
-#include "reports/thesis/leg_rings.hpp"
-#include "results/thesis_kept.hpp"
+#include "reports/thesis/report.hpp"
+#include "results/thesis.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,8 +19,13 @@ const std::vector<Figure>& sampleFigures() {
   return figures;
 }
 
+std::string nameOf(std::string number) {
+  std::ranges::replace(number, '.', '_');
+  return "figure_" + number;
+}
+
 const Figure& thesisFigureNumbered(const std::string& number) {
-  const auto found = std::ranges::find(sampleFigures(), thesisFigureName(number), &Figure::name);
+  const auto found = std::ranges::find(sampleFigures(), nameOf(number), &Figure::name);
   if (found == sampleFigures().end()) throw std::runtime_error("no figure " + number);
   return *found;
 }
@@ -42,7 +45,7 @@ TEST(ThesisFigures, AllThatTheResultsCanShowInTheThesisOrder) {
         "6.8",  "6.10", "6.11", "7.4",  "7.5",  "7.6",  "7.7",  "7.8",  "7.9",  "7.11",
         "7.12", "7.13", "7.14", "7.15", "7.17", "7.18", "7.19", "7.21", "7.22", "7.23",
         "7.24", "8.3",  "8.4",  "8.5",  "8.6",  "8.7",  "9.1",  "9.2",  "9.3",  "9.4"})
-    expected.push_back(thesisFigureName(number));
+    expected.push_back(nameOf(number));
   for (const char* name :
        {"map_contacts", "map_pressure", "map_width", "map_critical", "map_time", "map_collapse"})
     expected.push_back(name);
@@ -56,8 +59,8 @@ TEST(ThesisFigures, AllThatTheResultsCanShowInTheThesisOrder) {
 }
 
 /// What a results file keeps is all that figures are drawn from.
-TEST(ThesisFigures, AreThoseOfWhatIsKept) {
-  const std::vector<Figure> figures = thesisFigures(kept(sample::thesisResults()));
+TEST(ThesisFigures, CompactedResults_GiveTheSame) {
+  const std::vector<Figure> figures = thesisFigures(compacted(sample::thesisResults()));
   ASSERT_EQ(figures.size(), sampleFigures().size());
   for (std::size_t f = 0; f < figures.size(); ++f) {
     SCOPED_TRACE(figures[f].name);

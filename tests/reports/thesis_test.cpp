@@ -1,9 +1,8 @@
-// What is written of a climb through the thesis' claims.
+// What is written of a campaign about the thesis' claims.
 #include "reports/thesis/report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/thesis/overview.hpp"
 #include "tests/reports/has.hpp"
 
 namespace crossgrain::reports {
@@ -12,19 +11,19 @@ namespace {
 ThesisResults twoClaims() {
   ThesisResults results;
   results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
-  results.legs.resize(2);
-  ThesisLeg& leg = results.legs[0];
-  leg.name = "nu-0.804";
-  leg.purpose = "a packing";
-  leg.families = {"packings"};
-  leg.label = 0.804;
-  leg.cell.omega = 1.0;
-  leg.settleRotations = 1.0;
-  leg.averagedRotations = 3.0;
-  results.legs[1] = leg;
-  results.legs[1].name = "nobody-ran-it";
+  results.cases.resize(2);
+  ThesisCase& setup = results.cases[0];
+  setup.name = "nu-0.804";
+  setup.purpose = "a packing";
+  setup.families = {"packings"};
+  setup.label = 0.804;
+  setup.cell.omega = 1.0;
+  setup.settleRotations = 1.0;
+  setup.averagedRotations = 3.0;
+  results.cases[1] = setup;
+  results.cases[1].name = "nobody-ran-it";
   ThesisRun& run = results.runs.emplace_back();
-  run.leg = leg.name;
+  run.setup = setup.name;
   run.engine = run.run.engine = "grain";
   run.run.stats.emplace().wallSeconds = 40.0;
   run.run.stats->cpuSeconds = 34.56;
@@ -43,7 +42,7 @@ ThesisResults twoClaims() {
   refuted.id = "C5";
   refuted.claim = "a zone is dilated";
   refuted.engine = "grain";
-  refuted.reading = "default";
+  refuted.interpretation = "default";
   refuted.figures = {{"C⁻¹", "d", 9.0, 0.5, 4.0, 7.0}, {"ν₀", "", 0.84, {}, {}, 0.87}};
   refuted.figures[0].verdict = ClaimVerdict::refuted;
   refuted.verdict = ClaimVerdict::refuted;
@@ -51,7 +50,7 @@ ThesisResults twoClaims() {
   refuted.plot = "figure 6.5";
   refuted.reasons = {"Impacts dilate it."};
   results.claims = {refuted, refuted};
-  results.claims.back().reading = "wall spacing 7 mm";
+  results.claims.back().interpretation = "wall spacing 7 mm";
   results.claims.back().verdict = ClaimVerdict::reproduced;
   ClaimRow& open = results.claims.emplace_back();
   open.id = "C6";
@@ -81,23 +80,12 @@ TEST(ThesisTables, HoldEveryRotation) {
   EXPECT_TRUE(has(table, "\nnu-0.804,grain,0,1,2,6,,,,,,,,,,\n"));
 }
 
-TEST(ThesisTables, CountAClaimOnceWhateverItsReadings) {
-  EXPECT_EQ(claimCounts(twoClaims()),
-            std::vector<std::string>{"Claims on grain: 0 reproduced, 1 refuted, 1 undecided"});
-  // What needs no engine comes last, wherever it stands among the claims.
-  ThesisResults results = twoClaims();
-  results.claims.insert(results.claims.begin(), results.claims.front());
-  results.claims.front().engine = "-";
-  EXPECT_EQ(claimCounts(results).size(), 2u);
-  EXPECT_EQ(claimCounts(results).back().substr(0, 27), "Claims that need no engine:");
-}
-
-TEST(ThesisTables, TellAClaimInALine) {
+TEST(ThesisTables, ClaimsText_IsALineEach) {
   EXPECT_EQ(claimsText(twoClaims()).substr(0, claimsText(twoClaims()).find('\n')),
             "C5   refuted    grain            C⁻¹: 9.00\u00a0±\u00a00.50 d [4 … 7]; default");
 }
 
-TEST(ThesisOverview, HasEveryClaimUnderItsFirstReading) {
+TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   ThesisResults results = twoClaims();
   ClaimRow model = results.claims.front();
   model.engine = "-";
@@ -105,7 +93,7 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstReading) {
   model.verdict = ClaimVerdict::reproduced;
   model.figures.front().value.reset();
   results.claims.insert(results.claims.begin(), model);
-  // The figure that refutes it is told, not the first.
+  // The figure that refutes it is shown, not the first.
   std::swap(results.claims[1].figures[0], results.claims[1].figures[1]);
   const Overview overview = thesisOverview(results);
   ASSERT_EQ(overview.columns.size(), 3u);
@@ -132,7 +120,7 @@ TEST(ThesisOverview, ConcludesByRule) {
             (std::vector<std::string>{
                 "Claims on grain: 0 reproduced, 1 refuted, 1 undecided.",
                 "Refuted: C5 on grain; the table of claims has what was found of the reason.",
-                "Next: the same command with a larger --budget runs the 1 of 2 legs that nobody "
+                "Next: the same command with a larger --budget runs the 1 of 2 cases that nobody "
                 "has run; what is undecided may rest on them."}));
   results.claims.front().reasons.clear();
   EXPECT_TRUE(has(thesisOverview(results).conclusion[1], "found of why, of 1 nothing."));

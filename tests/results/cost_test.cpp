@@ -21,10 +21,8 @@ CostPoint point() {
   point.error = 0.1;
   point.statistical = 0.01;
   point.systematic = 0.0995;
-  point.low = 0.05;
-  point.high = 0.15;
-  point.equivalent = 1e-3;
-  point.bound = 4e-3;
+  point.intervalLow = 0.05;
+  point.intervalHigh = 0.15;
   point.wallSeconds = 1.5;
   point.cpuSeconds = 1.4;
   point.steps = 157080;
@@ -51,24 +49,13 @@ CostResults study() {
   left.error.reset();
   left.status = CostStatus::notMeasured;
   left.reason = "would take about 90 s";
+  left.knob = "effect:friction";
   results.points = {point(), left};
   results.references = {{CostKind::collision, "oracle", "the case's law", {}, "exact"}};
-  results.trajectory = ChaosStudy{{{0.0, 1e-10}, {0.1, 2e-10}}, {9.0, 0.2}, {0.8, "chaos"}};
-  results.averages.falls = {{"grain", "stress_rr", 0.125, 0.04}};
+  results.window = 0.8;
   results.startup = {{"grain", 0.01, 0.002}};
-  results.theory = {{"grain", 2}, {"grain semi_implicit_euler", 1}};
   results.engineFailures = {"gone"};
-  OrderFit fit;
-  fit.engine = "grain";
-  fit.order = 1.02;
-  fit.used = {0, 1};
-  fit.leftOut = {{1, "too few"}};
-  fit.theory = 2.0;
-  fit.verdict = OrderVerdict::notMet;
-  results.orders = {fit};
   results.fronts = {{CostKind::averages, "stress_rr", "", {0}, {0.1}}};
-  results.cheapest = {{"grain", CostKind::averages, "stress_rr", 0.01, CostVerdict::notMeasured}};
-  results.cheapest[0].point = 0;
   Advice advice;
   advice.engine = "grain";
   advice.target = 0.1;
@@ -77,43 +64,39 @@ CostResults study() {
   advice.cheapest = true;
   results.advice = {advice};
   results.models = {{"grain", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
-  results.averages.responses = {{"stress_rr", "kn", 0.1, 0.2, 0.5}};
   results.cells = {{"grain", CostKind::averages, CostBasis::scene, 0.01, CostVerdict::notReached}};
   results.cells[0].model = 0;
   return results;
 }
 
-TEST(CostResults, RoundTrip) {
+TEST(CostResults, RoundTrip_KeepsEveryMember) {
   const Json there = toJson(study());
   EXPECT_EQ(toJson(costFromJson(Json::parse(there.dump()))).dump(), there.dump());
-}
-
-TEST(CostResults, AreWrittenAsTheLayoutSays) {
-  const Json json = toJson(study());
-  EXPECT_EQ(json["points"][1]["status"], "undecided");
-  EXPECT_EQ(json["points"][0]["error_kind"], "averages");
-  EXPECT_EQ(json["theory"].dump(), R"({"grain":2,"grain semi_implicit_euler":1})");
-  EXPECT_EQ(json["orders"][0]["verdict"], "not met");
-  EXPECT_EQ(json["orders"][0]["theory"].dump(), "2.0");
-  EXPECT_EQ(json["cheapest"][0]["want"], 0.01);
-  EXPECT_EQ(json["advice"][0]["cost_kind"], "averages");
-  EXPECT_EQ(json["cells"][0]["basis"], "scene");
-  EXPECT_EQ(json["cells"][0]["verdict"], "not reached");
-  EXPECT_EQ(json["points"][0]["bound"], 4e-3);
-  EXPECT_EQ(json["trajectory"]["growth"][1]["separation"], 2e-10);
-  EXPECT_EQ(toJson(CostResults{})["theory"].dump(), "{}");
-  EXPECT_FALSE(toJson(CostResults{}).contains("trajectory"));
-}
-
-TEST(CostResults, WhatAFileLacksIsAbsent) {
   const CostResults empty = costFromJson({{"schema", "crossgrain-results-1"}, {"kind", "cost"}});
   EXPECT_TRUE(empty.points.empty());
   EXPECT_FALSE(empty.budget);
-  EXPECT_FALSE(empty.trajectory);
+  EXPECT_FALSE(empty.window);
 }
 
-TEST(CostResults, WhatIsOfAnotherTypeIsNamed) {
+TEST(CostResults, Document_HasTheNamesOfTheContract) {
+  CostResults results = study();
+  results.points[0].steps.reset();
+  const Json json = toJson(results);
+  EXPECT_EQ(json["points"][1]["status"], "undecided");
+  EXPECT_EQ(json["points"][0]["error_kind"], "averages");
+  EXPECT_EQ(json["points"][0]["low"], 0.05);
+  EXPECT_TRUE(json["points"][0].at("steps").is_null());
+  EXPECT_EQ(json["advice"][0]["cost_kind"], "averages");
+  EXPECT_EQ(json["cells"][0]["basis"], "scene");
+  EXPECT_EQ(json["cells"][0]["verdict"], "not reached");
+  EXPECT_EQ(json["window_s"], 0.8);
+}
+
+TEST(CostResults, WrongType_IsNamedByItsPath) {
   Json json = toJson(study());
+  json["points"][1]["knob"] = "effect:fric tion";
+  EXPECT_THROW(costFromJson(json), FieldError);
+  json = toJson(study());
   json["points"][1]["wall_s"] = "long";
   try {
     costFromJson(json);
@@ -123,23 +106,18 @@ TEST(CostResults, WhatIsOfAnotherTypeIsNamed) {
   }
 }
 
-TEST(CostPoint, WhatWasNotMeasuredIsNullInItsEntry) {
-  CostResults results = study();
-  for (auto* absent : {&results.points[0].dt, &results.points[0].statistical}) absent->reset();
-  results.points[0].steps.reset();
-  results.points[0].contactEvaluations.reset();
-  const Json entry = toJson(results)["points"][0];
-  for (const char* key : {"dt_s", "steps", "contact_evaluations", "statistical"})
-    EXPECT_TRUE(entry.at(key).is_null()) << key;
-  EXPECT_FALSE(costFromJson(toJson(results)).points[0].steps);
-}
-
-/// Two runs of a scheme are joined; a setting without a step belongs to none.
-TEST(CostPoint, BelongsToTheSchemeItsSettingNames) {
+TEST(CostPoint, Scheme_IsThatOfTheIntegratorNamed) {
   EXPECT_EQ(schemeOf("time_step", "t_c/50"), "");
   EXPECT_EQ(schemeOf("integrator", "velocity_verlet, t_c/50"), "velocity_verlet");
   EXPECT_FALSE(schemeOf("integrator", "velocity_verlet"));
   EXPECT_FALSE(schemeOf("precision", "float"));
+}
+
+TEST(CostPoint, OwnMeasures_ArePairedWithTheScenes) {
+  EXPECT_EQ(ownOf("psi_f"), "psi_f_own");
+  EXPECT_EQ(withoutOwn("psi_f_own"), "psi_f");
+  EXPECT_TRUE(isOwn("position_rms_own"));
+  EXPECT_EQ(withoutOwn("position_rms_own"), "position_rms_own");
 }
 
 }  // namespace

@@ -151,10 +151,19 @@ TEST(CompareResults, RoundTrip) {
   endpoint.distance = -0.99;
   endpoint.carrierB = "mirror";
   endpoint.bound = 1e-3;
+  endpoint.reach = 5e-4;
   results.endpoints = {{{{8, 0.0125}}, 0.0193, 1, 120.0, "all is decided"},
                        {endpoint},
                        {{"one", "two", PairKind::peer, "far off"}},
-                       {{"two", "mirror", 1e-5, 16, 0, {{"pressure", 0.5, 1.0, {}}}, "", true}},
+                       {{"two",
+                         "mirror",
+                         1e-5,
+                         16,
+                         0,
+                         {{"pressure", 0.5, 1.0, {}, 3.9}},
+                         "",
+                         true,
+                         {1, {0.0, 0.1}, 0.1, {{"mu", 1e-4}}, ""}}},
                        {{"pressure", "kn", 0.1, 0.2, 0.5, 0.3, 8}}};
   const Json there = toJson(results);
   EXPECT_EQ(there["endpoints"]["rows"][0]["answer"], "borderline");
@@ -221,7 +230,10 @@ TEST(RevResults, RoundTrip) {
 
 TEST(CouetteResults, WhatAFileLacksIsAbsentAndWhatItHasWrongIsNamed) {
   const Json little = {{"schema", "crossgrain-results-1"}, {"kind", "compare"}};
-  EXPECT_TRUE(compareFromJson(little).runs.empty());
+  Json one = little;
+  one["engines"] = Json::array({{{"name", "one"}}});
+  EXPECT_TRUE(compareFromJson(one).runs.empty());
+  EXPECT_THROW(compareFromJson(little), FieldError);  // there is no reference
   EXPECT_TRUE(effectsFromJson(little).variants.empty());
   EXPECT_TRUE(revFromJson(little).curves.empty());
   Json broken = toJson(ranStudy<CompareResults>(kindCompare));

@@ -13,21 +13,21 @@ ThesisResults resultsOfOneLeg() {
   results.head.kind = "thesis";
   results.elapsed = 12.5;
   results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
-  results.carriers = {{"other", "grain-as-other", true, 1e-9, 16, "same to rounding"}};
+  results.surrogates = {{"other", "grain-as-other", true, 1e-9, 16, "same to rounding"}};
   results.rules = "[common]\n";
   results.collisions.emplace().head.kind = "collide";
-  ThesisLeg& leg = results.legs.emplace_back();
-  leg.name = "nu-0.804";
-  leg.families = {"packings", "kn"};
-  leg.cell.small = 2511;
-  leg.label = 0.804;
-  leg.kn = 352.1;
-  leg.bottomFriction = false;
-  leg.settleRotations = 5.0;
-  leg.averagedRotations = 3.0;
-  leg.caseToml = "[case]\n";
+  ThesisCase& setup = results.cases.emplace_back();
+  setup.name = "nu-0.804";
+  setup.families = {"packings", "kn"};
+  setup.cell.small = 2511;
+  setup.label = 0.804;
+  setup.kn = 352.1;
+  setup.bottomFriction = false;
+  setup.settleRotations = 5.0;
+  setup.averagedRotations = 3.0;
+  setup.caseToml = "[case]\n";
   ThesisRun& run = results.runs.emplace_back();
-  run.leg = leg.name;
+  run.setup = setup.name;
   run.engine = run.run.engine = "grain";
   run.packing = 2;
   run.seed = 7;
@@ -43,10 +43,10 @@ ThesisResults resultsOfOneLeg() {
   span.maxOverlap = 1e-300;
   ClaimRow& claim = results.claims.emplace_back();
   claim.id = "C7";
-  claim.carrier = "grain-as-other";
+  claim.mirror = "grain-as-other";
   claim.figures = {{"B", "d", 2.5, {}, 0.5, {}}};
   claim.verdict = ClaimVerdict::refuted;
-  claim.legs = {"nu-0.804"};
+  claim.cases = {"nu-0.804"};
   claim.plot = "figure 6.7";
   results.notes = {"one was left out"};
   return results;
@@ -68,8 +68,8 @@ TEST(ThesisResults, ComeBackAsTheyWere) {
   EXPECT_EQ(results.runs[0].finer.at(0).places.width, 0.1);
   EXPECT_EQ(results.claims.at(0).verdict, ClaimVerdict::refuted);
   EXPECT_FALSE(results.claims[0].figures.at(0).high);
-  EXPECT_FALSE(results.legs.at(0).bottomFriction);
-  EXPECT_TRUE(results.carriers.at(0).carries);
+  EXPECT_FALSE(results.cases.at(0).bottomFriction);
+  EXPECT_TRUE(results.surrogates.at(0).accepted);
   EXPECT_TRUE(results.collisions);
 }
 

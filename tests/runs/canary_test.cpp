@@ -1,7 +1,8 @@
-// A fault that begins after lockstep's windows: they cannot see it, the one whole run can.
+// Faults that begin after lockstep's windows, which cannot see them: the spot check can.
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "cases/loader.hpp"
 #include "runs/couette/lockstep_job.hpp"
@@ -57,8 +58,20 @@ TEST(Canary, LetsAnEngineThatIsRightBeCarried) {
   const EndpointFindings found = compared("none", 0, lockstep);
   ASSERT_EQ(found.carried.size(), 1u);
   EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
-  for (const EndpointRow& row : found.rows) EXPECT_EQ(row.carrierB, "mirror");
+  for (const EndpointRow& row : found.rows) {
+    EXPECT_EQ(row.carrierB, "mirror");
+    EXPECT_GT(row.reach.value_or(0.0), 0.0);
+    // The plate's springs and the forces that predict a damping velocity are not reported.
+    EXPECT_LT(row.reach.value_or(1.0), 0.1) << row.endpoint;
+  }
   EXPECT_EQ(found.rows.size(), 9u);
+  // Its own run is followed to the end: a quarter and a twentieth of a rotation of 2π s.
+  const LateWindows& late = found.carried[0].late;
+  EXPECT_EQ(late.packing, 1);
+  EXPECT_EQ(late.times.size(), 18u);
+  EXPECT_NEAR(late.times.back() + late.length, 0.3 * 2.0 * std::numbers::pi, late.length);
+  ASSERT_EQ(late.equivalents.size(), 2u);
+  EXPECT_EQ(late.equivalents[1].constant, "mu");
 }
 
 TEST(Canary, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
@@ -68,6 +81,27 @@ TEST(Canary, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
   for (const EndpointResponse& response : found.responses) EXPECT_EQ(response.packings, 4);
   ASSERT_EQ(found.carried.size(), 1u);
   EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
+}
+
+/// Chaos hides in an averaged run what 30 % of the friction do to a few rotations' averages.
+TEST(Canary, FollowsItsOwnRunToWhatBeginsLate) {
+  LockstepFindings lockstep;
+  const EndpointFindings found = compared("worn", 25000, lockstep);
+  ASSERT_EQ(lockstep.rows.size(), 1u);
+  EXPECT_EQ(lockstep.rows[0].verdict, LockstepVerdict::sameToRounding);
+  ASSERT_EQ(found.carried.size(), 1u);
+  const CarriedEngine& own = found.carried[0];
+  for (const CanaryNumber& number : own.canary) EXPECT_GT(number.chance.value_or(0.0), 0.05);
+  ASSERT_EQ(own.late.equivalents.size(), 2u);
+  // From 1 s of 1.88 s on, half of the windows: no less than half of 30 %.
+  EXPECT_EQ(own.late.equivalents[1].constant, "mu");
+  EXPECT_GT(own.late.equivalents[1].change, 0.14);
+  EXPECT_FALSE(own.carried);
+  EXPECT_NE(own.alarm.find("of packing 1"), std::string::npos) << own.alarm;
+  for (const EndpointRow& row : found.rows) {
+    EXPECT_EQ(row.carrierB, "");
+    EXPECT_FALSE(row.reach);
+  }
 }
 
 TEST(Canary, CatchesWhatBeginsAfterTheWindows) {

@@ -1,8 +1,6 @@
 // Each claim against a world made by hand in which it holds, one in which it does not, and one that
-// cannot tell.
+// has no runs.
 #include "claims_world.hpp"
-
-#include "runs/thesis/claims_judges.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -19,56 +17,56 @@ void PrintTo(const Falsehood& of, std::ostream* out) {
 }
 
 Change scaled(const std::string& field, double factor) {
-  return [=](ThesisRun& run, const ThesisLeg&) { scaleField(run, field, factor); };
+  return [=](ThesisRun& run, const ThesisCase&) { scaleField(run, field, factor); };
 }
 
 Change shaped(const std::string& field, const Shape& shape) {
-  return [=](ThesisRun& run, const ThesisLeg& leg) { setField(run, leg, field, shape); };
+  return [=](ThesisRun& run, const ThesisCase& setup) { setField(run, setup, field, shape); };
 }
 
 Change fitted(const std::string& name, double value) {
-  return [=](ThesisRun& run, const ThesisLeg&) { setFit(run, name, value); };
+  return [=](ThesisRun& run, const ThesisCase&) { setFit(run, name, value); };
 }
 
 Change inHistory(const std::function<void(ThesisSpan&)>& change) {
-  return [=](ThesisRun& run, const ThesisLeg&) {
+  return [=](ThesisRun& run, const ThesisCase&) {
     for (ThesisSpan& span : run.history) change(span);
   };
 }
 
-void noRidge(ThesisRun& run, const ThesisLeg&) {
+void noRidge(ThesisRun& run, const ThesisCase&) {
   setDistribution(run, "azimuthal_velocity_and_spin", {}, jointAxes,
                   [](double v, double s) { return 0.5 + std::exp(-40.0 * (v * v + s * s)); });
 }
 
-void isotropicContacts(ThesisRun& run, const ThesisLeg&) {
+void isotropicContacts(ThesisRun& run, const ThesisCase&) {
   for (int ring = 0; ring < worldRings; ++ring)
     setDistribution(run, "contact_direction", ring, directionAxis, [](double angle, double) {
       return (1.0 - 0.35 * std::cos(2.0 * (angle - pi / 3.0))) / 2.0 / pi;
     });
 }
 
-void fasterWheelPressesMore(ThesisRun& run, const ThesisLeg& leg) {
-  for (ThesisSpan& span : run.history) *span.outerPressure *= std::pow(leg.cell.omega / 0.1, 2.0);
+void fasterWheelPressesMore(ThesisRun& run, const ThesisCase& setup) {
+  for (ThesisSpan& span : run.history) *span.outerPressure *= std::pow(setup.cell.omega / 0.1, 2.0);
 }
 
-void bandPressedMore(ThesisRun& run, const ThesisLeg&) {
+void bandPressedMore(ThesisRun& run, const ThesisCase&) {
   for (std::size_t ring = 0; ring < 5; ++ring) *fieldAt(run, "fabric_trace", ring) = 4.0;
 }
 
-void torqueGrowsOutward(ThesisRun& run, const ThesisLeg&) {
+void torqueGrowsOutward(ThesisRun& run, const ThesisCase&) {
   *fieldAt(run, "couple_stress_zr", 0) = 1e-9;
 }
 
-void carriesNowhere(ThesisRun& run, const ThesisLeg& leg) {
+void carriesNowhere(ThesisRun& run, const ThesisCase& setup) {
   for (ThesisSpan& span : run.history)
-    if (leg.label < 0.8055) span.wheelContacts = 0.0;
+    if (setup.label < 0.8055) span.wheelContacts = 0.0;
 }
 
 const std::vector<Falsehood>& falsehoods() {
   static const std::vector<Falsehood> all{
       {"C3",
-       [](ThesisRun& run, const ThesisLeg&) {
+       [](ThesisRun& run, const ThesisCase&) {
          for (auto& rings : run.finer)
            for (auto& value : rings.profiles[0].mean) *value += 0.5;
        },
@@ -88,13 +86,13 @@ const std::vector<Falsehood>& falsehoods() {
       {"C15", scaled("stress_pp", 2.0), "σ_φφ/σ_rr"},
       {"C16", scaled("dynamic_stress_rr", 10.0), "dynamic σ_φφ over σ_rr"},
       {"C17",
-       [](ThesisRun& run, const ThesisLeg& leg) {
-         scaleField(run, "stress_rr", std::exp(-500.0 * (leg.label - 0.789)));
+       [](ThesisRun& run, const ThesisCase& setup) {
+         scaleField(run, "stress_rr", std::exp(-500.0 * (setup.label - 0.789)));
        },
        "τ of σ_rr"},
       {"C18",
-       [](ThesisRun& run, const ThesisLeg& leg) {
-         setField(run, leg, "strain_trace", [](double x) { return x < 5.0 ? 0.5e-4 : 1e-4; });
+       [](ThesisRun& run, const ThesisCase& setup) {
+         setField(run, setup, "strain_trace", [](double x) { return x < 5.0 ? 0.5e-4 : 1e-4; });
        },
        "tr ε of the band"},
       {"C19", shaped("stress_angle", [](double) { return 1.3; }), "angle of F"},
@@ -102,14 +100,14 @@ const std::vector<Falsehood>& falsehoods() {
       {"C21", shaped("shear_modulus", [](double) { return 9000.0; }), "exponent of G"},
       {"C22", scaled("spin", -1.0), "mean spin over"},
       {"C23", torqueGrowsOutward, "|M_zr|"},
-      {"C25", [](ThesisRun& run, const ThesisLeg&) { run.run.stats->cpuSeconds *= 50.0; },
+      {"C25", [](ThesisRun& run, const ThesisCase&) { run.run.stats->cpuSeconds *= 50.0; },
        "1.5 days"},
-      {"C26", [](ThesisRun& run, const ThesisLeg&) { setHead(run, "max_overlap_over_d", 1e-3); },
+      {"C26", [](ThesisRun& run, const ThesisCase&) { setHead(run, "max_overlap_over_d", 1e-3); },
        "largest overlap"},
       {"C27",
-       [](ThesisRun& run, const ThesisLeg& leg) {
+       [](ThesisRun& run, const ThesisCase& setup) {
          for (std::size_t ring = 5; ring < worldRings; ++ring)
-           *fieldAt(run, "fabric_trace", ring) = 3.0 - 20.0 * (leg.label - 0.789);
+           *fieldAt(run, "fabric_trace", ring) = 3.0 - 20.0 * (setup.label - 0.789);
        },
        "τ of tr F_div"},
   };
@@ -125,7 +123,7 @@ ClaimRow judged(const ThesisResults& results, const std::string& id) {
 TEST_P(Claims, IsReproducedWhereAllIsAsTheThesisSays) {
   const ClaimRow row = judged(world(), GetParam().id);
   EXPECT_EQ(row.verdict, ClaimVerdict::reproduced) << row.why;
-  EXPECT_FALSE(row.legs.empty());
+  EXPECT_FALSE(row.cases.empty());
   EXPECT_NE(row.why.find("Averaged over rotations 5 to 8"), std::string::npos) << row.why;
 }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "claims_world.hpp"
-#include "runs/thesis/elsewhere.hpp"
-#include "runs/thesis/reasons.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -32,8 +30,8 @@ std::string all(const ClaimRow& row) {
 /// The dilated zone is too wide at the lowest ν̄ of shear flow, where runs are collisional.
 ThesisResults wideZoneWhereCollisional() {
   ThesisResults results = world(3);
-  changeAll(results, [](ThesisRun& run, const ThesisLeg& leg) {
-    const bool wide = leg.label < 0.8055 && leg.cell.wallSpacing < 0.005;
+  changeAll(results, [](ThesisRun& run, const ThesisCase& setup) {
+    const bool wide = setup.label < 0.8055 && setup.cell.wallSpacing < 0.005;
     if (wide) setFit(run, "dilation_decay", 1.0 / (12.0 + 0.1 * run.packing));
     run.run.regime->regime = wide ? Regime::collisional : Regime::flowing;
     for (ThesisSpan& span : run.history)
@@ -68,12 +66,13 @@ TEST(ClaimReasons, TellWhereTheFigureWouldLieInItsBand) {
   EXPECT_TRUE(says(row, "of runs that are flowing alone")) << all(row);
   EXPECT_TRUE(says(row, "at ν̄ = 0.807 alone")) << all(row);
   EXPECT_FALSE(says(row, "at ν̄ = 0.804 alone")) << all(row);
+  EXPECT_FALSE(says(row, "at Ω = 0.1 /s, rotations 5 to 8")) << all(row);  // those judged
   EXPECT_TRUE(says(row, "The whole claim is reproduced under wall spacing 7 mm")) << all(row);
 }
 
 TEST(ClaimReasons, TellThatItLiesInItsBandNowhere) {
   ThesisResults results = world(3);
-  changeAll(results, [](ThesisRun& run, const ThesisLeg&) {
+  changeAll(results, [](ThesisRun& run, const ThesisCase&) {
     setFit(run, "dilation_decay", 1.0 / (12.0 + 0.1 * run.packing));
   });
   const ClaimRow row = rowOf(reasoned(results), "C5");
@@ -101,29 +100,15 @@ evidence = "figure 6.5"
 TEST(ClaimReasons, WrittenOnesStandWhileTheirConditionsHold) {
   ThesisResults results = wideZoneWhereCollisional();
   EXPECT_FALSE(says(rowOf(reasoned(results, written), "C5"), "dilate"));  // 10.5 over all runs
-  changeAll(results, [](ThesisRun& run, const ThesisLeg&) {
+  changeAll(results, [](ThesisRun& run, const ThesisCase&) {
     setFit(run, "dilation_decay", 1.0 / (12.0 + 0.1 * run.packing));
   });
   const ClaimRow row = rowOf(reasoned(results, written), "C5");
   EXPECT_TRUE(says(row, "Impacts dilate the whole cell. (Rests on figure 6.5.)")) << all(row);
-  changeAll(results, [](ThesisRun& run, const ThesisLeg&) {
+  changeAll(results, [](ThesisRun& run, const ThesisCase&) {
     setFit(run, "velocity_amplitude", 1.2 + 0.01 * run.packing);
   });
   EXPECT_FALSE(says(rowOf(reasoned(results, written), "C5"), "dilate"));
-}
-
-TEST(OtherRunsOfALadder, AreOfOneRegimeOneDensityOrAnotherRate) {
-  const ThesisResults results = wideZoneWhereCollisional();
-  const OtherRuns others(results);
-  std::vector<std::string> words;
-  for (const Elsewhere& each : others.all()) words.push_back(each.words);
-  const auto there = [&](const char* of) { return std::ranges::find(words, of) != words.end(); };
-  EXPECT_TRUE(there("of runs that are flowing alone"));
-  EXPECT_TRUE(there("of runs that are collisional alone"));
-  EXPECT_FALSE(there("of runs that are blocked alone"));
-  EXPECT_TRUE(there("at ν̄ = 0.804 alone"));
-  EXPECT_TRUE(there("at Ω = 1 /s, rotations 5 to 8"));
-  EXPECT_FALSE(there("at Ω = 0.1 /s, rotations 5 to 8"));  // the ladder's own
 }
 
 }  // namespace

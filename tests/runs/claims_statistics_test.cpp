@@ -1,11 +1,11 @@
 // What many runs say together, against numbers worked out by hand or known from elsewhere.
-#include "runs/thesis/claims_statistics.hpp"
+#include "runs/thesis/claim_statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "runs/thesis/claims_evidence.hpp"
+#include "runs/thesis/claim_evidence.hpp"
 
 namespace crossgrain::test {
 namespace {

@@ -6,26 +6,28 @@ namespace crossgrain::test {
 namespace {
 
 /// Between −1 and 1, another one for each run.
-double noiseOf(const ThesisLeg& leg, int packing) {
-  return std::sin(12.9898 * (1000.0 * leg.label + 7.0 * packing + leg.cell.omega) +
-                  0.1 * static_cast<double>(leg.cell.large));
+double noiseOf(const ThesisCase& setup, int packing) {
+  return std::sin(12.9898 * (1000.0 * setup.label + 7.0 * packing + setup.cell.omega) +
+                  0.1 * static_cast<double>(setup.cell.large));
 }
 
 /// 0 at 0.789, 1 at 0.828.
-double denseness(const ThesisLeg& leg) {
-  return (leg.label - 0.789) / 0.039;
+double denseness(const ThesisCase& setup) {
+  return (setup.label - 0.789) / 0.039;
 }
 
 bool inBand(double x) {
   return x < 5.0;
 }
 
-void addStresses(ThesisRun& run, const ThesisLeg& leg, double noise) {
-  const double t = denseness(leg), p = 0.2 * (1.0 + 9.0 * t) * (1.0 + 0.02 * noise);
+void addStresses(ThesisRun& run, const ThesisCase& setup, double noise) {
+  const double t = denseness(setup), p = 0.2 * (1.0 + 9.0 * t) * (1.0 + 0.02 * noise);
   const auto shear = [=](double x) {
-    return 0.25 * p / std::pow(1.0 + x * leg.cell.diameter / leg.cell.innerRadius, 2);
+    return 0.25 * p / std::pow(1.0 + x * setup.cell.diameter / setup.cell.innerRadius, 2);
   };
-  const auto set = [&](const char* field, const Shape& shape) { setField(run, leg, field, shape); };
+  const auto set = [&](const char* field, const Shape& shape) {
+    setField(run, setup, field, shape);
+  };
   set("stress_rr", [=](double) { return p; });
   set("stress_pp", [=](double) { return 1.02 * p; });
   set("stress_rp", shear);
@@ -41,13 +43,15 @@ void addStresses(ThesisRun& run, const ThesisLeg& leg, double noise) {
       [=](double x) { return x < 1.0 ? 1e-5 * p : 1e-6 * p * std::sin(9.0 * x); });
 }
 
-void addStructure(ThesisRun& run, const ThesisLeg& leg, double noise) {
-  const double t = denseness(leg);
+void addStructure(ThesisRun& run, const ThesisCase& setup, double noise) {
+  const double t = denseness(setup);
   const auto trace = [=](double x) {
     return (2.0 + t - (inBand(x) ? 0.8 - 0.1 * x : 0.0) - (x > 19.0 ? 0.3 : 0.0)) *
            (1.0 + 0.01 * noise);
   };
-  const auto set = [&](const char* field, const Shape& shape) { setField(run, leg, field, shape); };
+  const auto set = [&](const char* field, const Shape& shape) {
+    setField(run, setup, field, shape);
+  };
   const auto degrees = [](double angle) { return [=](double) { return angle * pi / 180.0; }; };
   set("volume_fraction", [](double) { return 0.8; });
   set("density", [](double) { return 900.0; });
@@ -68,17 +72,19 @@ void addStructure(ThesisRun& run, const ThesisLeg& leg, double noise) {
   set("torque_resistance", [=](double x) { return 7000.0 * trace(x); });
 }
 
-void addMotion(ThesisRun& run, const ThesisLeg& leg, double noise) {
-  const double t = denseness(leg), omega = leg.cell.omega;
-  const double wheel = omega * leg.cell.innerRadius;
+void addMotion(ThesisRun& run, const ThesisCase& setup, double noise) {
+  const double t = denseness(setup), omega = setup.cell.omega;
+  const double wheel = omega * setup.cell.innerRadius;
   const double amplitude = (0.4 + 0.2 * t) * (1.0 + 0.01 * noise);
-  const double spinScale = omega * 2.0 * leg.cell.innerRadius / leg.cell.diameter;
+  const double spinScale = omega * 2.0 * setup.cell.innerRadius / setup.cell.diameter;
   const auto spin = [=](double x) {
     return spinScale * (1.0 + 0.01 * noise) * 0.24 * std::exp(-1.46 * x) * std::cos(pi * x + 1.79);
   };
   double mean = 0.0;
   for (int k = 0; k < 4; ++k) mean += 0.25 * spin((k + 0.5) * 1.008);
-  const auto set = [&](const char* field, const Shape& shape) { setField(run, leg, field, shape); };
+  const auto set = [&](const char* field, const Shape& shape) {
+    setField(run, setup, field, shape);
+  };
   set("azimuthal_velocity", [=](double x) { return wheel * amplitude * std::exp(-x / 1.5); });
   set("spin", spin);
   set("continuum_rotation", [=](double) { return 0.9 * mean; });
@@ -101,17 +107,18 @@ void addMotion(ThesisRun& run, const ThesisLeg& leg, double noise) {
     return [=](double x) { return 0.8 + height * std::sin(2.0 * pi * x + 0.3); };
   };
   run.run.profiles.push_back(
-      profileOfShape("centre", "volume_fraction", leg, worldRings, layers(0.01 + 0.001 * noise)));
+      profileOfShape("centre", "volume_fraction", setup, worldRings, layers(0.01 + 0.001 * noise)));
   RingAverages fine;
   fine.rings = 60;
-  fine.profiles = {profileOfShape("slicing", "volume_fraction", leg, 60, layers(0.1)),
-                   profileOfShape("centre", "volume_fraction", leg, 60, layers(0.6 + 0.01 * noise)),
-                   profileOfShape("centre", "spin", leg, 60, spin)};
+  fine.profiles = {
+      profileOfShape("slicing", "volume_fraction", setup, 60, layers(0.1)),
+      profileOfShape("centre", "volume_fraction", setup, 60, layers(0.6 + 0.01 * noise)),
+      profileOfShape("centre", "spin", setup, 60, spin)};
   run.finer.push_back(fine);
 }
 
-void addDistributions(ThesisRun& run, const ThesisLeg& leg, double noise) {
-  const double rest = 2.0 * (1.0 - 0.5 * denseness(leg)) * (1.0 + 0.005 * noise);
+void addDistributions(ThesisRun& run, const ThesisCase& setup, double noise) {
+  const double rest = 2.0 * (1.0 - 0.5 * denseness(setup)) * (1.0 + 0.005 * noise);
   setDistribution(run, "azimuthal_velocity_and_spin", {}, jointAxes, [=](double v, double s) {
     const double peak = rest * std::exp(-40.0 * (v * v + s * s));
     return 0.05 + peak + std::exp(-100.0 * std::pow(v - 1.0 - s, 2));
@@ -129,14 +136,14 @@ void addDistributions(ThesisRun& run, const ThesisLeg& leg, double noise) {
     });
 }
 
-void addHistory(ThesisRun& run, const ThesisLeg& leg, double noise, int packing) {
+void addHistory(ThesisRun& run, const ThesisCase& setup, double noise, int packing) {
   // The transition itself: one packing in three carries at 0.793.
-  const bool carries = leg.label > 0.7935 || (leg.label > 0.7925 && packing % 3 == 0);
+  const bool carries = setup.label > 0.7935 || (setup.label > 0.7925 && packing % 3 == 0);
   for (int rotation = 0; rotation < 20; ++rotation) {
     ThesisSpan& span = run.history.emplace_back();
     span.from = rotation;
     span.to = rotation + 1;
-    span.outerPressure = (1.0 + 9.0 * denseness(leg)) * (1.0 + 0.05 * noise);
+    span.outerPressure = (1.0 + 9.0 * denseness(setup)) * (1.0 + 0.05 * noise);
     span.wheelContacts = carries || rotation < 3 ? 20.0 : 0.0;
     span.volumeFractionAtWheel = 0.6 + 0.002 * noise + 0.15 * std::exp(-rotation);
     span.volumeFractionOutside = 0.84 + 0.001 * std::exp(-rotation);
@@ -145,23 +152,23 @@ void addHistory(ThesisRun& run, const ThesisLeg& leg, double noise, int packing)
 
 }  // namespace
 
-ThesisRun worldRun(const ThesisLeg& leg, int packing) {
-  const double noise = noiseOf(leg, packing);
+ThesisRun worldRun(const ThesisCase& setup, int packing) {
+  const double noise = noiseOf(setup, packing);
   ThesisRun run;
-  run.leg = leg.name;
+  run.setup = setup.name;
   run.engine = "engine";
   run.packing = packing;
   run.run.engine = run.engine;
-  addStresses(run, leg, noise);
-  addStructure(run, leg, noise);
-  addMotion(run, leg, noise);
-  addDistributions(run, leg, noise);
-  addHistory(run, leg, noise, packing);
+  addStresses(run, setup, noise);
+  addStructure(run, setup, noise);
+  addMotion(run, setup, noise);
+  addDistributions(run, setup, noise);
+  addHistory(run, setup, noise, packing);
   run.run.regime.emplace();
   run.run.regime->wheelContacts = 20.0;
-  run.run.regime->blockedFraction = (leg.label > 0.8095 ? 0.8 : 0.1) + 0.02 * noise;
-  setHead(run, "max_overlap_over_d", 1e-7 / leg.cell.diameter * (1.0 + 0.1 * noise));
-  setHead(run, "mean_overlap_over_d", 1e-8 / leg.cell.diameter);
+  run.run.regime->blockedFraction = (setup.label > 0.8095 ? 0.8 : 0.1) + 0.02 * noise;
+  setHead(run, "max_overlap_over_d", 1e-7 / setup.cell.diameter * (1.0 + 0.1 * noise));
+  setHead(run, "mean_overlap_over_d", 1e-8 / setup.cell.diameter);
   run.run.realised.emplace();
   run.run.realised->dt = 4e-5;
   run.run.stats.emplace();
@@ -172,46 +179,46 @@ ThesisRun worldRun(const ThesisLeg& leg, int packing) {
 
 ThesisResults world(int packings) {
   ThesisResults results;
-  const auto add = [&](const ThesisLeg& leg) { results.legs.push_back(leg); };
+  const auto add = [&](const ThesisCase& setup) { results.cases.push_back(setup); };
   for (const WorldLabel& of : worldLabels)
-    add(worldLeg(of, fmt::format("nu-{}-{}", of.label, of.large), "packings"));
+    add(worldCase(of, fmt::format("nu-{}-{}", of.label, of.large), "packings"));
   for (const std::size_t k : {3, 8, 14})
     for (const double omega : {0.01, 0.03, 0.1, 0.3, 1.0})
-      add(worldLeg(worldLabels[k], fmt::format("omega-{}-{}", omega, worldLabels[k].label), "rate",
-                   omega));
-  ThesisLeg soft = worldLeg(worldLabels[8], "kn-half", "kn");
+      add(worldCase(worldLabels[k], fmt::format("omega-{}-{}", omega, worldLabels[k].label), "rate",
+                    omega));
+  ThesisCase soft = worldCase(worldLabels[8], "kn-half", "kn");
   soft.kn = 176.05;
-  ThesisLeg slippery = worldLeg(worldLabels[8], "no-friction", "friction");
+  ThesisCase slippery = worldCase(worldLabels[8], "no-friction", "friction");
   slippery.mu = 0.0;
-  ThesisLeg smooth = worldLeg(worldLabels[8], "no-bottom", "bottom");
+  ThesisCase smooth = worldCase(worldLabels[8], "no-bottom", "bottom");
   smooth.bottomFriction = false;
-  ThesisLeg wide = worldLeg(worldLabels[8], "spacing-7mm", "spacing");
+  ThesisCase wide = worldCase(worldLabels[8], "spacing-7mm", "spacing");
   wide.cell.wallSpacing = 0.007;
-  for (const ThesisLeg& leg : {soft, slippery, smooth, wide}) add(leg);
-  for (const ThesisLeg& leg : results.legs)
+  for (const ThesisCase& setup : {soft, slippery, smooth, wide}) add(setup);
+  for (const ThesisCase& setup : results.cases)
     for (int packing = 0; packing < packings; ++packing)
-      results.runs.push_back(worldRun(leg, packing));
+      results.runs.push_back(worldRun(setup, packing));
   return results;
 }
 
 void changeAll(ThesisResults& results, const Change& change) {
   for (ThesisRun& run : results.runs)
-    change(run, *std::ranges::find(results.legs, run.leg, &ThesisLeg::name));
+    change(run, *std::ranges::find(results.cases, run.setup, &ThesisCase::name));
 }
 
 void changeOne(ThesisResults& results, const Change& change) {
-  changeAll(results, [&](ThesisRun& run, const ThesisLeg& leg) {
-    const bool looked = leg.name == "nu-0.804-410" || leg.name == "nu-0.796-407" ||
-                        leg.name == "omega-0.01-0.804" || leg.name == "nu-0.81-407";
-    if (looked && run.packing == 0) change(run, leg);
+  changeAll(results, [&](ThesisRun& run, const ThesisCase& setup) {
+    const bool examined = setup.name == "nu-0.804-410" || setup.name == "nu-0.796-407" ||
+                          setup.name == "omega-0.01-0.804" || setup.name == "nu-0.81-407";
+    if (examined && run.packing == 0) change(run, setup);
   });
 }
 
 ClaimRow rowOf(const std::vector<ClaimRow>& rows, const std::string& id,
-               const std::string& reading) {
+               const std::string& interpretation) {
   for (const ClaimRow& row : rows)
-    if (row.id == id && row.reading.starts_with(reading)) return row;
-  ADD_FAILURE() << "no row of " << id << ", " << reading;
+    if (row.id == id && row.interpretation.starts_with(interpretation)) return row;
+  ADD_FAILURE() << "no row of " << id << ", " << interpretation;
   return {};
 }
 

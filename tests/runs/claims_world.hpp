@@ -11,7 +11,7 @@
 #include "cases/loader.hpp"
 #include "runs/thesis/claims.hpp"
 
-/// Results of a ladder made by hand, in which all is as the thesis says; tests change one thing.
+/// Results of a campaign made by hand, in which all is as the thesis says; tests change one thing.
 namespace crossgrain::test {
 
 inline constexpr double pi = std::numbers::pi;
@@ -30,31 +30,32 @@ inline const std::vector<WorldLabel> worldLabels{
     {0.809, 2525, 414}, {0.810, 2538, 407}, {0.811, 2555, 399}, {0.819, 2560, 418},
     {0.828, 2588, 422}};
 
-/// A leg of the thesis' cell.
-inline ThesisLeg worldLeg(const WorldLabel& of, const std::string& name, const std::string& family,
-                          double omega = 0.1) {
-  ThesisLeg leg;
-  leg.name = name;
-  leg.families = {family};
-  leg.cell = {0.1032,   0.2524,   0.00125, 0.0025,   0.006,    omega,
-              of.small, of.large, 0.0037,  0.004495, of.label, 0.0074};
-  leg.label = of.label;
-  leg.kn = 352.1;
-  leg.mu = 0.44;
-  leg.settleRotations = 5.0;
-  leg.averagedRotations = 3.0;
-  return leg;
+/// A case of the thesis' cell.
+inline ThesisCase worldCase(const WorldLabel& of, const std::string& name,
+                            const std::string& family, double omega = 0.1) {
+  ThesisCase setup;
+  setup.name = name;
+  setup.families = {family};
+  setup.cell = {0.1032,   0.2524,   0.00125, 0.0025,   0.006,    omega,
+                of.small, of.large, 0.0037,  0.004495, of.label, 0.0074};
+  setup.label = of.label;
+  setup.kn = 352.1;
+  setup.mu = 0.44;
+  setup.settleRotations = 5.0;
+  setup.averagedRotations = 3.0;
+  return setup;
 }
 
 /// A field of one run as a function of r̃.
 using Shape = std::function<double(double rTilde)>;
 
 inline Profile profileOfShape(const std::string& method, const std::string& field,
-                              const ThesisLeg& leg, int rings, const Shape& shape) {
+                              const ThesisCase& setup, int rings, const Shape& shape) {
   Profile profile;
   profile.method = method;
   profile.field = field;
-  const double width = (leg.cell.outerRadius - leg.cell.innerRadius) / rings / leg.cell.diameter;
+  const double width =
+      (setup.cell.outerRadius - setup.cell.innerRadius) / rings / setup.cell.diameter;
   for (int k = 0; k < rings; ++k) {
     profile.mean.emplace_back(shape((k + 0.5) * width));
     profile.standardError.emplace_back(0.01 * std::abs(*profile.mean.back()) + 1e-12);
@@ -63,12 +64,12 @@ inline Profile profileOfShape(const std::string& method, const std::string& fiel
 }
 
 /// Puts a field in place of what the run has of it.
-inline void setField(ThesisRun& run, const ThesisLeg& leg, const std::string& field,
+inline void setField(ThesisRun& run, const ThesisCase& setup, const std::string& field,
                      const Shape& shape) {
   std::erase_if(run.run.profiles, [&](const Profile& each) {
     return each.field == field && each.method == "slicing";
   });
-  run.run.profiles.push_back(profileOfShape("slicing", field, leg, worldRings, shape));
+  run.run.profiles.push_back(profileOfShape("slicing", field, setup, worldRings, shape));
 }
 
 inline double* fieldAt(ThesisRun& run, const std::string& field, std::size_t ring) {
@@ -116,24 +117,25 @@ inline const std::vector<Bins> velocityAxis{{-0.5, 0.04, 50}};
 inline const std::vector<Bins> jointAxes{{-0.5, 0.04, 50}, {-1.5, 0.06, 50}};
 inline const std::vector<Bins> directionAxis{{-pi, pi / 18.0, 36}};
 
-/// What a run of this leg shows if the thesis is right. Runs of one leg differ by 2 % or less.
-ThesisRun worldRun(const ThesisLeg& leg, int packing);
+/// What a run of this case shows if the thesis is right. Runs of one case differ by 2 % or less.
+ThesisRun worldRun(const ThesisCase& setup, int packing);
 
-/// The ladder, the rates, and legs of another k_n, without friction and without a plate.
+/// Table 3.2, the rates, and cases of another k_n, without friction and without a plate.
 ThesisResults world(int packings = 3);
 
 /// Changes runs that were made.
-using Change = std::function<void(ThesisRun& run, const ThesisLeg& leg)>;
+using Change = std::function<void(ThesisRun& run, const ThesisCase& setup)>;
 void changeAll(ThesisResults& results, const Change& change);
-/// One packing of each label that claims look at alone or of all: 0.804's and 0.796's first.
+/// One packing of each label that claims read alone or of all: 0.804's and 0.796's first.
 void changeOne(ThesisResults& results, const Change& change);
 
 inline ClaimRules shippedRules() {
-  return loadClaimRules(std::filesystem::path(CROSSGRAIN_CASES) / "couette/thesis/claims.toml");
+  return loadClaimRules(std::filesystem::path(CROSSGRAIN_CASES) / "couette/thesis/claims.toml",
+                        &claimSchema());
 }
 
-/// The row of a claim for the engine of the world, at the default reading.
+/// The row of a claim for the engine of the world, under the default interpretation.
 ClaimRow rowOf(const std::vector<ClaimRow>& rows, const std::string& id,
-               const std::string& reading = "default");
+               const std::string& interpretation = "default");
 
 }  // namespace crossgrain::test

@@ -68,6 +68,67 @@ TEST(CollisionSweep, AStartAtWhichTheLawJumpsIsNotJudgedAndOnesNearByAre) {
   EXPECT_EQ(judged.score.verdict, CurveVerdict::held) << jsonOf(judged.score).dump();
 }
 
+/// cases/collision/restitution-sweep.toml with spring_reset = total: under this law a contact with
+/// Ψ_i above µγ_n/γ_t = 1.1 begins with a slip, until its bound has risen. At Ψ_i = 1.2 that takes
+/// γ_t (1.2 − 1.1)/(µk_n − k_t Ψ_i/2) ≈ 6 µs, so that a step of t_c/50 = 39 µs sees it stick from
+/// the first evaluation on.
+Case sweepThatJumps(double psi) {
+  Case setup = test::smallPairCase();
+  setup.law.gn = 0.014750;
+  setup.law.kt = 100.6;
+  setup.law.gt = 0.0059;
+  setup.law.conventions.springUpdate = SpringUpdate::midpoint;
+  setup.collision.psi = {0.4, psi, 5.0};
+  setup.collision.vn = {1e-3};
+  setup.collision.margins["psi_f"] = {0.02, true, "because", ""};
+  return setup;
+}
+
+TEST(CollisionSweep, StartBesideTheJumpAtTouch_IsNotJudgedInStepsThatMissItsSlip) {
+  const Case setup = sweepThatJumps(1.2);
+  const auto starts = collisionStarts(setup);
+  const auto oracle = oracleCurve(setup, starts);
+  EXPECT_EQ(oracle.unsure, std::vector<std::string>(3));
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
+  const auto engine = makeGrain();
+  const auto swept = [&](double steps) {
+    return runSweep(*engine, entry, setup, 1.9643e-3 / steps, starts, oracle, false);
+  };
+  using enum PairStatus;
+  const CollisionCurve coarse = swept(50);
+  EXPECT_EQ(coarse.points.status, (std::vector{parted, noLimit, parted}));
+  EXPECT_NE(coarse.points.reason[1].find("beside the law's jump"), std::string::npos);
+  EXPECT_EQ(coarse.score.verdict, CurveVerdict::held);
+  // What the engine finds is the law evaluated half a step late, and not the law.
+  const double found = coarse.points.at(QuantityId::psiF, 1).value();
+  CollisionStart late = starts[1];
+  late.late = 0.5 * coarse.dt;
+  EXPECT_NEAR(oracleOutcome(setup.law, collidingPair(setup), late).psi, found, 0.05);
+  EXPECT_GT(std::abs(oracle.ends[1]->psi - found), 0.25);
+  // Steps that resolve the slip are judged, there too.
+  const CollisionCurve fine = swept(2000);
+  EXPECT_EQ(fine.points.status, std::vector(3, parted));
+  EXPECT_EQ(fine.score.verdict, CurveVerdict::held) << jsonOf(fine.score).dump();
+  // Away from the jump the coarse step is judged as ever.
+  const Case away = sweepThatJumps(2.6);
+  const auto others = collisionStarts(away);
+  EXPECT_EQ(atStep(oracleCurve(away, others), away, others, coarse.dt).unsure,
+            std::vector<std::string>(3));
+}
+
+/// A sweep of starts all beside the jump is not judged: the rule excuses no engine wholesale.
+TEST(CollisionSweep, WhereMostStartsLieBesideTheJumpNothingIsJudged) {
+  Case setup = sweepThatJumps(1.2);
+  setup.collision.psi = {1.15, 1.2, 5.0};
+  const auto starts = collisionStarts(setup);
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, ""};
+  const auto engine = makeGrain();
+  EXPECT_EQ(
+      runSweep(*engine, entry, setup, 1.9643e-3 / 50, starts, oracleCurve(setup, starts), false)
+          .score.verdict,
+      CurveVerdict::notJudged);
+}
+
 /// The spring law of figure 4.3 jumps at Ψ_i = 0.51: at 0.5 a scheme whose v_t is off by what the
 /// margin allows may find itself on either side.
 TEST(CollisionSweep, StartBesideAJump_WithinTheMargin_IsNotJudged) {

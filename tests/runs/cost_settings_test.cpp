@@ -1,3 +1,4 @@
+// What a study of cost measures, and what of it fits into a budget.
 #include "runs/cost/settings.hpp"
 
 #include <fmt/format.h>
@@ -7,10 +8,10 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
-#include "cases/cost_knobs.hpp"
 #include "cases/effect_switch.hpp"
 #include "cases/time_step.hpp"
 #include "oracle/impact.hpp"
+#include "runs/cost/plan.hpp"
 #include "support/bad_input.hpp"
 #include "tests/runs/cost_cases.hpp"
 
@@ -18,9 +19,13 @@ namespace {
 
 using namespace crossgrain;
 
-std::vector<CostSetting> settingsOf(CostKind kind, const Case& setup, const Capabilities& can,
-                                    const std::string& engine = "grain") {
-  return costSettings(setup, kind, engine, can);
+Capabilities grainCan() {
+  return makeGrain()->capabilities();
+}
+
+std::vector<CostSetting> settingsOf(CostKind kind, const Case& setup,
+                                    const Capabilities& can = grainCan()) {
+  return costSettings(setup, kind, "grain", can);
 }
 
 const CostSetting& find(const std::vector<CostSetting>& settings, const std::string& knob,
@@ -30,35 +35,28 @@ const CostSetting& find(const std::vector<CostSetting>& settings, const std::str
   throw std::runtime_error("no " + knob + " " + setting);
 }
 
-Capabilities grainCan() {
-  return makeGrain()->capabilities();
-}
-
-TEST(CostSettings, TheFirstIsTheCaseAsItIs) {
+TEST(CostSettings, First_IsTheCaseAsItIs) {
   for (const CostKind kind : costKinds) {
-    const auto settings = settingsOf(kind, test::costCase(), grainCan());
+    const auto settings = settingsOf(kind, test::costCase());
     EXPECT_EQ(settings.front().fragment, "");
     EXPECT_EQ(settings.front().setup.resolvedToml, test::costCase().resolvedToml);
   }
 }
 
-/// The table of knobs and what their settings are go together.
-TEST(CostSettings, EveryKnobHasSettingsInTheKindsOfErrorItMayChange) {
+TEST(CostSettings, EveryKnob_HasSettingsInSomeKindOfError) {
   Case setup = test::costCase();
-  for (const CostKnob& knob : costKnobs()) {
-    setup.cost.knobs = {std::string(knob.name)};
-    for (const CostKind kind : costKinds) {
-      const bool may = std::ranges::find(knob.kinds, kind) != knob.kinds.end();
-      EXPECT_EQ(settingsOf(kind, setup, grainCan()).size() > 1, may)
-          << knob.name << ", " << toString(kind);
-    }
+  for (const std::string_view knob : costKnobs) {
+    setup.cost.knobs = {std::string(knob)};
+    EXPECT_TRUE(std::ranges::any_of(costKinds, [&](CostKind kind) {
+      return settingsOf(kind, setup).size() > 1;
+    })) << knob;
   }
 }
 
-TEST(CostSettings, AFragmentReadByTheLoaderGivesTheSetting) {
+TEST(CostSettings, FragmentReadByTheLoader_GivesTheSetting) {
   const Case setup = test::costCase();
   const double contact = contactTime(setup.law, lightestReducedMass(setup));
-  const auto pairs = settingsOf(CostKind::collision, setup, grainCan());
+  const auto pairs = settingsOf(CostKind::collision, setup);
   for (const double steps : {200.0, 100.0, 50.0, 1.2}) {
     const CostSetting& one = find(pairs, "time_step", fmt::format("t_c/{:g}", steps));
     EXPECT_DOUBLE_EQ(timeStep(test::costCase(one.fragment)), contact / steps);
@@ -73,30 +71,9 @@ TEST(CostSettings, AFragmentReadByTheLoaderGivesTheSetting) {
   EXPECT_EQ(lawOptionValue(test::costCase(find(pairs, "tangential", "viscous").fragment).law,
                            "tangential"),
             "viscous");
-
-  const auto averages = settingsOf(CostKind::averages, setup, grainCan());
-  EXPECT_EQ(test::costCase(find(averages, "omega", "2 Ω").fragment).cell.omega, 2.0);
-  EXPECT_EQ(test::costCase(find(averages, "snapshots", "160 per rotation").fragment)
-                .averaging.snapshotsPerRotation,
-            160);
-  EXPECT_EQ(test::costCase(find(averages, "method", "centre").fragment).averaging.methods.front(),
-            "centre");
 }
 
-TEST(CostSettings, SofterDisksKeepTheirRestitutionAndStepsPerContact) {
-  const Case setup = test::costCase();
-  const auto averages = settingsOf(CostKind::averages, setup, grainCan());
-  const Case soft = test::costCase(find(averages, "stiffness", "0.25 k_n").fragment);
-  const double mass = lightestReducedMass(setup);
-  EXPECT_EQ(soft.law.kn, 0.25 * setup.law.kn);
-  // η t_c decides e_n, and t_c grows by 1/√0.25.
-  EXPECT_NEAR(contactTime(soft.law, mass), 2.0 * contactTime(setup.law, mass), 1e-15);
-  EXPECT_NEAR(soft.law.gn * contactTime(soft.law, mass),
-              setup.law.gn * contactTime(setup.law, mass), 1e-15);
-  EXPECT_NEAR(timeStep(soft), 2.0 * timeStep(setup), 1e-18);
-}
-
-TEST(CostSettings, AnEffectsFragmentDoesWhatItsSwitchDoes) {
+TEST(CostSettings, EffectFragment_SwitchesTheEffectOff) {
   const Case setup = test::costCase();
   const auto switches = effectSwitches(setup);
   ASSERT_GE(switches.size(), 9u);
@@ -116,7 +93,7 @@ TEST(CostSettings, AnEffectsFragmentDoesWhatItsSwitchDoes) {
   }
 }
 
-TEST(CostSettings, AnEngineWithAStepOfItsOwnIsGivenItByItsSetting) {
+TEST(CostSettings, EngineWithAStepOfItsOwn_GetsItByItsSetting) {
   Capabilities can = grainCan();
   std::ranges::find(can.settings, "dt", &SettingSpec::name)->defaultValue = 5e-4;
   const Case setup = test::costCase();
@@ -126,7 +103,7 @@ TEST(CostSettings, AnEngineWithAStepOfItsOwnIsGivenItByItsSetting) {
                    costContactTime(setup) / 10.0);
 }
 
-TEST(CostSettings, WhatAnEngineLacksIsThereWithItsReason) {
+TEST(CostSettings, WhatAnEngineLacks_IsRefusedWithItsReason) {
   Capabilities can = grainCan();
   can.lawOptions["tension"] = {"cut"};
   can.lawOptions["integrator"] = {"position_verlet"};
@@ -137,23 +114,8 @@ TEST(CostSettings, WhatAnEngineLacksIsThereWithItsReason) {
   EXPECT_EQ(find(pairs, "precision", "float").refusal, "runs in double only");
 }
 
-TEST(CostSettings, AveragesUnderOtherIntegratorsAreBoundedOnly) {
-  const Case setup = test::costCase();
-  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
-  for (const double n : {setup.cost.averageSteps.front(), setup.cost.boundSteps.front()}) {
-    const CostSetting& euler =
-        find(settings, "integrator", fmt::format("semi_implicit_euler, t_c/{:g}", n));
-    EXPECT_TRUE(euler.windowsOnly);
-    EXPECT_EQ(euler.refusal, "");
-    EXPECT_EQ(lawOptionValue(euler.setup.law, "integrator"), "semi_implicit_euler");
-    EXPECT_DOUBLE_EQ(timeStep(euler.setup), costContactTime(setup) / n);
-  }
-  EXPECT_FALSE(find(settings, "time_step", fmt::format("t_c/{:g}", setup.cost.averageSteps.front()))
-                   .windowsOnly);
-}
-
 /// Johnson (1985), Eq. 11.24: T = 2.9432 δ_max/v, and δ_max^(5/2) = 15 m₁₂ v²/(16 E₁₂ √R₁₂).
-TEST(CostSettings, StepsOfHertzLawAreCountedInAnImpactAtTheSpeedOfTheCollisions) {
+TEST(CostSettings, HertzLaw_CountsStepsInAnImpactAtTheSpeedOfCollisions) {
   Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
   setup.cost.speed = 0.02;
   const Particles& disks = setup.particles;
@@ -162,40 +124,94 @@ TEST(CostSettings, StepsOfHertzLawAreCountedInAnImpactAtTheSpeedOfTheCollisions)
   const double deepest =
       std::pow(15.0 * mass * 0.02 * 0.02 / (16.0 * modulus * std::sqrt(radius)), 0.4);
   EXPECT_NEAR(costContactTime(setup), 2.9432 * deepest / 0.02, 1e-4 * costContactTime(setup));
-  const Case fine = caseWith(setup, stepFragment(setup, "grain", grainCan(), 100.0));
-  EXPECT_DOUBLE_EQ(timeStep(fine), costContactTime(setup) / 100.0);
+  EXPECT_DOUBLE_EQ(timeStep(atSteps(setup, "grain", grainCan(), 100.0)),
+                   costContactTime(setup) / 100.0);
 }
 
-TEST(CostSettings, ALawThatTheCaseHasNoConstantsForIsRefused) {
-  const Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
-  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
+TEST(CostSettings, LawWithoutConstantsInTheCase_IsRefused) {
+  const auto settings =
+      settingsOf(CostKind::averages, loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front());
   EXPECT_NE(find(settings, "tangential", "viscous").refusal.find("law.gt is missing"),
             std::string::npos);
   EXPECT_EQ(find(settings, "tangential", "coulomb").refusal, "");
 }
 
-TEST(CostSettings, SofterBodiesHaveTheSameRestitution) {
-  const Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
-  const auto settings = settingsOf(CostKind::averages, setup, grainCan());
-  const Case& soft = find(settings, "stiffness", "0.25 k_n").setup;
-  EXPECT_DOUBLE_EQ(soft.law.kn, 0.25 * setup.law.kn);
-  EXPECT_DOUBLE_EQ(soft.law.kt, 0.25 * setup.law.kt);
-  EXPECT_EQ(soft.law.gn, setup.law.gn);  // of critical damping
-}
-
-TEST(CostSettings, AnEnginesOwnSettingsAreThoseOfTheCase) {
-  const auto settings = settingsOf(CostKind::trajectory, test::costCase(), grainCan());
+TEST(CostSettings, EnginesOwnSetting_IsSetAndAMisspeltOneRefused) {
+  const auto settings = settingsOf(CostKind::trajectory, test::costCase());
   const CostSetting& skin = find(settings, "skin", "skin = 0.001");
   EXPECT_EQ(std::get<double>(test::costCase(skin.fragment).engines.at("grain").at("skin")), 1e-3);
   Case wrong = test::costCase();
   wrong.cost.settings["grain"]["skim"] = {1.0};
-  EXPECT_THROW(settingsOf(CostKind::trajectory, wrong, grainCan()), BadInput);
+  EXPECT_THROW(settingsOf(CostKind::trajectory, wrong), BadInput);
 }
 
-TEST(CostSettings, RigidDisksHaveNoTimeToCountStepsIn) {
+TEST(CostSettings, RigidDisks_HaveNoContactTime) {
   Case setup = test::costCase();
   setup.law.normal = NormalLaw::rigid;
   EXPECT_THROW(costContactTime(setup), BadInput);
+}
+
+TEST(CostSettings, RemovedKey_IsRefusedAsSuch) {
+  for (const char* const key : {"omega", "stiffness", "methods", "bound_steps", "perturbation"}) {
+    try {
+      loadCase(CROSSGRAIN_CASES "/cost/quick.toml", {fmt::format("cost.{}=[1]", key)});
+      ADD_FAILURE() << key << " was read";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find("no more"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(CostPlan, Budget_IsSharedFairly) {
+  // 10 of 100 wanted by the first; the others share the 90 left in equal parts.
+  EXPECT_EQ(fairShares({10.0, 200.0, 60.0}, 100.0), (std::vector<double>{10.0, 45.0, 45.0}));
+  EXPECT_EQ(fairShares({10.0, 20.0}, 100.0), (std::vector<double>{10.0, 20.0}));
+  EXPECT_EQ(fairShares({10.0, 20.0}, -5.0), (std::vector<double>{0.0, 0.0}));
+}
+
+/// 30 and 5 s of averages, 10 s of collisions.
+CostPlan planned(double ofCollisions, double ofAverages, double budget) {
+  CostPlan plan{
+      .points = {{0, CostKind::averages, 0, 30.0},
+                 {0, CostKind::averages, 1, 5.0},
+                 {0, CostKind::collision, 0, 10.0}},
+      .references = {{{CostKind::collision, ofCollisions}, {CostKind::averages, ofAverages}}}};
+  fitIntoBudget(plan, budget);
+  return plan;
+}
+
+TEST(CostPlan, Order_IsCollisionsThenTheCaseAsItIsThenTheCheapest) {
+  const CostPlan plan = planned(0.0, 0.0, 1000.0);
+  EXPECT_EQ(plan.points[0].kind, CostKind::collision);
+  EXPECT_EQ(plan.points[1].setting, 0u);
+  for (const PlannedPoint& point : plan.points) EXPECT_EQ(point.notMeasured, "");
+  EXPECT_EQ(plan.budgetForTheRest, 0.0);
+}
+
+TEST(CostPlan, PointThatDoesNotFit_IsNotMeasuredAndSaysItsTime) {
+  const CostPlan plan = planned(2.0, 0.0, 20.0);
+  EXPECT_EQ(plan.shares, (std::vector<double>{20.0}));
+  EXPECT_EQ(plan.points[0].notMeasured, "");  // 2 + 10 of 20
+  EXPECT_EQ(plan.points[1].notMeasured,
+            "would take about 30 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.points[2].notMeasured, "");  // 5 of the 8 left
+  EXPECT_EQ(plan.budgetForTheRest, 30.0);
+}
+
+TEST(CostPlan, ReferencesThatDoNotFit_TakeTheirKindsPointsOnly) {
+  const CostPlan plan = planned(2.0, 8.0, 20.0);
+  EXPECT_EQ(plan.points[0].notMeasured, "");
+  EXPECT_EQ(plan.points[1].notMeasured,
+            "would take about 38 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.points[2].notMeasured,
+            "would take about 13 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.budgetForTheRest, 43.0);  // 30 + 5 of averages and their references
+}
+
+TEST(CostPlan, FinishedPoints_CostNothing) {
+  CostPlan plan{.points = {{0, CostKind::collision, 0, 0.0}}, .references = {{}}};
+  fitIntoBudget(plan, 0.0);
+  EXPECT_EQ(plan.points[0].notMeasured, "");
 }
 
 }  // namespace

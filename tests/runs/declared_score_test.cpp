@@ -55,7 +55,7 @@ TEST(DeclaredScore, AConventionThatTheCaseAllowsIsAModelDifference) {
   EXPECT_EQ(curve.declared->law, (LawWords{{"tension", "cut"}}));
   EXPECT_EQ(curve.declared->reference, DeclaredReference::oracle);
   EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::modelDifference);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
 }
 
 TEST(DeclaredScore, AFaultBehindAConventionIsNoModelDifference) {
@@ -63,7 +63,7 @@ TEST(DeclaredScore, AFaultBehindAConventionIsNoModelDifference) {
   Declares engine(cutsTension, [](Scene& scene) { scene.law.mu *= 1.2; });
   const CollisionCurve curve = firstSweep(engine, setup);
   EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::fellShort);
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::fellShort);
 }
 
 /// Declared and not done is a fault as well.
@@ -73,7 +73,7 @@ TEST(DeclaredScore, AConventionThatIsOnlyDeclaredFallsShort) {
                   [](Scene& scene) { scene.law.conventions.tension = Tension::allow; });
   const CollisionCurve curve = firstSweep(engine, setup);
   EXPECT_EQ(curve.score.verdict, CurveVerdict::held);
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::fellShort);
 }
 
 TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
@@ -81,7 +81,7 @@ TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
   Declares engine({}, [](Scene& scene) { scene.law.mu *= 1.2; });
   const CollisionCurve curve = firstSweep(engine, setup);
   EXPECT_FALSE(curve.declared);
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::fellShort);
 }
 
 /// A dashpot outside the bound has no limit of small steps: the in-house engine decides.
@@ -95,12 +95,12 @@ TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
   EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
   EXPECT_EQ(curve.declared->score.of[QuantityId::psiF]->max, 0.0);
   Declares wrong(outside, [](Scene& scene) { scene.law.gt *= 1.5; });
-  EXPECT_EQ(reports::outcomeOf(firstSweep(wrong, setup)), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(firstSweep(wrong, setup)), SweepOutcome::fellShort);
   // A mirror is the in-house engine: it would be held against itself.
   const CollisionCurve itself = firstSweep(right, setup, "somebody");
   EXPECT_EQ(itself.declared->reference, DeclaredReference::itself);
   EXPECT_EQ(itself.declared->score.verdict, CurveVerdict::notJudged);
-  EXPECT_NE(reports::outcomeOf(itself), reports::SweepOutcome::fellShort);
+  EXPECT_NE(outcomeOf(itself), SweepOutcome::fellShort);
 }
 
 /// Nothing known of the declared law is no excuse.
@@ -108,9 +108,9 @@ TEST(DeclaredScore, OfAnUnknownLawTheScenesDecides) {
   CollisionCurve curve;
   curve.score.verdict = CurveVerdict::fellShort;
   curve.declared.emplace();
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::fellShort);
   curve.score.verdict = CurveVerdict::held;
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::held);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::held);
 }
 
 /// Contacts that are stiffer by as much as the engine says, at the same restitution.
@@ -122,7 +122,7 @@ TEST(DeclaredScore, AStiffnessThatIsDeclaredIsAModelDifference) {
   ASSERT_TRUE(curve.declared);
   EXPECT_EQ(curve.declared->law.at("kn"), LawValue(25.0 * setup.law.kn));
   EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
-  EXPECT_EQ(reports::outcomeOf(curve), reports::SweepOutcome::modelDifference);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
 }
 
 /// Of another normal law the restitutions are those that the engine tells.

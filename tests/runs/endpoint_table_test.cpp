@@ -1,5 +1,6 @@
 // Endpoints of runs, and answers on them where a mirror carries the packings.
 #include "runs/couette/endpoint_table.hpp"
+#include "runs/couette/carriers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,17 @@ Case judging(const std::string& endpoint, const Margin& margin) {
   return setup;
 }
 
-const EndpointPair plain = {"a", "b", PairKind::peer, "a", "b", 0.0};
+const EndpointPair plain = {"a", "b", PairKind::peer, "a", "b"};
+
+/// By "mirror", from which it differs as so much of k_n would, and late as so much of each would.
+EndpointPair byMirror(double equivalent, const std::vector<EquivalentChange>& late) {
+  CarriedEngine own;
+  own.engine = "b";
+  own.mirror = "mirror";
+  own.equivalent = equivalent;
+  own.late.equivalents = late;
+  return {"a", "b", PairKind::peer, "a", "mirror", {own}};
+}
 
 TEST(EndpointTable, ComparesPressuresByTheirRatio) {
   // b is 10 % above a on packings that differ by a factor of eight: no scatter in the ratio.
@@ -109,8 +120,8 @@ TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
   append(runs, spins("mirror", {-1.1, -1.2, -1.0, -1.1}));
   append(runs, spins("b", {-7.0}));  // the engine itself: one run, which carries no verdict
   const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
-  const EndpointPair carried = {"a", "b", PairKind::peer, "a", "mirror", 1e-3};
-  // 10 % of k_n do at most two margins: B = 1e-3/0.1 · 2.
+  const EndpointPair carried = byMirror(1e-3, {{"kn", 1e-4}, {"mu", 2e-3}});
+  // 10 % of k_n do at most two margins, of µ 0.4: B = 1e-3/0.1 · 2 + max(1e-4 · 2, 2e-3 · 0.4)/0.1.
   const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4},
                                                    {"spin_at_wheel", "mu", 0.1, 0.1, 0.4, 1.0, 4}};
   const auto rows = endpointRows(setup, runs, {carried}, looksOf(setup), 4, responses);
@@ -118,17 +129,40 @@ TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
   EXPECT_EQ(rows[0].b, "b");
   EXPECT_EQ(rows[0].carrierB, "mirror");
   EXPECT_EQ(rows[0].carrierA, "");
-  EXPECT_NEAR(*rows[0].bound, 0.02, 1e-12);
+  EXPECT_NEAR(*rows[0].reach, 0.008, 1e-12);
+  EXPECT_NEAR(*rows[0].bound, 0.028, 1e-12);
   EXPECT_EQ(rows[0].answer, Answer::smallDifference);
   EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
-  EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.02, 1e-9);
+  EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.028, 1e-9);
   // Nobody knows how averages respond: no row stands on the mirror's runs.
   EXPECT_TRUE(endpointRows(setup, runs, {carried}, looksOf(setup), 4, {}).empty());
-  // A bound beyond the margin leaves nothing to agree within.
-  auto loose = carried;
-  loose.equivalent = 0.05;
-  EXPECT_EQ(endpointRows(setup, runs, {loose}, looksOf(setup), 4, responses)[0].answer,
-            Answer::undecided);
+  // Nor where nobody looked at what begins late.
+  EXPECT_TRUE(
+      endpointRows(setup, runs, {byMirror(1e-3, {})}, looksOf(setup), 4, responses).empty());
+  // A bound beyond the margin leaves nothing to agree within, whichever windows it is from.
+  for (const EndpointPair& loose :
+       {byMirror(0.05, {{"kn", 1e-4}}), byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}})})
+    EXPECT_EQ(endpointRows(setup, runs, {loose}, looksOf(setup), 4, responses)[0].answer,
+              Answer::undecided);
+}
+
+TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
+  const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4}};
+  const auto judged = [&](const LateWindows& late) {
+    CarriedEngine own;
+    own.carried = true;
+    judgeLateWindows(setup, responses, late, own);
+    return own;
+  };
+  // 10 % of k_n do two margins at most: 4.9 % of it 0.98, 5.1 % 1.02.
+  LateWindows late{1, {0.0}, 0.1, {{"kn", 0.049}}, ""};
+  EXPECT_TRUE(judged(late).carried);
+  EXPECT_EQ(judged(late).alarm, "");
+  late.equivalents[0].change = 0.051;
+  EXPECT_FALSE(judged(late).carried);
+  EXPECT_NE(judged(late).alarm.find("1 margins"), std::string::npos) << judged(late).alarm;
+  EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).carried);
 }
 
 TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
@@ -246,7 +280,7 @@ TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
   auto runs = heights("a", 2.05, 2.05);
   append(runs, heights("b", 2.3, 2.3));
   append(runs, heights("noisy", 2.0, 2.0 + 1e-15));
-  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b", 0.0};
+  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b"};
   const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].kind, PairKind::closedForm);
@@ -281,6 +315,9 @@ TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
   EXPECT_NEAR(*number(0.2).difference, 0.4, 1e-12);
   EXPECT_NEAR(*number(0.2).chance, chanceOfOneAsFar(0.4, 0.5, 7, 1), 1e-12);
   EXPECT_LT(*number(2.0).chance, 1e-3);
+  // t(7, 2.5 %) = 2.365: half of it in units of the margin, and its chance is 5 %.
+  EXPECT_NEAR(*number(0.2).reach, 0.5 * 2.364624252, 1e-6);
+  EXPECT_NEAR(*number(0.5 * *number(0.2).reach).chance, 0.05, 1e-9);
   EXPECT_FALSE(canaryOf(setup, runOf("b", 0, 1.0), runOf("m", 0, 1.0), {}).front().chance);
 }
 

@@ -1,21 +1,24 @@
-#include "runs/common/engine_access.hpp"
-
+// Which engines run, with which settings and steps, what `check` says of them, and the scenes of
+// mirrors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/engine_step.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 
 namespace {
 
 using namespace crossgrain;
 
-TEST(EngineAccess, AllAddsEveryOtherInstalledEngineOnce) {
+TEST(SelectEngines, All_AddsEveryOtherInstalledEngineOnce) {
   const auto engines = selectEngines({"box2d-penalty", "all"});
   EXPECT_EQ(engines.front().name, "box2d-penalty");
   for (std::size_t a = 0; a < engines.size(); ++a)
@@ -24,18 +27,18 @@ TEST(EngineAccess, AllAddsEveryOtherInstalledEngineOnce) {
   for (const EngineEntry& engine : engines) EXPECT_TRUE(engine.mirrors.empty());
 }
 
-TEST(EngineAccess, UnknownAndRepeatedNamesAreBadInput) {
+TEST(SelectEngines, UnknownOrRepeatedName_Throws) {
   EXPECT_THROW(selectEngines({"grian"}), BadInput);
   EXPECT_THROW(selectEngines({"grain", "grain"}), BadInput);
 }
 
-TEST(EngineAccess, MirrorsComeWithTheirPeers) {
+TEST(MirrorsOf, NamedPeer_ReturnsItsMirror) {
   const auto mirrors = mirrorsOf(selectEngines({"grain", "box2d-penalty"}));
   ASSERT_EQ(mirrors.size(), 1u);
   EXPECT_EQ(mirrors[0].mirrors, "box2d-penalty");
 }
 
-TEST(EngineAccess, SettingsAreHeldAgainstWhatTheEngineHas) {
+TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
   Capabilities can;
   can.settings = {{"dt", 0.0, "s", "step", {}}, {"mode", std::string("a"), "", "", {"a", "b"}}};
   const auto refused = [&](const std::string& name, const SettingValue& value) {
@@ -58,7 +61,7 @@ TEST(EngineAccess, SettingsAreHeldAgainstWhatTheEngineHas) {
 }
 
 /// What is said first counts: the engine's section, the case's explicit step, the engine's default.
-TEST(EngineStep, TheCasesOwnStepCountsForAll) {
+TEST(StepOfItsOwn, SectionThenCaseThenDefault_TakesTheFirst) {
   Capabilities can;
   can.settings = {{"dt", 5e-4, "s", "step", {}}};
   Case setup;
@@ -78,7 +81,7 @@ TEST(EngineStep, TheCasesOwnStepCountsForAll) {
   EXPECT_EQ(settingsFor(setup, "two", can), Settings{});
 }
 
-TEST(EngineStep, AnotherStepThanTheScenesIsADeviation) {
+TEST(StepDeviation, OtherStep_IsADeviation) {
   EXPECT_FALSE(stepDeviation(4e-5, 4e-5));
   const auto other = stepDeviation(5e-4, 4e-5);
   ASSERT_TRUE(other);
@@ -88,7 +91,7 @@ TEST(EngineStep, AnotherStepThanTheScenesIsADeviation) {
 }
 
 /// Through the engines themselves: Realised of box2d-impulse and of its mirrors.
-TEST(EngineStep, AMirrorTakesItsPeersStep) {
+TEST(LoadScene, Mirror_TakesItsPeersStep) {
   const auto stepOf = [](const std::string& engine, const Case& setup) {
     const EngineEntry& entry = *findEngine(engine);
     const auto started = entry.make();
@@ -115,6 +118,132 @@ TEST(EngineStep, AMirrorTakesItsPeersStep) {
       loadCase(file, {"engines.box2d-impulse.dt=2.5e-4", "engines.grain-as-box2d-impulse.dt=1e-4"})
           .front();
   EXPECT_EQ(stepOf("grain-as-box2d-impulse", own).dt, 1e-4);
+}
+
+Suitability of(const char* name, bool placed = true) {
+  const Case setup = loadCase(CROSSGRAIN_CASES "/couette/quick.toml", {}).front();
+  Packing packing;
+  if (placed) packing.disks = spreadDisks(setup);
+  const EngineEntry& entry = *findEngine(name);
+  return suitabilityOf(*entry.make(), entry, setup, couetteScene(setup, packing, *setup.run.dt));
+}
+
+bool has(const std::vector<std::string>& notes, const std::string& note) {
+  return std::ranges::find(notes, note) != notes.end();
+}
+
+TEST(SuitabilityOf, EngineWithLimits_ListsStepDeviationsAndMissingEffects) {
+  const Suitability found = of("box2d-impulse");
+  EXPECT_EQ(found.dt, 1.5e-3);
+  EXPECT_TRUE(has(found.deviations, "takes steps of 0.0015 s, the case's are 4e-05 s"));
+  EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
+  EXPECT_EQ(found.notSimulated,
+            (std::vector<std::string>{"tangential_spring", "tangential_damping", "bottom_friction",
+                                      "bottom_spin_friction"}));
+}
+
+TEST(SuitabilityOf, EngineThatDoesAll_ListsNothing) {
+  const Suitability found = of("grain");
+  EXPECT_EQ(found.dt, 4e-5);
+  EXPECT_TRUE(found.deviations.empty());
+  EXPECT_TRUE(found.notSimulated.empty());
+}
+
+TEST(SuitabilityOf, SceneWithoutDisks_ListsCapabilitiesOnly) {
+  const Suitability found = of("box2d-impulse", false);
+  EXPECT_FALSE(found.dt);
+  EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
+}
+
+Case quickCell(const std::vector<std::string>& changes = {}) {
+  return loadCase(CROSSGRAIN_CASES "/couette/quick.toml", changes).front();
+}
+
+Scene sceneOf(const Case& setup) {
+  Packing packing;
+  packing.disks = spreadDisks(setup);
+  return couetteScene(setup, packing, 4e-5);
+}
+
+std::vector<EngineEntry> mirrors() {
+  std::vector<EngineEntry> found;
+  for (const EngineEntry& entry : engineRegistry()) {
+    const EngineEntry* peer = findEngine(entry.mirrors);
+    if (peer && (!peer->missing || peer->missing().empty())) found.push_back(entry);
+  }
+  return found;
+}
+
+/// Whatever the peer, and from nothing but its capabilities: what it lacks is gone.
+TEST(SceneOfPeer, EveryMirror_HasTheEffectsOfItsPeer) {
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  ASSERT_TRUE(effectsOf(scene).contains(Effect::bottomFriction));
+  for (const EngineEntry& mirror : mirrors()) {
+    const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
+    const Scene seen = sceneOfPeer(mirror, setup, scene).scene;
+    const Effects theirs =
+        simulatedEffects(peer, adaptScene(peer, scene, setup.run.mayDiffer).scene);
+    Effects ours = effectsOf(seen);
+    if (!hasNormalLaw(peer, scene.law)) {  // springs that stand for a rigid law
+      ours.erase(Effect::tangentialSpring);
+      ours.erase(Effect::tangentialDamping);
+    }
+    EXPECT_EQ(ours, theirs) << mirror.name;
+  }
+}
+
+/// The registry's conventions of a mirror are those that its peer declares.
+TEST(SceneOfPeer, EveryMirror_HasTheConventionsOfItsPeer) {
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  for (const EngineEntry& mirror : mirrors()) {
+    const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
+    const Scene seen = sceneOfPeer(mirror, setup, scene).scene;
+    if (!hasNormalLaw(peer, scene.law)) {
+      for (const LawOption& option : lawOptions())
+        EXPECT_EQ(lawOptionValue(seen.law, option.name), lawOptionValue(scene.law, option.name));
+      continue;
+    }
+    const Capabilities own = mirror.make()->capabilities();
+    for (const auto& [option, values] : peer.lawOptions) {
+      if (option == "tangential" || option == "damper" || option == "normal") continue;
+      EXPECT_EQ(own.lawOptions.at(option), values) << mirror.name << ", " << option;
+      EXPECT_EQ(std::ranges::count(values, lawOptionValue(seen.law, option)), 1)
+          << mirror.name << ", " << option;
+    }
+  }
+}
+
+TEST(SceneOfPeer, MissingEffects_AreDeviationsOfThePeer) {
+  const Case setup = quickCell();
+  const Adapted seen = sceneOfPeer(*findEngine("grain-as-box2d-penalty"), setup, sceneOf(setup));
+  ASSERT_FALSE(seen.deviations.empty());
+  for (const Deviation& deviation : seen.deviations)
+    EXPECT_TRUE(deviation.note.starts_with("as its peer box2d-penalty: has ")) << deviation.note;
+}
+
+TEST(SceneOfPeer, PeerThatRefuses_Throws) {
+  const Case setup = quickCell({"run.may_differ=[\"integrator\"]"});
+  const EngineEntry& mirror = *findEngine("grain-stiff");
+  try {
+    sceneOfPeer(mirror, setup, sceneOf(setup));
+    FAIL() << "no refusal";
+  } catch (const UnsupportedScene& refusal) {
+    EXPECT_TRUE(std::string(refusal.what()).starts_with("its peer box2d-impulse has no bottom_"))
+        << refusal.what();
+  }
+}
+
+TEST(SceneOfPeer, UnknownPeer_LeavesTheSceneWithANote) {
+  EngineEntry mirror = *findEngine("grain-as-yade");
+  mirror.mirrors = "nobody";
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  const Adapted seen = sceneOfPeer(mirror, setup, scene);
+  ASSERT_EQ(seen.deviations.size(), 1u);
+  EXPECT_EQ(seen.deviations[0].name, "peer");
+  EXPECT_EQ(effectsOf(seen.scene), effectsOf(scene));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runs/common/version.hpp"
+#include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Texts = std::vector<std::string>;
 
-/// A case that says its overrides as its text.
-Case told(const Texts& overrides) {
+/// A case whose text is its overrides.
+Case caseWith(const Texts& overrides) {
   Case setup;
   setup.name = "a cell";
   for (const std::string& each : overrides) setup.resolvedToml += each + '\n';
@@ -36,8 +36,8 @@ JobRequest request() {
   return request;
 }
 
-TEST(JobPlan, EverySettingSeedAndEngineBesideTheFirst) {
-  const JobPlan plan = planJobs(request(), told);
+TEST(PlanJobs, SettingsSeedsEngines_MakeAJobEach) {
+  const JobPlan plan = planJobs(request(), caseWith);
   ASSERT_EQ(plan.jobs.size(), 2u * 2u * 2u);
   EXPECT_EQ(plan.program, thisProgram());
   EXPECT_EQ(plan.jobs[0].name, "001-a-cell-grain+yade-law.mu=0.2-seed=1");
@@ -51,7 +51,7 @@ TEST(JobPlan, EverySettingSeedAndEngineBesideTheFirst) {
   EXPECT_NE(plan.jobs[0].setup, plan.jobs[2].setup);
 }
 
-TEST(JobPlan, SweptKeysAreCombined) {
+TEST(SweptSettings, SeveralKeys_AreCombined) {
   EXPECT_EQ(sweptSettings({}), (std::vector<Texts>{{}}));
   EXPECT_EQ(sweptSettings({"a=1", "b=x", "a=2"}),
             (std::vector<Texts>{{"a=1", "b=x"}, {"a=2", "b=x"}}));
@@ -59,24 +59,21 @@ TEST(JobPlan, SweptKeysAreCombined) {
     EXPECT_THROW(sweptSettings(wrong), BadInput);
 }
 
-TEST(JobPlan, ASeedTwiceIsRefused) {
+TEST(PlanJobs, RepeatedSeedOrUsedFolder_Throws) {
   JobRequest twice = request();
   twice.seeds = {"1", "1"};
-  EXPECT_THROW(planJobs(twice, told), BadInput);
-}
-
-TEST(JobPlan, AFolderThatHoldsAnythingIsLeftAlone) {
+  EXPECT_THROW(planJobs(twice, caseWith), BadInput);
   const TemporaryFolder folder;
   writeFile(folder.path() / "mine", "");
-  EXPECT_THROW(writeSlurm(planJobs(request(), told), folder.path(), "/x"), BadInput);
+  EXPECT_THROW(writeSlurm(planJobs(request(), caseWith), folder.path(), "/x"), BadInput);
 }
 
-TEST(JobPlan, ComesBackAndNoWordOfTheUsersIsInAScript) {
+TEST(WriteSlurm, WordsOfTheUser_AreInNoScriptAndReadBack) {
   const TemporaryFolder folder;
   const fs::path slurm = folder.path() / "jobs";
   JobRequest nasty = request();
   nasty.overrides = {"case.name=$(touch pwned)\n`x`'\""};
-  const JobPlan plan = planJobs(nasty, told);
+  const JobPlan plan = planJobs(nasty, caseWith);
   writeSlurm(plan, slurm, "/bin/cross grain");
   const JobPlan back = readPlan(slurm);
   ASSERT_EQ(back.jobs.size(), plan.jobs.size());
@@ -91,7 +88,7 @@ TEST(JobPlan, ComesBackAndNoWordOfTheUsersIsInAScript) {
   EXPECT_EQ(readFile(slurm / "jobs" / "1").value(), words + '\0');
 }
 
-TEST(JobPlan, WhatIsNoPlanIsRefused) {
+TEST(ReadPlan, MalformedPlan_Throws) {
   const TemporaryFolder folder;
   EXPECT_THROW(readPlan(folder.path()), BadInput);
   const auto refused = [&](const json& document) {
@@ -123,7 +120,7 @@ class JobOutcomes : public testing::Test {
     three.said = three.engines;
     three.sweeps = {};
     three.seeds = {"1", "2", "3"};
-    plan = planJobs(three, told);
+    plan = planJobs(three, caseWith);
     for (std::size_t k = 0; k < 3; ++k) leave(k, k);
   }
 
@@ -158,7 +155,7 @@ class JobOutcomes : public testing::Test {
   JobPlan plan;
 };
 
-TEST_F(JobOutcomes, AsPlanned) {
+TEST_F(JobOutcomes, AllAsPlanned_AreMerged) {
   const auto outcomes = lookAtJobs(plan, folder.path());
   ASSERT_EQ(outcomes.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -167,20 +164,7 @@ TEST_F(JobOutcomes, AsPlanned) {
   }
 }
 
-TEST_F(JobOutcomes, Missing) {
-  fs::remove_all(folderOf(1));
-  EXPECT_EQ(said(1), "missing: it has not begun");
-  EXPECT_FALSE(merged(1));
-  EXPECT_TRUE(merged(0) && merged(2));
-}
-
-TEST_F(JobOutcomes, Unfinished) {
-  fs::remove(folderOf(1) / "results.json");
-  EXPECT_TRUE(said(1).starts_with("unfinished: ")) << said(1);
-  EXPECT_FALSE(merged(1));
-}
-
-TEST_F(JobOutcomes, Broken) {
+TEST_F(JobOutcomes, BrokenResults_AreNotMerged) {
   for (const char* text : {"", "{\"schema\": ", "[]", "{\"schema\": \"crossgrain-results-1\"}",
                            "{\"schema\": \"crossgrain-results-1\", \"kind\": \"compare\"}",
                            "{\"schema\": \"crossgrain-results-1\", \"kind\": \"collide\"}"}) {
@@ -190,19 +174,23 @@ TEST_F(JobOutcomes, Broken) {
   }
 }
 
-TEST_F(JobOutcomes, Doubled) {
+TEST_F(JobOutcomes, MissingUnfinishedOrOthersResults_AreNotMerged) {
+  const auto isLost = [&](const std::string& why) {
+    EXPECT_EQ(said(1).rfind(why, 0), 0u) << said(1);
+    EXPECT_FALSE(merged(1));
+    EXPECT_TRUE(merged(0) && merged(2));
+  };
   leave(1, 0);
-  EXPECT_EQ(said(1), "doubled: its folder holds the results of " + plan.jobs[0].name);
-  EXPECT_EQ(said(0), "");
-  EXPECT_FALSE(merged(1));
-}
-
-TEST_F(JobOutcomes, OfAnotherCase) {
+  isLost("doubled: its folder holds the results of " + plan.jobs[0].name);
   leave(1, 7);
-  EXPECT_EQ(said(1), "holds the results of another case than its own");
+  isLost("holds the results of another case than its own");
+  fs::remove(folderOf(1) / "results.json");
+  isLost("unfinished: ");
+  fs::remove_all(folderOf(1));
+  isLost("missing: it has not begun");
 }
 
-TEST_F(JobOutcomes, OfAnotherVersion) {
+TEST_F(JobOutcomes, OtherVersion_IsNotMerged) {
   leave(1, 1, "0.0.9 (abc)");
   EXPECT_EQ(said(1),
             "of another version: of crossgrain 0.0.9 (abc), and the plan is of " + thisProgram());
@@ -213,13 +201,13 @@ TEST_F(JobOutcomes, OfAnotherVersion) {
   EXPECT_FALSE(merged(1));
 }
 
-TEST_F(JobOutcomes, RunsThatFailedAreToldAndTheRestIsMerged) {
+TEST_F(JobOutcomes, FailedRuns_AreReportedAndTheRestMerged) {
   leave(1, 1, thisProgram(), "1", 2);
   EXPECT_EQ(said(1), "2 of 4 runs failed; the others are merged");
   EXPECT_TRUE(merged(1));
 }
 
-TEST_F(JobOutcomes, AFolderOfNoJob) {
+TEST_F(JobOutcomes, FolderOfNoJob_IsReported) {
   makeDirectory(folder.path() / "results" / "004-more");
   EXPECT_EQ(lookAtJobs(plan, folder.path()).at(3).name, "004-more");
   EXPECT_EQ(said(3), "belongs to no job of this plan");

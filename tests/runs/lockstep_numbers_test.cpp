@@ -60,8 +60,10 @@ TEST(EquivalentChange, IsUnknownWhereNothingMoves) {
   EXPECT_GT(*equivalentChange({0.0, 0.0, 1e-4}, inProportion({1e-3, 1e-3, 0.0})), 0.05);
 }
 
-/// So many starts that could be read, of which so many are beyond the rule.
-LockstepRow judged(std::size_t read, std::size_t beyond, std::size_t unread = 0) {
+/// So many starts that could be read, of which so many are beyond the rule; of these `alone` at two
+/// disks that touch nothing else.
+LockstepRow judged(std::size_t read, std::size_t beyond, std::size_t unread = 0,
+                   std::size_t alone = 0) {
   LockstepRow row;
   row.starts = read + unread;
   row.track = {1e-6};
@@ -69,7 +71,7 @@ LockstepRow judged(std::size_t read, std::size_t beyond, std::size_t unread = 0)
   for (std::size_t k = 0; k < read; ++k)
     row.readings.push_back({k < beyond ? 0.01 : 1e-5, 0.01, k < beyond});
   row.readings.resize(row.starts);
-  judge(row, true);
+  judge(row, true, alone);
   return row;
 }
 
@@ -96,6 +98,17 @@ TEST(LockstepVerdict, AShareWithinChanceNeverBecomesADifference) {
         << read;
 }
 
+/// Which of several impacts of one step comes first no law says: but one start does not show that a
+/// difference is of that kind, and more starts do not turn it.
+TEST(LockstepVerdict, SeveralAtOnce_UnlessAShareOfStartsPartsAtTwoDisksAlone) {
+  EXPECT_TRUE(judged(64, 20, 0, 0).severalAtOnce);
+  EXPECT_TRUE(judged(64, 20, 0, 6).severalAtOnce);
+  EXPECT_FALSE(judged(64, 20, 0, 7).severalAtOnce);
+  EXPECT_FALSE(judged(4, 4, 0, 4).severalAtOnce);
+  EXPECT_FALSE(judged(64, 0).severalAtOnce);
+  EXPECT_FALSE(judged(64, 6).severalAtOnce);  // undecided
+}
+
 TEST(LockstepVerdict, IsUndecidedWhereTooFewStartsCanBeRead) {
   const LockstepRow row = judged(3, 0, 13);
   EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
@@ -109,7 +122,7 @@ TEST(LockstepVerdict, IsNoneWhereNothingTouches) {
   row.starts = 4;
   row.track = {0.0};
   row.readings.resize(4);
-  judge(row, false);
+  judge(row, false, 0);
   EXPECT_EQ(row.verdict, LockstepVerdict::undecided);
   EXPECT_NE(row.reason.find("nothing touches"), std::string::npos) << row.reason;
 }
@@ -119,7 +132,7 @@ TEST(LockstepVerdict, MedianHasItsInterval) {
   for (std::size_t k = 0; k < 16; ++k)
     row.readings[k].equivalent = 1e-6 * static_cast<double>(k + 1);
   row.read = row.beyond = 0;
-  judge(row, true);
+  judge(row, true, 0);
   EXPECT_NEAR(*row.equivalent / 8.5e-6, 1.0, 1e-12);
   EXPECT_NEAR(*row.equivalentLow / 4e-6, 1.0, 1e-12);  // of 16 the 4th and the 13th: 97.9 %
   EXPECT_NEAR(*row.equivalentHigh / 13e-6, 1.0, 1e-12);
@@ -238,6 +251,19 @@ TEST(FirstExceedance, NamesTheContactWhoseForcesDifferMost) {
   EXPECT_EQ(first->contact, "new, sliding, wall");
   EXPECT_EQ(first->touching, 2u);
   EXPECT_FALSE(firstExceedance(window, 2.0, {1e-10, 1e-6}, 3));
+}
+
+/// Impulses show in the positions of the next step, when the disks that met have parted.
+TEST(FirstExceedance, CountsContactsOfTheStepBefore) {
+  LockstepWindow window;
+  const auto met = Row().with(0, 1, 1.0).with(1, 2, 1.0).at(0.1);
+  window.mirror = {met, Row().at(0.2)};
+  window.engine = {met, Row().at(0.2)};
+  window.engine[1].position[0].x() += 1e-6;
+  const auto first = firstExceedance(window, 2.0, {1e-10, 1e-10}, 3);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->contact, "opening");
+  EXPECT_EQ(first->touching, 2u);
 }
 
 }  // namespace

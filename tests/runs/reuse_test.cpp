@@ -5,7 +5,7 @@
 
 #include "adapters/grain.hpp"
 #include "adapters/worker/json.hpp"
-#include "adapters/worker/pooled_engine.hpp"
+#include "adapters/worker/worker_pool.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"

@@ -21,7 +21,7 @@ const CaseKeys key = {{"engine", "a"}, {"engine version", "1"}};
 const Cases rings20 = {{"", {{"averaging.rings", "20"}, {"law.mu", "0.44"}}}};
 const Cases rings40 = {{"", {{"averaging.rings", "40"}, {"law.kn", "1.0"}}}};
 
-class RunStores : public testing::Test {
+class RunStoreTest : public testing::Test {
  protected:
   void SetUp() override {
     command_.out = fs::path(testing::TempDir()) /
@@ -50,7 +50,7 @@ class RunStores : public testing::Test {
   RunCommand command_;
 };
 
-TEST_F(RunStores, TheSameCaseGoesOn) {
+TEST_F(RunStoreTest, SameCase_LoadsFinishedRuns) {
   finish();
   const RunStore again(command_, "compare", rings20);
   ASSERT_TRUE(again.find("a-p0", key));
@@ -58,7 +58,7 @@ TEST_F(RunStores, TheSameCaseGoesOn) {
   EXPECT_FALSE(again.find("a-p1", key));
 }
 
-TEST_F(RunStores, AChangedCaseIsRefusedKeyByKey) {
+TEST_F(RunStoreTest, ChangedCase_ThrowsWithEveryKey) {
   finish();
   const std::string why = refusal("compare", rings40);
   EXPECT_NE(why.find("averaging.rings: 20 → 40; law.kn: none → 1.0; law.mu: 0.44 → none"),
@@ -68,14 +68,14 @@ TEST_F(RunStores, AChangedCaseIsRefusedKeyByKey) {
   EXPECT_TRUE(isFinished());
 }
 
-TEST_F(RunStores, AnotherCommandIsRefused) {
+TEST_F(RunStoreTest, OtherCommand_Throws) {
   finish();
   const std::string why = refusal("collide", {});
   EXPECT_NE(why.find("'crossgrain compare', not of 'collide'"), std::string::npos) << why;
   EXPECT_TRUE(isFinished());
 }
 
-TEST_F(RunStores, AReportAloneBelongsToItsCommandToo) {
+TEST_F(RunStoreTest, ReportWithoutRuns_BelongsToItsCommand) {
   {
     RunStore store(command_, "average", {});
     store.begin();
@@ -85,7 +85,7 @@ TEST_F(RunStores, AReportAloneBelongsToItsCommandToo) {
   EXPECT_NE(refusal("rev", {}).find("'crossgrain average'"), std::string::npos);
 }
 
-TEST_F(RunStores, RunsOfAnotherBuildAreRefusedWithBothNamed) {
+TEST_F(RunStoreTest, OtherBuild_ThrowsNamingBoth) {
   finish();
   const fs::path marker = command_.out / ".crossgrain";
   auto said = nlohmann::json::parse(*readFile(marker));
@@ -97,7 +97,7 @@ TEST_F(RunStores, RunsOfAnotherBuildAreRefusedWithBothNamed) {
       << why;
 }
 
-TEST_F(RunStores, ARunOfAnotherEngineVersionIsRefusedWithBothNamed) {
+TEST_F(RunStoreTest, OtherEngineVersion_ThrowsNamingBoth) {
   finish();
   const RunStore again(command_, "compare", rings20);
   try {
@@ -111,7 +111,7 @@ TEST_F(RunStores, ARunOfAnotherEngineVersionIsRefusedWithBothNamed) {
   EXPECT_TRUE(again.find("a-p0", {{"engine", "a"}, {"engine version", ""}}));
 }
 
-TEST_F(RunStores, FurtherCasesOfASuiteAreTakenInAndTheEarlierOnesRemembered) {
+TEST_F(RunStoreTest, FurtherCase_IsTakenAndEarlierOnesStay) {
   finish("collide", {{"one", {{"law.mu", "0.1"}}}});
   {
     RunStore store(command_, "collide", {{"two", {{"law.mu", "0.2"}}}});
@@ -122,7 +122,7 @@ TEST_F(RunStores, FurtherCasesOfASuiteAreTakenInAndTheEarlierOnesRemembered) {
             std::string::npos);
 }
 
-TEST_F(RunStores, WithoutAnythingFinishedAFolderTakesAnything) {
+TEST_F(RunStoreTest, NothingFinished_TakesAnyCommand) {
   {
     RunStore store(command_, "compare", rings20);
     store.begin();
@@ -131,7 +131,7 @@ TEST_F(RunStores, WithoutAnythingFinishedAFolderTakesAnything) {
   EXPECT_EQ(refusal("collide", {}), "none");
 }
 
-TEST_F(RunStores, ACommandThatDidNotBeginLeavesTheFolderToTheNext) {
+TEST_F(RunStoreTest, CommandThatDidNotBegin_LeavesNoFolder) {
   { const RunStore store(command_, "compare", rings20); }
   EXPECT_FALSE(fs::exists(command_.out));
   fs::create_directories(command_.out);
@@ -140,7 +140,7 @@ TEST_F(RunStores, ACommandThatDidNotBeginLeavesTheFolderToTheNext) {
   EXPECT_EQ(refusal("collide", {}), "none");
 }
 
-TEST_F(RunStores, FreshSetsAsideAndNothingIsLost) {
+TEST_F(RunStoreTest, Fresh_SetsAsideWhatIsThere) {
   finish();
   std::ofstream(command_.out / "results.json") << "{}";
   command_.fresh = true;
@@ -162,7 +162,7 @@ TEST_F(RunStores, FreshSetsAsideAndNothingIsLost) {
   EXPECT_TRUE(fs::exists(command_.out / "results.json"));
 }
 
-TEST_F(RunStores, NeverTouchesAFolderThatIsNotItsOwn) {
+TEST_F(RunStoreTest, FolderOfOthers_ThrowsEvenWithFresh) {
   fs::create_directories(command_.out / "runs");
   std::ofstream(command_.out / "runs" / "thesis.txt") << "ten years of work";
   for (const bool fresh : {false, true}) {
@@ -172,14 +172,14 @@ TEST_F(RunStores, NeverTouchesAFolderThatIsNotItsOwn) {
   EXPECT_TRUE(fs::exists(command_.out / "runs" / "thesis.txt"));
 }
 
-TEST_F(RunStores, ADamagedRunIsRunAgain) {
+TEST_F(RunStoreTest, DamagedRun_IsNotFound) {
   finish();
   std::ofstream(command_.out / "runs" / "a-p0.json") << R"({"key": {"engine": "a"}, )";
   EXPECT_FALSE(RunStore(command_, "compare", rings20).find("a-p0", key));
 }
 
 /// What is of another type is named with its file; what might never end is not opened.
-TEST_F(RunStores, WhatNoRunWroteIsNamedWithFileAndMember) {
+TEST_F(RunStoreTest, MalformedFile_ThrowsNamingFileAndMember) {
   finish();
   const fs::path run = command_.out / "runs" / "a-p0.json", marker = command_.out / ".crossgrain";
   const auto said = [&](auto&& read) {
@@ -238,13 +238,13 @@ TEST(JsonText, IsBoundedInDepthAndNamesItsFaults) {
   }
 }
 
-TEST_F(RunStores, AFolderThatCannotBeMadeIsAnOutputError) {
+TEST_F(RunStoreTest, FolderThatCannotBeMade_ThrowsOutputError) {
   std::ofstream(command_.out) << "not a folder";
   command_.out /= "out";
   EXPECT_THROW(RunStore(command_, "compare", rings20), OutputError);
 }
 
-TEST_F(RunStores, ADryRunLooksAndLeavesNothing) {
+TEST_F(RunStoreTest, DryRun_WritesNothing) {
   command_.dryRun = true;
   fs::path scratch;
   {
@@ -264,7 +264,7 @@ TEST_F(RunStores, ADryRunLooksAndLeavesNothing) {
   EXPECT_TRUE(isFinished());
 }
 
-TEST_F(RunStores, OnlyOneProcessHoldsAFolder) {
+TEST_F(RunStoreTest, FolderInUse_ThrowsNamingTheProcess) {
   const RunStore store(command_, "compare", rings20);
   const std::string why = refusal("compare", rings20);
   EXPECT_NE(why.find(fmt::format("in use by crossgrain compare, process {}, since ", ::getpid())),
@@ -272,7 +272,7 @@ TEST_F(RunStores, OnlyOneProcessHoldsAFolder) {
       << why;
 }
 
-TEST_F(RunStores, ALockFileOfADeadProcessLocksNothing) {
+TEST_F(RunStoreTest, LockOfDeadProcess_IsIgnored) {
   finish();
   std::ofstream(command_.out / FolderLock::name) << "crossgrain compare, process 1, since long ago";
   EXPECT_EQ(refusal("compare", rings20), "none");

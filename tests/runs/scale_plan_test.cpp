@@ -1,5 +1,5 @@
 // Which timings `scale` takes, by hand, and what its lists of numbers may be.
-#include "runs/scale/plan.hpp"
+#include "runs/scale/timing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,10 +60,16 @@ TEST(ScalePlan, ListsOfNumbers) {
 }
 
 TEST(ScaleCase, HasNoCellButItsOwn) {
-  EXPECT_THROW(scaleCase({"cell.omega=2"}), BadInput);
-  EXPECT_THROW(scaleCase({"law.mu=0.1"}), BadInput);
-  EXPECT_THROW(scaleCase({"engines.grain.threads=2"}), BadInput);
-  EXPECT_EQ(scaleCase({"run.timeout=7"}).run.timeout, 7.0);
+  const auto caseWith = [](const char* change) {
+    CommandLine line;
+    line.overrides = {change};
+    ScaleOptions none;
+    return scaleStudy.cases(line, none).front();
+  };
+  EXPECT_THROW(caseWith("cell.omega=2"), BadInput);
+  EXPECT_THROW(caseWith("law.mu=0.1"), BadInput);
+  EXPECT_THROW(caseWith("engines.grain.threads=2"), BadInput);
+  EXPECT_EQ(caseWith("run.timeout=7").run.timeout, 7.0);
 }
 
 /// The room between the walls' surfaces less half a small disk is filled alike: the maker's own

@@ -17,7 +17,7 @@ namespace {
 
 using namespace crossgrain;
 
-TEST(StabilityVerdict, ByTheTwoLimits) {
+TEST(JudgeStability, TwoLimits_GiveVerdictAndWorstSample) {
   Stability limits;
   limits.limit = 1.0;
   limits.degraded = 2.0;
@@ -64,7 +64,7 @@ why = "a made-up case"
 samples = 30
 )";
 
-TEST(StabilitySuite, MisbehavingEnginesEndTheirOwnRunsOnly) {
+TEST(TestStability, MisbehavingEngine_EndsItsOwnRunOnly) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "meeting.toml") << meeting;
   const std::vector<Case> cases = hardCases({folder.path() / "meeting.toml"}, {}, SuitePart::usual);
@@ -104,23 +104,7 @@ TEST(StabilitySuite, MisbehavingEnginesEndTheirOwnRunsOnly) {
   }
 }
 
-TEST(StabilitySuite, FinishedRunsAreTakenUp) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "meeting.toml") << meeting;
-  const std::vector<Case> cases = hardCases({folder.path() / "meeting.toml"}, {}, SuitePart::usual);
-  const std::vector<EngineEntry> engines = {test::misbehavingEntry("good", 150)};
-  RunCommand command;
-  command.out = folder.path() / "out";
-  command.quiet = true;
-  const auto stats = [&] {
-    RunStore store(command, "stability", keysOfEach(cases));
-    return jsonOf(testStability(cases, engines, command, store).runs.front().stats);
-  };
-  // Times are measured: the same ones again were not measured anew.
-  EXPECT_EQ(stats(), stats());
-}
-
-TEST(HardCases, WhatIsNoneIsBadInput) {
+TEST(HardCases, NoStabilitySectionOrEmptyPart_Throws) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "meeting.toml";
   std::ofstream(file) << std::string(meeting).substr(0, std::string(meeting).find("[stability]"));
@@ -130,7 +114,7 @@ TEST(HardCases, WhatIsNoneIsBadInput) {
   EXPECT_EQ(hardCases({folder.path()}, {"stability.quick=true"}, SuitePart::quick).size(), 1u);
 }
 
-TEST(HardCases, OfTheRepositoryAllLoadAndHaveReasons) {
+TEST(HardCases, Repository_AllLoadWithReasons) {
   const std::vector<Case> cases = hardCases({CROSSGRAIN_CASES "/hard"}, {}, SuitePart::withLong);
   EXPECT_GE(cases.size(), 60u);
   for (const Case& c : cases) EXPECT_GT(c.stability->why.size(), 20u) << c.name;

@@ -1,5 +1,5 @@
 // What the history of a run says, for snapshots of one disk that can be added up by hand.
-#include "runs/thesis/history.hpp"
+#include "runs/thesis/case_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,13 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 #include <set>
 
 #include "adapters/grain.hpp"
 #include "runs/conformance/conformance_scenes.hpp"
 #include "runs/lockstep/window.hpp"
-#include "runs/stability/setting_units.hpp"
+#include "runs/stability/transforms.hpp"
 #include "stability/transform.hpp"
 
 namespace {
@@ -187,6 +189,67 @@ TEST(Transforms, SettingsAreToldInTheSameUnits) {
   EXPECT_EQ(told, (Settings{{"dt", 2e-3}, {"speed", 1.0}}));
   EXPECT_TRUE(inUnits({}, specs, {}).empty());
   EXPECT_THROW(inUnits({{"slop", 1.0}}, specs, units), UnsupportedScene);
+}
+
+/// Lengths twice as long, masses three times as large, times five times as long.
+constexpr Units units{.length = 2.0, .mass = 3.0, .time = 5.0};
+
+TEST(SettingUnits, EachUnitByItsLengthsMassesAndTimes) {
+  const std::pair<const char*, double> expected[] = {
+      {"", 1.0},           {"-", 1.0},           {"rad", 1.0},      {"smallest radius", 1.0},
+      {"m", 2.0},          {"kg", 3.0},          {"s", 5.0},        {"m/s", 2.0 / 5},
+      {"m/s²", 2.0 / 25},  {"1/s", 1.0 / 5},     {"/s", 1.0 / 5},   {"Hz", 1.0 / 5},
+      {"rad/s", 1.0 / 5},  {"N", 3.0 * 2 / 25},  {"N/m", 3.0 / 25}, {"kg/s", 3.0 / 5},
+      {"J", 3.0 * 4 / 25}, {"Pa", 3.0 / 2 / 25}, {"1/m", 1.0 / 2},  {"kg/m³", 3.0 / 8}};
+  for (const auto& [unit, factor] : expected)
+    EXPECT_DOUBLE_EQ(factorOf(unit, units).value_or(0.0), factor) << unit;
+  EXPECT_FALSE(factorOf("furlong", units));
+}
+
+TEST(SettingUnits, DefaultsAreSaidAndZeroStays) {
+  const std::vector<SettingSpec> specs = {{"skin", 0.5, "m", "", {}},
+                                          {"none", 0.0, "furlong", "", {}},
+                                          {"share", 0.25, "-", "", {}},
+                                          {"speed", 1.0, "m/s", "", {}}};
+  const Settings expected = {{"skin", 1.0}, {"speed", 10.0 * 2 / 5}};
+  EXPECT_EQ(inUnits({{"speed", 10.0}}, specs, units), expected);
+  EXPECT_EQ(inUnits({{"speed", 10.0}}, specs, {}), (Settings{{"speed", 10.0}}));
+  EXPECT_THROW(inUnits({{"none", 1.0}}, specs, units), UnsupportedScene);
+}
+
+/// Hours, so that the test's own time is none.
+constexpr double hours = 3600.0;
+
+TEST(TimeBudget, IsSharedEquallyAmongWhatIsStillToBeDone) {
+  TimeBudget budget(40.0 * hours, 4, 1);
+  const TimeShare first = budget.next();
+  EXPECT_NO_THROW(first.require(9.9 * hours));
+  EXPECT_THROW(first.require(10.1 * hours), OutOfTime);
+  // The first took nothing of its part: three have it.
+  const TimeShare second = budget.next();
+  EXPECT_NO_THROW(second.require(13.2 * hours));
+  EXPECT_THROW(second.require(13.4 * hours), OutOfTime);
+  budget.next();
+  EXPECT_NO_THROW(budget.next().require(39.9 * hours));
+}
+
+TEST(TimeBudget, WhatRunsSideBySideHasTheTimeOfAllJobs) {
+  TimeBudget budget(40.0 * hours, 4, 2);
+  const TimeShare first = budget.next();
+  EXPECT_NO_THROW(first.require(19.9 * hours));
+  EXPECT_THROW(first.require(20.1 * hours), OutOfTime);
+  TimeBudget few(40.0 * hours, 1, 8);
+  EXPECT_THROW(few.next().require(40.1 * hours), OutOfTime);
+}
+
+TEST(TimeBudget, WithoutOneAllIsRun) {
+  TimeBudget budget(std::numeric_limits<double>::infinity(), 1, 1);
+  EXPECT_NO_THROW(budget.next().require(1e300));
+}
+
+TEST(TimeBudget, OfNothingNothingIsRun) {
+  TimeBudget budget(0.0, 1, 1);
+  EXPECT_THROW(budget.next().require(0.0), OutOfTime);
 }
 
 }  // namespace

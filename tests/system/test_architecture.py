@@ -18,9 +18,9 @@ ORDER = [
     "engines/cpp", "engines/chipmunk", "engines/grain", "engines/box2d",
     "adapters", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
-    "reports/common", "reports/lockstep", "reports/couette", "reports/diff", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",
+    "reports/common", "reports/lockstep", "reports/couette", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",
     "reports",
-    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/conformance", "runs/stability", "runs/effects", "runs/cost", "runs/scale", "runs/baseline", "runs/record", "runs/check", "runs/thesis", "runs/plan",
+    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/conformance", "runs/stability", "runs/effects", "runs/cost", "runs/scale", "runs/regression", "runs/check", "runs/thesis", "runs/plan",
     "cli",
 ]  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""crossgrain baseline and diff: what an engine did is kept, and what it does otherwise is told."""
+"""crossgrain baseline and diff: what an engine did is kept, and compared with what it does now."""
 
 import json
 import unittest
@@ -18,7 +18,7 @@ from harness import (
 class Baseline(SystemTest):
     def setUp(self):
         super().setUp()
-        self.file = self.folder / "before.h5"
+        self.file = self.folder / "before.baseline"
 
     def keep(self, engines, *arguments, case=COUETTE, file=None, **options):
         return self.run_program(
@@ -32,7 +32,7 @@ class Baseline(SystemTest):
         engines = "grain,yade,box2d-penalty,box2d-impulse"
         done = self.keep(engines, "--starts=2")
         self.assert_status(done, HELD)
-        self.assertRegex(done.stdout, r"before.h5: kept of grain \S+, yade 2023")
+        self.assertRegex(done.stdout, r"before.baseline: kept of grain \S+, yade 2023")
         # No packing is needed any more, nor a place to keep one.
         done = self.diff(engines, env={"CROSSGRAIN_CACHE": str(self.folder / "empty")})
         self.assert_status(done, HELD)
@@ -40,11 +40,11 @@ class Baseline(SystemTest):
             self.assertRegex(done.stdout, rf"(?m)^{engine} \(.*\) against {engine} \(.*\): same bits$")
         self.assertFalse((self.folder / "empty").exists())
 
-    def test_what_is_otherwise_is_found_and_named(self):
+    def test_changed_case_is_found_and_named(self):
         self.assert_status(self.keep("grain", "--starts=3"), HELD)
         done = self.diff("grain", "--set=law.integrator=semi_implicit_euler")
         self.assert_status(done, FELL_SHORT)
-        self.assertIn('asked otherwise: law.integrator: "position_verlet" → "semi_implicit_euler"', done.stdout)
+        self.assertIn('case changed: law.integrator: "position_verlet" → "semi_implicit_euler"', done.stdout)
         self.assertIn(": differs", done.stdout)
         self.assertIn("deviation found: integrator = semi_implicit_euler", done.stdout)
         self.assertRegex(done.stdout, r"first beyond \S+ d: between 0 and 0.0400 ms after start")
@@ -64,6 +64,16 @@ class Baseline(SystemTest):
         done = self.diff("grain", "--set=law.kn=352.1001")
         self.assert_status(done, HELD)
         self.assertIn("same law", done.stdout)
+
+    def test_an_engine_that_refuses_the_case_is_left_out_and_reported(self):
+        done = self.keep("grain,yade", "--starts=1", "--set=run.may_differ=[]")
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stdout, r"before.h5: kept of grain \S+$")
+        self.assertRegex(done.error_lines()[0], "^crossgrain: yade cannot run .*bottom_friction")
+        self.assert_status(self.diff("grain"), HELD)
+        done = self.keep("yade", "--starts=1", "--set=run.may_differ=[]", file=self.folder / "none.h5")
+        self.assert_status(done, BAD_INPUT)
+        self.assertFalse((self.folder / "none.h5").exists())
 
     def test_averages_are_kept_where_they_are_asked_for(self):
         short = [
@@ -105,15 +115,15 @@ class Baseline(SystemTest):
         self.assertRegex(done.stdout, r"(?m)^    e_n +\d+ of \d+ changed, most by −")
 
     def test_the_same_run_is_the_same_file(self):
-        again = self.folder / "again.h5"
+        again = self.folder / "again.baseline"
         self.assert_status(self.keep("grain", "--starts=1"), HELD)
         self.assert_status(self.keep("grain", "--starts=1", file=again), HELD)
         self.assertEqual(self.file.read_bytes(), again.read_bytes())
 
     def test_bad_input(self):
-        self.assert_one_line(self.diff("grain"), BAD_INPUT, "before.h5: no such file")
+        self.assert_one_line(self.diff("grain"), BAD_INPUT, "before.baseline: no such file")
         self.file.write_text("{}")
-        self.assert_one_line(self.diff("grain"), BAD_INPUT, "before.h5", "`crossgrain baseline CASE --out FILE` makes one")
+        self.assert_one_line(self.diff("grain"), BAD_INPUT, "before.baseline", "`crossgrain baseline CASE --out FILE` makes one")
         self.assert_one_line(self.keep("grain"), BAD_INPUT, "is there already, and a baseline is not replaced")
         self.file.unlink()
         for value in ("0", "2.5", "1001"):

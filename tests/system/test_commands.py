@@ -31,35 +31,6 @@ EFFECTS = {
 }
 
 
-class Help(SystemTest):
-    def commands(self):
-        done = self.run_program("--help")
-        self.assert_status(done, HELD)
-        section = done.stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
-        return re.findall(r"(?m)^  (\S+) +\S", section)
-
-    def test_lists_the_commands_and_exit_statuses(self):
-        expected = {"engines", "check", "collide", "compare", "effects", "calibrate", "report"}
-        self.assertLessEqual(expected, set(self.commands()))
-        self.assertRegex(self.run_program("--help").stdout, r"Exit status:\n  0 +held[\s\S]*\n  130 +interrupted")
-
-    def test_every_command_has_an_example(self):
-        for command in self.commands():
-            with self.subTest(command):
-                done = self.run_program(command, "--help")
-                self.assert_status(done, HELD)
-                self.assertEqual("", done.stderr)
-                self.assertRegex(done.stdout, rf"Example:\n  crossgrain {command}\b")
-
-    def test_internal_commands_are_not_listed(self):
-        self.assertNotIn("__serve", self.run_program("--help").stdout)
-
-    def test_version(self):
-        done = self.run_program("--version")
-        self.assert_status(done, HELD)
-        self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+\n$")
-
-
 class Starts(SystemTest):
     """An engine is not started where nobody asks for it: YADE alone takes seconds."""
 

@@ -27,7 +27,7 @@ COLUMNS = (
 DECIDED = ("reached", "not reached")
 
 COLLISIONS = settings(cost__kinds=["collision"])
-FEW = settings(cost__knobs=["time_step", "snapshots", "omega"])
+FEW = settings(cost__knobs=["time_step"])
 
 
 class CostTest(SystemTest):
@@ -70,15 +70,14 @@ class Results(CostTest):
                 self.assertGreater(point["statistical"], 0.0)
         results = self.results()
         cells = results["cells"]
-        self.assertEqual(3 * 2 * 3, len(cells))  # kinds, bases, accuracies
+        self.assertEqual((2 * 2 + 1) * 3, len(cells))  # kinds, bases, accuracies
         decided = [c for c in cells if c["basis"] == "own" and c["verdict"] in DECIDED]
-        self.assertIn(f"is decided for {len(decided)} of 9 against engines' own", done.stdout)
+        self.assertIn(f"is decided for {len(decided)} of 6 against engines' own", done.stdout)
         for cell in cells:
             if cell["verdict"] == "reached":
                 self.assertGreater(cell["wall_s"], 0.0)
                 self.assertIsNotNone(cell["point"])
-        self.assertGreater(results["trajectory"]["window_s"], 0.0)
-        self.assertEqual(2, results["theory"]["grain"])
+        self.assertGreater(results["window_s"], 0.0)
         self.assertEqual(["grain"], [row["engine"] for row in results["startup"]])
         self.assertEqual({"trajectory", "averages", "collision"},
                          {row["error_kind"] for row in results["references"]})  # fmt: skip
@@ -103,40 +102,17 @@ class Results(CostTest):
         self.assertEqual(f"{self.out / 'results.json'}\n", done.stdout)
 
 
-class Bounds(CostTest):
-    def test_averages_are_bounded_by_their_response(self):
-        self.assert_status(self.cost("--quiet", *settings(
-            cost__kinds=["averages"], cost__knobs=["time_step"])), HELD)  # fmt: skip
-        responses = self.results()["averages"]["responses"]
-        self.assertEqual({"kn", "mu"}, {response["constant"] for response in responses})
-        largest = max(r["bound"] for r in responses if r["measure"] == "stress_level")
-        for point in self.points():
-            if point["status"] != "ran" or point["measure"] != "stress_level":
-                continue
-            self.assertAlmostEqual(
-                point["equivalent"] / 0.1 * largest, point["bound"], delta=1e-9 * point["bound"]
-            )
-        # Only bounded, at a smaller step than those that are run: and nearer to the limit.
-        bounds = {p["setting"]: p["equivalent"] for p in self.points() if p["status"] == "ran"}
-        self.assertLess(bounds["t_c/200"], bounds["t_c/50"])
-        self.assertLess(bounds["t_c/50"], bounds["t_c/10"])
-        for point in self.points():
-            if point["setting"] == "t_c/200":
-                self.assertIsNone(point["error"])
-                self.assertGreater(point["wall_s"], 0.0)
-
-
 class Budget(CostTest):
     def test_what_does_not_fit_is_not_measured(self):
         done = self.cost(*FEW, "--budget", "0.2s")
         self.assert_status(done, HELD)
         self.assertIn("do not fit", done.stderr)
-        # "undecided" is what files call it; it is neither that, said of a target, nor not reached.
+        # "undecided" is what files call it; it is neither that of a target nor not reached.
         left_out = [point for point in self.points() if point["status"] == "undecided"]
         self.assertTrue(left_out)
         self.assertRegex(done.stdout, rf"\b{len(left_out)} not measured\n")
         for point in left_out:
-            self.assertRegex(point["reason"], "would take about|another look")
+            self.assertIn("would take about", point["reason"])
             self.assertIsNone(point["error"])
 
 
@@ -170,6 +146,8 @@ class BadInput(CostTest):
             ("want", (["--want=-1%"], {}), "must be like 1%"),
             ("setting", (["--set=cost.settings.grain.skim=[1]"], {}), "did you mean skin?"),
             ("key", (["--set=cost.stepz=[1]"], {}), "cost.stepz"),
+            ("removed key", (["--set=cost.omega=[2]"], {}), "is a key no more"),
+            ("removed knob", (['--set=cost.knobs=["omega"]'], {}), "time_step"),
         ):
             with self.subTest(name):
                 done = self.cost("--quiet", *arguments[0], **arguments[1])

@@ -94,19 +94,6 @@ class Results(EffectsTest):
         self.assertLessEqual({row["resolved"] for row in judged}, {"yes", "no"})
         self.assertEqual({"0.05"}, {row["family_level"] for row in judged})
 
-    def test_report_makes_the_same_again(self):
-        self.assert_status(self.effects("--quiet", *SHORT, *ONE_EFFECT), HELD)
-        names = ["results.json", "effects.csv", "report.html"]
-        before = {name: (self.out / name).read_bytes() for name in names}
-        (self.out / "effects.csv").unlink()
-        (self.out / "report.html").unlink()
-        self.assert_status(self.run_program("report", self.out), HELD)
-        self.assertEqual(before, {name: (self.out / name).read_bytes() for name in names})
-
-    def test_json_prints_only_the_path(self):
-        done = self.effects("--quiet", "--json", *SHORT, *ONE_EFFECT)
-        self.assertEqual(f"{self.out / 'results.json'}\n", done.stdout)
-
 
 class Refusals(EffectsTest):
     def test_a_switch_that_an_engine_lacks_is_noted(self):
@@ -142,15 +129,6 @@ class BadInput(EffectsTest):
         ):
             with self.subTest(name):
                 self.assert_one_line(self.effects(**arguments), BAD_INPUT, told)
-
-    def test_threads_are_a_whole_number(self):
-        done = self.effects("--set=engines.grain.threads=1.5", "--quiet", *SHORT)
-        self.assert_status(done, BAD_INPUT)
-        self.assertIn("threads = 1.5 must be a whole number", done.error_lines()[0])
-
-    def test_unknown_setting(self):
-        done = self.effects("--set=engines.grain.thread=2", *SHORT)
-        self.assert_one_error(done, BAD_INPUT, "thread", "did you mean threads?")
 
 
 class Interruption(EffectsTest):

@@ -73,16 +73,6 @@ class WorkerDies(FailureTest):
         self.assert_nothing_runs(running)
         self.assert_resumes(finished)
 
-    def test_killed_early(self):
-        """Whatever the worker was doing when it died, it is one line. At work it has to be: one that dies between two
-        runs is replaced, and nobody's failure."""
-        running = self.start_compare(engines=BOTH)
-        os.kill(running.worker_at_work(SLOW, cpu_seconds=0.01), signal.SIGKILL)
-        done = self.check_no_crash(running.end())
-        line = self.assert_one_error(done, ENGINE_FAILED, SLOW, "signal 9")
-        self.assert_others_finished()
-        self.assert_report_tells(line)
-
     def test_hangs(self):
         running = self.start_compare("--set", "run.timeout=5", engines=BOTH)
         os.kill(running.worker_at_work(SLOW), signal.SIGSTOP)
@@ -108,26 +98,6 @@ class CollideWorkerDies(FailureTest):
         ]  # fmt: skip
         running = self.start(*self.arguments)
         return running, running.worker_at_work(SLOW, stage="collisions:")
-
-    def test_killed(self):
-        running, worker = self.collide()
-        os.kill(worker, signal.SIGKILL)
-        done = self.check_no_crash(running.end())
-        line = self.assert_one_error(done, ENGINE_FAILED, SLOW, "figure-4-3", "signal 9")
-        curves = [c for variant in self.results()["variants"] for c in variant["curves"]]
-        failed = [curve for curve in curves if curve["status"] == "failed"]
-        # Of 2 engines × 8 variants one sweep failed; a new worker takes the next one.
-        self.assertEqual(16, len(curves))
-        self.assertEqual([SLOW], [curve["engine"] for curve in failed])
-        page = html.unescape((self.out / "report.html").read_text(encoding="utf-8"))
-        self.assertIn(line.removeprefix("crossgrain: "), page)
-
-    def test_interrupted(self):
-        running, _ = self.collide()
-        os.kill(running.process.pid, signal.SIGINT)
-        done = self.check_no_crash(running.end())
-        self.assert_one_error(done, INTERRUPTED, "interrupted", "the same command goes on")
-        self.assert_nothing_runs(running)
 
     def test_the_same_command_goes_on(self):
         running, worker = self.collide()

@@ -85,13 +85,6 @@ class TheSameCase(FolderTest):
         self.assertEqual(6, len(now))
         self.assertEqual(finished, {name: now[name] for name in finished})
 
-    def test_fewer_are_reported_and_the_others_stay(self):
-        self.assert_status(self.command("compare"), HELD)
-        finished = self.finished_runs()
-        self.assert_status(self.command("compare", "--set=preparation.packings=1"), HELD)
-        self.assertEqual(finished, self.finished_runs())
-        self.assertEqual(1, len(self.results()["runs"]))
-
     def test_another_margin_is_another_verdict_on_the_same_runs(self):
         both = {"engines": "grain,box2d-penalty"}
         self.assert_status(self.command("compare", **both), HELD, FELL_SHORT)
@@ -132,16 +125,6 @@ class AnotherCase(FolderTest):
 
         self.in_each(check)
 
-    def test_another_file_is_another_case(self):
-        self.assert_status(self.command("compare"), HELD)
-        before = self.everything()
-        case = self.write("mine.toml", f'[case]\nextends = "{COUETTE}"\n')
-        done = self.run_program(
-            "compare", case, "--engines=grain", "--out", self.out, "--quick", "--quiet", *SHORT
-        )
-        self.assert_one_line(done, BAD_INPUT, "case.name: \"quick\" → \"mine\"")
-        self.assertEqual(before, self.everything())
-
     def test_fresh_sets_aside(self):
         def check(name, out):
             self.assert_status(self.command(name, out=out), HELD, FELL_SHORT)
@@ -156,27 +139,6 @@ class AnotherCase(FolderTest):
             self.assert_status(done, HELD, FELL_SHORT)
 
         self.in_each(check)
-
-    def test_another_build_is_refused_with_both_named(self):
-        self.assert_status(self.command("compare"), HELD)
-        marker = self.out / ".crossgrain"
-        said = json.loads(marker.read_text(encoding="utf-8"))
-        own, said["program"] = said["program"], "0.0.9 (older)"
-        marker.write_text(json.dumps(said), encoding="utf-8")
-        before = self.everything()
-        done = self.command("compare", "--quiet")
-        self.assert_one_line(done, BAD_INPUT, f"another build of crossgrain: 0.0.9 (older) → {own}")
-        self.assertEqual(before, self.everything())
-
-    def test_another_version_of_an_engine_is_refused_with_both_named(self):
-        self.assert_status(self.command("compare"), HELD)
-        run = self.out / "runs/grain-p0.json"
-        said = json.loads(run.read_text(encoding="utf-8"))
-        own, said["key"]["engine version"] = said["key"]["engine version"], "0.0.9"
-        run.write_text(json.dumps(said), encoding="utf-8")
-        done = self.command("compare")
-        self.assert_one_error(done, BAD_INPUT, "grain-p0", f"engine version: 0.0.9 → {own}")
-        self.assertEqual("0.0.9", json.loads(run.read_text())["key"]["engine version"])
 
 
 class AnotherCommand(FolderTest):
@@ -195,17 +157,6 @@ class AnotherCommand(FolderTest):
             self.assert_one_line(done, BAD_INPUT, f"'crossgrain compare', not of '{name}'")
         self.assertEqual(before, self.everything())
         self.assert_status(self.run_program("report", self.out), HELD)
-
-    def test_averages_belong_to_their_command(self):
-        self.assert_status(self.command("compare", *settings(run__keep_snapshots=2)), HELD)
-        snapshots, out = self.out / "snapshots/grain-p0.h5", self.folder / "averaged"
-        for _ in range(2):  # its own report it may write again
-            self.assert_status(
-                self.run_program("average", snapshots, COUETTE, "--out", out), HELD
-            )
-        done = self.run_program("rev", snapshots, COUETTE, "--out", out, "--quiet")
-        self.assert_one_line(done, BAD_INPUT, "'crossgrain average', not of 'rev'")
-        self.assertEqual("average", self.results(out)["kind"])
 
 
 class OneAtATime(FolderTest):
@@ -289,12 +240,6 @@ class DryRun(FolderTest):
             self.assertEqual(before, self.everything(out))
 
         self.in_each(check)
-
-    def test_tells_what_the_rest_will_take(self):
-        self.assert_status(self.command("compare"), HELD)
-        done = self.command("compare", "--dry-run", "--set=preparation.packings=4")
-        self.assertRegex(done.stdout, r"grain +4 runs: 2 finished, 2 to do, about \S+ s of computing")
-        self.assertIn("4 packings", done.stdout)
 
 
 class JUnit(FolderTest):

@@ -39,12 +39,6 @@ class Lockstep(SystemTest):
         self.assertIn("are the laws that they declare; box2d-impulse was not measured", page)
         self.assertIn("How far each engine is from its mirror", page)
 
-    def test_an_engine_with_another_law_is_told_by_name(self):
-        """25 times as stiff as the case, at a fifth of its step."""
-        done = self.lockstep(engines="grain-stiff")
-        self.assert_status(done, FELL_SHORT)
-        self.assertIn("grain-stiff: differs, ", done.stdout)
-
     def test_rigid_disks(self):
         """Single precision is told as such, and by rule; where disks meet several at once the law leaves the order open."""
         case = pathlib.Path(__file__).resolve().parents[1] / "runs/rigid.toml"
@@ -63,7 +57,7 @@ class Lockstep(SystemTest):
         done = self.run_program(*lockstep, "--fresh", "--set=particles.small=180")
         self.assert_status(done, FELL_SHORT)
         self.assertRegex(done.stdout, "box2d-impulse: differs")
-        self.assertRegex(done.stdout, "one of the two touches [2-6] at once, and in which order they collide")
+        self.assertRegex(done.stdout, "where they part a disk touches several at once, and in which order these collide")
 
     def test_it_goes_on_and_its_report_can_be_made_again(self):
         self.assert_status(self.lockstep(), HELD)
@@ -81,11 +75,6 @@ class Lockstep(SystemTest):
         self.assertRegex(done.stdout, r"box2d-penalty +3 windows")
         self.assertIn("mirrors are made of this engine", done.stdout)
         self.assertFalse(self.out.exists())
-
-    def test_nothing_to_judge(self):
-        done = self.lockstep(engines="grain")
-        self.assert_status(done, FELL_SHORT)
-        self.assertIn("nothing was judged: no engine here has a mirror", done.stdout)
 
     def test_bad_input(self):
         for value in ("0", "2.5", "-1"):

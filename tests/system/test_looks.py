@@ -8,7 +8,7 @@ from harness import COUETTE, FELL_SHORT, HELD, SystemTest, settings
 # Binding: columns that other programs read, in this order; further ones come after.
 COLUMNS = (
     "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,distance_high,"
-    "look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,reference,reason"
+    "look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,reference,reason,reach"
 ).split(",")
 
 SHORT = settings(
@@ -49,14 +49,14 @@ class Looks(SystemTest):
         self.assert_status(first, FELL_SHORT)
         self.assertRegex(first.stdout, r"Looked at 4 packings \(1 of 3 looks\), agree tested at 2\.3\d % in each; 1\.25 of 5 %")
         self.assertIn("after the budget of 0.1 s", first.stdout)
-        self.assertRegex(first.stderr, r"the first look, at 4 packings, is likely to end after \S+ s, .* beyond the budget of 0\.1 s")
+        self.assertRegex(first.stderr, r"the first analysis, at 4 packings, is likely to end after \S+ s, .* beyond the budget of 0\.1 s")
         decided = {
             row["endpoint"]: row for row in self.endpoints() if row["answer"] not in OPEN
         }
         runs = self.finished_runs()
         second = self.compare_short("--budget=10m", *stiff, engines=engines)
         self.assert_status(second, FELL_SHORT)
-        self.assertNotIn("the first look", second.stderr)
+        self.assertNotIn("the first analysis", second.stderr)
         self.assertRegex(second.stdout, r"Looked at 4, 8, 12 packings \(3 of 3 looks\), .*; 5 of 5 %")
         now = self.finished_runs()
         self.assertEqual(runs, {name: now[name] for name in runs})

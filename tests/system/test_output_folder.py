@@ -35,20 +35,9 @@ class Unwritable(SystemTest):
         for done in self.commands(file / "out"):
             self.assert_one_line(done, BAD_INPUT, str(file / "out"), "Not a directory")
 
-    def test_is_a_file(self):
-        file = self.write("file", "content")
-        for done in self.commands(file):
-            self.assert_one_line(done, BAD_INPUT, str(file))
-        self.assertEqual("content", file.read_text(encoding="utf-8"))
-
     def test_in_proc(self):
         for done in self.commands("/proc/crossgrain"):
             self.assert_one_line(done, BAD_INPUT, "/proc/crossgrain", "No such file or directory")
-
-    def test_nothing_is_prepared_first(self):
-        cache = self.folder / "cache"
-        self.compare("--quiet", out="/proc/crossgrain", env={"CROSSGRAIN_CACHE": str(cache)})
-        self.assertFalse(cache.exists())
 
     @unittest.skipIf(os.geteuid() == 0, "permissions do not hold for root")
     def test_without_permission(self):

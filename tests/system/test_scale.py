@@ -1,7 +1,6 @@
 """`scale`: what a step takes as the cell grows and workers share it."""
 
 import csv
-import shutil
 import unittest
 
 from harness import BAD_INPUT, ENGINE_FAILED, HELD, SystemTest
@@ -79,12 +78,6 @@ class Scale(SystemTest):
         self.assertNotIn("finished in an earlier run", anew.stderr)
         self.assertEqual(1, len(self.finished_runs()))
 
-    def test_dry_run(self):
-        done = self.scale(*SMALL, "--threads=1,2", "--dry-run")
-        self.assert_status(done, HELD)
-        self.assertRegex(done.stdout, r"grain +2 timings: 0 finished, 2 to do")
-        self.assertFalse(self.out.exists())
-
     def test_bad_options(self):
         for option, told in (
             ("--disks=10", "from 1000 to 20000000"),
@@ -128,13 +121,6 @@ class Scale(SystemTest):
             "deviations": [],
         }  # fmt: skip
         return f"CAN = {can!r}\nREAL = {real!r}\n{DIES}"
-
-    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed (Debian: package lammps)")
-    def test_another_engine_beside(self):
-        self.assert_status(self.scale(*SMALL, "--threads=1", "--quiet", engines="grain,lammps"), HELD)
-        grain, lammps = self.rows()
-        self.assertAlmostEqual(float(lammps["ratio"]), float(lammps["step_s"]) / float(grain["step_s"]))
-        self.assertIn("bottom_friction", lammps["differs"].split())
 
 
 if __name__ == "__main__":

@@ -51,17 +51,6 @@ class Stability(SystemTest):
         self.assertEqual({"stable"}, {verdicts[engine] for engine in ours})
         self.assert_status(done, FELL_SHORT if "unstable" in verdicts.values() else HELD)
 
-    def test_one_case_that_is_unstable_is_status_1(self):
-        done = self.run_program(
-            "stability", HARD / "elastic-collision.toml", "--engines", "grain", "--out", self.out,
-            "--set", "stability.limit=0", "--set", "stability.degraded=0",
-        )
-        self.assert_status(done, FELL_SHORT)
-        (row,) = self.table()
-        self.assertEqual(("unstable", "grain"), (row["verdict"], row["engine"]))
-        self.assertGreater(int(row["step"]), 0)
-        self.assertIn("worst_1", (self.out / "report.html").read_text(encoding="utf-8"))
-
     def test_cases_after_public_threads_catch_what_they_are_named_after(self):
         """A slipping contact that keeps its anchor, friction of velocity alone, a bounce in seven steps."""
         planted = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/faults/planted_engine"

@@ -1,4 +1,4 @@
-"""crossgrain thesis climbs a ladder of cases, keeps what is finished, goes on to the bit, and judges."""
+"""crossgrain thesis runs a sweep of cases, keeps what is finished, goes on to the bit, and judges."""
 
 import csv
 import json
@@ -10,7 +10,7 @@ import unittest
 from harness import BAD_INPUT, ENGINE_FAILED, FELL_SHORT, HELD, INTERRUPTED, SystemTest
 
 FOLDER = pathlib.Path(__file__).resolve().parents[1] / "runs/thesis"
-LADDER = FOLDER / "ladder.toml"
+SWEEP = FOLDER / "ladder.toml"
 
 # Binding: columns that other programs read, in this order; further ones come after.
 CLAIMS = "id,engine,carrier,reading,figure,value,stderr,low,high,unit,verdict,why".split(",")
@@ -28,9 +28,9 @@ READINGS = "engine,family,reading,nu,rotations,number,unit,default,change,stderr
 
 
 class Thesis(SystemTest):
-    def climb(self, *arguments, out=None, **options):
+    def sweep(self, *arguments, out=None, **options):
         return self.run_program(
-            "thesis", LADDER, "--out", out or self.out, "--quiet", *arguments, **options
+            "thesis", SWEEP, "--out", out or self.out, "--quiet", *arguments, **options
         )
 
     def table(self, name, out=None):
@@ -46,8 +46,8 @@ class Thesis(SystemTest):
             runs[file.stem] = run
         return runs
 
-    def test_a_small_ladder(self):
-        done = self.climb()
+    def test_a_small_sweep(self):
+        done = self.sweep()
         self.assert_status(done, HELD)
         results = self.results()
         self.assertEqual(8, len(results["collisions"]["variants"]))
@@ -82,22 +82,22 @@ class Thesis(SystemTest):
         self.assertIn("report: ", done.stdout)
         self.assertIn("tiny-smooth", (self.out / "report.html").read_text(encoding="utf-8"))
 
-    def test_what_is_finished_is_taken_up_and_the_report_is_rebuilt_to_the_bit(self):
-        self.assert_status(self.climb(), HELD)
+    def test_what_is_finished_is_loaded_and_the_report_is_rebuilt_to_the_bit(self):
+        self.assert_status(self.sweep(), HELD)
         runs = self.finished_runs()
-        self.assert_status(self.climb("--resume"), HELD)
+        self.assert_status(self.sweep("--resume"), HELD)
         self.assertEqual(runs, self.finished_runs())
         verdicts = {row["verdict"] for row in self.table("claims.csv")}
         self.assertIn("refuted", verdicts)  # a finding, no failure
         self.assertIn("undecided", verdicts)
-        self.assert_status(self.climb("--strict"), FELL_SHORT)
+        self.assert_status(self.sweep("--strict"), FELL_SHORT)
         files = {name: (self.out / name).read_bytes() for name in ("claims.csv", "history.csv", "results.json")}
         self.assert_status(self.run_program("report", self.out), HELD)
         for name, content in files.items():
             self.assertEqual(content, (self.out / name).read_bytes(), name)
 
     def test_whole_runs_of_an_earlier_file_make_the_same_report(self):
-        self.assert_status(self.climb(), HELD)
+        self.assert_status(self.sweep(), HELD)
         names = ("claims.csv", "history.csv", "regime_map.csv", "readings.csv", "results.json", "report.html")
         files = {name: (self.out / name).read_bytes() for name in names}
         results = self.results()
@@ -112,7 +112,7 @@ class Thesis(SystemTest):
             self.assertEqual(content, (self.out / name).read_bytes(), name)
 
     def test_reasons_that_were_found_since_stand_under_refuted_claims(self):
-        self.assert_status(self.climb(), HELD)
+        self.assert_status(self.sweep(), HELD)
         (refuted, *_) = (
             claim
             for claim in self.results()["claims"]
@@ -137,77 +137,77 @@ class Thesis(SystemTest):
             self.run_program("report", self.out, "--reasons", reasons), BAD_INPUT, "reasons.toml:2", "C99"
         )
 
-    def test_another_sitting_takes_finished_runs_from_the_results_alone(self):
-        self.assert_status(self.climb(), HELD)
+    def test_another_session_takes_finished_runs_from_the_results_alone(self):
+        self.assert_status(self.sweep(), HELD)
         first = self.results()
         for run in first["runs"]:
             run["program"] = "0.0.1 (of another build)"
         missing = first["runs"].pop()
         before = self.folder / "before.json"
         before.write_text(json.dumps(first), encoding="utf-8")
-        plan = self.climb("--from", before, "--dry-run", out=self.folder / "second")
+        plan = self.sweep("--from", before, "--dry-run", out=self.folder / "second")
         self.assertIn("3 runs: 2 finished, 1 to do", plan.stdout)
-        self.assert_status(self.climb("--from", before, out=self.folder / "second"), HELD)
+        self.assert_status(self.sweep("--from", before, out=self.folder / "second"), HELD)
         second = json.loads((self.folder / "second/results.json").read_text(encoding="utf-8"))
         self.assertEqual(first["runs"], second["runs"][:2])
         made = second["runs"][2]
         self.assertNotEqual("0.0.1 (of another build)", made["program"])
         self.assertEqual((missing["key"], missing["history"]), (made["key"], made["history"]))
-        told = [note for note in second["notes"] if note.startswith("2 of 3 runs were made by crossgrain 0.0.1")]
-        self.assertEqual(1, len(told), second["notes"])
+        notes = [note for note in second["notes"] if note.startswith("2 of 3 runs were made by crossgrain 0.0.1")]
+        self.assertEqual(1, len(notes), second["notes"])
 
         # Another seed makes other packings: nothing of it can be taken.
-        plan = self.climb("--from", before, "--seed=2", "--dry-run", out=self.folder / "third")
+        plan = self.sweep("--from", before, "--seed=2", "--dry-run", out=self.folder / "third")
         self.assertIn("3 runs: 0 finished, 3 to do", plan.stdout)
         first["kind"] = "collide"
         before.write_text(json.dumps(first), encoding="utf-8")
         self.assert_one_line(
-            self.climb("--from", before, out=self.folder / "fourth"), BAD_INPUT, "--from", "'crossgrain collide'"
+            self.sweep("--from", before, out=self.folder / "fourth"), BAD_INPUT, "--from", "'crossgrain collide'"
         )
 
     def test_interrupted_runs_go_on_to_the_bit(self):
         longer = "--set=averaging.snapshots_per_rotation=400", "--set=averaging.settle_rotations=10.0"
         whole = self.folder / "whole"
-        self.assert_status(self.climb(*longer, out=whole), HELD)
+        self.assert_status(self.sweep(*longer, out=whole), HELD)
         unfinished = set()
         for _ in range(2):
-            running = self.start("thesis", LADDER, "--out", self.out, "--jobs", 1, *longer)
-            running.worker_at_work("grain", cpu_seconds=0.5, stage="climbing")
+            running = self.start("thesis", SWEEP, "--out", self.out, "--jobs", 1, *longer)
+            running.worker_at_work("grain", cpu_seconds=0.5, stage="running")
             running.process.send_signal(signal.SIGINT)
             done = self.check_no_crash(running.end())
             self.assert_one_error(done, INTERRUPTED, "the same command goes on from there")
             unfinished |= {file.parent.name for file in (self.out / "unfinished").rglob("index.json")}
         self.assertTrue(unfinished)
-        self.assert_status(self.climb(*longer), HELD)
+        self.assert_status(self.sweep(*longer), HELD)
         wanted, found = self.all_but_time(whole), self.all_but_time(self.out)
         self.assertEqual(3, len(wanted))
         self.assertEqual([], [name for name in wanted if wanted[name] != found.get(name)])
 
     def test_an_engine_that_dies_ends_its_run_alone_and_is_tried_again(self):
         longer = "--set=averaging.settle_rotations=6.0"
-        running = self.start("thesis", LADDER, "--out", self.out, "--jobs", 1, longer)
-        os.kill(running.worker_at_work("grain", stage="climbing"), signal.SIGKILL)
+        running = self.start("thesis", SWEEP, "--out", self.out, "--jobs", 1, longer)
+        os.kill(running.worker_at_work("grain", stage="running"), signal.SIGKILL)
         done = self.check_no_crash(running.end())
         self.assert_one_error(done, ENGINE_FAILED, "packing 0", "grain")
         states = [run["run"]["status"] for run in self.results()["runs"]]
         self.assertEqual((2, 1), (states.count("finished"), states.count("failed")))
         runs = self.finished_runs()
-        self.assert_status(self.climb(longer), HELD)
+        self.assert_status(self.sweep(longer), HELD)
         now = self.finished_runs()
         self.assertEqual(runs, {name: now[name] for name in runs})
         self.assertEqual({"finished"}, {run["run"]["status"] for run in self.results()["runs"]})
 
-    def test_what_the_budget_has_no_room_for_is_left_out_and_said(self):
-        done = self.climb("--budget=0.001s")
+    def test_what_the_budget_has_no_room_for_is_left_out_and_noted(self):
+        done = self.sweep("--budget=0.001s")
         self.assert_status(done, FELL_SHORT)
         self.assertIn("nothing was judged: no run was finished", done.stdout)
         self.assertIn("tiny, grain, packing 0 was left out: it would take about", done.stdout)
         self.assertEqual([], self.results()["runs"])
-        self.assert_status(self.climb("--budget=1h"), HELD)
+        self.assert_status(self.sweep("--budget=1h"), HELD)
         self.assertEqual(3, len(self.results()["runs"]))
 
-    def test_a_mirror_carries_an_engine_that_lockstep_shows_to_be_it(self):
-        done = self.climb("--engines=grain,box2d-penalty")
+    def test_a_mirror_stands_for_an_engine_that_lockstep_shows_to_be_equivalent(self):
+        done = self.sweep("--engines=grain,box2d-penalty")
         self.assert_status(done, HELD)
         results = self.results()
         (carrier,) = results["carriers"]
@@ -219,23 +219,23 @@ class Thesis(SystemTest):
         engines = [run["engine"] for run in results["runs"]]
         self.assertEqual((3, 2, 2), tuple(map(engines.count, ("grain", "box2d-penalty", carrier["mirror"]))))
 
-    def test_a_dry_run_tells_and_writes_nothing(self):
-        done = self.climb("--dry-run")
+    def test_a_dry_run_prints_and_writes_nothing(self):
+        done = self.sweep("--dry-run")
         self.assert_status(done, HELD)
         self.assertIn("3 runs: 0 finished, 3 to do", done.stdout)
         self.assertFalse(self.out.exists())
 
     def test_another_seed_is_another_run(self):
-        self.assert_status(self.climb("--seed=2"), HELD)
+        self.assert_status(self.sweep("--seed=2"), HELD)
         self.assertEqual({2}, {run["seed"] for run in self.results()["runs"]})
-        self.assert_one_line(self.climb("--seed=3"), BAD_INPUT, "preparation.seed: 2 → 3")
+        self.assert_one_line(self.sweep("--seed=3"), BAD_INPUT, "preparation.seed: 2 → 3")
 
     def test_bad_input_is_one_line(self):
         self.assert_one_line(
             self.run_program("thesis", self.folder / "none.toml", "--out", self.out), BAD_INPUT, "no such file"
         )
-        self.assert_one_line(self.climb("--budget=soon"), BAD_INPUT, "soon")
-        self.assert_one_line(self.climb("--engines=grian"), BAD_INPUT, "did you mean grain?")
+        self.assert_one_line(self.sweep("--budget=soon"), BAD_INPUT, "soon")
+        self.assert_one_line(self.sweep("--engines=grian"), BAD_INPUT, "did you mean grain?")
         self.assert_one_line(
             self.run_program("thesis", FOLDER / "tiny.toml", "--out", self.out), BAD_INPUT, "tiny.toml: is a case"
         )

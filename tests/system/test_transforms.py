@@ -100,14 +100,6 @@ class Transforms(SystemTest):
     def test_what_is_wrong_in_every_telling_alike_is_none_of_its_business(self):
         self.transform(str(self.planted("stiff", kn=1.05)), SLIDING, status=HELD)
 
-    def test_what_cannot_be_done_is_told_with_the_reason(self):
-        self.transform("grain,box2d-impulse", CASES / "hard/units.toml", status=HELD)
-        refused = [row for row in self.rows if row["verdict"] == "refused"]
-        self.assertIn("restarted", {row["measure"] for row in refused})
-        for row in refused:
-            self.assertNotEqual("", row["reason"])
-            self.assertEqual("", row["value"])
-
     def test_a_worker_gets_absolute_paths_from_a_relative_output_folder(self):
         """It may work in a folder of its own."""
         worker = self.folder / "elsewhere.sh"
@@ -121,15 +113,6 @@ class Transforms(SystemTest):
         with open(self.folder / "o/stability.csv", encoding="utf-8", newline="") as file:
             verdicts = {row["variant"]: row["verdict"] for row in csv.DictReader(file)}
         self.assertEqual("stable", verdicts["restarted"])
-
-    def test_finished_runs_are_taken_up(self):
-        self.transform("grain", SLIDING, status=HELD)
-        first = self.rows
-        again = self.run_program("stability", "--transforms", SLIDING, "--engines", "grain", "--out", self.out)
-        self.assert_status(again, HELD)
-        self.assertIn("finished in an earlier run", again.stderr)
-        with open(self.out / "stability.csv", encoding="utf-8", newline="") as file:
-            self.assertEqual(first, list(csv.DictReader(file)))
 
     def test_what_the_budget_has_no_time_for_is_not_run_and_holds_nothing(self):
         # Some forty looks at a third of a second: the run that the others are held against is given up.

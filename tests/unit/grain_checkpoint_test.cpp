@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "tests/unit/grain_packed.hpp"
 
@@ -162,6 +166,86 @@ TEST(Checkpoints, OfASceneWithOtherConstantsAreRefused) {
   EXPECT_EQ(changed([](auto& s) { s.disks.radius[3] *= 1.01; }), another);
   EXPECT_EQ(changed([](auto& s) { s.disks.mass[3] *= 1.01; }), another);
   EXPECT_EQ(changed([](auto& s) { s.integrator = Integrator::velocityVerlet; }), another);
+}
+
+/// Where two simulations have come to, of those of one setup [m].
+double apart(const Simulation& one, const Simulation& other) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < one.movingCount(); ++i)
+    most = std::max(most, std::hypot(one.x(i) - other.x(i), one.y(i) - other.y(i)));
+  return most;
+}
+
+/// Its walls stand still: they are where they were at the beginning.
+Setup packedAtRest() {
+  Setup setup = test::packed(10, 3);
+  setup.walls.pop_back();  // the wheel
+  for (Wall& wall : setup.walls) {
+    wall.moves = false;
+    wall.motion = [](double) { return WallState{}; };
+  }
+  return setup;
+}
+
+/// A run begun from what another one shows: under way, or with relaxed springs.
+Simulation begunFrom(const Simulation& seen, Setup setup, bool underWay) {
+  for (std::size_t i = 0; i < seen.movingCount(); ++i) {
+    setup.disks.x[i] = seen.x(i);
+    setup.disks.y[i] = seen.y(i);
+    setup.disks.vx[i] = seen.velocityX(i);
+    setup.disks.vy[i] = seen.velocityY(i);
+    setup.disks.spin[i] = seen.spin(i);
+  }
+  Simulation begun(std::move(setup));
+  if (underWay) begun.beginUnderWay(seen.contacts());
+  return begun;
+}
+
+/// How far both of them are from a run that goes on, 25 steps later [m].
+std::pair<double, double> farFromGoingOn(const Setup& setup) {
+  Simulation whole(setup);
+  whole.advance(500);
+  Simulation warm = begunFrom(whole, setup, true), cold = begunFrom(whole, setup, false);
+  for (Simulation* run : {&whole, &warm, &cold}) run->advance(25);
+  return {apart(warm, whole), apart(cold, whole)};
+}
+
+TEST(BeginUnderWay, GoesOnToRounding) {
+  using enum Integrator;
+  for (const auto& [integrator, damping] :
+       {std::pair(semiImplicitEuler, Damping::lagged), std::pair(positionVerlet, Damping::lagged),
+        std::pair(positionVerlet, Damping::implicit), std::pair(velocityVerlet, Damping::lagged)})
+    for (const Stretch stretch : {Stretch::after, Stretch::before, Stretch::midpoint})
+      for (const bool hertz : {false, true})
+        for (const bool outside : {false, true}) {
+          grain::Setup setup = packedAtRest();
+          setup.integrator = integrator;
+          setup.law.damping = damping;
+          setup.law.stretch = stretch;
+          setup.law.dashpotOutsideBound = outside;
+          setup.law.history = outside ? History::force : History::displacement;
+          if (hertz) {
+            setup.law.normal = Normal::hertz;
+            setup.law.kn *= 1e3;
+            setup.law.kt *= 1e3;
+          }
+          const auto [warm, cold] = farFromGoingOn(setup);
+          EXPECT_LT(warm, 1e-13) << static_cast<int>(integrator) << static_cast<int>(damping)
+                                 << static_cast<int>(stretch) << hertz << outside;
+          EXPECT_GT(cold, 1e-8);
+        }
+}
+
+/// Predicted velocities need the forces of a step before, which no contact shows any more.
+TEST(BeginUnderWay, PredictedDamping_GoesOnNearly) {
+  const auto [warm, cold] = farFromGoingOn(packedAtRest());
+  EXPECT_LT(warm, 1e-2 * cold);
+}
+
+TEST(BeginUnderWay, AfterAStep_Throws) {
+  Simulation run(test::packed(6, 3));
+  run.step();
+  EXPECT_THROW(run.beginUnderWay({}), std::logic_error);
 }
 
 }  // namespace

@@ -46,6 +46,11 @@ TEST_F(ArrayFile, KeepsEveryBit) {
   EXPECT_EQ(reader.vec2("vectors", 2), vectors);
   EXPECT_TRUE(reader.f64("nothing", 0).empty());
   EXPECT_FALSE(reader.has("other"));
+
+  const auto* const bytes = reinterpret_cast<const char*>(writer.bytes().data());
+  const ArrayReader content(std::string(bytes, writer.bytes().size()), "content", writer.list());
+  EXPECT_EQ(content.vec2("vectors", 2), vectors);
+  EXPECT_THROW(ArrayReader(std::string(bytes, 8), "content", writer.list()), std::runtime_error);
 }
 
 TEST_F(ArrayFile, IsLittleEndianRawAndAligned) {
@@ -95,6 +100,59 @@ TEST_F(ArrayFile, RefusesNanInfinityAndWrongCounts) {
   EXPECT_EQ(failure([&] { reader.vec2("v", 2); }), name + ": v is 2 × f64, expected 4 × f64");
   EXPECT_EQ(failure([&] { reader.i32("x", 2); }), name + ": x is 2 × f64, expected 2 × i32");
   EXPECT_EQ(failure([&] { reader.f64("y", 2); }), name + " has no array 'y'");
+}
+
+namespace fs = std::filesystem;
+
+class FileOfExchanges : public ::testing::Test {
+ protected:
+  fs::path folder_ = fs::path(::testing::TempDir()) / "crossgrain-exchange-file";
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~FileOfExchanges() override { fs::remove_all(folder_); }
+
+  static std::string contentOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  static ArrayWriter numbers(std::size_t count) {
+    ArrayWriter arrays;
+    arrays.add("numbers", std::vector<double>(count, 0.1));
+    return arrays;
+  }
+};
+
+TEST_F(FileOfExchanges, Kept_NextExchange_HoldsNoNumber) {
+  ExchangeFile file(folder_ / "toy");
+  const fs::path path = file.next(true);
+  EXPECT_EQ(path, folder_ / "toy.bin");
+  EXPECT_EQ(file.read(file.write(numbers(3))).f64("numbers", 3), std::vector(3, 0.1));
+  file.done();
+  EXPECT_EQ(file.next(true), path);
+  EXPECT_EQ(contentOf(path), std::string(24, '\xff'));
+  EXPECT_THROW(file.read(numbers(3).list()).f64("numbers", 3), std::runtime_error);
+}
+
+TEST_F(FileOfExchanges, Kept_GrownTooLong_IsMadeAnew) {
+  ExchangeFile file(folder_ / "toy");
+  const fs::path path = file.next(true);
+  fs::resize_file(path, (std::uintmax_t{16} << 20) + 1);
+  EXPECT_EQ(file.next(true), path);
+  EXPECT_EQ(fs::file_size(path), 0u);
+}
+
+TEST_F(FileOfExchanges, NotKept_EachExchange_HasAnotherFile) {
+  ExchangeFile file(folder_ / "toy");
+  for (const char* name : {"toy-1.bin", "toy-2.bin"}) {
+    const fs::path path = file.next(false);
+    EXPECT_EQ(path, folder_ / name);
+    EXPECT_EQ(file.read(file.write(numbers(2))).f64("numbers", 2), std::vector(2, 0.1));
+    file.done();
+    EXPECT_FALSE(fs::exists(path));
+  }
 }
 
 }  // namespace

@@ -14,9 +14,8 @@
 #include <new>
 
 #include "adapters/worker/answer.hpp"
-#include "adapters/worker/exchange.hpp"
 #include "adapters/worker/json.hpp"
-#include "support/bad_input.hpp"
+#include "support/descriptor.hpp"
 #include "tests/support/input_range.hpp"
 #include "tests/worker/hostile_messages.hpp"
 #include "tests/worker/toy_engine.hpp"
@@ -73,8 +72,8 @@ class Hostile : public ::testing::Test {
       return;
     }
     requireAnswerTo(message.request, answer);
-    if (message.request == "hello") capabilitiesFromJson(answer.at("capabilities"));
-    if (message.request == "load") realisedFromJson(answer.at("realised"));
+    if (message.request == "hello") readAs<Capabilities>(answer.at("capabilities"));
+    if (message.request == "load") readAs<Realised>(answer.at("realised"));
     if (message.request == "advance") static_cast<void>(answer.at("time").get<double>());
     if (message.request == "stats") expectSound(statsFromJson(answer.at("stats")));
     if (message.request != "snapshot") return;
@@ -142,29 +141,6 @@ TEST_F(Hostile, AnswersAreAValueOrOneLine) {
   }
   EXPECT_LT(largest.load(), std::size_t{1} << 20);
   EXPECT_LT(slowest.count(), 10.0);  // on however busy a machine
-}
-
-TEST_F(Hostile, RecordingsAreExchangesOrBadInput) {
-  const std::vector<Message> answers = test::trueAnswers();
-  largest = 0;
-  const test::InputRange all = test::inputs(10'000);
-  for (std::uint64_t k = all.from; k < all.to; ++k) {
-    const Message message = hostileMessage(answers, k);
-    file_.write(fmt::format(R"({{"crossgrain_recording":1}})"
-                            "\n"
-                            R"({{"request":{{"request":"snapshot"}},"received":{},"answer":{}}})"
-                            "\n{}{}\n{}",
-                            message.file.size(), message.line, message.file, message.line,
-                            message.file));
-    try {
-      ExchangeReader reader(file_.path());
-      while (reader.next()) {
-      }
-    } catch (const BadInput&) {
-      // One line, as it is made.
-    }
-  }
-  EXPECT_LT(largest.load(), std::size_t{1} << 20);
 }
 
 }  // namespace

@@ -4,10 +4,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "adapters/worker/exchange.hpp"
 #include "adapters/worker/json.hpp"
 #include "adapters/worker/serve.hpp"
-#include "support/scratch_folder.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain::test {
@@ -115,19 +113,20 @@ void changeFile(std::string& file, Dice& dice) {
 
 std::vector<Message> trueAnswers() {
   ToyEngine engine("");
-  const json realised = toJson(engine.load(toyScene(), {}));
+  const json realised = jsonOf(engine.load(toyScene(), {}));
   engine.advance(0.1);
   ArrayWriter arrays;
   json snapshot = {{"ok", true},
                    {"snapshot", toJson(engine.snapshot(ContactReport::instant), arrays)}};
-  const ScratchFolder scratch;
-  snapshot["arrays"] = arrays.write(scratch.path / "arrays");
+  snapshot["arrays"] = arrays.list();
   const json hello = {
-      {"ok", true}, {"protocol", protocolVersion}, {"capabilities", toJson(engine.capabilities())}};
+      {"ok", true}, {"protocol", protocolVersion}, {"capabilities", jsonOf(engine.capabilities())}};
   return {{"hello", hello.dump(), {}},
           {"load", json{{"ok", true}, {"realised", realised}}.dump(), {}},
           {"advance", R"({"ok":true,"time":0.1})", {}},
-          {"snapshot", snapshot.dump(), keptContent(scratch.path / "arrays")},
+          {"snapshot",
+           snapshot.dump(),
+           {reinterpret_cast<const char*>(arrays.bytes().data()), arrays.bytes().size()}},
           {"stats", json{{"ok", true}, {"stats", toJson(engine.stats())}}.dump(), {}},
           {"load", R"({"ok":false,"kind":"unsupported","what":"has no µ"})", {}}};
 }

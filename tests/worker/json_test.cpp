@@ -119,7 +119,7 @@ TEST(WorkerJson, SnapshotKeepsEveryBitAndWhatIsAbsent) {
 TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   test::ToyEngine engine;
   const Capabilities can = engine.capabilities();
-  const Capabilities back = capabilitiesFromJson(nlohmann::json::parse(toJson(can).dump()));
+  const Capabilities back = readAs<Capabilities>(nlohmann::json::parse(jsonOf(can).dump()));
   EXPECT_EQ(back.version, can.version);
   std::map<Effect, Support> told;
   for (const Effect effect : allEffects) told[effect] = Support::never;  // what is missing
@@ -140,10 +140,10 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   EXPECT_EQ(back.settings[1].choices, can.settings[1].choices);
 
   const Settings settings = {{"a", true}, {"b", 0.1}, {"c", std::string("x")}};
-  EXPECT_EQ(settingsFromJson(nlohmann::json::parse(toJson(settings).dump())), settings);
+  EXPECT_EQ(readAs<Settings>(nlohmann::json::parse(jsonOf(settings).dump())), settings);
 
   const Realised realised = engine.load(test::toyScene(), {});
-  const Realised again = realisedFromJson(nlohmann::json::parse(toJson(realised).dump()));
+  const Realised again = readAs<Realised>(nlohmann::json::parse(jsonOf(realised).dump()));
   EXPECT_EQ(again.effects, realised.effects);
   EXPECT_EQ(again.dt, realised.dt);
   ASSERT_EQ(again.pairs.size(), 1u);
@@ -151,14 +151,14 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   EXPECT_EQ(again.pairs[0].kt, 0.2);
   // What a contact does not have is absent, not 0: springs have no restitutions, and rebounds no
   // springs.
-  const nlohmann::json soft = toJson(realised)["pairs"][0];
+  const nlohmann::json soft = jsonOf(realised)["pairs"][0];
   EXPECT_TRUE(soft["en"].is_null() && soft["et0"].is_null());
   Realised rigid = realised;
   rigid.pairs[0] = {"a – b", 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.6};
-  const nlohmann::json rebounding = toJson(rigid)["pairs"][0];
+  const nlohmann::json rebounding = jsonOf(rigid)["pairs"][0];
   for (const char* key : {"kn", "gn", "kt", "gt"}) EXPECT_TRUE(rebounding[key].is_null()) << key;
   EXPECT_EQ(rebounding["en"], 0.0);
-  EXPECT_EQ(realisedFromJson(toJson(rigid)).pairs[0].et0, 0.6);
+  EXPECT_EQ(readAs<Realised>(jsonOf(rigid)).pairs[0].et0, 0.6);
   ASSERT_EQ(again.deviations.size(), 1u);
   EXPECT_EQ(again.deviations[0].value, 1e-300);
 
@@ -168,8 +168,38 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
 
   for (const auto report :
        {ContactReport::none, ContactReport::instant, ContactReport::accumulated})
-    EXPECT_EQ(contactReportFromJson(toJson(report)), report);
-  EXPECT_THROW(contactReportFromJson("always"), std::runtime_error);
+    EXPECT_EQ(readAs<ContactReport>(jsonOf(report)), report);
+  EXPECT_THROW(readAs<ContactReport>("always"), std::runtime_error);
+}
+
+/// A key that is missing or null is named, whatever its type.
+TEST(WorkerJson, RequiredKey_MissingOrNull_IsRefusedByName) {
+  test::ToyEngine engine;
+  const Json can = jsonOf(engine.capabilities());
+  const Json realised = jsonOf(engine.load(test::toyScene(), {}));
+  const auto refusal = [](auto read) -> std::string {
+    try {
+      read();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  for (const char* key : {"dt", "precision", "effects", "pairs"})
+    for (const bool missing : {true, false}) {
+      Json broken = realised;
+      if (missing)
+        broken.erase(key);
+      else
+        broken[key] = nullptr;
+      EXPECT_EQ(refusal([&] { readAs<Realised>(broken); }).find(key), 0u) << key;
+    }
+  Json broken = can;
+  broken["law_options"]["dashpot"] = {"sideways"};
+  EXPECT_NE(refusal([&] { readAs<Capabilities>(broken); }).find("sideways"), std::string::npos);
+  broken = can;
+  broken["effects"]["levitation"] = "always";
+  EXPECT_NE(refusal([&] { readAs<Capabilities>(broken); }).find("levitation"), std::string::npos);
 }
 
 }  // namespace

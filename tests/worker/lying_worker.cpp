@@ -72,9 +72,9 @@ int lyingWorker(const std::string& mischief) {
     const auto request = nlohmann::json::parse(line);
     nlohmann::json reply = {{"ok", true},
                             {"protocol", protocolVersion},
-                            {"capabilities", toJson(ToyEngine().capabilities())},
+                            {"capabilities", jsonOf(ToyEngine().capabilities())},
                             {"writes_over", writesOver(mischief)},
-                            {"realised", toJson(realised)}};
+                            {"realised", jsonOf(realised)}};
     if (request.at("request") == "snapshot") {
       reply["snapshot"] = snapshotOf();
       reply["arrays"] = arraysOf(mischief, request.at("file"));

@@ -246,11 +246,11 @@ TEST_F(Worker, IsHeldToItsMemory) {
 
 TEST_F(Worker, SaysAtOnceWhatCannotBe) {
   EXPECT_EQ(failureOf([&] { start("option"); }),
-            "toy: its answer to hello is unusable: unknown law option 'colour' (there are: normal, "
+            "toy: its answer to hello is unusable: law_options: unknown law option 'colour' (there are: normal, "
             "damper, tangential, tension, coulomb_bound, dashpot, spring_reset, spring_update, "
             "lever_arm, velocity_arm, plane_arm, history, damping_velocity, integrator)");
   EXPECT_EQ(failureOf([&] { start("value"); }),
-            "toy: its answer to hello is unusable: tension cannot be 'red' (it is one of: allow, "
+            "toy: its answer to hello is unusable: law_options: tension cannot be 'red' (it is one of: allow, "
             "cut)");
   EXPECT_EQ(failureOf([&] { start("no value"); }),
             "toy: its answer to hello is unusable: law_options: tension has no value");

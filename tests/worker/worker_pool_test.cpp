@@ -9,7 +9,6 @@
 #include <fstream>
 #include <thread>
 
-#include "adapters/worker/pooled_engine.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {

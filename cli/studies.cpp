@@ -1,0 +1,434 @@
+#include <fmt/format.h>
+
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <memory>
+
+#include "cases/effect_switch.hpp"
+#include "cases/engine_file.hpp"
+#include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
+#include "reports/collide/overview.hpp"
+#include "reports/conformance/report.hpp"
+#include "reports/cost/report.hpp"
+#include "reports/couette/endpoint_words.hpp"
+#include "reports/couette/overview.hpp"
+#include "reports/effects/overview.hpp"
+#include "reports/lockstep/overview.hpp"
+#include "reports/lockstep/words.hpp"
+#include "reports/report.hpp"
+#include "reports/scale/overview.hpp"
+#include "reports/scale/report.hpp"
+#include "reports/stability/overview.hpp"
+#include "reports/thesis/report.hpp"
+#include "results/collision_outcome.hpp"
+#include "runs/collide/collide.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/common/mirrors.hpp"
+#include "runs/common/study_cases.hpp"
+#include "runs/conformance/conformance.hpp"
+#include "runs/cost/cost.hpp"
+#include "runs/couette/compare.hpp"
+#include "runs/couette/lockstep_job.hpp"
+#include "runs/couette/rev.hpp"
+#include "runs/effects/effects.hpp"
+#include "runs/lockstep/identify.hpp"
+#include "runs/scale/scale.hpp"
+#include "runs/stability/stability.hpp"
+#include "runs/thesis/thesis.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+
+namespace crossgrain::inline cli {
+
+namespace {
+
+/// How results stand on a terminal: lines of text, then the matrix that their report opens with.
+template <typename Results>
+struct Terminal {
+  std::string (*text)(const Results&, const std::vector<Case>& cases);
+  Overview (*overview)(const Results&);
+  bool timeSpent = false;
+  /// What is printed in place of all that, to be pasted; empty: nothing is.
+  std::string (*paste)(const Results&) = nullptr;
+};
+
+/// From the folder to the exit status, the same for all studies.
+template <typename Options, typename Results>
+int runStudy(const Study<Options, Results>& study, const CommandLine& line, Options own,
+             const Terminal<Results>& terminal) {
+  const std::vector<Case> cases = study.cases(line, own);
+  RunStore store(line.run, study.name,
+                 study.keeps == Keeps::eachCase  ? keysOfEach(cases)
+                 : study.keeps == Keeps::oneCase ? soleCase(cases.front())
+                                                 : std::map<std::string, CaseKeys>());
+  const StudyWork work{line, cases, store};
+  if (line.run.dryRun) {
+    fmt::print("{}", study.plan(work, own));
+    return exitHeld;
+  }
+  const Results results = study.run(work, own);
+  store.begin();
+  writeReport(results, line.run.out);
+  const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
+  if (!paste.empty())
+    fmt::print("{}", paste);
+  else
+    printResults(line, line.json ? "" : terminal.text(results, cases), terminal.overview(results),
+                 terminal.timeSpent);
+  return printOutcome(line, study.outcome(results, line, own));
+}
+
+template <typename Options, typename Results>
+Action declareStudy(CLI::App& app, CommandLine& line, const Study<Options, Results>& study,
+                    const Terminal<Results>& terminal) {
+  const auto own = std::make_shared<Options>();
+  addStudy(app, line, study.takes, study.options(*own, line), study.exclusions);
+  return [&study, &line, own, terminal] {
+    if (!study.takes.jobs) line.run.jobs = 1;
+    if (study.keeps == Keeps::nothing) return runStudy(study, line, *own, terminal);
+    return resumably(line.run, [&] { return runStudy(study, line, *own, terminal); });
+  };
+}
+
+std::string compareText(const CompareResults& results, const std::vector<Case>& cases) {
+  std::string text = effectsInWords(effectsOf(cases.front())) + "\n";
+  const auto add = [&](const std::string& line) { text += line + "\n"; };
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      add(reports::sentenceOf(row, results.lockstep->rules));
+  for (const CarriedEngine& own : results.endpoints.carried) add(reports::sentenceOf(own));
+  std::map<Answer, int> answers;
+  for (const EndpointRow& row : results.endpoints.rows) {
+    if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
+    ++answers[row.answer];
+    if (row.kind == PairKind::closedForm ||
+        (row.a == results.engines.front().name && !results.nothingJudged))
+      add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::answerInWords(row)));
+  }
+  for (const AlarmRow& alarm : results.endpoints.alarms)
+    add("ALARM: " + reports::sentenceOf(alarm));
+  if (const LooksFindings& looks = results.endpoints.looks; looks.taken > 0)
+    add(reports::sentenceOf(looks));
+  if (!results.nothingJudged)
+    text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided; ",
+                        answers[Answer::noDifference] + answers[Answer::smallDifference],
+                        answers[Answer::borderline], answers[Answer::disagree],
+                        answers[Answer::undecided]);
+  add(fmt::format("{} of {} runs failed",
+                  std::ranges::count(results.runs, RunStatus::failed, &CouetteRun::status),
+                  results.runs.size()));
+  return text;
+}
+
+std::string collideText(const CollideResults& results, const std::vector<Case>&) {
+  std::map<std::string, int> refused;
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      refused[curve.engine] += curve.status == SweepStatus::refused;
+  std::string text;
+  for (const auto& [engine, count] : refused)
+    if (count > 0)
+      text += fmt::format("{} does not have the law of {} sweeps; the report says why\n", engine,
+                          count);
+  const CollideCount count = countOf(results);
+  return text +
+         fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
+                     count.held, count.modelDifference, count.fellShort, count.notJudged);
+}
+
+/// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
+std::string effectText(const EffectVariant& variant) {
+  const std::string head = fmt::format("{:<16} without {:<22} ", variant.engine, variant.effect);
+  if (variant.status != EngineStatus::ran)
+    return head + fmt::format("{}: {}\n", nameOf(variant.status), variant.reason);
+  int judged = 0, changed = 0;
+  for (const ChangedField& field : variant.changes.fields)
+    for (const RingChange& ring : field.rings) {
+      judged += ring.resolved.has_value();
+      changed += ring.resolved == true;
+    }
+  return head + fmt::format("{:.3f} of the time per step, {}\n", variant.timeRatio.value_or(NAN),
+                            judged == 0 ? "too few packings to know what changed"
+                                        : fmt::format("{} of {} rings changed", changed, judged));
+}
+
+std::string effectsText(const EffectsResults& results, const std::vector<Case>& cases) {
+  std::string text = effectsInWords(effectsOf(cases.front())) + "\n";
+  for (const EffectVariant& variant : results.variants)
+    if (variant.isSwitched()) text += effectText(variant);
+  return text;
+}
+
+std::string verdictText(const StabilityRun& run) {
+  std::string figure;
+  if (run.value)
+    figure =
+        fmt::format("{} {:.3g} {}, limit {:.3g}", run.measure, *run.value, run.unit, run.limit);
+  if (run.step) figure += fmt::format(", step {}", *run.step);
+  return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict), run.engine, run.name,
+                     run.variant.empty() ? "" : " ", run.variant, figure,
+                     figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
+}
+
+/// One line for each engine and reason of what was not judged: nobody reads forty of them.
+std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict verdict,
+                         const char* word) {
+  std::map<std::pair<std::string, std::string>, int> count;
+  for (const StabilityRun& run : runs)
+    if (run.verdict == verdict) ++count[{run.engine, run.reason}];
+  std::string text;
+  for (const auto& [what, times] : count)
+    text += fmt::format("{:<9} {:<16} {} run{}: {}\n", word, what.first, times,
+                        times == 1 ? "" : "s", what.second);
+  return text;
+}
+
+std::string stabilityText(const StabilityResults& results, const std::vector<Case>&) {
+  const std::vector<StabilityRun>& runs = results.runs;
+  const auto count = [&](StabilityVerdict verdict) {
+    return std::ranges::count(runs, verdict, &StabilityRun::verdict);
+  };
+  std::string text;
+  for (const StabilityRun& run : runs)
+    if (run.verdict > StabilityVerdict::stable) text += verdictText(run);
+  text += unjudgedText(runs, StabilityVerdict::refused, "refused");
+  text += unjudgedText(runs, StabilityVerdict::notRun, "not run");
+  const auto notRun = count(StabilityVerdict::notRun);
+  return text + fmt::format("{} stable, {} degraded, {} unstable, {} refused{}\n",
+                            count(StabilityVerdict::stable), count(StabilityVerdict::degraded),
+                            count(StabilityVerdict::unstable), count(StabilityVerdict::refused),
+                            notRun == 0 ? "" : fmt::format(", {} not run", notRun));
+}
+
+std::string lockstepText(const LockstepResults& results, const std::vector<Case>&) {
+  std::string text;
+  for (const LockstepRow& row : results.lockstep.rows)
+    text += reports::sentenceOf(row, results.lockstep.rules) + "\n";
+  return text;
+}
+
+template <typename Results>
+std::string averagedText(const Results& results, const std::vector<Case>&) {
+  return fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
+}
+
+struct ConformanceOptions {
+  std::string engine;
+  std::optional<std::string> out;
+};
+
+EngineEntry entryOf(const std::string& engine) {
+  if (namesEngineFile(engine)) return *findEngine(addStranger(loadEngineFile(engine)));
+  if (engine == "all") throw BadInput("conformance takes one engine: a name or an engine file");
+  return selectEngines({engine}).front();
+}
+
+void print(const ConformanceResults& results) {
+  using enum ConformanceOutcome;
+  fmt::print("{}\n", reports::conformanceLead(results));
+  for (const auto outcome : {brokeDown, failed, skipped})
+    for (const ConformanceRow& row : results.rows)
+      if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
+  for (const ConformanceRow& row : results.rows)
+    if (row.part == "lockstep" && row.outcome == passed) fmt::print("  {}\n", row.detail);
+  for (const std::string& line :
+       {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
+    if (!line.empty()) fmt::print("{}\n", line);
+}
+
+int conformanceOf(const CommandLine& line, const ConformanceOptions& options) {
+  const EngineEntry entry = entryOf(options.engine);
+  if (options.out) makeDirectory(*options.out);  // before minutes of work that it is to hold
+  const ConformanceResults results =
+      runConformance({entry, line.only, line.run.quiet, line.run.commandLine});
+  if (options.out) writeReport(results, *options.out);
+  if (line.json)
+    fmt::print("{}\n", toJson(results).dump());
+  else
+    print(results);
+  if (options.out && !line.json) fmt::print("report: {}/report.html\n", *options.out);
+  return printOutcome(line, outcomeOf(results));
+}
+
+Action declareConformance(CLI::App& app, CommandLine& line) {
+  const auto options = std::make_shared<ConformanceOptions>();
+  addArgument(app, "engine", options->engine, "engine file of your own, or the name of an engine",
+              "ENGINE.toml|NAME");
+  addText(app, "--out", options->out,
+          "folder for results.json, junit.xml and report.html; what is there is written anew",
+          "FOLDER");
+  addText(app, "-k", line.only, "only checks with this in their name");
+  addFlag(app, "--json", line.json, "print results.json in place of words");
+  addQuiet(app, line);
+  return [&line, options] { return conformanceOf(line, *options); };
+}
+
+std::string orNone(const std::vector<std::string>& names, const char* none) {
+  return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
+}
+
+void printOption(const FoundOption& option) {
+  const std::string found = fmt::format("{}", fmt::join(option.values, " | "));
+  const std::string declared = option.declared.empty()
+                                   ? "does not declare this option"
+                                   : fmt::format("declares {}", fmt::join(option.declared, " | "));
+  fmt::print("{:<17} {:<34} {}{}\n", option.name, found, declared,
+             option.contradicts() ? "   <- not what was found" : "");
+}
+
+/// A plain sentence in place of tables where there is no mirror.
+void print(const std::string& engine, const Identification& found) {
+  fmt::print("{}: from {} starts, followed for {:.3g} ms\n", engine, found.starts,
+             1e3 * found.time);
+  if (found.closeEnough()) {
+    for (const FoundOption& option : found.options) printOption(option);
+    for (const FoundConstant& constant : found.constants)
+      fmt::print("{:<17} {:+.4g} % of the case's   <- not the case's\n", constant.name,
+                 100.0 * constant.change);
+    if (!found.missing.empty() || !found.declaredMissing.empty())
+      fmt::print("{:<17} {:<34} {}{}\n", "does not simulate",
+                 orNone(found.missing, "(simulates all)"),
+                 found.declaredMissing.empty()
+                     ? "declares that it simulates all"
+                     : fmt::format("declares {}", fmt::join(found.declaredMissing, ", ")),
+                 found.missing == found.declaredMissing ? "" : "   <- not what was found");
+  }
+  fmt::print("largest separation: {:.2e} d from the case's own law, {:.2e} d from the {}\n",
+             found.before, found.left,
+             found.closeEnough() ? "closest mirror" : "nearest mirror tried, which is none");
+}
+
+int identifyEngine(const CommandLine& line) {
+  if (line.run.engines.size() != 1 || line.run.engines.front() == "all")
+    throw BadInput("identify takes one engine: --engines NAME");
+  const Case setup = onlyCase(line, "identify");
+  const Identification found = runIdentify(setup, line.run);
+  print(line.run.engines.front(), found);
+  return found.contradicts() ? exitFellShort : exitHeld;
+}
+
+Action declareIdentify(CLI::App& app, CommandLine& line) {
+  addCase(app, line);
+  addEngines(app, line);
+  addOverrides(app, line);
+  addQuiet(app, line);
+  return [&line] { return identifyEngine(line); };
+}
+
+}  // namespace
+
+extern const Command compareCommand = {
+    "compare", "run, average, cross-check",
+    "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, compareStudy, {compareText, reports::compareOverview});
+    }};
+
+extern const Command collideCommand = {
+    "collide", "two-particle sweeps against the oracle",
+    "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out/collide\n"
+    "crossgrain collide cases/collision -k glass --engines grain --out out/glass",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, collideStudy, {collideText, reports::collideOverview});
+    }};
+
+extern const Command effectsCommand = {
+    "effects", "what each effect of a case costs and changes",
+    "crossgrain effects cases/couette/quick.toml --engines grain --out out/effects",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, effectsStudy, {effectsText, reports::effectsOverview, true});
+    }};
+
+extern const Command stabilityCommand = {
+    "stability", "hard cases: what stays stable on which engine, and what does not",
+    "crossgrain stability --engines all --out out/stability    # all of cases/hard\n"
+    "crossgrain stability -k pile --engines grain --out out/pile\n"
+    "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out/piles\n"
+    "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out "
+    "out/told\n"
+    "crossgrain stability --transforms --budget 10m cases/couette/quick.toml --engines all --out "
+    "out/brief",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, stabilityStudy,
+                          {stabilityText, reports::stabilityOverview, true});
+    }};
+
+extern const Command lockstepCommand = {
+    "lockstep", "whether engines are the laws that they declare, step by step from equal states",
+    "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out/lockstep",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, lockstepStudy, {lockstepText, reports::lockstepOverview});
+    }};
+
+extern const Command costCommand = {
+    "cost", "error against time, for every engine and every setting that trades one for the other",
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
+    "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, costStudy,
+                          {[](const CostResults& results, const std::vector<Case>&) {
+                             return reports::costText(results);
+                           },
+                           reports::costOverview, true, reports::costToml});
+    }};
+
+extern const Command scaleCommand = {
+    "scale", "what a step takes as the cell grows and threads or ranks share it",
+    "crossgrain scale --disks 1000,10000,100000 --out out/scale\n"
+    "crossgrain scale --disks 100000,200000 --engines grain,lammps --threads 1,2 --out "
+    "out/threads\n"
+    "crossgrain scale --disks 1000000,10000000 --steps 50 --repetitions 2 --out out/large",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, scaleStudy,
+                          {[](const ScaleResults& results, const std::vector<Case>&) {
+                             return reports::scaleText(results);
+                           },
+                           reports::scaleOverview});
+    }};
+
+extern const Command thesisCommand = {
+    "thesis", "the thesis' claims, one by one: reproduced or refuted, per engine, with a number",
+    "crossgrain thesis --quick --out out/claims                       # minutes\n"
+    "crossgrain thesis --budget 2h --out out/thesis                   # and again, until all is "
+    "run\n"
+    "crossgrain thesis --budget 2h --from out/thesis/results.json --out out/more\n"
+    "crossgrain thesis --engines grain,yade --budget 8h --out out/yade",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, thesisStudy,
+                          {[](const ThesisResults& results, const std::vector<Case>&) {
+                             return reports::claimsText(results);
+                           },
+                           reports::thesisOverview});
+    }};
+
+extern const Command averageCommand = {
+    "average", "average snapshots of a file, of a run or of any other source",
+    "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out "
+    "out/averaged",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, averageStudy,
+                          {averagedText<CompareResults>, reports::averageOverview});
+    }};
+
+extern const Command revCommand = {
+    "rev", "every field against ring width, under every weight",
+    "crossgrain rev out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out out/rev",
+    [](CLI::App& app, CommandLine& line) {
+      return declareStudy(app, line, revStudy, {averagedText<RevResults>, reports::revOverview});
+    }};
+
+extern const Command conformanceCommand = {
+    "conformance", "whether one engine does what it declares: suite, lockstep, collisions",
+    "crossgrain conformance examples/python/engine.toml --out out/conformance\n"
+    "crossgrain conformance yade -k Contacts",
+    declareConformance};
+
+extern const Command identifyCommand = {
+    "identify", "which conventions and constants an engine really has, found from outside",
+    "crossgrain identify cases/couette/quick.toml --engines yade", declareIdentify};
+
+}  // namespace crossgrain::inline cli

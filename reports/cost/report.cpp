@@ -1,0 +1,571 @@
+#include "reports/cost/report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "reports/common/csv_row.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/overview.hpp"
+#include "reports/common/page.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/cost/page_blocks.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+using Points = std::vector<CostPoint>;
+
+template <class Value>
+void addOnce(std::vector<Value>& values, const Value& value) {
+  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
+}
+
+std::string kindText(CostKind kind) {
+  return kind == CostKind::collision ? "collisions" : toString(kind);
+}
+
+/// A fraction as people write it: 3.2 %, 0.0041 %, 2.1×10⁻⁷.
+std::string percentText(std::optional<double> fraction) {
+  if (!fraction) return absentText;
+  if (*fraction == 0.0) return "0";
+  constexpr double least = 1e-5;  // as a percentage
+  if (*fraction < least) return readableSetting(std::stod(fmt::format("{:.1e}", *fraction)));
+  const double percent = 100.0 * *fraction;
+  return (percent < 99.5 ? fmt::format("{:.2g}", percent) : readable(percent)) + " %";
+}
+
+/// An accuracy that is wanted: 10 %, 0.1 %, 10⁻⁶.
+std::string targetText(double target) {
+  if (target >= 1e-4) return fmt::format("{:g} %", 100.0 * target);
+  const std::string power = readableSetting(target);
+  return power.starts_with("1×") ? power.substr(std::string("1×").size()) : power;
+}
+
+/// "3.2 % (1.4 % to 5.1 %)"
+std::string intervalText(double value, double low, double high) {
+  const std::string from = percentText(low), to = percentText(high);
+  return from == to ? percentText(value)
+                    : fmt::format("{} ({} to {})", percentText(value), from, to);
+}
+
+/// A point's error with what it lies between, or why it has none.
+std::string errorText(const CostPoint& point) {
+  if (point.status == CostStatus::notMeasured) return "not measured";
+  if (!point.ran()) return std::string(nameOf(point.status));
+  if (!point.error) return absentText;
+  if (point.saysNothing())
+    return percentText(point.error) + ", of one packing: no statistical error";
+  return intervalText(*point.error, point.low(), point.high());
+}
+
+std::vector<double> targetsOf(const auto& rows) {
+  std::vector<double> targets;
+  for (const auto& row : rows) addOnce(targets, row.target);
+  std::ranges::sort(targets, std::ranges::greater());
+  return targets;
+}
+
+const CostPoint* pointAt(const CostResults& results, std::optional<std::size_t> place) {
+  return place && *place < results.points.size() ? &results.points[*place] : nullptr;
+}
+
+const CostModel* modelOf(const CostResults& results, const CostCell& cell) {
+  return cell.model && *cell.model < results.models.size() ? &results.models[*cell.model] : nullptr;
+}
+
+const CostCell* cellAt(const CostResults& results, const std::string& engine, CostKind kind,
+                       CostBasis basis, double target) {
+  for (const CostCell& cell : results.cells)
+    if (cell.engine == engine && cell.kind == kind && cell.basis == basis && cell.target == target)
+      return &cell;
+  return nullptr;
+}
+
+/// Engines that have points, in the order of the results.
+std::vector<std::string> enginesIn(const CostResults& results) {
+  std::vector<std::string> engines;
+  for (const EngineRow& engine : results.engines)
+    if (std::ranges::find(results.points, engine.name, &CostPoint::engine) != results.points.end())
+      engines.push_back(engine.name);
+  return engines;
+}
+
+/// "Which setting … is decided for 31 of 36 against …"
+std::string decidedText(const CostResults& results) {
+  std::vector<std::string> parts;
+  for (const CostBasis basis : costBases) {
+    std::size_t all = 0, decided = 0;
+    for (const CostCell& cell : results.cells)
+      if (cell.basis == basis) ++all, decided += cell.decided();
+    if (all > 0)
+      parts.push_back(fmt::format(
+          "{} of {} against {}", decided, all,
+          basis == CostBasis::own ? "engines' own limits of small steps" : "the case's law"));
+  }
+  if (parts.empty()) return "Nothing was measured.";
+  return fmt::format("Which setting reaches an accuracy for the least time is decided for {}.",
+                     fmt::join(parts, " and "));
+}
+
+}  // namespace
+
+std::string settingText(const std::string& knob, const std::string& setting) {
+  const bool speaks = speaksForItself(knob) || knob.starts_with("effect:");
+  std::string text = speaks || setting.starts_with(knob) ? setting : knob + " " + setting;
+  const auto isLetter = [&](std::size_t k) {
+    return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])) != 0;
+  };
+  for (std::size_t k = 2; k < text.size(); ++k)  // "t_c" keeps its mark
+    if (text[k] == '_' && isLetter(k - 1) && isLetter(k - 2)) text[k] = ' ';
+  return text;
+}
+
+std::string measureText(const std::string& measure) {
+  constexpr std::string_view positions = "position_rms_";
+  const std::string scene = withoutOwn(measure);
+  if (scene != measure) return measureText(scene) + ", own limit";
+  if (measure == "psi_f") return "Ψ_f";
+  if (measure == "e_n") return measure;
+  if (!measure.starts_with(positions)) return fieldWords(measure);
+  const std::string whom = measure.substr(positions.size());
+  return "positions, compared with " + (whom == "own" ? "itself" : whom);
+}
+
+std::string timeUnit(CostKind kind) {
+  constexpr std::array units = {"one sweep of collisions", "the window", "one rotation"};
+  return units[static_cast<std::size_t>(kind)];
+}
+
+std::vector<CostKind> kindsIn(const Points& points) {
+  std::vector<CostKind> kinds;
+  for (const CostPoint& point : points) addOnce(kinds, point.kind);
+  return kinds;
+}
+
+std::vector<CostMeasure> measuresIn(const Points& points) {
+  std::vector<CostMeasure> measures;
+  for (const CostPoint& point : points) addOnce(measures, CostMeasure{point.kind, point.measure});
+  return measures;
+}
+
+std::vector<OtherSetting> otherSettings(const Points& points) {
+  std::vector<OtherSetting> settings;
+  for (const CostPoint& point : points)
+    if (point.counted() && !schemeOf(point.knob, point.setting))
+      addOnce(settings, OtherSetting{point.knob, point.setting});
+  return settings;
+}
+
+std::string costCsv(const CostResults& results) {
+  std::string table =
+      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
+      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
+      "equivalent,bound\n";
+  std::vector<bool> onFront(results.points.size(), false);
+  for (const Front& front : results.fronts)
+    for (const std::size_t place : front.points)
+      if (front.engine.empty() && place < onFront.size()) onFront[place] = true;
+  for (std::size_t k = 0; k < results.points.size(); ++k) {
+    const CostPoint& point = results.points[k];
+    table += row(point.engine, point.setting, point.dt, point.error, toString(point.kind),
+                 point.wallSeconds, point.cpuSeconds, point.steps, point.contactEvaluations,
+                 std::string(nameOf(point.status)), point.reason, point.knob, point.measure,
+                 point.statistical, point.systematic, point.referenceError, point.stepsPerContact,
+                 !point.ran() ? ""
+                 : onFront[k] ? "yes"
+                              : "no",
+                 point.intervalLow, point.intervalHigh, "", "");
+  }
+  return table;
+}
+
+std::string costText(const CostResults& results) {
+  return fmt::format("{}\n{} ran, {} failed, {} refused, {} not measured\n", decidedText(results),
+                     results.count(CostStatus::ran), results.count(CostStatus::failed),
+                     results.count(CostStatus::refused), results.count(CostStatus::notMeasured));
+}
+
+namespace {
+
+std::string asToml(const Advice& one, const CostResults& results) {
+  std::string text =
+      fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target, nameOf(one.verdict));
+  const bool reached = one.verdict == CostVerdict::reached;
+  if (!one.setting.empty()) {
+    std::vector<std::string_view> kinds;
+    for (const CostKind kind : one.kinds) kinds.push_back(nameOf(kind));
+    text += reached                                   ? " by "
+            : one.verdict == CostVerdict::notMeasured ? " far enough; the best so far is "
+                                                      : "; the best is ";
+    text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
+    if (one.wallSeconds)
+      text +=
+          fmt::format(", {:.3g} s per {}", *one.wallSeconds,
+                      one.costKind() == CostKind::averages ? "rotation" : "sweep of collisions");
+    text += fmt::format(" (measured in {}){}", fmt::join(kinds, " and "),
+                        one.cheapest ? "; the cheapest engine" : "");
+  }
+  text += "\n";
+  if (const CostPoint* point = pointAt(results, one.obstacle))
+    text += fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale{}\n", toString(point->kind),
+                        point->measure, point->low(), point->high(),
+                        reached ? ", which does not decide" : "");
+  if (!one.decides.empty()) text += "# what would decide: " + one.decides + "\n";
+  if (!reached) return text;
+  text += one.fragment.empty() ? "# the case as it is: nothing to change\n" : one.fragment;
+  return text.ends_with('\n') ? text : text + "\n";
+}
+
+}  // namespace
+
+std::string costToml(const CostResults& results) {
+  std::string text;
+  for (const Advice& one : results.advice)
+    if (one.target == results.target) text += (text.empty() ? "" : "\n") + asToml(one, results);
+  return text;
+}
+
+namespace {
+
+OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
+  OverviewCell cell{CellState::notMeasured, {}, "s", {}, {}, "accuracy"};
+  if (!cost || cost->verdict == CostVerdict::notMeasured) return cell;
+  if (cost->verdict == CostVerdict::reached) {
+    cell.state = CellState::good;
+    cell.value = cost->wallSeconds;
+    cell.shown = shortDuration(cost->wallSeconds);
+    cell.words = settingText(cost->knob, cost->setting);
+    return cell;
+  }
+  cell.state = cost->verdict == CostVerdict::undecided ? CellState::undecided : CellState::bad;
+  cell.unit = "%";
+  const CostPoint* point = pointAt(results, cost->point);
+  const auto show = [&](double error, const std::string& measure) {
+    cell.value = 100.0 * error;
+    cell.shown = percentText(error) + " off";
+    cell.words = measureText(withoutOwn(measure));
+  };
+  if (const CostModel* model = modelOf(results, *cost)) {
+    cell.state = CellState::modelDifference;
+    show(model->error, model->measure);
+  } else if (point && point->counted()) {
+    show(*point->counted(), point->measure);
+  }
+  const CostCell* own = cellAt(results, cost->engine, cost->kind, CostBasis::own, cost->target);
+  if (!own || own->verdict != CostVerdict::reached) return cell;
+  cell.words += fmt::format("{}its own law: {}", cell.words.empty() ? "" : "; ",
+                            settingText(own->knob, own->setting));
+  if (own->wallSeconds) cell.words += ", " + shortDuration(own->wallSeconds);
+  return cell;
+}
+
+/// In each kind of error the finest accuracy that anyone reaches, and who does for the least time.
+std::string finestReached(const CostResults& results) {
+  std::vector<std::string> parts;
+  for (const CostKind kind : kindsIn(results.points)) {
+    const CostCell* finest = nullptr;
+    const auto rank = [](const CostCell& cell) {
+      return std::pair(cell.target, *cell.wallSeconds);
+    };
+    for (const CostCell& cell : results.cells)
+      if (cell.kind == kind && cell.basis == CostBasis::scene && cell.wallSeconds &&
+          cell.verdict == CostVerdict::reached && (!finest || rank(cell) < rank(*finest)))
+        finest = &cell;
+    parts.push_back(finest ? fmt::format("{} {} by {} with {} ({} for {})", kindText(kind),
+                                         targetText(finest->target), finest->engine,
+                                         settingText(finest->knob, finest->setting),
+                                         shortDuration(finest->wallSeconds), timeUnit(kind))
+                           : fmt::format("{} by no engine as far as measured", kindText(kind)));
+  }
+  if (parts.empty()) return "Nothing was measured.";
+  return fmt::format("Finest accuracy of the case's law that is reached, for the least time: {}.",
+                     listed(parts));
+}
+
+std::string nextStep(const CostResults& results) {
+  if (const std::size_t left = results.count(CostStatus::notMeasured))
+    return fmt::format(
+        "Next: the same command with --budget {:.0f}s measures the {} that did not fit into the "
+        "budget.",
+        std::ceil(results.budgetForTheRest.value_or(0.0) / 10.0) * 10.0, counted(left, "point"));
+  return "Next: take the setting that you need from the end of this page.";
+}
+
+}  // namespace
+
+Overview costOverview(const CostResults& results) {
+  Overview overview;
+  const std::vector<CostKind> kinds = kindsIn(results.points);
+  const std::vector<double> targets = targetsOf(results.cells);
+  for (const CostKind kind : kinds)
+    for (const double target : targets) {
+      std::string shown = targetText(target);  // a number and its unit stay in one line
+      if (const std::size_t at = shown.find(' '); at != std::string::npos)
+        shown.replace(at, 1, "\u00a0");
+      overview.columns.push_back(
+          {fmt::format("{} {}", kindText(kind), shown),
+           fmt::format(
+               "Which setting brings the error of {} below {} for the least time? Time of {}.",
+               kindText(kind), targetText(target), timeUnit(kind)),
+           "kind-" + toString(kind)});
+    }
+  for (const std::string& engine : enginesIn(results)) {
+    OverviewRow row{engine, true, {}};
+    for (const CostKind kind : kinds)
+      for (const double target : targets)
+        row.cells.push_back(
+            overviewCell(results, cellAt(results, engine, kind, CostBasis::scene, target)));
+    overview.rows.push_back(std::move(row));
+  }
+  overview.conclusion = {finestReached(results), nextStep(results)};
+  return overview;
+}
+
+namespace costpage {
+namespace {
+
+/// A verdict's cell: its mark, its colour, and notes below.
+Cell verdictCell(CostVerdict verdict, std::string text, std::vector<std::string> notes) {
+  constexpr std::array states = {CellState::good, CellState::undecided, CellState::bad,
+                                 CellState::notMeasured};
+  return {std::move(text), std::move(notes), states[static_cast<std::size_t>(verdict)], true};
+}
+
+std::string decidesText(const std::string& decides) {
+  return decides.empty() ? "" : "would decide: " + decides;
+}
+
+/// Per kind of error, basis, engine and target: the setting that reaches it for the least time.
+Table accuracyTable(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "accuracy",
+               "setting",
+               {"time", Column::Kind::number},
+               {"error", Column::Kind::remark}},
+              {}};
+  for (const CostKind kind : kindsIn(results.points))
+    for (const CostBasis basis : costBases) {
+      std::string group = fmt::format(
+          "{}, compared with {}; time of {}", kindText(kind),
+          basis == CostBasis::own ? "the engine's own limit" : "the case's law", timeUnit(kind));
+      for (const CostCell& cell : results.cells) {
+        if (cell.kind != kind || cell.basis != basis) continue;
+        const bool reached = cell.verdict == CostVerdict::reached;
+        const CostModel* model = modelOf(results, cell);
+        const CostPoint* point = pointAt(results, cell.point);
+        const std::string setting = settingText(cell.knob, cell.setting);
+        std::string error;
+        if (model)
+          error =
+              fmt::format("{}: its limit of small steps is off by {}", measureText(model->measure),
+                          intervalText(model->error, model->low, model->high));
+        else if (point)
+          error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)), errorText(*point));
+        table.rows.push_back(
+            {{cell.engine, targetText(cell.target),
+              verdictCell(cell.verdict, reached ? setting : std::string(nameOf(cell.verdict)),
+                          {reached || setting.empty() ? "" : "best: " + setting}),
+              readableDuration(cell.wallSeconds), Cell(error, {decidesText(cell.decides)})},
+             std::exchange(group, {})});
+      }
+    }
+  table.note =
+      "In all measures of a kind of error, with the measure that decides and the interval of its "
+      "error. Its own limit: the engine's small steps, or the oracle of the law that it declares; "
+      "what is left is discretisation. The case's law: the model difference is included. Reached: "
+      "the upper end of the interval is below. Not reached: every setting tried is shown to lie "
+      "above, or the engine's limit of small steps does and no setting comes nearer. Undecided: "
+      "the interval holds the accuracy. Only measured settings: nothing is interpolated.";
+  return table;
+}
+
+/// Per engine and target the recommended setting, with its fragment to paste.
+Blocks adviceBlocks(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "accuracy",
+               "setting",
+               {"time", Column::Kind::number},
+               {"averages", Column::Kind::remark}},
+              {}};
+  Blocks fragments;
+  for (const Advice& one : results.advice) {
+    const bool reached = one.verdict == CostVerdict::reached;
+    const std::string setting = settingText(one.knob, one.setting);
+    const CostPoint* obstacle = pointAt(results, one.obstacle);
+    Cell what = verdictCell(one.verdict, reached ? setting : std::string(nameOf(one.verdict)),
+                            {setting.empty() || reached ? "" : "best: " + setting,
+                             one.cheapest ? "the cheapest engine" : ""});
+    std::string time = absentText;
+    if (one.wallSeconds && one.costKind())
+      time = fmt::format("{} for {}", readableDuration(one.wallSeconds), timeUnit(*one.costKind()));
+    Cell rest(obstacle ? fmt::format("{}, {}: {}", toString(obstacle->kind),
+                                     measureText(obstacle->measure), errorText(*obstacle))
+                       : "",
+              {decidesText(one.decides)});
+    table.rows.push_back({{one.engine, targetText(one.target), std::move(what), time, rest}});
+    if (!reached) continue;
+    fragments.push_back(
+        Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target), setting)});
+    fragments.push_back(Code{one.fragment.empty() ? "# the case as it is" : one.fragment});
+  }
+  table.note =
+      "The cheapest setting that collisions show to reach the accuracy of the case's law and that "
+      "averages do not contradict; the last column has what stands in the way, or an average whose "
+      "scatter cannot decide.";
+  if (fragments.empty()) fragments = {Paragraph{"No engine is shown to reach any accuracy."}};
+  fragments.insert(fragments.begin(), std::move(table));
+  return fragments;
+}
+
+/// Settings other than time steps: their time and errors.
+Table settingTable(const CostResults& results) {
+  Table table{{{"number", Column::Kind::number},
+               {"engine", Column::Kind::engines},
+               "setting",
+               "error of",
+               {"time", Column::Kind::number},
+               {"error", Column::Kind::remark}},
+              {}};
+  const auto settings = otherSettings(results.points);
+  for (const CostPoint& point : results.points) {
+    const auto place = std::ranges::find(settings, OtherSetting{point.knob, point.setting});
+    if (place == settings.end()) continue;
+    table.rows.push_back({{fmt::to_string(place - settings.begin() + 1), point.engine,
+                           settingText(point.knob, point.setting),
+                           toString(point.kind) + ", " + measureText(point.measure),
+                           readableDuration(point.wallSeconds), errorText(point)}});
+  }
+  table.note = "The number is that in the plots.";
+  return table;
+}
+
+/// What failed, was refused or did not fit, alike reasons together.
+Table notRunTable(const CostResults& results) {
+  Table table{{{"engine", Column::Kind::engines},
+               "error",
+               "setting",
+               "status",
+               {"reason", Column::Kind::remark},
+               "measures"},
+              {}};
+  const CostPoint* last = nullptr;
+  const auto key = [](const CostPoint& point) {
+    return std::tie(point.engine, point.kind, point.knob, point.setting, point.status,
+                    point.reason);
+  };
+  for (const CostPoint& point : results.points) {
+    if (point.ran()) continue;
+    if (last && key(*last) == key(point)) {
+      table.rows.back().cells.back().text += "; " + measureText(point.measure);
+      continue;
+    }
+    last = &point;
+    table.rows.push_back(
+        {{point.engine, toString(point.kind), settingText(point.knob, point.setting),
+          errorText(point), point.reason, measureText(point.measure)}});
+  }
+  return table;
+}
+
+Table referenceTable(const CostResults& results) {
+  Table table{{"error", "reference", "setting", {"its own error", Column::Kind::number}, "note"},
+              {}};
+  for (const CostReference& reference : results.references)
+    table.rows.push_back({{toString(reference.kind), reference.engine, reference.setting,
+                           percentText(reference.error), reference.note}});
+  for (const Startup& startup : results.startup)
+    table.rows.push_back(
+        {{"start-up", startup.engine, "", "",
+          fmt::format("started in {}, loaded the scene in {}, which is no part of any other time",
+                      readableDuration(startup.start), readableDuration(startup.load))}});
+  return table;
+}
+
+/// What became of the points, and which engines refused.
+std::vector<std::string> sentencesOf(const CostResults& results) {
+  std::string counts = fmt::format(
+      "{} points: {} ran, {} failed, {} refused, {} not measured", results.points.size(),
+      results.count(CostStatus::ran), results.count(CostStatus::failed),
+      results.count(CostStatus::refused), results.count(CostStatus::notMeasured));
+  if (results.count(CostStatus::notMeasured) > 0 && results.budgetForTheRest)
+    counts += fmt::format(
+        ", for they did not fit into the budget of {}; they would with --resume and a budget of "
+        "about {}",
+        readableDuration(results.budget),
+        readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
+  std::vector<std::string> sentences = {decidedText(results), counts + "."};
+  for (const EngineRow& engine : results.engines)
+    if (engine.status == EngineStatus::refused)
+      sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
+  return sentences;
+}
+
+constexpr std::array whatErrorsAre = {
+    "Two disks collide, over a whole curve of Ψ_i; the error is the root mean square distance from "
+    "the oracle, in units of the range of its curve.",
+    "One packing over a time short against its chaos; the error is the root mean square distance "
+    "of the disks, in diameters, from a run at a much smaller step.",
+    "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
+    "mean paired difference, in units of the profile's largest value."};
+
+std::vector<Section> sectionsOf(const CostResults& results) {
+  std::vector<Section> sections;
+  const auto section = [&](const std::string& id, const std::string& title) -> Section& {
+    return sections.emplace_back(Section{id, title, {}});
+  };
+  section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
+      accuracyTable(results)};
+  for (const CostKind kind : kindsIn(results.points))
+    section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
+        Paragraph{whatErrorsAre[static_cast<std::size_t>(kind)]},
+        Drawings{"cost_" + toString(kind)}};
+  const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
+    if (!table.rows.empty()) section(id, title).blocks = {std::move(table)};
+  };
+  addTable("others", "What other settings change", settingTable(results));
+  addTable("references", "References and start-up", referenceTable(results));
+  addTable("notrun", "What did not run", notRunTable(results));
+  section("reading", "How to read it").blocks = {List{
+      {{"Three kinds of error",
+        "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of the "
+        "same piece of work; those of different kinds cannot be compared."},
+       {"The Pareto front", "the points that no other beats in both time and error."},
+       {"Intervals",
+        "an error lies between itself less and plus its statistical error and the uncertainty of "
+        "its reference. A setting is recommended only if the upper end meets the accuracy. A point "
+        "below one of its two uncertainties may be chance; it counts, and is drawn (▽), at its "
+        "upper end."},
+       {"Averages",
+        "have a systematic part, which belongs to the setting, and a statistical part, which falls "
+        "with the root of the simulated time and of the number of packings. Packings scatter them "
+        "by more than most settings change them."}}}};
+  section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
+  return sections;
+}
+
+}  // namespace
+}  // namespace costpage
+
+std::string costPage(const CostResults& results, const Illustrations& shown) {
+  nlohmann::json view = commonView(results.head, results.elapsed, results.notes, shown);
+  const std::vector<std::string> sentences = costpage::sentencesOf(results);
+  view["lead"] = symbolsHtml(sentences.front());
+  view["sentences"] = nlohmann::json::array();
+  for (std::size_t k = 1; k < sentences.size(); ++k)
+    view["sentences"].push_back(symbolsHtml(sentences[k]));
+  addOverview(view, costOverview(results), results.engines);
+  view["sections"] = costpage::viewOf(costpage::sectionsOf(results), shown);
+  view["files"] = "Beside this page: results.json (everything) and cost.csv (every point).";
+  return render("report_cost.html", view);
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/endpoints.hpp"
+#include "results/head.hpp"
+#include "results/lockstep_findings.hpp"
+
+/// What an engine does otherwise than a baseline or a recording has it.
+namespace crossgrain::inline results {
+
+enum class DiffVerdict {
+  notMeasured,  ///< the reason says why
+  sameBits,
+  sameToRounding,
+  sameLaw,
+  undecided,
+  differs
+};
+constexpr auto namesOf(DiffVerdict) {
+  return std::array<std::string_view, 6>{"not_measured", "same_bits", "same_to_rounding",
+                                         "same_law",     "undecided", "differs"};
+}
+
+/// Something that an engine declares: its step, an option, a constant of a kind of pair.
+struct DeclaredChange {
+  std::string name, before, now;  ///< empty: not there
+};
+
+/// One quantity over one sweep of collisions.
+struct CollisionChange {
+  std::string name, variant;  ///< of the case
+  std::string quantity;
+  std::size_t changed = 0;  ///< collisions of which it is not the same bits
+  std::size_t points = 0;   ///< of the sweep
+  double largest = 0.0;     ///< change, now − before [the quantity's unit]
+  double relative = 0.0;    ///< its size in units of the largest value of the sweep before [-]
+  double psi = 0.0;         ///< Ψ_i at which it is …
+  double vn = 0.0;          ///< … and speed of approach [m/s]
+};
+
+/// Forces that are reported of states that both came to.
+struct ForcesChange {
+  std::size_t frames = 0;                 ///< of such states
+  double normal = 0.0, tangential = 0.0;  ///< of a contact, in the largest normal force before [-]
+  double walls = 0.0;  ///< on a wall, in the largest force, or torque, before [-]
+};
+
+/// One engine compared with what was kept.
+struct DiffRow {
+  std::string engine, version;        ///< now
+  std::string before, versionBefore;  ///< what was kept, and of which engine
+  DiffVerdict verdict = DiffVerdict::notMeasured;
+  std::string reason;   ///< why the windows were not compared
+  std::string failure;  ///< of the first run that was not finished
+  std::vector<DeclaredChange> declared;
+  std::optional<LockstepRow> windows;  ///< compared with those kept; absent of cases of collisions
+  bool mirrored = false;  ///< what was kept has a mirror, in which a deviation can be sought
+  DiffVerdict windowsVerdict = DiffVerdict::notMeasured;
+  std::optional<ForcesChange>
+      forces;  ///< absent where the engine does not report those of an instant
+  DiffVerdict forcesVerdict = DiffVerdict::notMeasured;  ///< differs or not measured
+  std::vector<CollisionChange> collisions;               ///< that are not the same bits
+  std::size_t sweeps = 0;                                ///< that were compared
+  DiffVerdict collisionsVerdict = DiffVerdict::notMeasured;
+  /// Averages of whole runs from each start compared with those kept; empty where none were kept,
+  /// or where the windows are the same bits.
+  std::vector<EndpointRow> endpoints;
+};
+
+struct DiffResults {
+  ResultsHead head;
+  std::string baseline;                  ///< file
+  std::string baselineVersion;           ///< of the crossgrain that kept it
+  std::vector<std::string> changedKeys;  ///< of the case, "law.mu: 0.44 → 0.5"
+  LockstepRules rules;
+  std::vector<LockstepStart> starts;
+  std::vector<DiffRow> rows;
+};
+
+nlohmann::json toJson(const DiffResults& results);
+
+/// A field or an array that two answers to one request do not have alike.
+struct AnswerDifference {
+  std::string field;  ///< "snapshot.bodies.0.torque", "position"
+  std::string
+      place;  ///< in an array, where it is largest: "[17]", or the contact's ids; else empty
+  std::string then, now;           ///< there
+  std::optional<double> off = {};  ///< |now − then| there, of numbers, in the field's unit
+  std::size_t differ = 1, of = 1;  ///< elements
+};
+
+/// What an engine answered to the requests of a recording.
+struct ReplayResults {
+  std::string engine, version;  ///< that answered now
+  std::string recordedEngine, recordedVersion;
+  std::string recordedStamp;  ///< of its program; empty for engines of this one
+  std::string caseName;
+  std::size_t asked = 0;  ///< requests, the one of `request` being the last
+  /// What the engine declares otherwise, in answer to hello and load: the replay goes on.
+  std::vector<AnswerDifference> declared;
+  std::string request;  ///< the first other request with a different answer; empty: there is none
+  std::vector<AnswerDifference> differences;
+  std::string failure;  ///< of the engine, now; it may be the one that was recorded
+};
+
+nlohmann::json toJson(const ReplayResults& results);
+
+}  // namespace crossgrain::inline results

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "reports/common/engines.hpp"
+#include "reports/common/figure.hpp"
+#include "reports/cost/report.hpp"
+#include "reports/report.hpp"
+#include "results/schema.hpp"
+#include "support/files.hpp"
+#include "tests/reports/has.hpp"
+#include "tests/reports/sample_results.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+/// One kind, one measure, one engine: 10 % in 1 s, 1 % in 10 s, a failure, another setting.
+CostResults byHand() {
+  const auto of = [](const std::string& setting, double dt, double error, double wall) {
+    CostPoint point;
+    point.engine = "a";
+    point.knob = "time_step";
+    point.setting = setting;
+    point.measure = "psi_f";
+    point.dt = dt;
+    point.stepsPerContact = 1.0 / dt;
+    point.error = error;
+    point.wallSeconds = point.cpuSeconds = wall;
+    point.steps = 100;
+    point.contactEvaluations = 200;
+    return point;
+  };
+  CostResults results;
+  results.head.schema = schemaVersion;
+  results.head.kind = kindCost;
+  results.engines = {{"a", "", "", "", EngineStatus::ran, ""}};
+  results.points = {of("t_c/10", 0.1, 0.1, 1.0), of("t_c/100", 0.01, 0.01, 10.0),
+                    of("t_c/1", 1.0, 0.0, 0.1), of("float, slow", 0.01, 0.01, 20.0)};
+  CostPoint& failed = results.points[2];
+  failed.error.reset();
+  failed.status = CostStatus::failed;
+  failed.reason = "NaN, at 3";
+  results.points[3].knob = "precision";
+  results.fronts = {{CostKind::collision, "psi_f", "", {0, 1}, {}}};
+  return results;
+}
+
+TEST(CostCsv, Rows_AreAllPointsAlsoThoseThatFailed) {
+  EXPECT_EQ(
+      costCsv(byHand()),
+      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,"
+      "reason,knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,"
+      "high,equivalent,bound\n"
+      "a,t_c/10,0.1,0.1,collision,1,1,100,200,ran,,time_step,psi_f,,,,10,yes,,,,\n"
+      "a,t_c/100,0.01,0.01,collision,10,10,100,200,ran,,time_step,psi_f,,,,100,yes,,,,\n"
+      "a,t_c/1,1,,collision,0.1,0.1,100,200,failed,\"NaN, at 3\",time_step,psi_f,,,,1,,,,,\n"
+      "a,\"float, slow\",0.01,0.01,collision,20,20,100,200,ran,,precision,psi_f,,,,100,no,,,,\n");
+  EXPECT_EQ(std::ranges::count(costCsv({}), '\n'), 1);
+}
+
+const Curve* curveOf(const Panel& panel, int pointType, Draw draw) {
+  for (const Curve& curve : panel.curves)
+    if (curve.style.pointType == pointType && curve.draw == draw) return &curve;
+  return nullptr;
+}
+
+TEST(CostFigures, Panel_JoinsStepsNumbersOtherSettingsAndCrossesFailures) {
+  const int mark = engineStyles(byHand().engines).front().pointType;  // open: its predecessor
+  const auto figures = costFigures(byHand());
+  ASSERT_EQ(figures[0].name, "cost_collision");
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_TRUE(panel.logX && panel.logY);
+  const Curve& front = panel.curves[0];
+  ASSERT_EQ(front.points.size(), 3u);  // 10 % from 1 s on, 1 % from 10 s on
+  EXPECT_EQ(front.points[1].x, 10.0);
+  EXPECT_EQ(front.points[1].y, 0.1);
+  const Curve* steps = curveOf(panel, mark, Draw::linesAndPoints);
+  ASSERT_TRUE(steps);
+  EXPECT_EQ(steps->name, "a");
+  EXPECT_EQ(steps->points.size(), 2u);
+  const Curve* others = curveOf(panel, mark - 1, Draw::points);
+  ASSERT_TRUE(others);
+  EXPECT_EQ(others->points[0].label, "1");
+  EXPECT_TRUE(has(figures[0].caption, "other settings: 1 precision float, slow."));
+  const Curve* crosses = curveOf(panel, 2, Draw::points);
+  ASSERT_TRUE(crosses);
+  EXPECT_EQ(crosses->points[0].x, 0.1);
+  EXPECT_GT(crosses->points[0].y, 0.1);  // above every error, on the panel
+  EXPECT_LT(crosses->points[0].y, panel.yRange->high);
+  EXPECT_TRUE(costFigures({}).empty());
+}
+
+TEST(CostFigures, ErrorBelowTheReferences_IsDrawnAtItsUpperEnd) {
+  CostResults results = byHand();
+  results.points[1].referenceError = 0.03;
+  const auto figures = costFigures(results);
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_EQ(panel.shadedTo, 0.03);
+  const Curve* chance = curveOf(panel, 10, Draw::points);
+  ASSERT_TRUE(chance);
+  EXPECT_NEAR(chance->points[0].y, 0.04, 1e-15);
+  results.points[1].referenceError = 1e-9;  // below the axis
+  EXPECT_FALSE(costFigures(results)[0].panels[0].shadedTo);
+}
+
+/// The engine of byHand() with another law: 25 % off, whatever the step.
+TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
+  CostResults results = byHand();
+  CostCell own{"a", CostKind::collision, CostBasis::own, 0.1, CostVerdict::reached};
+  own.knob = "time_step";
+  own.setting = "t_c/10";
+  own.wallSeconds = 1.0;
+  own.point = 0;
+  CostCell scene{"a", CostKind::collision, CostBasis::scene, 0.1, CostVerdict::notReached};
+  scene.model = 0;
+  results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
+  results.cells = {own, scene};
+  const OverviewCell cell = costOverview(results).rows[0].cells[0];
+  EXPECT_EQ(cell.state, CellState::modelDifference);
+  EXPECT_EQ(cell.shown, "25 % off");
+  EXPECT_EQ(cell.words, "Ψ_f; its own law: t_c/10, 1.00 s");
+  EXPECT_EQ(costText(results),
+            "Which setting reaches an accuracy for the least time is decided for 1 of 1 against "
+            "engines' own limits of small steps and 1 of 1 against the case's law.\n"
+            "3 ran, 1 failed, 0 refused, 0 not measured\n");
+}
+
+TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
+  CostResults results = byHand();
+  results.target = 0.1;
+  Advice advice;
+  advice.engine = "a";
+  advice.target = 0.1;
+  advice.verdict = CostVerdict::reached;
+  advice.knob = "time_step";
+  advice.setting = "t_c/10";
+  advice.fragment = "[run]\nsteps_per_contact = 10\n";
+  advice.kinds = {CostKind::collision, CostKind::averages};
+  advice.wallSeconds = 800.0;
+  advice.cheapest = true;
+  results.advice = {advice};
+  EXPECT_EQ(costToml(results),
+            "# a, wanted 10 %: reached by t_c/10, 800 s per rotation (measured in collision and "
+            "averages); the cheapest engine\n[run]\nsteps_per_contact = 10\n");
+  results.advice[0].obstacle = 0;
+  results.advice[0].decides = "more packings";
+  EXPECT_TRUE(has(costToml(results),
+                  "# collision, psi_f: 0.1 to 0.1 of its scale, which does not decide\n"
+                  "# what would decide: more packings\n[run]\n"));
+  results.advice[0].verdict = CostVerdict::notMeasured;
+  EXPECT_TRUE(has(costToml(results), "not measured far enough; the best so far is t_c/10"));
+  EXPECT_FALSE(has(costToml(results), "[run]"));
+  results.target = 0.01;
+  EXPECT_EQ(costToml(results), "");
+}
+
+TEST(CostReport, Texts_OfSettingsAndMeasures) {
+  EXPECT_EQ(settingText("integrator", "velocity_verlet, t_c/50"), "velocity verlet, t_c/50");
+  EXPECT_EQ(settingText("precision", "float"), "precision float");
+  EXPECT_EQ(settingText("effect:friction", "without friction"), "without friction");
+  EXPECT_EQ(settingText("skin", "skin = 0.001"), "skin = 0.001");
+  EXPECT_EQ(measureText("psi_f_own"), "Ψ_f, own limit");
+  EXPECT_EQ(measureText("position_rms_grain"), "positions, compared with grain");
+}
+
+TEST(CostReport, Page_HasVerdictsReasonsAndFragments) {
+  const TemporaryFolder folder;
+  writeReport(sample::costResults(), folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "is decided for 9 of 9 against"));
+  EXPECT_TRUE(has(page, "box2d-impulse refused the scene: odd &lt;b&gt;"));
+  EXPECT_TRUE(has(page, " not measured, for they did not fit into the budget of 12 min 00 s"));
+  EXPECT_TRUE(has(page, "would take about 140 s, budget 60 s"));
+  EXPECT_TRUE(has(page, "a disk left the cell at step 37; odd &lt;b&gt;"));
+  EXPECT_TRUE(has(page, ">grain for 10 %: t<sub>c</sub>/25<"));
+  EXPECT_TRUE(has(page, "<pre>[run]\nsteps_per_contact = 25\n"));
+  for (const char* bad : {"{{", "}}", ">nan", ">null", "http:", "<script s", "odd <b>"})
+    EXPECT_FALSE(has(page, bad)) << bad;
+  for (const char* file : {"cost.csv", "plots/cost_collision.svg", "plots/cost_collision.png",
+                           "plots/cost_trajectory.svg", "plots/cost_averages.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+}
+
+TEST(CostReport, PageOfNothing_SaysSo) {
+  const TemporaryFolder folder;
+  writeReport(Json{{"schema", "crossgrain-results-1"}, {"kind", "cost"}}, folder.path());
+  const std::string page = readFile(folder.path() / "report.html").value();
+  EXPECT_TRUE(has(page, "Nothing was measured."));
+  EXPECT_FALSE(has(page, "{{"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports
