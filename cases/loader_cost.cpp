@@ -15,12 +15,6 @@ void readSettings(Reader in, Cost& cost) {
   in.finish();
 }
 
-Names kindNames() {
-  Names names;
-  for (const CostKind kind : costKinds) names.push_back(toString(kind));
-  return names;
-}
-
 /// Keys of earlier versions, which would otherwise be taken for misspelt ones.
 void refuseRemoved(const Reader& in) {
   for (const char* const key : {"omega", "stiffness", "methods", "snapshots", "bound_steps",
@@ -29,6 +23,12 @@ void refuseRemoved(const Reader& in) {
       in.fail(key,
               "is a key no more: cost no longer varies the wheel's speed, stiffness or averaging, "
               "bounds averages or measures chaos");
+}
+
+Names kindNames() {
+  Names names;
+  for (const CostKind kind : costKinds) names.push_back(toString(kind));
+  return names;
 }
 
 std::vector<Key<Cost>> costTable() {
