@@ -1,7 +1,6 @@
 // Two bodies meet once: conservation laws and restitution; and the same collision mirrored, turned,
 // shifted and renumbered.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -343,33 +342,33 @@ void renumberedSceneGivesTheRenumberedResult(CheckContext& context) {
 }  // namespace
 
 Checks collisionChecks() {
-  static constexpr std::array list = {
-      Check{"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
-      Check{"WallDiskDoesNotYield", "a wall disk does not yield", wallDiskDoesNotYield},
-      Check{"PlaneDoesNotYield", "a plane does not yield", planeDoesNotYield},
-      Check{"SlantingPlaneDoesNotYield", "nor does one along no axis", slantingPlaneDoesNotYield},
-      Check{"EnergyIsNotGained", "no collision gains energy", energyIsNotGained},
-      Check{"FrictionlessDisksKeepTheirSpins", "without friction spins stay",
-            frictionlessDisksKeepTheirSpins},
-      Check{"FreeFlightRemembersNothing", "a contact that ended leaves nothing behind",
-            freeFlightRemembersNothing},
-      Check{"AngularMomentumIsKept", "angular momentum is kept, or changes as the arms say",
-            angularMomentumIsKept},
+  static constexpr Check list[] = {
+      {"HeadOnCollision", "two disks head on: momentum, energy, restitution", headOnCollision},
+      {"WallDiskDoesNotYield", "a wall disk does not yield", wallDiskDoesNotYield},
+      {"PlaneDoesNotYield", "a plane does not yield", planeDoesNotYield},
+      {"SlantingPlaneDoesNotYield", "nor does one along no axis", slantingPlaneDoesNotYield},
+      {"EnergyIsNotGained", "no collision gains energy", energyIsNotGained},
+      {"FrictionlessDisksKeepTheirSpins", "without friction spins stay",
+       frictionlessDisksKeepTheirSpins},
+      {"FreeFlightRemembersNothing", "a contact that ended leaves nothing behind",
+       freeFlightRemembersNothing},
+      {"AngularMomentumIsKept", "angular momentum is kept, or changes as the arms say",
+       angularMomentumIsKept},
   };
   return list;
 }
 
 Checks symmetryChecks() {
-  static constexpr std::array list = {
-      Check{"ShiftedSceneGivesTheShiftedResult", "a shifted scene gives the shifted result",
-            shiftedSceneGivesTheShiftedResult},
-      Check{"MirroredSceneGivesTheMirroredResult", "a mirrored scene gives the mirrored result",
-            mirroredSceneGivesTheMirroredResult},
-      Check{"RotatedSceneGivesTheRotatedResult", "a turned scene gives the turned result",
-            rotatedSceneGivesTheRotatedResult},
-      Check{"RenumberedSceneGivesTheRenumberedResult",
-            "disks numbered otherwise do the same: none is another for its number",
-            renumberedSceneGivesTheRenumberedResult},
+  static constexpr Check list[] = {
+      {"ShiftedSceneGivesTheShiftedResult", "a shifted scene gives the shifted result",
+       shiftedSceneGivesTheShiftedResult},
+      {"MirroredSceneGivesTheMirroredResult", "a mirrored scene gives the mirrored result",
+       mirroredSceneGivesTheMirroredResult},
+      {"RotatedSceneGivesTheRotatedResult", "a turned scene gives the turned result",
+       rotatedSceneGivesTheRotatedResult},
+      {"RenumberedSceneGivesTheRenumberedResult",
+       "disks numbered otherwise do the same: none is another for its number",
+       renumberedSceneGivesTheRenumberedResult},
   };
   return list;
 }

@@ -35,32 +35,7 @@ namespace {
 constexpr double timeout = 60.0;  // for one answer [s]
 constexpr int mostBreakdowns = 3;
 
-/// Workers of one engine: the one that all checks share, and further ones.
-class Workers {
- public:
-  Workers(const EngineEntry& entry, std::filesystem::path scratch)
-      : entry_(entry), scratch_(std::move(scratch)) {}
-
-  Engine& shared() {
-    if (!shared_) shared_ = start(entry_);
-    return *shared_;
-  }
-  void end() { shared_.reset(); }
-  std::unique_ptr<Engine> start(const EngineEntry& of) {
-    return startNew(of, scratch_ / fmt::format("{}-{}", of.name, ++count_), timeout);
-  }
-
- private:
-  const EngineEntry& entry_;
-  std::filesystem::path scratch_;
-  std::unique_ptr<Engine> shared_;
-  int count_ = 0;
-};
-
-void runOne(const Check& check, const EngineEntry& entry, Workers& workers, ConformanceRow& row,
-            CheckReport& result) {
-  const CheckContext::Start start = [&](const EngineEntry& of) { return workers.start(of); };
-  CheckContext context(workers.shared(), entry, start);
+void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
   try {
     check.run(context);
   } catch (const Skipped& skip) {
@@ -101,9 +76,13 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
                       const std::filesystem::path& scratch,
                       const std::function<void(const std::string&, double)>& progress) {
   using Clock = std::chrono::steady_clock;
-  Workers workers(entry, scratch);
+  int workers = 0;
+  const CheckContext::Start start = [&](const EngineEntry& of) {
+    return startNew(of, scratch / fmt::format("{}-{}", of.name, ++workers), timeout);
+  };
+  std::unique_ptr<Engine> engine = start(entry);  // all checks share it
   CheckReport result;
-  result.declared = declaredBy(workers.shared().capabilities());
+  result.declared = declaredBy(engine->capabilities());
   std::vector<ConformanceRow>& rows = result.rows;
   int breakdowns = 0;
   for (const Check& check : checks) {
@@ -119,12 +98,13 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
       continue;
     }
     const auto began = Clock::now();
-    runOne(check, entry, workers, row, result);
+    if (!engine) engine = start(entry);
+    runOne(check, CheckContext(*engine, entry, start), row, result);
     row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     breakdowns += row.outcome == ConformanceOutcome::brokeDown;
     // It may have died of it; the next check needs a sound one.
     if (row.outcome == ConformanceOutcome::brokeDown || row.outcome == ConformanceOutcome::failed)
-      workers.end();
+      engine.reset();
   }
   return result;
 }
@@ -161,20 +141,20 @@ std::vector<FlowState> flowOf(const Case& setup, std::size_t starts) {
 
 std::string contradictionsOf(const Identification& found) {
   if (!found.closeEnough()) return {};
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   for (const FoundOption& option : found.options)
     if (option.contradicts())
-      words.push_back(fmt::format(
+      parts.push_back(fmt::format(
           "it has {} = {}, and declares {}", option.name, fmt::join(option.values, " or "),
           option.declared.empty() ? "nothing"
                                   : fmt::format("{}", fmt::join(option.declared, " or "))));
   for (const FoundConstant& constant : found.constants)
-    words.push_back(fmt::format("its {} is {:+.3g} % off the case's",
+    parts.push_back(fmt::format("its {} is {:+.3g} % off the case's",
                                 reports::constantSymbol(constant.name), 100.0 * constant.change));
   for (const std::string& effect : found.missing)
     if (std::ranges::find(found.declaredMissing, effect) == found.declaredMissing.end())
-      words.push_back(fmt::format("it does not simulate {}, which it declares", effect));
-  return fmt::format("{}", fmt::join(words, "; "));
+      parts.push_back(fmt::format("it does not simulate {}, which it declares", effect));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 /// A term explains a divergence where it leaves a tenth at most, which is more than anything else
@@ -273,7 +253,7 @@ ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curv
     case SweepOutcome::notJudged:
     case SweepOutcome::refused:
       row.outcome = ConformanceOutcome::skipped;
-      row.detail = curve.reason.empty() ? "nothing to hold it against" : curve.reason;
+      row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
       break;
   }
   return row;

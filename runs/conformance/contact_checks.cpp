@@ -1,6 +1,5 @@
 // The contacts that an engine shows, and whether those forces are the ones that it applied.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -81,7 +80,7 @@ void forcesAreThoseOfTheLaw(CheckContext& context) {
   context.load(context.busy());
   const AuditBasis basis = auditBasis(context.scene, context.can, context.realised);
   const auto law = declaredLaw(context.can, context.scene, context.realised, 0.5 * smallMass);
-  if (!law) context.skip("declares no law whose constants anybody can tell");
+  if (!law) context.skip("declares no law with known constants");
   for (const Snapshot& now : context.watch(busyEnd)) {
     const std::string why = whyNotOfLaw(now, basis, *law);
     if (!why.empty()) context.fault(text("at t = ", now.contactTime, " s ", why));
@@ -375,31 +374,27 @@ void planeLoadsAreThoseOfTheirContacts(CheckContext& context) {
 }  // namespace
 
 Checks contactChecks() {
-  static constexpr std::array list = {
-      Check{"SnapshotsAreSound", "snapshots can be true: times, places, contacts worked out again",
-            snapshotsAreSound},
-      Check{"ForcesAreThoseOfTheLaw", "the forces of contacts are those of the declared law",
-            forcesAreThoseOfTheLaw},
-      Check{"ContactsSayWhereTheyAre", "contacts lie where the disks are",
-            contactsSayWhereTheyAre<false>},
-      Check{"ContactsWithPlanesSayWhereTheyAre", "contacts with planes lie where the disks are",
-            contactsSayWhereTheyAre<true>},
-      Check{"ForcesPointWhereTheySay", "forces have the signs that they say",
-            forcesPointWhereTheySay},
-      Check{"SlidingFlagsMarkTheBound", "sliding flags mark the Coulomb bound",
-            slidingFlagsMarkTheBound},
-      Check{"ContactForcesAreThoseThatAct", "the forces shown are those that act",
-            contactForcesAreThoseThatAct},
-      Check{"AccumulatedContactsAreImpulses", "accumulated contacts are the impulses that acted",
-            accumulatedContactsAreImpulses},
-      Check{"EnergyLedgerIsClosed", "its energy ledger accounts for all energy",
-            energyLedgerIsClosed},
-      Check{"WallLoadsAreThoseOfTheirContacts",
-            "a wall's force and torque are those of its contacts",
-            wallLoadsAreThoseOfTheirContacts},
-      Check{"PlaneLoadsAreThoseOfTheirContacts",
-            "a plane's force and torque are those of its contacts",
-            planeLoadsAreThoseOfTheirContacts},
+  static constexpr Check list[] = {
+      {"SnapshotsAreSound", "snapshots can be true: times, places, contacts worked out again",
+       snapshotsAreSound},
+      {"ForcesAreThoseOfTheLaw", "the forces of contacts are those of the declared law",
+       forcesAreThoseOfTheLaw},
+      {"ContactsSayWhereTheyAre", "contacts lie where the disks are",
+       contactsSayWhereTheyAre<false>},
+      {"ContactsWithPlanesSayWhereTheyAre", "contacts with planes lie where the disks are",
+       contactsSayWhereTheyAre<true>},
+      {"ForcesPointWhereTheySay", "forces have the signs that they say", forcesPointWhereTheySay},
+      {"SlidingFlagsMarkTheBound", "sliding flags mark the Coulomb bound",
+       slidingFlagsMarkTheBound},
+      {"ContactForcesAreThoseThatAct", "the forces shown are those that act",
+       contactForcesAreThoseThatAct},
+      {"AccumulatedContactsAreImpulses", "accumulated contacts are the impulses that acted",
+       accumulatedContactsAreImpulses},
+      {"EnergyLedgerIsClosed", "its energy ledger accounts for all energy", energyLedgerIsClosed},
+      {"WallLoadsAreThoseOfTheirContacts", "a wall's force and torque are those of its contacts",
+       wallLoadsAreThoseOfTheirContacts},
+      {"PlaneLoadsAreThoseOfTheirContacts", "a plane's force and torque are those of its contacts",
+       planeLoadsAreThoseOfTheirContacts},
   };
   return list;
 }

@@ -449,34 +449,32 @@ void followsItsPeerByHertzLaw(CheckContext& context) {
 }  // namespace
 
 Checks lawChecks() {
-  static constexpr std::array list = {
-      Check{"FrictionFollowsTheOracle", "every law follows the theory of two disks",
-            frictionFollowsTheOracle},
-      Check{"UnequalDisksFollowTheOracle", "so do disks of two sizes and masses",
-            unequalDisksFollowTheOracle},
-      Check{"WallDisksFollowTheOracle", "so does a disk on a wall disk", wallDisksFollowTheOracle},
-      Check{"PlanesFollowTheOracle", "so does a disk on a plane, spinning and obliquely",
-            planesFollowTheOracle},
-      Check{"MovingPlanesFollowTheOracle",
-            "and on a plane that moves along itself, towards it or away",
-            movingPlanesFollowTheOracle},
-      Check{"ConventionsAreThoseDeclared",
-            "its conventions are those declared: the in-house engine with them does the same",
-            conventionsAreThoseDeclared},
+  static constexpr Check list[] = {
+      {"FrictionFollowsTheOracle", "every law follows the theory of two disks",
+       frictionFollowsTheOracle},
+      {"UnequalDisksFollowTheOracle", "so do disks of two sizes and masses",
+       unequalDisksFollowTheOracle},
+      {"WallDisksFollowTheOracle", "so does a disk on a wall disk", wallDisksFollowTheOracle},
+      {"PlanesFollowTheOracle", "so does a disk on a plane, spinning and obliquely",
+       planesFollowTheOracle},
+      {"MovingPlanesFollowTheOracle", "and on a plane that moves along itself, towards it or away",
+       movingPlanesFollowTheOracle},
+      {"ConventionsAreThoseDeclared",
+       "its conventions are those declared: the in-house engine with them does the same",
+       conventionsAreThoseDeclared},
   };
   return list;
 }
 
 Checks mirrorChecks() {
-  static constexpr std::array list = {
-      Check{"FollowsItsPeerThroughACollision", "a mirror follows its peer through a collision",
-            followsItsPeerThroughACollision},
-      Check{"FollowsItsPeerThroughAHeap", "a mirror follows its peer through a heap",
-            followsItsPeerThroughAHeap},
-      Check{"FollowsItsPeerOnAPlane", "a mirror follows its peer on a plane",
-            followsItsPeerOnAPlane},
-      Check{"FollowsItsPeerByHertzLaw", "a mirror follows its peer by Hertz' law",
-            followsItsPeerByHertzLaw},
+  static constexpr Check list[] = {
+      {"FollowsItsPeerThroughACollision", "a mirror follows its peer through a collision",
+       followsItsPeerThroughACollision},
+      {"FollowsItsPeerThroughAHeap", "a mirror follows its peer through a heap",
+       followsItsPeerThroughAHeap},
+      {"FollowsItsPeerOnAPlane", "a mirror follows its peer on a plane", followsItsPeerOnAPlane},
+      {"FollowsItsPeerByHertzLaw", "a mirror follows its peer by Hertz' law",
+       followsItsPeerByHertzLaw},
   };
   return list;
 }

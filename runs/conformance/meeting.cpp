@@ -147,13 +147,12 @@ double misfit(const CollisionEnd& found, const std::optional<CollisionEnd>& want
 
 // ---- the most likely cause ----------------------------------------------------------------------
 
-/// A law, a pair or a start that is another one by a factor; of a constant 1 is right.
+/// A law, a pair or a start that is another one by a factor; 1 is right.
 struct Suspect {
   using End = std::function<std::optional<CollisionEnd>(const CollisionStart&, double factor)>;
   std::string name;
   End end;
-  bool fitted = true;  ///< the factor that fits is named; else there is one alone
-  double factor = 1.0;
+  std::optional<double> factor = {};  ///< the only one possible; absent: it is fitted and named
 };
 
 /// v_t + a ω in place of v_t − a ω on a plane. As s' = v_t − a ω', J' ω̇' = −a f_t with ω' = −ω and
@@ -195,31 +194,30 @@ std::vector<Suspect> suspectsOf(const Meeting& meeting, const MeetingResult& out
                      for (auto constant : constants) other.*constant *= by;
                      return oracle(other, pair, start);
                    },
-                   !factor, factor.value_or(1.0)});
+                   factor});
   };
   if (meeting.partner == Partner::plane) {
+    const double u = meeting.wallVelocity.y();
     all.push_back(
         {"the disk's spin enters the slip with the wrong sign",
          [=](const CollisionStart& start, double) { return endOfWrongSpin(law, pair, start); },
-         false});
-    if (const double u = meeting.wallVelocity.y(); u != 0.0)
+         1.0});
+    if (u != 0.0)
       all.push_back(
           {"the plane's motion along itself is not in the slip",
            [=](const CollisionStart& start, double) { return endWithoutBelt(law, pair, start, u); },
-           false});
+           1.0});
   }
   if (law.normal == NormalLaw::hertz)
     ofLaw("a Hertz law without √R₁₂", {&ContactLaw::kn, &ContactLaw::kt},
           1.0 / std::sqrt(pair.reducedRadius()));
   if (law.soft()) {
     const bool cut = law.conventions.tension == Tension::cut;
+    ContactLaw other = law;
+    other.conventions.tension = cut ? Tension::allow : Tension::cut;
     all.push_back({cut ? "tension is not cut" : "tension is cut",
-                   [=](const CollisionStart& start, double) {
-                     ContactLaw other = law;
-                     other.conventions.tension = cut ? Tension::allow : Tension::cut;
-                     return oracle(other, pair, start);
-                   },
-                   false});
+                   [=](const CollisionStart& start, double) { return oracle(other, pair, start); },
+                   1.0});
   }
   ofLaw("µ", {&ContactLaw::mu});
   // Half the torque and twice the moment of inertia are one motion.
@@ -260,9 +258,11 @@ std::string explain(const Meeting& meeting, const MeetingResult& outcome) {
   std::string best;
   double least = 1.0;
   for (const Suspect& suspect : suspectsOf(meeting, outcome)) {
-    double factor = suspect.factor, rest = left(suspect.end, factor, least);
-    if (suspect.fitted) {
-      rest = std::numeric_limits<double>::infinity();
+    double factor = suspect.factor.value_or(1.0);
+    double rest = std::numeric_limits<double>::infinity();
+    if (suspect.factor) {
+      rest = left(suspect.end, factor, least);
+    } else {
       const auto attempt = [&](double by) {
         const double now = left(suspect.end, by, rest);
         if (!(now < rest)) return false;
@@ -276,7 +276,7 @@ std::string explain(const Meeting& meeting, const MeetingResult& outcome) {
     }
     if (!(rest <= least)) continue;
     least = rest;
-    best = suspect.fitted ? text(suspect.name, percentOf(factor - 1.0)) : suspect.name;
+    best = suspect.factor ? suspect.name : text(suspect.name, percentOf(factor - 1.0));
   }
   return best;
 }
@@ -337,7 +337,7 @@ std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
   }
   const auto law = declaredLaw(context.can, context.scene, context.realised, pair.reducedMass());
   if (!law) {
-    if (why) *why = "declares no law whose constants anybody knows";
+    if (why) *why = "declares no law with known constants";
     return std::nullopt;
   }
   ContactLaw soft = *law;

@@ -1,7 +1,6 @@
 // One disk: alone, on the bottom plate, pushed by a wall that moves as prescribed. And collisions
 // far from the origin, late and of many disks, compared with the same near it, soon and of two.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -413,48 +412,47 @@ void springsHoldWhileAnotherFalls(CheckContext& context) {
 }  // namespace
 
 Checks freeMotionChecks() {
-  static constexpr std::array list = {
-      Check{"FliesStraight", "a disk alone flies straight", fliesStraight},
-      Check{"FallsFreely", "a disk falls freely", fallsFreely},
-      Check{"BottomPlateBrakesADisk", "the bottom plate brakes a disk", bottomPlateBrakesADisk},
+  static constexpr Check list[] = {
+      {"FliesStraight", "a disk alone flies straight", fliesStraight},
+      {"FallsFreely", "a disk falls freely", fallsFreely},
+      {"BottomPlateBrakesADisk", "the bottom plate brakes a disk", bottomPlateBrakesADisk},
   };
   return list;
 }
 
 Checks wallChecks() {
   using Kind = Motion::Kind;
-  static constexpr std::array list = {
-      Check{"RotatingWallPushes", "a rotating wall moves as prescribed and pushes",
-            wallPushes<Kind::rotating>},
-      Check{"TranslatingWallPushes", "a translating wall moves as prescribed and pushes",
-            wallPushes<Kind::translating>},
-      Check{"OscillatingWallPushes", "an oscillating wall moves as prescribed and pushes",
-            wallPushes<Kind::oscillating>},
-      Check{"ShrinkingWallPushes", "a shrinking wall moves as prescribed and pushes",
-            wallPushes<Kind::radial>},
-      Check{"ShrinkingWallStops", "a shrinking wall stops when it is to", shrinkingWallStops},
-      Check{"WheelKeepsItsAngle", "a wheel's angle counts whole turns, which change nothing else",
-            wheelKeepsItsAngle},
-      Check{"TurningPlanePushes", "a turning plane moves as prescribed and pushes",
-            turningPlanePushes},
-      Check{"OscillatingPlanePushes", "an oscillating plane moves as prescribed and pushes",
-            oscillatingPlanePushes},
-      Check{"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
-            planeComesFromAfar},
-      Check{"TurningWheelDragsADisk", "a turning wheel drags a disk along", turningWheelDragsADisk},
-      Check{"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},
+  static constexpr Check list[] = {
+      {"RotatingWallPushes", "a rotating wall moves as prescribed and pushes",
+       wallPushes<Kind::rotating>},
+      {"TranslatingWallPushes", "a translating wall moves as prescribed and pushes",
+       wallPushes<Kind::translating>},
+      {"OscillatingWallPushes", "an oscillating wall moves as prescribed and pushes",
+       wallPushes<Kind::oscillating>},
+      {"ShrinkingWallPushes", "a shrinking wall moves as prescribed and pushes",
+       wallPushes<Kind::radial>},
+      {"ShrinkingWallStops", "a shrinking wall stops when it is to", shrinkingWallStops},
+      {"WheelKeepsItsAngle", "a wheel's angle counts whole turns, which change nothing else",
+       wheelKeepsItsAngle},
+      {"TurningPlanePushes", "a turning plane moves as prescribed and pushes", turningPlanePushes},
+      {"OscillatingPlanePushes", "an oscillating plane moves as prescribed and pushes",
+       oscillatingPlanePushes},
+      {"PlaneComesFromAfar", "a plane that comes from afar pushes a disk at rest",
+       planeComesFromAfar},
+      {"TurningWheelDragsADisk", "a turning wheel drags a disk along", turningWheelDragsADisk},
+      {"WallsSpinIsFelt", "the law feels a wall's spin as a disk's", wallsSpinIsFelt},
   };
   return list;
 }
 
 Checks reachChecks() {
-  static constexpr std::array list = {
-      Check{"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
-      Check{"LateIsAsEarly", "a collision two seconds after load is as one at once", lateIsAsEarly},
-      Check{"ManyAreAsFew", "each of 150 pairs does what one alone does", manyAreAsFew},
-      Check{"SpringsHoldWhileAnotherFalls",
-            "springs hold a disk while another falls past it, and it falls freely",
-            springsHoldWhileAnotherFalls},
+  static constexpr Check list[] = {
+      {"FarIsAsNear", "a collision far from the origin is as one near it", farIsAsNear},
+      {"LateIsAsEarly", "a collision two seconds after load is as one at once", lateIsAsEarly},
+      {"ManyAreAsFew", "each of 150 pairs does what one alone does", manyAreAsFew},
+      {"SpringsHoldWhileAnotherFalls",
+       "springs hold a disk while another falls past it, and it falls freely",
+       springsHoldWhileAnotherFalls},
   };
   return list;
 }

@@ -1,7 +1,6 @@
 // Capabilities, the life cycle (load, advance, snapshot, load again) and refusals: what every run
 // relies on.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -89,7 +88,7 @@ void realisedSaysWhatTheSceneSays(CheckContext& context) {
     context.expect(!deviation.name.empty() || deviation.note.empty(), deviation.name);
     if (deviation.name == "stiffness") stiffness = deviation.value;
   }
-  if (realised.pairs.empty()) context.skip("tells no pairs: the constants that it uses");
+  if (realised.pairs.empty()) context.skip("reports no pairs: the constants that it uses");
   const Tolerance rounding = {1e-14, 1e-12, "a mixing rule undone: some roundings"};
   const PairCoefficients wanted = coefficientsOf(scene.law);
   const double root = std::sqrt(stiffness);
@@ -387,7 +386,7 @@ void engineRefusesOrSaysHowItDeviates(CheckContext& context) {
     const std::string why = refusalOf<UnsupportedScene>(
         [&] { realised = context.engine.load(scene, context.entry.settings); });
     if (why.empty()) {
-      context.expect(named(realised.deviations, what), text("runs ", what, " without a word"));
+      context.expect(named(realised.deviations, what), text("runs ", what, " without a deviation"));
     } else {
       context.expect(oneLine(why), text("its refusal is not one line: ", why));
     }
@@ -435,51 +434,47 @@ void unknownSettingsAreRefused(CheckContext& context) {
 }  // namespace
 
 Checks capabilityChecks() {
-  static constexpr std::array list = {
-      Check{"CapabilitiesAreComplete", "it says what it can do", capabilitiesAreComplete},
-      Check{"LawOptionsAreThoseOfTheCaseFiles",
-            "its law options have names and values that case files know",
-            lawOptionsAreThoseOfTheCaseFiles},
-      Check{"SettingsAreDocumented", "its settings have names, units and words",
-            settingsAreDocumented},
-      Check{"DefaultsSpokenAloudChangeNothing", "its defaults as settings change nothing",
-            defaultsSpokenAloudChangeNothing},
-      Check{"RealisedSaysWhatTheSceneSays", "the constants that it uses are the scene's",
-            realisedSaysWhatTheSceneSays},
-      Check{"SimulatesWhatTheSceneCallsFor",
-            "it simulates what the scene calls for, or says otherwise",
-            simulatesWhatTheSceneCallsFor},
-      Check{"EffectsAreThoseThatItsCapabilitiesSay", "effects are those that its capabilities say",
-            effectsAreThoseThatItsCapabilitiesSay},
+  static constexpr Check list[] = {
+      {"CapabilitiesAreComplete", "it says what it can do", capabilitiesAreComplete},
+      {"LawOptionsAreThoseOfTheCaseFiles",
+       "its law options have names and values that case files know",
+       lawOptionsAreThoseOfTheCaseFiles},
+      {"SettingsAreDocumented", "its settings have names, units and words", settingsAreDocumented},
+      {"DefaultsSpokenAloudChangeNothing", "its defaults as settings change nothing",
+       defaultsSpokenAloudChangeNothing},
+      {"RealisedSaysWhatTheSceneSays", "the constants that it uses are the scene's",
+       realisedSaysWhatTheSceneSays},
+      {"SimulatesWhatTheSceneCallsFor", "it simulates what the scene calls for, or says otherwise",
+       simulatesWhatTheSceneCallsFor},
+      {"EffectsAreThoseThatItsCapabilitiesSay", "effects are those that its capabilities say",
+       effectsAreThoseThatItsCapabilitiesSay},
   };
   return list;
 }
 
 Checks lifecycleChecks() {
-  static constexpr std::array list = {
-      Check{"AdvancesByWholeSteps", "it advances by whole steps and counts them",
-            advancesByWholeSteps},
-      Check{"StartIsTheScene", "it starts from the scene's own state", startIsTheScene},
-      Check{"HalfwayStopsChangeNothing", "stops half way change nothing",
-            halfwayStopsChangeNothing},
-      Check{"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
-      Check{"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
-      Check{"CheckpointsGoOnToTheBit", "a run taken up from a checkpoint goes on to the bit",
-            checkpointsGoOnToTheBit},
-      Check{"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
+  static constexpr Check list[] = {
+      {"AdvancesByWholeSteps", "it advances by whole steps and counts them", advancesByWholeSteps},
+      {"StartIsTheScene", "it starts from the scene's own state", startIsTheScene},
+      {"HalfwayStopsChangeNothing", "stops half way change nothing", halfwayStopsChangeNothing},
+      {"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
+      {"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
+      {"CheckpointsGoOnToTheBit", "a run taken up from a checkpoint goes on to the bit",
+       checkpointsGoOnToTheBit},
+      {"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
   };
   return list;
 }
 
 Checks refusalChecks() {
-  static constexpr std::array list = {
-      Check{"HarnessRefusesWhatTheEngineLacks", "what it lacks is refused before it is asked",
-            harnessRefusesWhatTheEngineLacks},
-      Check{"EngineRefusesOrSaysHowItDeviates", "it refuses, or says how it deviates",
-            engineRefusesOrSaysHowItDeviates},
-      Check{"LivesOnAfterARefusal", "it lives on after a refusal", livesOnAfterARefusal},
-      Check{"UnknownSettingsAreRefused", "settings that it does not have are refused",
-            unknownSettingsAreRefused},
+  static constexpr Check list[] = {
+      {"HarnessRefusesWhatTheEngineLacks", "what it lacks is refused before it is asked",
+       harnessRefusesWhatTheEngineLacks},
+      {"EngineRefusesOrSaysHowItDeviates", "it refuses, or says how it deviates",
+       engineRefusesOrSaysHowItDeviates},
+      {"LivesOnAfterARefusal", "it lives on after a refusal", livesOnAfterARefusal},
+      {"UnknownSettingsAreRefused", "settings that it does not have are refused",
+       unknownSettingsAreRefused},
   };
   return list;
 }
