@@ -12,13 +12,13 @@ namespace crossgrain {
 /// Times, places, and contacts worked out again from positions. Costs less than a third of
 /// averaging the same snapshot.
 /// @param reached  what advance() returned last [s]; absent: not known
-std::string whyUnsound(const Snapshot& snapshot, const AuditBasis& basis,
+std::string auditFault(const Snapshot& snapshot, const AuditBasis& basis,
                        std::optional<double> reached = std::nullopt);
 
 /// Time of positions is a whole number of steps and the time reached; velocities and contacts are
 /// of within a step of it, as staggered schemes have them. A hundredth of a step is left to sums of
 /// 10⁷ steps in any order.
-std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
+std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
                       std::optional<double> reached);
 
 /// No disk is farther off than it could have flown: a hundred times the scene's extent, and ten
@@ -26,7 +26,7 @@ std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
 /// drive each other apart; one that slipped out flies on). None crosses the scene in a step,
 /// unless the scene itself is as fast. Walls
 /// are where they are prescribed to be, to 10⁻⁶ of the extent.
-std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis);
+std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis);
 
 /// Every contact: i < j, i a moving disk, no pair twice, |n| = 1. Forces of an instant also: normal
 /// and overlap are those of the positions at contactTime, no force passes a gap, and no pair that
@@ -38,16 +38,16 @@ std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis);
 /// what solvers move disks apart that overlap (twice the deepest overlap shown), and whether a pair
 /// got an impulse is the solver's matter, so none is missed there. Means over more than a step
 /// belong to no positions.
-std::string whyNoContacts(const Snapshot& snapshot, const AuditBasis& basis);
+std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis);
 
 /// The forces of every contact against the law: f_n from overlap and approach, |f_t| within its
 /// bound by the law's conventions. Of instants of soft disks, and of rigid disks f_n ≥ 0 alone.
 /// Velocities are known to what forces change of them in a step and a half, as schemes have their
 /// dashpots see velocities of up to that long before.
 /// @param law  the one that the engine declares (adapters/declared_law.hpp)
-std::string whyNotOfLaw(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
+std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law);
 
 /// Cost counted as advance() was asked: steps done so far, seconds that can be.
-std::string whyNoStats(const Stats& stats, double dt, double reached);
+std::string statsFault(const Stats& stats, double dt, double reached);
 
 }  // namespace crossgrain

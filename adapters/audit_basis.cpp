@@ -66,12 +66,13 @@ AuditBasis auditBasis(const Scene& scene) {
   return basis;
 }
 
-AuditBasis auditBasis(const Scene& scene, const Capabilities& can, const Realised& realised) {
+AuditBasis auditBasis(const Scene& scene, const Capabilities& can,
+                      const EffectiveParameters& effective) {
   AuditBasis basis = auditBasis(scene);
-  basis.dt = realised.dt;
+  basis.dt = effective.dt;
   basis.byOverlap = scene.law.soft() && hasNormalLaw(can, scene.law);
   basis.prescribed = true;
-  basis.rounding = realised.precision == toString(Precision::float32) ? 1e-6 : 1e-10;
+  basis.rounding = effective.precision == toString(Precision::float32) ? 1e-6 : 1e-10;
   return basis;
 }
 

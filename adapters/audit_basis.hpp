@@ -29,7 +29,8 @@ struct AuditBasis {
 };
 
 /// Of an engine that has loaded the scene, which outlives it.
-AuditBasis auditBasis(const Scene& scene, const Capabilities& can, const Realised& realised);
+AuditBasis auditBasis(const Scene& scene, const Capabilities& can,
+                      const EffectiveParameters& effective);
 
 /// Of snapshots of unknown origin: soft, single precision, nothing known of step and walls' motion.
 AuditBasis auditBasis(const Scene& scene);

@@ -105,8 +105,8 @@ std::string whyMisplaced(const Contacts& contacts, const AuditBasis& basis,
 }
 
 /// Pairs that overlap and are not listed.
-std::string whyIncomplete(const Contacts& contacts, const AuditBasis& basis,
-                          const ContactPlaces& places, const ByFirst& byFirst) {
+std::string incompleteReason(const Contacts& contacts, const AuditBasis& basis,
+                             const ContactPlaces& places, const ByFirst& byFirst) {
   const std::size_t disks = basis.scene->disks.size(), round = basis.radius.size();
   std::string why;
   const auto require = [&](std::size_t i, std::size_t j) {
@@ -128,7 +128,7 @@ std::string whyIncomplete(const Contacts& contacts, const AuditBasis& basis,
 
 }  // namespace
 
-std::string whyNoContacts(const Snapshot& snapshot, const AuditBasis& basis) {
+std::string contactFault(const Snapshot& snapshot, const AuditBasis& basis) {
   if (!snapshot.contacts) return {};
   const Contacts& contacts = *snapshot.contacts;
   if (std::string why = whyNoIds(contacts, *basis.scene); !why.empty()) return why;
@@ -141,7 +141,7 @@ std::string whyNoContacts(const Snapshot& snapshot, const AuditBasis& basis) {
   if (!basis.byOverlap) places.rounding += 2.0 * deepestOverlap(contacts, basis, places);
   if (std::string why = whyMisplaced(contacts, basis, places); !why.empty()) return why;
   return basis.byOverlap && snapshot.contactInterval == 0.0
-             ? whyIncomplete(contacts, basis, places, byFirst)
+             ? incompleteReason(contacts, basis, places, byFirst)
              : std::string();
 }
 

@@ -89,7 +89,7 @@ struct VelocityDoubt {
 };
 
 /// Everything about one contact that its forces are compared with.
-struct Touch {
+struct ContactKinematics {
   PairPlace place;
   double radius;    ///< R₁₂ [m]
   double mass;      ///< m₁₂ [kg]
@@ -98,14 +98,15 @@ struct Touch {
   double doubt;     ///< of v_n [m/s]
 };
 
-Touch touchOf(const Snapshot& snapshot, const AuditBasis& basis, const ContactPlaces& places,
-              const VelocityDoubt& doubts, std::size_t k) {
+ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis,
+                               const ContactPlaces& places, const VelocityDoubt& doubts,
+                               std::size_t k) {
   const Scene& scene = *basis.scene;
   const Contacts& contacts = *snapshot.contacts;
   const auto i = static_cast<std::size_t>(contacts.i[k]);
   const auto j = static_cast<std::size_t>(contacts.j[k]);
   const std::size_t disks = scene.disks.size(), round = basis.radius.size();
-  Touch touch{};
+  ContactKinematics touch{};
   touch.place = pairPlace(places, basis, i, j);
   const double own = basis.radius[i];
   touch.radius = j < round ? own * basis.radius[j] / (own + basis.radius[j]) : own;
@@ -127,7 +128,8 @@ Touch touchOf(const Snapshot& snapshot, const AuditBasis& basis, const ContactPl
   return touch;
 }
 
-std::string whyNotNormal(double found, const ContactLaw& law, const Touch& touch, double relative) {
+std::string whyNotNormal(double found, const ContactLaw& law, const ContactKinematics& touch,
+                         double relative) {
   const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
   const double gn = damping(law.damper, law.gn, elastic.stiffness, touch.mass);
   double force = elastic.force - gn * touch.approach;
@@ -141,8 +143,8 @@ std::string whyNotNormal(double found, const ContactLaw& law, const Touch& touch
       found, force, touch.place.overlap, allowed);
 }
 
-std::string whyNotTangential(double normal, double found, const ContactLaw& law, const Touch& touch,
-                             double relative) {
+std::string whyNotTangential(double normal, double found, const ContactLaw& law,
+                             const ContactKinematics& touch, double relative) {
   const bool friction = law.tangential != TangentialLaw::none && law.mu > 0.0;
   const bool anyway = law.conventions.coulombBound != CoulombBound::compression;
   double bound = !friction ? 0.0 : law.mu * (anyway ? std::abs(normal) : std::max(normal, 0.0));
@@ -160,7 +162,7 @@ std::string whyNotTangential(double normal, double found, const ContactLaw& law,
 
 }  // namespace
 
-std::string whyNotOfLaw(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law) {
+std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const ContactLaw& law) {
   if (!snapshot.contacts || snapshot.contactInterval > 1.5 * basis.dt) return {};
   const Contacts& contacts = *snapshot.contacts;
   const ContactPlaces places = contactPlaces(snapshot, basis);
@@ -174,7 +176,7 @@ std::string whyNotOfLaw(const Snapshot& snapshot, const AuditBasis& basis, const
     if (!law.soft()) {
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);
     } else {
-      const Touch touch = touchOf(snapshot, basis, places, doubts, k);
+      const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k);
       why = whyNotNormal(fn, law, touch, relative);
       if (why.empty()) why = whyNotTangential(fn, ft, law, touch, relative);
     }

@@ -49,7 +49,7 @@ std::string whyNoWalls(const Snapshot& snapshot, const AuditBasis& basis) {
 
 }  // namespace
 
-std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
+std::string timeFault(const Snapshot& snapshot, const AuditBasis& basis,
                       std::optional<double> reached) {
   const double now = snapshot.positionTime, dt = basis.dt;
   if (!(now >= 0.0)) return fmt::format("positions are of t = {:g} s, before the start", now);
@@ -77,7 +77,7 @@ std::string whyNoTime(const Snapshot& snapshot, const AuditBasis& basis,
   return {};
 }
 
-std::string whyNoPlace(const Snapshot& snapshot, const AuditBasis& basis) {
+std::string positionFault(const Snapshot& snapshot, const AuditBasis& basis) {
   const Scene& scene = *basis.scene;
   const double t = snapshot.positionTime;
   const double fastest = 10.0 * basis.fastest;
@@ -118,15 +118,15 @@ std::string whyNoShape(const Snapshot& snapshot, const AuditBasis& basis) {
 
 }  // namespace
 
-std::string whyUnsound(const Snapshot& snapshot, const AuditBasis& basis,
+std::string auditFault(const Snapshot& snapshot, const AuditBasis& basis,
                        std::optional<double> reached) {
   if (std::string why = whyNoShape(snapshot, basis); !why.empty()) return why;
-  if (std::string why = whyNoTime(snapshot, basis, reached); !why.empty()) return why;
-  if (std::string why = whyNoPlace(snapshot, basis); !why.empty()) return why;
-  return whyNoContacts(snapshot, basis);
+  if (std::string why = timeFault(snapshot, basis, reached); !why.empty()) return why;
+  if (std::string why = positionFault(snapshot, basis); !why.empty()) return why;
+  return contactFault(snapshot, basis);
 }
 
-std::string whyNoStats(const Stats& stats, double dt, double reached) {
+std::string statsFault(const Stats& stats, double dt, double reached) {
   const double steps = std::round(reached / dt);
   if (static_cast<double>(stats.steps) != steps)
     return fmt::format("{} steps are counted, but t = {:g} s is {:g} steps of {:g} s", stats.steps,

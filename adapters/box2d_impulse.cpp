@@ -107,7 +107,7 @@ Capabilities Box2dImpulse::capabilities() const {
   return can;
 }
 
-Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
+EffectiveParameters Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   const std::vector<SettingSpec> specs = capabilities().settings;
   const auto number = [&](const std::string& name) { return numberSetting(settings, specs, name); };
   const auto passes = [&](const std::string& name) { return static_cast<int>(number(name)); };
@@ -133,13 +133,13 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
   spins_ = effectsOf(scene).contains(Effect::friction);
   stopwatch_ = {};
 
-  Realised realised;
-  realised.dt = dt;
-  realised.precision = "float";
-  realised.integrator = "semi_implicit_euler with sequential impulses";
-  realised.velocityLag = 0.5 * realised.dt;
-  realised.effects = simulatedEffects(capabilities(), scene);
-  realised.pairs = pairTable(scene, [&](double reducedMass) {
+  EffectiveParameters effective;
+  effective.dt = dt;
+  effective.precision = "float";
+  effective.integrator = "semi_implicit_euler with sequential impulses";
+  effective.velocityLag = 0.5 * effective.dt;
+  effective.effects = simulatedEffects(capabilities(), scene);
+  effective.pairs = pairTable(scene, [&](double reducedMass) {
     const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
     const Restitution used =
         restitutionOf({1.0 / reducedMass, (1.0 + (rotation_ ? 1.0 / q : 0.0)) / reducedMass});
@@ -150,12 +150,12 @@ Realised Box2dImpulse::load(const Scene& scene, const Settings& settings) {
     law.et0 = used.tangential;
     return coefficientsOf(law);
   });
-  realised.deviations = deviationsOf(scene, model, realised.pairs);
+  effective.deviations = deviationsOf(scene, model, effective.pairs);
   if (world_->restSpeed() > 0.0)
-    realised.deviations.push_back({"restitution_threshold", world_->restSpeed(), "m/s",
-                                   "impacts slower than what gravity gives in two steps do not "
-                                   "rebound"});
-  return realised;
+    effective.deviations.push_back({"restitution_threshold", world_->restSpeed(), "m/s",
+                                    "impacts slower than what gravity gives in two steps do not "
+                                    "rebound"});
+  return effective;
 }
 
 Restitution Box2dImpulse::restitution(std::int32_t i, std::int32_t j) {

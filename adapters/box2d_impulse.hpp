@@ -20,7 +20,7 @@ namespace crossgrain {
 class Box2dImpulse : public Engine {
  public:
   Capabilities capabilities() const override;
-  Realised load(const Scene& scene, const Settings& settings) override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport report) override;
   Stats stats() const override;

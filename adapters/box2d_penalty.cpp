@@ -34,7 +34,7 @@ Capabilities Box2dPenalty::capabilities() const {
   return can;
 }
 
-Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
+EffectiveParameters Box2dPenalty::load(const Scene& scene, const Settings& settings) {
   if (scene.law.normal != NormalLaw::linear) throw UnsupportedScene("has only normal = \"linear\"");
   if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
     throw UnsupportedScene("has only damper = \"constant\"");
@@ -50,14 +50,14 @@ Realised Box2dPenalty::load(const Scene& scene, const Settings& settings) {
   spins_ = effectsOf(scene).contains(Effect::friction);
   stopwatch_ = {};
 
-  Realised realised;
-  realised.dt = model.dt;
-  realised.precision = "double";
-  realised.integrator = "semi_implicit_euler";
-  realised.velocityLag = 0.5 * realised.dt;
-  realised.effects = effectsOf(scene);
-  realised.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
-  return realised;
+  EffectiveParameters effective;
+  effective.dt = model.dt;
+  effective.precision = "double";
+  effective.integrator = "semi_implicit_euler";
+  effective.velocityLag = 0.5 * effective.dt;
+  effective.effects = effectsOf(scene);
+  effective.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
+  return effective;
 }
 
 double Box2dPenalty::advance(double t) {

@@ -10,7 +10,7 @@ namespace crossgrain {
 namespace {
 
 /// The row of the engine's table that is about two bodies of that reduced mass [kg].
-std::optional<PairCoefficients> pairOf(const Scene& scene, const Realised& realised,
+std::optional<PairCoefficients> pairOf(const Scene& scene, const EffectiveParameters& effective,
                                        double reducedMass) {
   const auto massAsStiffness = [](double mass) {
     PairCoefficients row;
@@ -19,8 +19,8 @@ std::optional<PairCoefficients> pairOf(const Scene& scene, const Realised& reali
   };
   for (const PairCoefficients& kind : pairTable(scene, massAsStiffness)) {
     if (std::abs(kind.kn - reducedMass) > 1e-12 * reducedMass) continue;
-    const auto row = std::ranges::find(realised.pairs, kind.pair, &PairCoefficients::pair);
-    if (row != realised.pairs.end()) return *row;
+    const auto row = std::ranges::find(effective.pairs, kind.pair, &PairCoefficients::pair);
+    if (row != effective.pairs.end()) return *row;
   }
   return std::nullopt;
 }
@@ -40,13 +40,13 @@ ContactLaw stiffened(ContactLaw law, double factor) {
 }
 
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
-                                      const Realised& realised, double reducedMass) {
+                                      const EffectiveParameters& effective, double reducedMass) {
   ContactLaw law = lawAsRun(can, scene.law);
-  const auto stiffness = std::ranges::find(realised.deviations, "stiffness", &Deviation::name);
-  if (stiffness != realised.deviations.end()) law = stiffened(law, stiffness->value);
+  const auto stiffness = std::ranges::find(effective.deviations, "stiffness", &Deviation::name);
+  if (stiffness != effective.deviations.end()) law = stiffened(law, stiffness->value);
   if (hasNormalLaw(can, law)) return law;
   if (can.lawOptions.at("normal") != std::vector<std::string>{"rigid"}) return std::nullopt;
-  const auto pair = pairOf(scene, realised, reducedMass);
+  const auto pair = pairOf(scene, effective, reducedMass);
   if (!pair) return std::nullopt;
   law.normal = NormalLaw::rigid;
   law.en = pair->en;

@@ -14,12 +14,12 @@ ContactLaw stiffened(ContactLaw law, double factor);
 /// with
 ///   the engine's conventions in place of those that it lacks (lawAsRun()),
 ///   all constants as stiff as its deviation "stiffness" says,
-///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as Realised
-///   has them.
+///   and if it has rigid contacts in place of soft ones, e_n, e_t0 and µ of the pair as
+///   EffectiveParameters has them.
 /// Otherwise the constants are the scene's: an engine whose own differ is wrong, whatever it says.
 /// Absent where it has another law whose constants nobody knows.
 /// @param scene  as the case lets the engine run it
 std::optional<ContactLaw> declaredLaw(const Capabilities& can, const Scene& scene,
-                                      const Realised& realised, double reducedMass);
+                                      const EffectiveParameters& effective, double reducedMass);
 
 }  // namespace crossgrain

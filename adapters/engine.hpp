@@ -67,7 +67,7 @@ struct PairCoefficients {
 };
 
 /// What an engine really uses after loading a scene.
-struct Realised {
+struct EffectiveParameters {
   std::string engine;
   std::string version;
   double dt = 0.0;         ///< [s]
@@ -115,7 +115,7 @@ class Engine {
   /// @pre scene is valid (Scene's own rules) and its effects are within capabilities() but for
   ///      what the caller knows to differ
   /// @throws UnsupportedScene naming the first thing the engine cannot do
-  virtual Realised load(const Scene& scene, const Settings& settings) = 0;
+  virtual EffectiveParameters load(const Scene& scene, const Settings& settings) = 0;
 
   /// Does llround(t/dt) − (steps done) steps. @returns the time reached [s]
   virtual double advance(double t) = 0;

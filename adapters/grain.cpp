@@ -165,7 +165,7 @@ class GrainEngine : public Engine {
     return can;
   }
 
-  Realised load(const Scene& scene, const Settings& settings) override {
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
     const bool rigid = rigid_ = !scene.law.soft();
     const Capabilities can = capabilities();
     const std::vector<std::string>& normals = can.lawOptions.at("normal");
@@ -192,27 +192,27 @@ class GrainEngine : public Engine {
     stopwatch_ = {};
     simulation_.emplace(std::move(setup));
 
-    Realised realised;
-    realised.dt = simulation_->dt();
-    realised.precision = toString(scene.precision);
-    realised.integrator = lawOptionValue(law, "integrator");
+    EffectiveParameters effective;
+    effective.dt = simulation_->dt();
+    effective.precision = toString(scene.precision);
+    effective.integrator = lawOptionValue(law, "integrator");
     if (law.conventions.integrator == Integrator::semiImplicitEuler)
-      realised.velocityLag = 0.5 * realised.dt;
-    realised.effects = effectsOf(own);
+      effective.velocityLag = 0.5 * effective.dt;
+    effective.effects = effectsOf(own);
     const LawConventions& how = law.conventions;
     if (how.integrator == Integrator::semiImplicitEuler &&
         how.dampingVelocity != DampingVelocity::lagged && mattersTo(law, "damping_velocity"))
-      realised.deviations.push_back({"damping_velocity", 0.0, "",
-                                     "Euler's velocities are those of the positions' own time: "
-                                     "nothing is predicted"});
+      effective.deviations.push_back({"damping_velocity", 0.0, "",
+                                      "Euler's velocities are those of the positions' own time: "
+                                      "nothing is predicted"});
     if (rigid && scene.law.conventions.integrator != Integrator::semiImplicitEuler)
-      realised.deviations.push_back(
+      effective.deviations.push_back(
           {"integrator", 0.0, "", "impulses act at the beginning of semi-implicit Euler steps"});
     if (stiffness != 1.0)
-      realised.deviations.push_back(
+      effective.deviations.push_back(
           {"stiffness", stiffness, "-", "contacts are this many times as stiff as the case's"});
-    realised.pairs = pairTable(scene, [&](double) { return coefficientsOf(law); });
-    return realised;
+    effective.pairs = pairTable(scene, [&](double) { return coefficientsOf(law); });
+    return effective;
   }
 
   double advance(double t) override {

@@ -15,7 +15,7 @@ bool has(const std::vector<Motion::Kind>& kinds, Motion::Kind kind) {
   return std::ranges::find(kinds, kind) != kinds.end();
 }
 
-std::string inWords(const std::vector<Motion::Kind>& kinds) {
+std::string describe(const std::vector<Motion::Kind>& kinds) {
   std::vector<std::string> names;
   for (const Motion::Kind kind : kinds) names.push_back(toString(kind));
   return fmt::format("{}", fmt::join(names, " | "));
@@ -40,7 +40,7 @@ std::string beyondOfPlanes(const SceneLimits& limits, const WallBody& body) {
     return fmt::format("has no planes, as {} has", body.name);
   if (limits.planeMotions && !has(*limits.planeMotions, kind))
     return fmt::format("has planes that are {}, not {} as those of {} are",
-                       inWords(*limits.planeMotions), toString(kind), body.name);
+                       describe(*limits.planeMotions), toString(kind), body.name);
   if (!limits.planesAlongAxes) return {};
   for (const Plane& plane : body.planes)
     if (plane.normal.x() != 0.0 && plane.normal.y() != 0.0)
@@ -72,7 +72,7 @@ std::vector<std::string> beyondLimits(const SceneLimits& limits, const Scene& sc
     if (limits.wallMotions && !body.diskRadius.empty() &&
         !has(*limits.wallMotions, body.motion.kind))
       reasons.push_back(fmt::format("has walls that are {}, not {} as {} is",
-                                    inWords(*limits.wallMotions), kind, body.name));
+                                    describe(*limits.wallMotions), kind, body.name));
     if (std::string why = beyondOfPlanes(limits, body); !why.empty())
       reasons.push_back(std::move(why));
   }

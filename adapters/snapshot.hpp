@@ -65,7 +65,7 @@ struct Snapshot {
 };
 
 /// When the motion had the velocities that a snapshot shows [s].
-/// @param lag  Realised::velocityLag; a scene's own velocities at t = 0 have none
+/// @param lag  EffectiveParameters::velocityLag; a scene's own velocities at t = 0 have none
 inline double timeOfVelocities(const Snapshot& snapshot, double lag) {
   return snapshot.velocityTime - (snapshot.positionTime > 0.0 ? lag : 0.0);
 }

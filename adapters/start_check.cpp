@@ -66,7 +66,7 @@ std::optional<DeepStart> deepStart(const Scene& scene,
   return deepInPlane(scene, limit);
 }
 
-std::string whyNoStart(const Scene& scene) {
+std::string startFault(const Scene& scene) {
   if (const auto lost = firstNotFinite(scene))
     return fmt::format("the position of {} is not finite", nameOfId(scene, *lost));
   const auto deep = deepStart(scene, [](double a, double b) { return std::min(a, b); });

@@ -28,6 +28,6 @@ std::optional<std::size_t> firstNotFinite(const Scene& scene);
 /// Why no engine can make sense of the scene's start, one line; empty if one can: a position that
 /// is not finite, coincident centres, which have no normal, or a disk whose centre lies inside the
 /// other (behind a plane), where no law of small overlaps means anything.
-std::string whyNoStart(const Scene& scene);
+std::string startFault(const Scene& scene);
 
 }  // namespace crossgrain

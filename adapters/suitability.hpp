@@ -27,7 +27,7 @@ bool hasNormalLaw(const Capabilities& can, const ContactLaw& law);
 std::vector<Mismatch> mismatches(const Capabilities& can, const Scene& scene);
 
 /// The effects that the engine simulates in a scene: those called for, without those that it never
-/// does. Realised::effects of an adapted scene is this set.
+/// does. EffectiveParameters::effects of an adapted scene is this set.
 Effects simulatedEffects(const Capabilities& can, const Scene& scene);
 
 /// The law with the conventions that the engine has in place of those it lacks: its first of each.

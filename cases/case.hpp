@@ -79,8 +79,8 @@ struct Averaging {
   std::map<std::string, Margin> endpoints;  ///< by name (endpoints.hpp)
 };
 
-/// How `compare` adds packings (averaging/looks.hpp).
-struct Looks {
+/// How `compare` adds packings (averaging/interim_analyses.hpp).
+struct InterimSettings {
   int count = 1;          ///< the most, each after as many packings more as a campaign begins with
   double budget = 120.0;  ///< no further look begins that would end later [s]
 };
@@ -270,7 +270,7 @@ struct Case {
   Particles particles;
   Preparation preparation;
   Averaging averaging;
-  Looks looks;
+  InterimSettings looks;
   RunOptions run;
   Collision collision;
   Assembly assembly;

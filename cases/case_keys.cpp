@@ -68,7 +68,7 @@ std::vector<std::string> changes(const CaseKeys& before, const CaseKeys& now) {
   return changes;
 }
 
-std::string changesInWords(const std::vector<std::string>& changes) {
+std::string describeChanges(const std::vector<std::string>& changes) {
   constexpr std::size_t most = 8;
   std::string text;
   for (std::size_t k = 0; k < std::min(most, changes.size()); ++k)

@@ -25,6 +25,6 @@ std::string whereSaid(const Case& setup, const std::string& key);
 std::vector<std::string> changes(const CaseKeys& before, const CaseKeys& now);
 
 /// "law.mu: 0.44 → 0.5; law.kn: … and 3 more": the first few changes, long values shortened.
-std::string changesInWords(const std::vector<std::string>& changes);
+std::string describeChanges(const std::vector<std::string>& changes);
 
 }  // namespace crossgrain::inline cases

@@ -20,9 +20,9 @@ using Lines = std::vector<std::string>;
 void cautionsOfStep(const Case& setup, Lines& lines) {
   const double dt = timeStep(setup);
   const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
-  if (const std::string why = whyUnstableStep(setup, dt, key); !why.empty())
+  if (const std::string why = unstableStepFault(setup, dt, key); !why.empty())
     return lines.push_back(why);
-  if (const std::string why = whyRiskyStep(setup, dt); !why.empty()) return lines.push_back(why);
+  if (const std::string why = riskyStepFault(setup, dt); !why.empty()) return lines.push_back(why);
   constexpr double fewSteps = 20.0;  // t_c/50 is usual
   const auto time = pairContactTime(setup);
   if (time && *time / dt < fewSteps)

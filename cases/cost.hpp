@@ -25,7 +25,7 @@ inline std::string toString(CostKind kind) {
 }
 
 /// What `crossgrain cost` varies, one setting at a time, in the order of its results;
-/// runs/cost/settings.cpp has the settings of each and the kinds of error that it may change.
+/// studies/cost/settings.cpp has the settings of each and the kinds of error that it may change.
 /// "settings" are engines' own, which go by their names; "effects" go by "effect:NAME".
 inline constexpr std::array<std::string_view, 7> costKnobs = {
     "time_step", "integrator", "precision", "settings", "tangential", "tension", "effects"};

@@ -74,11 +74,11 @@ std::string whyNoProgram(const ProgramCall& call) {
 }
 
 /// Which file it lacks; empty: none. A folder is none.
-std::string whyIncomplete(const std::vector<fs::path>& needs) {
+std::string incompleteReason(const std::vector<fs::path>& needs) {
   for (const fs::path& file : needs) {
     std::error_code none;
     if (fs::is_directory(file, none)) continue;
-    const std::string why = whyNoFile(file), name = file.lexically_normal().string();
+    const std::string why = fileFault(file), name = file.lexically_normal().string();
     if (why == noSuchFile) return fmt::format("there is no {}", name);
     if (!why.empty()) return fmt::format("{} {}", name, why);
   }
@@ -122,7 +122,7 @@ EngineEntry entryOf(std::string name, std::string summary, ProgramCall call) {
 }
 
 /// Why an engine cannot be called that; empty if it can.
-std::string whyNoName(const std::string& name) {
+std::string nameFault(const std::string& name) {
   if (!usableName(name)) return usableNameRule;
   if (namesEngineFile(name)) return "is that of a file";
   if (name == "all" || findEngine(name)) return "is taken: an engine of this program has that name";
@@ -155,7 +155,7 @@ EngineEntry loadEngineFile(const fs::path& file) {
     environment.read(variable, call.environment[variable]);
   Settings settings = readSettings(in.section("settings"));
   in.finish();
-  if (const std::string why = whyNoName(name); !why.empty()) in.fail("name", why);
+  if (const std::string why = nameFault(name); !why.empty()) in.fail("name", why);
   if (call.argv.empty() || call.argv.front().empty())
     in.fail("command", "must be a program and its arguments, as [\"python3\", \"engine.py\"]");
   call.argv.front() = besideThisProgram(call.argv.front());
@@ -168,7 +168,7 @@ EngineEntry loadEngineFile(const fs::path& file) {
   entry.command = stampedOnce(entry.command(), readFile(file).value_or(""), needs);
   entry.missing = [program = std::move(entry.missing), needs, install] {
     std::string why = program();
-    if (why.empty()) why = whyIncomplete(needs);
+    if (why.empty()) why = incompleteReason(needs);
     return why.empty() || install.empty() ? why : fmt::format("{} ({})", why, install);
   };
   entry.settings = std::move(settings);
@@ -184,7 +184,7 @@ EngineEntry engineOfCommand(const std::string& text) {
                                    ? fmt::format(" (did you mean --engines {}?)", text)
                                    : ""));
   const std::string name = text.substr(0, sign);
-  if (const std::string why = whyNoName(name); !why.empty())
+  if (const std::string why = nameFault(name); !why.empty())
     throw BadInput(fmt::format("{}the name '{}' {}", where, name, why));
   std::istringstream words(text.substr(sign + 1));
   ProgramCall call;
@@ -196,7 +196,7 @@ EngineEntry engineOfCommand(const std::string& text) {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> shelvedEngines() {
+std::vector<fs::path> installedEngineFiles() {
   std::vector<fs::path> files;
   std::error_code none;
   for (const auto& folder : fs::directory_iterator(dataFolder() / "engines", none))

@@ -118,7 +118,7 @@ void checkLength(const Reader& cell, const Case& c) {
 
 void checkPreparation(const Reader& preparation, const Case& c) {
   if (!c.preparation.dt) return;
-  const std::string why = whyUnstableStep(c, *c.preparation.dt, "dt");
+  const std::string why = unstableStepFault(c, *c.preparation.dt, "dt");
   preparation.check(why.empty(), "dt", "{}", why);
 }
 
@@ -142,7 +142,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   readPlate(root, c);
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c, c.averaging);
-  readLooks(looks, c.looks);
+  readInterims(looks, c.looks);
   requireStep(run, c);
   readCost(cost, c.cost);
   checkDamping(law, c);
@@ -159,7 +159,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   readPlate(root, c);
   readAssembly(assembly, c.assembly);
   readPackings(preparation, c);
-  readLooks(looks, c.looks);
+  readInterims(looks, c.looks);
   std::vector<Reader> endpoints;
   if (root.has("average")) {
     endpoints = root.sections("endpoints");

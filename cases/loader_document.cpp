@@ -49,7 +49,7 @@ toml::table parse(std::string_view text, const std::string& source) {
 
 /// @param foreign  outside the case's own folder: nothing of it is quoted
 toml::table parseFile(const fs::path& file, bool foreign) {
-  if (const std::string why = whyNoFile(file); !why.empty())
+  if (const std::string why = fileFault(file); !why.empty())
     throw BadInput(fmt::format("{}: {}{}", file.string(), why, nearestFile(file, caseExtension)));
   if (!isUtf8(file.string()))
     throw BadInput(
@@ -138,7 +138,7 @@ std::optional<fs::path> takeBase(toml::table& document, const fs::path& file) {
   fs::path base = (file.parent_path() / *name).lexically_normal();
   std::error_code unknown;
   if (!fs::exists(base, unknown)) base = shippedCase(*name).value_or(base);
-  if (const std::string why = whyNoFile(base); !why.empty()) {
+  if (const std::string why = fileFault(base); !why.empty()) {
     const std::string where = location(node->source());
     if (isForeign(node->source())) throw BadInput(where + "case.extends: " + why);
     const std::string shipped = shippedNamesake(base);

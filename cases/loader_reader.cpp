@@ -125,7 +125,7 @@ void convert(const Value& value, std::filesystem::path& target, const ExistingFi
   std::string name;
   convert(value, name);
   target = (folderOf(value.node.source()) / name).lexically_normal();
-  if (const std::string why = whyNoFile(target); !why.empty())
+  if (const std::string why = fileFault(target); !why.empty())
     value.fail(fmt::format("{} (looked for {}){}", why, target.string(),
                            nearestFile(target, wanted.extension)));
 }

@@ -158,16 +158,16 @@ const Section<Averaging>& averagingKeys() {
   return section;
 }
 
-const Section<Looks>& looksKeys() {
-  static const Section<Looks> section(
+const Section<InterimSettings>& looksKeys() {
+  static const Section<InterimSettings> section(
       {.name = "looks",
        .kinds = "couette, assembly",
        .commands = "compare plan",
        .note = "`compare` adds packings until every endpoint is decided, with an interim analysis "
                "after 1, 2, … times `preparation.packings` of them."},
-      {key("count", &Looks::count, between(1, 100),
+      {key("count", &InterimSettings::count, between(1, 100),
            "the most interim analyses; 1 where packings are files, or fewer than 4 at the first"),
-       key("budget", &Looks::budget, positive("s"),
+       key("budget", &InterimSettings::budget, positive("s"),
            "no further one begins that would end later than this; `--budget` takes precedence")});
   return section;
 }
@@ -339,7 +339,7 @@ void readAveraging(Reader& in, const Case& setup, Averaging& how) {
            mostSnapshots);
 }
 
-void readLooks(Reader& in, Looks& target) {
+void readInterims(Reader& in, InterimSettings& target) {
   looksKeys().read(in, target);
 }
 

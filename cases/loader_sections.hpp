@@ -36,7 +36,7 @@ void readPreparation(Reader& in, Preparation& preparation);
 void readPackings(Reader& in, Case& c);
 /// @param setup  whose cell, particles and law have been read: margins may be shares of its scales
 void readAveraging(Reader& in, const Case& setup, Averaging& averaging);
-void readLooks(Reader& in, Looks& looks);
+void readInterims(Reader& in, InterimSettings& looks);
 void readRun(Reader& in, RunOptions& run);
 void readEngines(Reader& in, std::map<std::string, Settings>& engines);
 /// Settings of one engine: booleans, numbers, texts.

@@ -178,7 +178,7 @@ Packing readPacking(const std::filesystem::path& file, const Case& setup, std::s
 
 std::optional<Packing> keptPacking(const std::filesystem::path& file, const std::string& hash,
                                    const Case& setup, std::string& why, std::size_t most) {
-  if (whyNoFile(file) == noSuchFile) return std::nullopt;
+  if (fileFault(file) == noSuchFile) return std::nullopt;
   try {
     Packing packing = readPacking(file, setup, most);
     packing.fromCache = true;

@@ -235,8 +235,8 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
   return least;
 }
 
-std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
-                            std::optional<LightestPair> lightest) {
+std::string unstableStepFault(const Case& setup, double dt, const std::string& key,
+                              std::optional<LightestPair> lightest) {
   const auto limit = pairStepLimit(setup, lightest);
   if (!limit || dt < limit->dt) return {};
   const char* const parts = limit->damping == 0.0     ? "spring"
@@ -248,7 +248,7 @@ std::string whyUnstableStep(const Case& setup, double dt, const std::string& key
       key, dt, limit->dt, limit->term, parts, limit->stiffness, limit->damping, limit->mass);
 }
 
-std::string whyRiskyStep(const Case& setup, double dt) {
+std::string riskyStepFault(const Case& setup, double dt) {
   const auto limit = pairStepLimit(setup);
   if (!limit || dt < limit->dt / std::sqrt(6.0)) return {};
   return fmt::format(

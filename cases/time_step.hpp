@@ -84,11 +84,11 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
 
 /// "run.dt = 1 s: beyond the 0.00139 s that the normal spring of the lightest contact bears (…)",
 /// empty if it is not.
-std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
-                            std::optional<LightestPair> lightest = {});
+std::string unstableStepFault(const Case& setup, double dt, const std::string& key,
+                              std::optional<LightestPair> lightest = {});
 
 /// "the time step of … is beyond what a disk with six contacts bears, 1/√6 of what one does": as
 /// many as a triangular lattice has; empty if it is not.
-std::string whyRiskyStep(const Case& setup, double dt);
+std::string riskyStepFault(const Case& setup, double dt);
 
 }  // namespace crossgrain::inline cases

@@ -8,10 +8,10 @@
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "results/schema.hpp"
-#include "runs/common/study_cases.hpp"
-#include "runs/lockstep/rules.hpp"
-#include "runs/regression/diff.hpp"
-#include "runs/regression/observe.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/regression/diff.hpp"
+#include "studies/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -53,7 +53,7 @@ int keep(const CommandLine& line, const std::string& out, const std::optional<do
     names.push_back(fmt::format("{} {}", engine.name, engine.version));
   fmt::print("{}: kept of {}\n", out, fmt::join(names, ", "));
   for (const std::string& refusal : refusals) printFailure(refusal);
-  return exitHeld;
+  return exitPassed;
 }
 
 int diff(const CommandLine& line, const std::string& file) {

@@ -17,7 +17,7 @@
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
 #include "oracle/calibration.hpp"
-#include "runs/common/study_cases.hpp"
+#include "studies/core/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 
@@ -387,7 +387,7 @@ int fromWanted(const Request& request) {
   }
   printLaw(law, fmt::format("{}; {}", asked, describe(pair, request)));
   printImpact(law, pair, request.vn);
-  return exitHeld;
+  return exitPassed;
 }
 
 TangentialLaw tangentialLaw(const ContactLaw& law) {
@@ -411,7 +411,7 @@ int fromConstants(const Request& request) {
         fmt::format("--gn = {}: must be < {:.6g} kg/s, critical for this pair", law.gn, critical));
   printLaw(law, fmt::format("these constants; {}", describe(pair, request)));
   printImpact(law, pair, request.vn);
-  return exitHeld;
+  return exitPassed;
 }
 
 std::vector<NamedPair> pairsOf(const Case& setup) {
@@ -482,7 +482,7 @@ int fromCase(const CommandLine& line, const Request& request) {
       printPairs(setup.law, pairsOf(setup), request.vn);
     if (k + 1 < cases.size()) fmt::print("\n");
   }
-  return exitHeld;
+  return exitPassed;
 }
 
 int calibrate(const CommandLine& line, const Request& request) {

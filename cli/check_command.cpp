@@ -9,10 +9,10 @@
 #include "cases/effect_switch.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/check/case_check.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/common/executor.hpp"
-#include "runs/common/study_cases.hpp"
+#include "studies/check/case_check.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study_cases.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cli {
@@ -122,7 +122,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   const std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
   if (options.resolved) {
     fmt::print("{}", resolvedFile(cases));
-    return exitHeld;
+    return exitPassed;
   }
   reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
   const ScratchFolder scratch;
@@ -146,7 +146,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
       allCan &= row["can"] == true || row["mirrors"] != "";
     }
   if (failed) return exitEngineFailed;
-  return allCan ? exitHeld : exitFellShort;
+  return allCan ? exitPassed : exitFailed;
 }
 
 Action declareCheck(CLI::App& app, CommandLine& line) {

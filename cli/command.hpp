@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/common/study.hpp"
+#include "studies/core/study.hpp"
 
 namespace CLI {
 class App;

@@ -133,14 +133,14 @@ int list(const CommandLine& line, const ListOptions& options) {
   if (options.markdown) {
     if (subject != "keys") throw BadInput("list: --markdown is of keys only");
     fmt::print("{}", keysInMarkdown());
-    return exitHeld;
+    return exitPassed;
   }
   const json rows = asked->rows(line.inputs.empty() ? hereOrInstalled("cases") : line.inputs[0]);
   if (line.json)
     fmt::print("{}\n", rows.dump(2));
   else
     print(rows, asked->columns);
-  return exitHeld;
+  return exitPassed;
 }
 
 Action declareList(CLI::App& app, CommandLine& line) {

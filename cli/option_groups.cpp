@@ -9,7 +9,7 @@
 
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
-#include "runs/common/mirrors.hpp"
+#include "studies/core/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
@@ -48,7 +48,8 @@ void addNames(const std::string& list, std::vector<std::string>& names) {
     names.push_back(trimmed(name));
     if (names.back().empty())
       throw BadInput(fmt::format("--engines '{}': a name is empty; like grain,yade", list));
-    if (namesEngineFile(names.back())) names.back() = addStranger(loadEngineFile(names.back()));
+    if (namesEngineFile(names.back()))
+      names.back() = addExternalEngine(loadEngineFile(names.back()));
     addMirrorOfShelved(names.back());
   }
 }
@@ -95,7 +96,7 @@ void addEngines(CLI::App& app, CommandLine& line, const char* usual) {
   app.add_option_function<std::vector<std::string>>(
          "--engine",
          [](const std::vector<std::string>& engines) {
-           for (const std::string& text : engines) addStranger(engineOfCommand(text));
+           for (const std::string& text : engines) addExternalEngine(engineOfCommand(text));
          },
          "an engine of your own that --engines then may name: its worker, no shell reads it")
       ->type_name("NAME='COMMAND …'")

@@ -8,11 +8,11 @@
 
 #include "cases/engine_file.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/common/mirrors.hpp"
-#include "runs/common/study.hpp"
-#include "runs/common/study_cases.hpp"
-#include "runs/plan/job_plan.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/mirrors.hpp"
+#include "studies/core/study.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
 #include "support/comma_list.hpp"
 
@@ -43,7 +43,7 @@ void addEnginesOf(JobRequest& request, const std::string& list) {
     request.said.push_back(ofFile ? fs::absolute(said).lexically_normal().string() : said);
     if (request.said.back().find(',') != std::string::npos)
       throw BadInput(fmt::format("--engines {}: its path has a comma", said));
-    request.engines.push_back(ofFile ? addStranger(loadEngineFile(said)) : said);
+    request.engines.push_back(ofFile ? addExternalEngine(loadEngineFile(said)) : said);
   }
   selectEngines(request.engines);  // throws for one that is unknown or named twice
 }
@@ -82,7 +82,7 @@ int plan(const CommandLine& line, const PlanOptions& options) {
   for (const PlannedJob& job : jobs.jobs) fmt::print("{}\n", job.name);
   fmt::print("{} job{} in {}; submit with {}\n", jobs.jobs.size(), jobs.jobs.size() == 1 ? "" : "s",
              options.slurm, (fs::path(options.slurm) / "submit").string());
-  return exitHeld;
+  return exitPassed;
 }
 
 Action declarePlan(CLI::App& app, CommandLine& line) {

@@ -14,7 +14,7 @@
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
-#include "runs/common/run_store.hpp"
+#include "studies/core/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
 #include "support/json_text.hpp"
@@ -178,7 +178,7 @@ int runProgram(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(footer(nullptr));
 
-  for (const auto& file : shelvedEngines()) addEngine(loadEngineFile(file));
+  for (const auto& file : installedEngineFiles()) addEngine(loadEngineFile(file));
 
   std::vector<Action> actions;
   for (const Command* command : commands()) {

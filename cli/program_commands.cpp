@@ -11,8 +11,8 @@
 #include "adapters/worker/serve.hpp"
 #include "cases/preparation.hpp"
 #include "cli/option_groups.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/common/mirrors.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 #include "support/scratch_folder.hpp"
@@ -58,7 +58,7 @@ int listEngines(const CommandLine& line) {
   const json list(rows);
   if (line.json) {
     fmt::print("{}\n", list.dump(2));
-    return exitHeld;
+    return exitPassed;
   }
   for (const json& row : list) {
     if (row.contains("missing")) {
@@ -87,7 +87,7 @@ int listEngines(const CommandLine& line) {
   }
   fmt::print("Prepared packings are kept in {} (CROSSGRAIN_CACHE says where else).\n",
              packingCache().string());
-  return exitHeld;
+  return exitPassed;
 }
 
 Action declareEngines(CLI::App& app, CommandLine& line) {
@@ -107,7 +107,7 @@ int help(const CLI::App& program, const std::optional<std::string>& name) {
   fmt::print("{}",
              program.get_formatter()->make_help(asked, name ? "crossgrain " + *name : "crossgrain",
                                                 CLI::AppFormatMode::Normal));
-  return exitHeld;
+  return exitPassed;
 }
 
 Action declareHelp(CLI::App& app, CommandLine&) {

@@ -9,9 +9,9 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/common/study_cases.hpp"
-#include "runs/regression/recording.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/regression/recording.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -52,7 +52,7 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   const Recorded recorded = recordRun(engine, setup, file, options);
   fmt::print("{}: {} requests and answers of {} {}, to t = {:g} s of {}\n", out, recorded.exchanges,
              engine.name, recorded.version, recorded.time, setup.name);
-  if (recorded.failure.empty()) return exitHeld;
+  if (recorded.failure.empty()) return exitPassed;
   printFailure(recorded.failure);
   return exitEngineFailed;
 }
@@ -67,7 +67,7 @@ int replay(const CommandLine& line, const std::string& file, const std::optional
     printFailure(found.failure);
     return exitEngineFailed;
   }
-  return found.request.empty() && found.declared.empty() ? exitHeld : exitFellShort;
+  return found.request.empty() && found.declared.empty() ? exitPassed : exitFailed;
 }
 
 Action declareRecord(CLI::App& app, CommandLine& line) {

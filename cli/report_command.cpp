@@ -13,8 +13,8 @@
 #include "reports/report.hpp"
 #include "results/json_fields.hpp"
 #include "results/schema.hpp"
-#include "runs/plan/job_plan.hpp"
-#include "runs/thesis/thesis.hpp"
+#include "studies/plan/job_plan.hpp"
+#include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
@@ -84,7 +84,7 @@ int rebuildReports(const CommandLine& line, const ReportOptions& options) {
     fmt::print("report: {}\n", (folder / "report.html").string());
     if (options.open) openPage(folder / "report.html");
   }
-  return exitHeld;
+  return exitPassed;
 }
 
 /// A plan's folder stands for those of its jobs, as far as they can be merged.
@@ -130,7 +130,7 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
   writeSite(results, site);
   fmt::print("site: {}\n", (site / "index.html").string());
   if (options.open) openPage(site / "index.html");
-  return asPlanned ? exitHeld : exitFellShort;
+  return asPlanned ? exitPassed : exitFailed;
 }
 
 Action declareReport(CLI::App& app, CommandLine& line) {

@@ -14,30 +14,30 @@
 #include "reports/collide/report.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/couette/endpoint_words.hpp"
-#include "reports/couette/overview.hpp"
 #include "reports/effects/report.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/overview.hpp"
 #include "reports/lockstep/overview.hpp"
-#include "reports/lockstep/words.hpp"
+#include "reports/lockstep/text.hpp"
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/collision_outcome.hpp"
-#include "runs/collide/collide.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/common/mirrors.hpp"
-#include "runs/common/study_cases.hpp"
-#include "runs/conformance/conformance.hpp"
-#include "runs/cost/cost.hpp"
-#include "runs/couette/compare.hpp"
-#include "runs/couette/lockstep_job.hpp"
-#include "runs/couette/rev.hpp"
-#include "runs/effects/effects.hpp"
-#include "runs/lockstep/identify.hpp"
-#include "runs/scale/scale.hpp"
-#include "runs/stability/stability.hpp"
-#include "runs/thesis/thesis.hpp"
+#include "studies/collide/collide.hpp"
+#include "studies/conformance/conformance.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/mirrors.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/cost/cost.hpp"
+#include "studies/effects/effects.hpp"
+#include "studies/flow/compare.hpp"
+#include "studies/flow/lockstep_job.hpp"
+#include "studies/flow/rev.hpp"
+#include "studies/lockstep/identify.hpp"
+#include "studies/scale/scale.hpp"
+#include "studies/stability/stability.hpp"
+#include "studies/thesis/thesis.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 
@@ -67,7 +67,7 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
   const StudyWork work{line, cases, store};
   if (line.run.dryRun) {
     fmt::print("{}", study.plan(work, own));
-    return exitHeld;
+    return exitPassed;
   }
   const Results results = study.run(work, own);
   store.begin();
@@ -94,31 +94,30 @@ Action declareStudy(CLI::App& app, CommandLine& line, const Study<Options, Resul
 }
 
 std::string compareText(const CompareResults& results, const std::vector<Case>& cases) {
-  std::string text = effectsInWords(effectsOf(cases.front())) + "\n";
+  std::string text = describeEffects(effectsOf(cases.front())) + "\n";
   const auto add = [&](const std::string& line) { text += line + "\n"; };
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      add(reports::sentenceOf(row, results.lockstep->rules));
-  for (const CarriedEngine& own : results.endpoints.carried) add(reports::sentenceOf(own));
+      add(reports::describe(row, results.lockstep->rules));
+  for (const SurrogateEngine& own : results.endpoints.carried) add(reports::describe(own));
   std::map<Answer, int> answers;
   for (const EndpointRow& row : results.endpoints.rows) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
     ++answers[row.answer];
     if (row.kind == PairKind::closedForm ||
         (row.a == results.engines.front().name && !results.nothingJudged))
-      add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::answerInWords(row)));
+      add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
   }
-  for (const AlarmRow& alarm : results.endpoints.alarms)
-    add("ALARM: " + reports::sentenceOf(alarm));
-  if (const LooksFindings& looks = results.endpoints.looks; looks.taken > 0)
-    add(reports::sentenceOf(looks));
+  for (const AlarmRow& alarm : results.endpoints.alarms) add("ALARM: " + reports::describe(alarm));
+  if (const InterimFindings& looks = results.endpoints.looks; looks.taken > 0)
+    add(reports::describe(looks));
   if (!results.nothingJudged)
     text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided; ",
                         answers[Answer::noDifference] + answers[Answer::smallDifference],
                         answers[Answer::borderline], answers[Answer::disagree],
                         answers[Answer::undecided]);
   add(fmt::format("{} of {} runs failed",
-                  std::ranges::count(results.runs, RunStatus::failed, &CouetteRun::status),
+                  std::ranges::count(results.runs, RunStatus::failed, &FlowRun::status),
                   results.runs.size()));
   return text;
 }
@@ -136,7 +135,7 @@ std::string collideText(const CollideResults& results, const std::vector<Case>&)
   const CollideCount count = countOf(results);
   return text +
          fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
-                     count.held, count.modelDifference, count.fellShort, count.notJudged);
+                     count.held, count.modelDifference, count.beyondLimits, count.notJudged);
 }
 
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
@@ -156,7 +155,7 @@ std::string effectText(const EffectVariant& variant) {
 }
 
 std::string effectsText(const EffectsResults& results, const std::vector<Case>& cases) {
-  std::string text = effectsInWords(effectsOf(cases.front())) + "\n";
+  std::string text = describeEffects(effectsOf(cases.front())) + "\n";
   for (const EffectVariant& variant : results.variants)
     if (variant.isSwitched()) text += effectText(variant);
   return text;
@@ -206,7 +205,7 @@ std::string stabilityText(const StabilityResults& results, const std::vector<Cas
 std::string lockstepText(const LockstepResults& results, const std::vector<Case>&) {
   std::string text;
   for (const LockstepRow& row : results.lockstep.rows)
-    text += reports::sentenceOf(row, results.lockstep.rules) + "\n";
+    text += reports::describe(row, results.lockstep.rules) + "\n";
   return text;
 }
 
@@ -221,7 +220,7 @@ struct ConformanceOptions {
 };
 
 EngineEntry entryOf(const std::string& engine) {
-  if (namesEngineFile(engine)) return *findEngine(addStranger(loadEngineFile(engine)));
+  if (namesEngineFile(engine)) return *findEngine(addExternalEngine(loadEngineFile(engine)));
   if (engine == "all") throw BadInput("conformance takes one engine: a name or an engine file");
   return selectEngines({engine}).front();
 }
@@ -307,7 +306,7 @@ int identifyEngine(const CommandLine& line) {
   const Case setup = onlyCase(line, "identify");
   const Identification found = runIdentify(setup, line.run);
   print(line.run.engines.front(), found);
-  return found.contradicts() ? exitFellShort : exitHeld;
+  return found.contradicts() ? exitFailed : exitPassed;
 }
 
 Action declareIdentify(CLI::App& app, CommandLine& line) {

@@ -28,10 +28,10 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(crossgrain_libraries crossgrain_options crossgrain_support crossgrain_continuum grain box2d_granular crossgrain_adapters
     crossgrain_worker crossgrain_engines crossgrain_oracle crossgrain_stability crossgrain_averaging
-    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_runs)
+    crossgrain_cases crossgrain_results crossgrain_reports crossgrain_studies)
 install(TARGETS ${crossgrain_libraries} EXPORT crossgrain
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/crossgrain)
-foreach(folder support continuum adapters oracle stability averaging cases engines/grain engines/box2d results reports runs)
+foreach(folder support continuum adapters oracle stability averaging cases engines/grain engines/box2d results reports studies)
   install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crossgrain/${folder}
           FILES_MATCHING PATTERN "*.hpp" PATTERN "curated" EXCLUDE PATTERN "templates" EXCLUDE)
 endforeach()

@@ -28,7 +28,7 @@ struct CollisionCurve {
   std::optional<double> stepsPerContact;  ///< absent of rigid disks
   SweepStatus status = SweepStatus::finished;
   std::string reason;
-  std::optional<Realised> realised;
+  std::optional<EffectiveParameters> effective;
   std::optional<Stats> stats;
   CollisionPoints points;                 ///< none of what was refused or failed
   CurveScore score;                       ///< against the scene's law
@@ -36,8 +36,8 @@ struct CollisionCurve {
   std::optional<SchemeScore> ownScheme;   ///< looked at at the largest time step of a variant
 };
 
-/// A point of the sweep at which the oracle's outcome is no reference: the law has no limit of small
-/// time steps there, or jumps beside it.
+/// A point of the sweep at which the oracle's outcome is no reference: the law has no limit of
+/// small time steps there, or jumps beside it.
 struct NoLimitPoint {
   double psi = 0.0;       ///< Ψ_i
   double vn = 0.0;        ///< [m/s]
@@ -54,7 +54,7 @@ struct StickingLimit {
 struct CollisionVariant {
   std::string name;  ///< the case's; empty: that of the head
   std::string variant;
-  LawWords law;                                     ///< options and constants that matter to it
+  LawDescription law;                               ///< options and constants that matter to it
   std::optional<std::vector<std::string>> effects;  ///< that it calls for; absent: not known
   std::optional<double> closedEn;                   ///< e_n in closed form
   StickingLimit sticking;

@@ -86,7 +86,7 @@ void fields(auto& io, CollisionCurve& curve) {
   io("steps_per_contact", curve.stepsPerContact);
   io("status", curve.status);
   io("reason", curve.reason);
-  io("realised", curve.realised);
+  io("realised", curve.effective);
   io.present("stats", curve.stats);
   io("points", curve.points);
   io("score", curve.score);

@@ -19,12 +19,12 @@ SweepOutcome outcomeOf(const CollisionCurve& curve) {
   using enum SweepOutcome;
   if (curve.status == SweepStatus::refused) return refused;
   if (curve.status == SweepStatus::failed) return failed;
-  if (curve.ownScheme && curve.ownScheme->held == false) return fellShort;
+  if (curve.ownScheme && curve.ownScheme->held == false) return beyondLimits;
   const CurveVerdict scene = curve.score.verdict, own = declaredScore(curve).verdict;
   const bool isTheLaw = curve.declared && curve.declared->reference == DeclaredReference::itself;
   if (own == CurveVerdict::notJudged) return notJudged;
-  if (own == CurveVerdict::fellShort && !isTheLaw) return fellShort;
-  return scene == CurveVerdict::fellShort ? modelDifference : held;
+  if (own == CurveVerdict::beyondLimits && !isTheLaw) return beyondLimits;
+  return scene == CurveVerdict::beyondLimits ? modelDifference : held;
 }
 
 bool runsBesideItsPeer(const CollideResults& results, const std::string& engine) {
@@ -43,7 +43,7 @@ CollideCount countOf(const CollideResults& results) {
       if (runsBesideItsPeer(results, curve.engine)) continue;
       count.held += outcome == SweepOutcome::held;
       count.modelDifference += outcome == SweepOutcome::modelDifference;
-      count.fellShort += outcome == SweepOutcome::fellShort;
+      count.beyondLimits += outcome == SweepOutcome::beyondLimits;
       count.notJudged += outcome == SweepOutcome::notJudged;
       count.refused += outcome == SweepOutcome::refused;
     }

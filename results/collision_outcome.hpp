@@ -16,7 +16,7 @@ enum class SweepOutcome {
   modelDifference,
   /// Fails the law that it declares, or its own scheme; or the scene's, and nothing is known of its
   /// own
-  fellShort,
+  beyondLimits,
   notJudged,
   refused,
   failed
@@ -40,8 +40,8 @@ bool runsBesideItsPeer(const CollideResults& results, const std::string& engine)
 /// How the sweeps of all engines came out, but for mirrors that run beside their peers: they say
 /// what a peer should do, and are not asked themselves. One that failed counts as failed.
 struct CollideCount {
-  int held = 0, modelDifference = 0, fellShort = 0, notJudged = 0, refused = 0, failed = 0;
-  int judged() const { return held + modelDifference + fellShort; }
+  int held = 0, modelDifference = 0, beyondLimits = 0, notJudged = 0, refused = 0, failed = 0;
+  int judged() const { return held + modelDifference + beyondLimits; }
 };
 CollideCount countOf(const CollideResults& results);
 

@@ -32,7 +32,7 @@ struct QuantityScore {
   std::optional<std::string> why;  ///< of the limit
 };
 
-enum class CurveVerdict { notJudged, held, fellShort };
+enum class CurveVerdict { notJudged, held, beyondLimits };
 constexpr auto namesOf(CurveVerdict) {
   return std::array<std::string_view, 3>{"not judged", "held", "fell short"};
 }
@@ -46,7 +46,7 @@ struct CurveScore {
 /// The value of a law's option, or a constant of it.
 using LawValue = std::variant<std::string, double>;
 /// Options and constants of a law by their names.
-using LawWords = std::map<std::string, LawValue>;
+using LawDescription = std::map<std::string, LawValue>;
 
 /// What the law that an engine declares is known by.
 enum class DeclaredReference {
@@ -64,7 +64,7 @@ constexpr auto namesOf(DeclaredReference) {
 /// A curve against the law that its engine declares: the scene's, with the conventions that the
 /// engine has in place of those it lacks.
 struct DeclaredScore {
-  LawWords law;  ///< in what it is another law than the scene's
+  LawDescription law;  ///< in what it is another law than the scene's
   DeclaredReference reference = DeclaredReference::none;
   CurveScore score;
   std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
@@ -73,7 +73,7 @@ struct DeclaredScore {
 /// A head-on impact, step by step, against the discrete oracle of the engine's own scheme: what
 /// deviates by more than rounding is no truncation.
 struct SchemeScore {
-  std::string scheme;  ///< Realised::integrator
+  std::string scheme;  ///< EffectiveParameters::integrator
   /// Largest of all steps, of positions by the smaller diameter and velocities by the approach's;
   /// absent where there is no discrete oracle.
   std::optional<double> position, velocity;

@@ -1,7 +1,7 @@
 #include "results/compare.hpp"
 
-#include "results/couette_fields.hpp"
 #include "results/endpoints_fields.hpp"
+#include "results/flow_fields.hpp"
 #include "results/lockstep_fields.hpp"
 
 namespace crossgrain::inline results {
@@ -40,7 +40,7 @@ void fields(auto& io, NothingJudged& nothing) {
 
 void fields(auto& io, CompareResults& results) {
   const bool compared = results.head.kind != kindAverage;
-  fields(io, static_cast<CouetteStudy&>(results));
+  fields(io, static_cast<FlowStudy&>(results));
   io.present("lockstep", results.lockstep);
   io.when(compared, "regimes", results.regimes);
   io("steadiness", results.steadiness);

@@ -6,24 +6,24 @@
 #include <vector>
 
 #include "results/agreement.hpp"
-#include "results/couette_frame.hpp"
 #include "results/endpoints.hpp"
 #include "results/engine_row.hpp"
+#include "results/flow_frame.hpp"
 #include "results/lockstep_findings.hpp"
 #include "results/run.hpp"
 
 namespace crossgrain::inline results {
 
 /// Engines on the packings of a Couette case.
-struct CouetteStudy : CouetteFrame {
+struct FlowStudy : FlowFrame {
   std::optional<double> elapsed;   ///< [s]
   std::vector<EngineRow> engines;  ///< the reference first
   std::vector<PackingRow> packings;
-  std::vector<CouetteRun> runs;
+  std::vector<FlowRun> runs;
 };
 
 /// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.
-struct CompareResults : CouetteStudy {
+struct CompareResults : FlowStudy {
   std::optional<LockstepFindings> lockstep;  ///< absent: nobody was held against a mirror
   std::vector<RegimesOfPair> regimes;
   std::vector<EngineDrift> steadiness;

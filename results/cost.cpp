@@ -1,7 +1,7 @@
 #include "results/cost.hpp"
 
-#include "results/couette_fields.hpp"
 #include "results/engine_fields.hpp"
+#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -34,7 +34,7 @@ std::size_t CostResults::count(CostStatus status) const {
 }
 
 void fields(auto& io, CostResults& results) {
-  fields(io, static_cast<CouetteFrame&>(results));
+  fields(io, static_cast<FlowFrame&>(results));
   io("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("packings", results.packings);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cases/cost.hpp"
-#include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
+#include "results/flow_frame.hpp"
 #include "results/json_fields.hpp"
 
 /// What `crossgrain cost` finds out: results of kind "cost" (docs/results.md). Targets are
@@ -295,7 +295,7 @@ void fields(auto& io, CostCell& cell) {
 }
 
 /// What accuracy costs: results of kind "cost" (docs/results.md).
-struct CostResults : CouetteFrame {
+struct CostResults : FlowFrame {
   std::optional<double> elapsed;  ///< [s]
   std::vector<EngineRow> engines;
   std::vector<PackingRow> packings;
@@ -311,7 +311,7 @@ struct CostResults : CouetteFrame {
   /// For other reasons than a step beyond the stability limit: one line each.
   std::vector<std::string> engineFailures;
 
-  // Worked out from the points (runs/cost/analysis.hpp).
+  // Worked out from the points (studies/cost/analysis.hpp).
   std::vector<Front> fronts;
   std::vector<Advice> advice;
   std::vector<CostCell> cells;

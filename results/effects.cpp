@@ -1,6 +1,6 @@
 #include "results/effects.hpp"
 
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -54,7 +54,7 @@ void fields(auto& io, TimingPlan& plan) {
 }
 
 void fields(auto& io, EffectsResults& results) {
-  fields(io, static_cast<CouetteStudy&>(results));
+  fields(io, static_cast<FlowStudy&>(results));
   io.when(!results.ensemble.empty(), "ensemble", results.ensemble);
   io("switches", results.switches);
   io("timing", results.timing);

@@ -11,7 +11,7 @@
 namespace crossgrain::inline results {
 
 /// How the change of a field, or of a ring, stands against the case's margin.
-enum class AgainstMargin { untold, agree, disagree, undecided };
+enum class AgainstMargin { notTested, agree, disagree, undecided };
 constexpr auto namesOf(AgainstMargin) {
   return std::array<std::string_view, 4>{"", "agree", "disagree", "undecided"};
 }
@@ -31,13 +31,13 @@ struct RingChange {
   std::optional<bool> resolved;     ///< significant
   std::optional<double> low, high;  ///< the interval that `resolved` rests on
   std::optional<double> smallest;   ///< change that would just have been resolved
-  AgainstMargin verdict = AgainstMargin::untold;
+  AgainstMargin verdict = AgainstMargin::notTested;
 };
 
 struct ChangedField {
   std::string field, unit;
   bool judged = false;
-  AgainstMargin verdict = AgainstMargin::untold;
+  AgainstMargin verdict = AgainstMargin::notTested;
   std::vector<RingChange> rings;
 };
 
@@ -76,7 +76,7 @@ struct TimingPlan {
   int rounds = 5;
 };
 
-struct EffectsResults : CouetteStudy {
+struct EffectsResults : FlowStudy {
   std::vector<CouetteEnsemble> ensemble;
   std::vector<SwitchRow> switches;
   TimingPlan timing;

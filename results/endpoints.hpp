@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "averaging/looks.hpp"
+#include "averaging/interim_analyses.hpp"
 #include "results/agreement.hpp"
 
 /// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
@@ -28,21 +28,21 @@ struct EndpointRow {
   int packings = 0;         ///< that both have
   int lost = 0;             ///< that one of both has no value on, of those looked at
   std::string reason;  ///< why a run has none, or the margin does not apply; empty: as it should be
-  std::optional<int> needs;        ///< undecided: packings that decide with 90 % chance,
-  std::optional<int> needsAtMost;  ///< and at most so many; absent: no telling
-  std::string carrierA, carrierB;  ///< the mirror whose runs stand for a, for b; empty: its own
-  std::optional<double> bound;     ///< B of those mirrors, in margins
-  std::optional<double> reach;     ///< part of B: what the followed runs could have missed
+  std::optional<int> needs;            ///< undecided: packings that decide with 90 % chance,
+  std::optional<int> needsAtMost;      ///< and at most so many; absent: no telling
+  std::string surrogateA, surrogateB;  ///< the mirror whose runs stand for a, for b; empty: its own
+  std::optional<double> bound;         ///< B of those mirrors, in margins
+  std::optional<double> reach;         ///< part of B: what the followed runs could have missed
 };
 
 /// One look as planned.
-struct LookRow {
+struct InterimRow {
   int packings = 0;
   double alpha = 0.0;  ///< its part of 1 − confidence, for *disagree*
 };
 
-struct LooksFindings {
-  std::vector<LookRow> planned;
+struct InterimFindings {
+  std::vector<InterimRow> planned;
   std::optional<double> agreeAlpha;  ///< the level of *agree* at each look
   std::size_t taken = 0;
   double budget = 0.0;  ///< [s]
@@ -60,7 +60,7 @@ struct EndpointResponse {
 };
 
 /// One endpoint of the averaged run of a spot check, in margins.
-struct CanaryNumber {
+struct SpotCheckNumber {
   std::string endpoint;
   std::optional<double> difference;  ///< the engine's run less its mirror's
   std::optional<double> floor;       ///< scatter of two runs of one packing: chaos
@@ -90,12 +90,12 @@ struct LateWindows {
 /// An engine that lockstep found to be its mirror, which then carries the packings. The engine's
 /// own runs are a spot check, for what begins after lockstep's windows: one is averaged and
 /// compared with the mirror's, one is followed by late windows.
-struct CarriedEngine {
+struct SurrogateEngine {
   std::string engine, mirror;
-  double equivalent = 0.0;  ///< ε_eq, the upper end of its interval
-  std::size_t starts = 0;   ///< that lockstep followed
-  int canaryPacking = 0;    ///< index
-  std::vector<CanaryNumber> canary;
+  double equivalent = 0.0;   ///< ε_eq, the upper end of its interval
+  std::size_t starts = 0;    ///< that lockstep followed
+  int spotCheckPacking = 0;  ///< index
+  std::vector<SpotCheckNumber> spotCheck;
   std::string alarm;     ///< why the mirror does not stand for it after all; empty: it does
   bool carried = false;  ///< both runs of the spot check ended without an alarm
   LateWindows late = {};
@@ -109,10 +109,10 @@ struct AlarmRow {
 };
 
 struct EndpointFindings {
-  LooksFindings looks;
+  InterimFindings looks;
   std::vector<EndpointRow> rows;
   std::vector<AlarmRow> alarms;
-  std::vector<CarriedEngine> carried;
+  std::vector<SurrogateEngine> carried;
   std::vector<EndpointResponse> responses;
 };
 

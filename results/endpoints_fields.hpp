@@ -28,18 +28,18 @@ void fields(auto& io, EndpointRow& row) {
   io.when(!row.reason.empty(), "reason", row.reason);
   io.present("needs", row.needs);
   io.present("needs_at_most", row.needsAtMost);
-  io.when(!row.carrierA.empty(), "carrier_a", row.carrierA, aName);
-  io.when(!row.carrierB.empty(), "carrier_b", row.carrierB, aName);
+  io.when(!row.surrogateA.empty(), "carrier_a", row.surrogateA, aName);
+  io.when(!row.surrogateB.empty(), "carrier_b", row.surrogateB, aName);
   io.present("bound", row.bound);
   io.present("reach", row.reach);
 }
 
-void fields(auto& io, LookRow& look) {
+void fields(auto& io, InterimRow& look) {
   io("packings", look.packings);
   io("alpha", look.alpha);
 }
 
-void fields(auto& io, LooksFindings& looks) {
+void fields(auto& io, InterimFindings& looks) {
   io("planned", looks.planned);
   io.present("agree_alpha", looks.agreeAlpha);
   io("taken", looks.taken);
@@ -57,7 +57,7 @@ void fields(auto& io, EndpointResponse& response) {
   io("packings", response.packings);
 }
 
-void fields(auto& io, CanaryNumber& number) {
+void fields(auto& io, SpotCheckNumber& number) {
   io("endpoint", number.endpoint, aName);
   io("difference", number.difference);
   io("floor", number.floor);
@@ -78,13 +78,13 @@ void fields(auto& io, LateWindows& late) {
   io("failure", late.failure);
 }
 
-void fields(auto& io, CarriedEngine& carried) {
+void fields(auto& io, SurrogateEngine& carried) {
   io("engine", carried.engine, aName);
   io("mirror", carried.mirror, aName);
   io("equivalent", carried.equivalent);
   io("starts", carried.starts);
-  io("canary_packing", carried.canaryPacking);
-  io("canary", carried.canary);
+  io("canary_packing", carried.spotCheckPacking);
+  io("canary", carried.spotCheck);
   io("alarm", carried.alarm);
   io("carried", carried.carried);
   io("late", carried.late);

@@ -1,12 +1,12 @@
 #include "results/lockstep.hpp"
 
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 #include "results/lockstep_fields.hpp"
 
 namespace crossgrain::inline results {
 
 void fields(auto& io, LockstepResults& results) {
-  fields(io, static_cast<CouetteStudy&>(results));
+  fields(io, static_cast<FlowStudy&>(results));
   io("lockstep", results.lockstep);
 }
 

@@ -5,7 +5,7 @@
 namespace crossgrain::inline results {
 
 /// Kind "lockstep".
-struct LockstepResults : CouetteStudy {
+struct LockstepResults : FlowStudy {
   LockstepFindings lockstep;
 };
 

@@ -8,8 +8,8 @@ namespace crossgrain::inline results {
 void fields(auto& io, LockstepRules& rules) {
   io("rounding", rules.rounding);
   io("same_law", rules.sameLaw);
-  io("yardstick", rules.yardstick);
-  io("yardstick_change", rules.yardstickChange);
+  io("yardstick", rules.referencePerturbation);
+  io("yardstick_change", rules.referenceChange);
   io("stray_share", rules.strayShare);
 }
 
@@ -23,7 +23,7 @@ void fields(auto& io, LockstepSeparation& separation) {
   io("time_s", separation.time);
   io("median", separation.median);
   io("largest", separation.largest);
-  io("yardstick", separation.yardstick);
+  io("yardstick", separation.referencePerturbation);
   io("rounding", separation.rounding);
   io("equivalent", separation.equivalent);
 }
@@ -89,7 +89,7 @@ void fields(auto& io, LockstepRow& row) {
   io("first", row.first);
   io("forces", row.forces);
   io("term", row.term);
-  io("realised", row.realised);
+  io("realised", row.effective);
   io("wall_s", row.wallSeconds);
 }
 

@@ -31,11 +31,11 @@ constexpr auto namesOf(LockstepVerdict) {
 
 /// What the verdicts rest on.
 struct LockstepRules {
-  double rounding = 0.0;         ///< [d]
-  double sameLaw = 0.0;          ///< change of the yardstick, as a fraction of it
-  double yardstickChange = 0.0;  ///< largest by which it was changed to see what that does
-  std::string yardstick;         ///< the constant: "kn"
-  double strayShare = 0.0;       ///< of starts that may be beyond sameLaw by chance
+  double rounding = 0.0;              ///< [d]
+  double sameLaw = 0.0;               ///< change of the yardstick, as a fraction of it
+  double referenceChange = 0.0;       ///< largest by which it was changed to see what that does
+  std::string referencePerturbation;  ///< the constant: "kn"
+  double strayShare = 0.0;            ///< of starts that may be beyond sameLaw by chance
 };
 
 /// One of the states that all engines start from.
@@ -48,10 +48,10 @@ struct LockstepStart {
 /// How far disks are from the mirror's, so long after the start: of each start the disk that is
 /// farthest.
 struct LockstepSeparation {
-  double time = 0.0;                ///< since the start [s]
-  double median = 0.0;              ///< over the starts [d]
-  double largest = 0.0;             ///< [d]
-  std::optional<double> yardstick;  ///< median of what the yardstick's change does [d]
+  double time = 0.0;                            ///< since the start [s]
+  double median = 0.0;                          ///< over the starts [d]
+  double largest = 0.0;                         ///< [d]
+  std::optional<double> referencePerturbation;  ///< median of what the yardstick's change does [d]
   /// What rounding to the declared precision may do, the median over the starts [d]; absent of
   /// double precision.
   std::optional<double> rounding;
@@ -130,7 +130,7 @@ struct LockstepRow {
   std::optional<FirstExceedance> first;
   std::optional<LockstepForces> forces;
   std::optional<NamedTerm> term;  ///< absent: same to rounding, or none fits
-  std::optional<Realised> realised;
+  std::optional<EffectiveParameters> effective;
   double wallSeconds = 0.0;  ///< that it took in all [s]
 };
 

@@ -1,6 +1,6 @@
 #include "results/rev.hpp"
 
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -23,7 +23,7 @@ void fields(auto& io, RevMeeting& meeting) {
 }
 
 void fields(auto& io, RevResults& results) {
-  fields(io, static_cast<CouetteFrame&>(results));
+  fields(io, static_cast<FlowFrame&>(results));
   io("engine", results.engine, aName);
   io("curves", results.curves);
   io("meetings", results.meetings);

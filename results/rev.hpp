@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "results/couette_frame.hpp"
-#include "results/couette_numbers.hpp"
+#include "results/flow_frame.hpp"
+#include "results/flow_numbers.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {
@@ -25,7 +25,7 @@ struct RevMeeting {
 };
 
 /// How large a representative element must be.
-struct RevResults : CouetteFrame {
+struct RevResults : FlowFrame {
   std::string engine;  ///< whose snapshots
   std::vector<RevCurve> curves;
   std::vector<RevMeeting> meetings;

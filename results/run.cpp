@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 
-Json toJson(const CouetteRun& run) {
+Json toJson(const FlowRun& run) {
   return jsonOf(run);
 }
-CouetteRun runFromJson(const Json& json) {
-  return readAs<CouetteRun>(json);
+FlowRun runFromJson(const Json& json) {
+  return readAs<FlowRun>(json);
 }
 
 const Profile* profileOf(const std::vector<Profile>& profiles, std::string_view field) {

@@ -9,8 +9,8 @@
 #include "adapters/engine.hpp"
 #include "averaging/distributions.hpp"
 #include "averaging/profiles.hpp"
-#include "results/couette_numbers.hpp"
-#include "results/couette_state.hpp"
+#include "results/flow_numbers.hpp"
+#include "results/flow_state.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 
@@ -23,14 +23,14 @@ constexpr auto namesOf(RunStatus) {
 
 /// One engine on one packing: what it used, what it cost and what its averages are. A run that did
 /// not finish has none.
-struct CouetteRun {
+struct FlowRun {
   std::string engine;
   std::string without;  ///< the effect that was switched off; empty: none
   int packing = 0;      ///< index
   RunStatus status = RunStatus::finished;
   std::string reason;
-  std::optional<Realised> realised;  ///< absent where crossgrain ran nothing
-  std::optional<Stats> stats;        ///< likewise
+  std::optional<EffectiveParameters> effective;  ///< absent where crossgrain ran nothing
+  std::optional<Stats> stats;                    ///< likewise
   std::vector<HeadNumber> head;
   std::optional<RegimeRow> regime;
   std::vector<SeriesDrift> steadiness;
@@ -45,9 +45,9 @@ struct CouetteRun {
   bool finished() const { return status == RunStatus::finished; }
 };
 
-Json toJson(const CouetteRun& run);
+Json toJson(const FlowRun& run);
 /// @throws FieldError
-CouetteRun runFromJson(const Json& json);
+FlowRun runFromJson(const Json& json);
 
 /// Means over the packings of one engine's finished runs, with sd/√P as errors.
 struct CouetteEnsemble {

@@ -32,7 +32,7 @@ const ScalePoint* scalePoint(const ScaleResults& results, const std::string& eng
   return nullptr;
 }
 
-std::string workersInWords(const ScaleSharing& sharing, int workers) {
+std::string describeWorkers(const ScaleSharing& sharing, int workers) {
   if (sharing.workers.empty()) return "one process";
   const std::string& many = sharing.workers;
   return fmt::format("{} {}", workers, workers == 1 ? many.substr(0, many.size() - 1) : many);

@@ -55,7 +55,7 @@ struct ScaleResults {
 };
 
 /// "1 thread", "2 threads"; "one process" of an engine that has no workers.
-std::string workersInWords(const ScaleSharing& sharing, int workers);
+std::string describeWorkers(const ScaleSharing& sharing, int workers);
 
 /// What follows from a point and the others of its engine. All of it is absent where it did not
 /// run or what it is held against did not.

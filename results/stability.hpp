@@ -56,7 +56,7 @@ struct StabilityRun {
   std::string reason;
   MeasureCurve curve;
   std::optional<ScenePicture> picture;  ///< of the worst moment, where the limit was passed
-  std::optional<Realised> realised;     ///< absent: the engine did not load the scene
+  std::optional<EffectiveParameters> effective;  ///< absent: the engine did not load the scene
   std::optional<Stats> stats;
 };
 

@@ -30,7 +30,7 @@ void fields(auto& io, StabilityRun& run) {
   io("reason", run.reason);
   io("curve", run.curve);
   io("picture", run.picture);
-  io("realised", run.realised);
+  io("realised", run.effective);
   io("stats", run.stats);
 }
 

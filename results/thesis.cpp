@@ -105,7 +105,7 @@ bool isRead(const Distribution& of, const CouetteCell& cell, std::size_t rings) 
 }
 
 void compact(ThesisRun& run, const ThesisCase& setup) {
-  CouetteRun& own = run.run;
+  FlowRun& own = run.run;
   const std::size_t rings = own.profiles.empty() ? 0 : own.profiles.front().mean.size();
   const bool whole = rings > 0 && std::ranges::any_of(setup.families, [](const auto& family) {
                        return isOneOf(family, wholeFamilies);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "results/collision.hpp"
-#include "results/couette_frame.hpp"
 #include "results/engine_row.hpp"
+#include "results/flow_frame.hpp"
 #include "results/head.hpp"
 #include "results/json_fields.hpp"
 #include "results/run.hpp"
@@ -82,7 +82,7 @@ struct ThesisRun {
   std::uint64_t seed = 0;
   std::string key = {};      ///< of all that it depends on, so that another session loads it
   std::string program = {};  ///< that made it: "0.3.0 (7902f0e)"
-  CouetteRun run;            ///< averaged over the case's last rotations, on the case's rings
+  FlowRun run;               ///< averaged over the case's last rotations, on the case's rings
   std::vector<RingAverages> finer;  ///< the same time on narrower rings: about d/3
   std::vector<ThesisSpan> history;  ///< from the closing of the ring to the end
 };

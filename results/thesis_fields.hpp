@@ -1,7 +1,7 @@
 #pragma once
 
 #include "results/collision_fields.hpp"
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 #include "results/thesis.hpp"
 
 /// Members of `thesis`' results (results/json_fields.hpp).

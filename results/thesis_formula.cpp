@@ -138,11 +138,11 @@ std::optional<FormulaValue> numberOfRun(std::string_view name, const CaseRun& at
   if (name == "kn") return chosen(at.setup->kn);
   if (name == "kt") return uncertain(caseConstants(at.setup->caseToml).kt);
   const auto& stats = at.run->run.stats;
-  const auto& realised = at.run->run.realised;
+  const auto& effective = at.run->run.effective;
   if (name == "cpu_s") return uncertain(stats ? std::optional(stats->cpuSeconds) : std::nullopt);
   if (name == "steps")
     return uncertain(stats ? std::optional(static_cast<double>(stats->steps)) : std::nullopt);
-  if (name == "dt") return uncertain(realised ? std::optional(realised->dt) : std::nullopt);
+  if (name == "dt") return uncertain(effective ? std::optional(effective->dt) : std::nullopt);
   return std::nullopt;
 }
 

@@ -40,7 +40,7 @@ const CollisionCurve* curveAt(const CollisionVariant& variant, const std::string
   return nearest;
 }
 
-std::string optionOf(const LawWords& law, const char* option) {
+std::string optionOf(const LawDescription& law, const char* option) {
   const auto found = law.find(option);
   const auto* const word = found == law.end() ? nullptr : std::get_if<std::string>(&found->second);
   return word ? *word : "";

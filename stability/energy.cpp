@@ -20,15 +20,15 @@ double kineticEnergy(const Disks& disks, const Snapshot& snapshot) {
 /// Whether the engine has impulses where the scene has springs.
 bool hasNoSprings(const Recording& run) {
   return !run.scene.law.soft() ||
-         std::ranges::find(run.realised.deviations, "normal", &Deviation::name) !=
-             run.realised.deviations.end();
+         std::ranges::find(run.effective.deviations, "normal", &Deviation::name) !=
+             run.effective.deviations.end();
 }
 
 double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
   const ContactLaw& law = run.scene.law;
   const bool constant = law.springs() && law.normal == NormalLaw::linear;
-  if (!constant || !snapshot.contacts || run.realised.pairs.empty()) return 0.0;
-  const double kt = run.realised.pairs.front().kt;
+  if (!constant || !snapshot.contacts || run.effective.pairs.empty()) return 0.0;
+  const double kt = run.effective.pairs.front().kt;
   if (!(kt > 0.0)) return 0.0;
   double energy = 0.0;
   for (const double force : snapshot.contacts->tangentialForce) energy += 0.5 * force * force / kt;
@@ -39,7 +39,7 @@ double tangentialEnergy(const Recording& run, const Snapshot& snapshot) {
 
 EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
   const Scene& scene = run.scene;
-  const double t = timeOfVelocities(snapshot, run.realised.velocityLag);
+  const double t = timeOfVelocities(snapshot, run.effective.velocityLag);
   const double later = snapshot.positionTime - t;
   // Not the ledger's tangential springs: where they slip, a convention may put into them what no
   // force ever gives back.
@@ -61,8 +61,8 @@ EnergyState energyOf(const Recording& run, const Snapshot& snapshot) {
     energy.potential -= scene.disks.mass[i] * scene.gravity.dot(position[i]);
   if (hasNoSprings(run) && snapshot.positionTime > 0.0) return energy;
   ContactLaw law = scene.law;
-  if (law.normal == NormalLaw::linear && !run.realised.pairs.empty())
-    law.kn = run.realised.pairs.front().kn;
+  if (law.normal == NormalLaw::linear && !run.effective.pairs.empty())
+    law.kn = run.effective.pairs.front().kn;
   for (const Overlap& overlap : overlapsOf(scene, position, t))
     energy.elastic += elasticEnergy(law, overlap.reducedRadius, overlap.depth);
   energy.elastic += tangentialEnergy(run, snapshot);

@@ -12,7 +12,7 @@ namespace crossgrain::inline stability {
 /// What one engine did with a hard case, seen at some instants.
 struct Recording {
   Scene scene;  ///< as it was asked for
-  Realised realised;
+  EffectiveParameters effective;
   std::vector<Snapshot> snapshots;  ///< in the order of time, the first at t = 0
   std::string failure;              ///< why the engine did not get to the end; empty if it did
   double settle = 0.0;              ///< fraction of the run before it should be at rest, [0, 1)

@@ -86,11 +86,11 @@ bool readPieces(const std::filesystem::path& file, std::size_t most,
   };
   const RegularFile in(file);
   if (in.state() == RegularFile::State::missing) {
-    const std::string why = whyNoFile(file);
+    const std::string why = fileFault(file);
     if (why == noSuchFile) return false;
     refuse(why.empty() ? "cannot be read" : why);
   }
-  if (in.state() == RegularFile::State::special) refuse(whyNoFile(file));
+  if (in.state() == RegularFile::State::special) refuse(fileFault(file));
   constexpr double mega = 1e6;
   // What a file of the system has is only known once it is read.
   std::string piece(std::size_t{1} << 20, '\0');

@@ -157,7 +157,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file) {
 
 Hdf5File Hdf5File::append(const std::filesystem::path& file) {
   auto lock = lockLibrary();
-  const std::string why = whyNoFile(file);
+  const std::string why = fileFault(file);
   const bool there = why != noSuchFile;
   if (there && !why.empty()) throw OutputError(file, why);
   // A lock would live on in worker processes that are started while the file is open.
@@ -182,7 +182,7 @@ void Hdf5File::save() {
 Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   auto lock = lockLibrary();
   // A named pipe would be waited for without end.
-  if (const std::string why = whyNoFile(file); !why.empty())
+  if (const std::string why = fileFault(file); !why.empty())
     fail(file, fmt::format("{}: cannot be read as an HDF5 file{}", why, nearestFile(file, ".h5")));
   const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) fail(file, "cannot be read as an HDF5 file");

@@ -53,7 +53,7 @@ bool isUtf8(std::string_view text) {
   }
 }
 
-std::string whyNoFile(const fs::path& path) {
+std::string fileFault(const fs::path& path) {
   std::error_code error;
   switch (fs::status(path, error).type()) {
     case fs::file_type::regular:

@@ -147,18 +147,18 @@ void fields(auto& io, PairCoefficients& pair) {
   constant("et0", pair.et0, !springs && pair.mu != 0.0);
 }
 
-void fields(auto& io, Realised& realised) {
-  std::optional<double> lag = realised.velocityLag;
-  io.required("engine", realised.engine);
-  io.required("version", realised.version);
-  io.required("dt", realised.dt);
-  io.required("precision", realised.precision);
-  io.required("integrator", realised.integrator);
+void fields(auto& io, EffectiveParameters& effective) {
+  std::optional<double> lag = effective.velocityLag;
+  io.required("engine", effective.engine);
+  io.required("version", effective.version);
+  io.required("dt", effective.dt);
+  io.required("precision", effective.precision);
+  io.required("integrator", effective.integrator);
   io("velocity_lag", lag);
-  io.required("effects", realised.effects);
-  io.required("pairs", realised.pairs);
-  io.required("deviations", realised.deviations);
-  if (io.reading) realised.velocityLag = lag.value_or(0.0);
+  io.required("effects", effective.effects);
+  io.required("pairs", effective.pairs);
+  io.required("deviations", effective.deviations);
+  if (io.reading) effective.velocityLag = lag.value_or(0.0);
 }
 /// @}
 

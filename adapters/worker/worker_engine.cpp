@@ -160,7 +160,7 @@ void WorkerEngine::moveTo(const std::filesystem::path& scratch, double timeout) 
   exchangeFile_ = std::make_unique<ExchangeFile>(scratch_ / name_);
 }
 
-Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
+EffectiveParameters WorkerEngine::load(const Scene& scene, const Settings& settings) {
   shape_ = scene;
   time_ = 0.0;
   goodTime_.reset();
@@ -178,12 +178,12 @@ Realised WorkerEngine::load(const Scene& scene, const Settings& settings) {
   }
   const json reply = ask(request, "load");
   return understand("load", [&] {
-    auto realised = readAs<Realised>(reply.at("realised"));
+    auto effective = readAs<EffectiveParameters>(reply.at("realised"));
     // Less than this is no step but a mistake, and a run of such steps would never end.
-    if (!(realised.dt >= 1e-6 * scene.dt))
+    if (!(effective.dt >= 1e-6 * scene.dt))
       throw std::runtime_error(fmt::format("dt = {:g} s is no time step, with {:g} s in the scene",
-                                           realised.dt, scene.dt));
-    return realised;
+                                           effective.dt, scene.dt));
+    return effective;
   });
 }
 

@@ -47,7 +47,7 @@ class WorkerEngine final : public Engine {
   ~WorkerEngine() override;
 
   Capabilities capabilities() const override { return capabilities_; }
-  Realised load(const Scene& scene, const Settings& settings) override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;

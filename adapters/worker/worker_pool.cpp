@@ -25,14 +25,14 @@ struct LoadFingerprint {
   bool operator==(const LoadFingerprint&) const = default;
 };
 
-LoadFingerprint fingerprintOf(Engine& engine, const Realised& realised) {
+LoadFingerprint fingerprintOf(Engine& engine, const EffectiveParameters& effective) {
   const Capabilities can = engine.capabilities();
   ContactReport report = ContactReport::none;
   if (can.instantContacts)
     report = ContactReport::instant;
   else if (can.accumulatedContacts)
     report = ContactReport::accumulated;
-  engine.advance(trialSteps * realised.dt);
+  engine.advance(trialSteps * effective.dt);
   const Snapshot seen = engine.snapshot(report);
   const Stats stats = engine.stats();
   ArrayWriter arrays;
@@ -95,7 +95,7 @@ void WorkerPool::learn(const Kind& kind, Loads loads, const std::string& why) {
     *known = {kind, loads, why};
 }
 
-std::string WorkerPool::whyAlwaysNew(const std::string& name) const {
+std::string WorkerPool::reasonNotReused(const std::string& name) const {
   const std::scoped_lock lock(mutex_);
   for (const Known& known : known_)
     if (known.kind.name == name && known.loads == Loads::notAfresh) return known.why;
@@ -137,7 +137,7 @@ std::invoke_result_t<Work> PooledEngine::ask(Work&& work) const {
   }
 }
 
-Realised PooledEngine::load(const Scene& scene, const Settings& settings) {
+EffectiveParameters PooledEngine::load(const Scene& scene, const Settings& settings) {
   return ask([&] {
     if (!loaded_ && pool_.loadsOf(kind_) == WorkerPool::Loads::untried)
       return loadTried(scene, settings);
@@ -146,12 +146,12 @@ Realised PooledEngine::load(const Scene& scene, const Settings& settings) {
   });
 }
 
-Realised PooledEngine::loadTried(const Scene& scene, const Settings& settings) {
+EffectiveParameters PooledEngine::loadTried(const Scene& scene, const Settings& settings) {
   loaded_ = true;
-  const Realised realised = worker_->load(scene, settings);
+  const EffectiveParameters effective = worker_->load(scene, settings);
   std::string why = "what it did after a second load is not what it did after the first";
   try {
-    const LoadFingerprint first = fingerprintOf(*worker_, realised);
+    const LoadFingerprint first = fingerprintOf(*worker_, effective);
     const LoadFingerprint second = fingerprintOf(*worker_, worker_->load(scene, settings));
     if (first == second) {
       if (first.contacts) pool_.learn(kind_, WorkerPool::Loads::afresh);

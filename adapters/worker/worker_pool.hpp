@@ -54,7 +54,7 @@ class WorkerPool {
   /// @param why  of those that do not start afresh, for people
   void learn(const Kind& kind, Loads loads, const std::string& why = {});
   /// Why the engine of that name gets a new process for each run; empty: it does not.
-  std::string whyAlwaysNew(const std::string& name) const;
+  std::string reasonNotReused(const std::string& name) const;
 
  private:
   struct Waiting {
@@ -95,7 +95,7 @@ class PooledEngine final : public Engine {
   PooledEngine& operator=(const PooledEngine&) = delete;
 
   Capabilities capabilities() const override { return worker_->capabilities(); }
-  Realised load(const Scene& scene, const Settings& settings) override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;
@@ -103,7 +103,7 @@ class PooledEngine final : public Engine {
   void restore(const std::filesystem::path& file) override;
 
   /// What it showed cannot be: no other run is to have this worker.
-  void distrust() { trusted_ = false; }
+  void discardWorker() { trusted_ = false; }
 
   /// Of the worker that it has now; −1 once that has gone.
   pid_t pid() const { return worker_->pid(); }
@@ -112,7 +112,7 @@ class PooledEngine final : public Engine {
   /// Does `work`; after a failure the worker is no longer trusted.
   template <typename Work>
   std::invoke_result_t<Work> ask(Work&& work) const;
-  Realised loadTried(const Scene& scene, const Settings& settings);
+  EffectiveParameters loadTried(const Scene& scene, const Settings& settings);
   std::unique_ptr<WorkerEngine> startNew() const;
 
   WorkerPool& pool_;

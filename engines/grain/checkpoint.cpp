@@ -71,7 +71,7 @@ void Core<Real>::save(std::ostream& out) const {
   write(out, steps_);
   write(out, contactEvaluations_);
   write(out, unfinishedImpacts_);
-  writeAll(out, numberAt_);
+  writeAll(out, idAtIndex_);
   const_cast<Core*>(this)->forDiskArrays([&](const auto& array) { writeAll(out, array); });
   writeAll(out, lists_.stretched());
   writeAll(out, recorded_ ? contacts() : std::vector<Contact>());
@@ -95,11 +95,11 @@ void Core<Real>::restore(std::istream& in) {
   read(in, steps_);
   read(in, contactEvaluations_);
   read(in, unfinishedImpacts_);
-  readSame(in, numberAt_);
+  readSame(in, idAtIndex_);
   for (std::size_t place = 0; place < moving_; ++place) {
-    const auto disk = static_cast<std::size_t>(numberAt_[place]);
+    const auto disk = static_cast<std::size_t>(idAtIndex_[place]);
     require(disk < moving_, "damaged");
-    placeOf_[disk] = static_cast<std::int32_t>(place);
+    indexOfId_[disk] = static_cast<std::int32_t>(place);
   }
   forDiskArrays([&](auto& array) { readSame(in, array); });
   const std::uint64_t mostPairs = 64 * (position_.size() + placedPlanes_.size() * moving_);

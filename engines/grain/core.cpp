@@ -118,9 +118,9 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
 template <class Real>
 void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
   const std::size_t all = wallBegin_.back();
-  numberAt_.resize(moving_);
-  std::iota(numberAt_.begin(), numberAt_.end(), 0);
-  placeOf_ = numberAt_;
+  idAtIndex_.resize(moving_);
+  std::iota(idAtIndex_.begin(), idAtIndex_.end(), 0);
+  indexOfId_ = idAtIndex_;
   std::vector<double> radius = disks.radius, inverseMass, inverseInertia;
   for (const MovingWall& wall : walls_)
     radius.insert(radius.end(), wall.radii().begin(), wall.radii().end());
@@ -130,7 +130,7 @@ void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
   fill(radius_, radius, all);
   fill(inverseMass_, inverseMass, all);
   fill(velocity_, disks.vx, disks.vy, effects.predict ? moving_ : all);
-  if (effects.predict) seenVelocity_.assign(all, {});
+  if (effects.predict) dashpotVelocity_.assign(all, {});
   force_.assign(moving_, {});
   if (effects.rotation) {
     for (const double inertia : disks.inertia) inverseInertia.push_back(1.0 / inertia);
@@ -139,7 +139,7 @@ void Core<Real>::allocate(const Disks& disks, const MotionEffects& effects) {
     torque_.assign(moving_, Real(0));
     if (effects.predict) seenSpin_.assign(all, Real(0));
   }
-  if (effects.plate || effects.gravity) fill(weighed_, disks.mass, moving_);
+  if (effects.plate || effects.gravity) fill(gravityForce_, disks.mass, moving_);
   if (effects.plate) plateSpring_.assign(moving_, {});
   if constexpr (hasLocalCoordinates<Real>) {
     const double largest = radius.empty() ? 1.0 : *std::ranges::max_element(radius);
@@ -193,7 +193,7 @@ void Core<Real>::beginUnderWay(const std::vector<Contact>& forces) {
   for (const Contact& contact : forces) wanted[{contact.i, contact.j}] = &contact;
   // Euler's velocities are those that dashpots see. Predicted ones need the forces of the step
   // before; those of the start stand for them.
-  const bool lags = integrator_ != Integrator::semiImplicitEuler && seenVelocity_.empty();
+  const bool lags = integrator_ != Integrator::semiImplicitEuler && dashpotVelocity_.empty();
   const std::uint64_t evaluations = contactEvaluations_;
   kick(static_cast<Real>(halfKick_));
   const auto velocity = velocity_;  // of the start
@@ -287,7 +287,7 @@ bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<double>&
 template <class Real>
 std::size_t Core<Real>::placeOf(std::int32_t number) const {
   const auto n = static_cast<std::size_t>(number);
-  return n < moving_ ? static_cast<std::size_t>(placeOf_[n]) : n;
+  return n < moving_ ? static_cast<std::size_t>(indexOfId_[n]) : n;
 }
 
 /// By how much f_t falls for each unit of ξ [N/m], of a remembered force 1.
@@ -355,10 +355,20 @@ ContactView<Real> Core<Real>::contactView() {
 
 template <class Real>
 MotionView<Real> Core<Real>::motionView() {
-  return {position_.data(),       velocity_.data(),       spin_.data(),   seenVelocity_.data(),
-          seenSpin_.data(),       force_.data(),          torque_.data(), inverseMass_.data(),
-          inverseInertia_.data(), weighed_.data(),        radius_.data(), plateSpring_.data(),
-          chosen_.data(),         allowanceSquare_.data()};
+  return {position_.data(),
+          velocity_.data(),
+          spin_.data(),
+          dashpotVelocity_.data(),
+          seenSpin_.data(),
+          force_.data(),
+          torque_.data(),
+          inverseMass_.data(),
+          inverseInertia_.data(),
+          gravityForce_.data(),
+          radius_.data(),
+          plateSpring_.data(),
+          positionsAtListBuild_.data(),
+          allowanceSquare_.data()};
 }
 
 /// Before the team begins: its parts share these arrays.

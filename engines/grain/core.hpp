@@ -129,9 +129,9 @@ class Core {
   // Views for the kernels.
   /// As the law sees them: predicted, where they are.
   const Array<Vec<Real>>& velocitySeen() const {
-    return seenVelocity_.empty() ? velocity_ : seenVelocity_;
+    return dashpotVelocity_.empty() ? velocity_ : dashpotVelocity_;
   }
-  const Array<Real>& spinSeen() const { return seenVelocity_.empty() ? spin_ : seenSpin_; }
+  const Array<Real>& spinSeen() const { return dashpotVelocity_.empty() ? spin_ : seenSpin_; }
   ContactView<Real> contactView();
   MotionView<Real> motionView();
   PlaneView<Real> planeView(PlacedPlane& placed, bool record);
@@ -173,14 +173,14 @@ class Core {
   // Moving disks, then wall disks.
   Array<Vec<Real>> position_;
   Array<Real> radius_, inverseMass_, inverseInertia_;
-  Array<Vec<Real>> origin_;                   ///< of the local coordinates, in single precision [m]
-  Real square_ = 1;                           ///< that these count from the corners of [m]
-  Array<Vec<Real>> velocity_, seenVelocity_;  ///< as integrated, and as the dashpots see them
-  Array<Real> spin_, seenSpin_;               ///< where that differs
+  Array<Vec<Real>> origin_;  ///< of the local coordinates, in single precision [m]
+  Real square_ = 1;          ///< that these count from the corners of [m]
+  Array<Vec<Real>> velocity_, dashpotVelocity_;  ///< as integrated, and as the dashpots see them
+  Array<Real> spin_, seenSpin_;                  ///< where that differs
   // Moving disks.
   Array<Vec<Real>> force_, plateSpring_;
-  Array<Real> torque_, weighed_;
-  std::vector<std::int32_t> numberAt_, placeOf_;
+  Array<Real> torque_, gravityForce_;
+  std::vector<std::int32_t> idAtIndex_, indexOfId_;
   std::vector<Vec<double>> places_;
   std::vector<double> placeRadius_;  ///< in double, where the state is not
 
@@ -193,7 +193,7 @@ class Core {
   PairLists<Real> lists_;
   mutable ThreadTeam team_;
   // Near pairs hold as long as every disk is within its allowance of where it was.
-  Array<Vec<Real>> chosen_;
+  Array<Vec<Real>> positionsAtListBuild_;
   Array<Real> allowanceSquare_;
   std::vector<double> travel_, wallPath_;
   std::uint64_t chosenAt_ = 0;  ///< step
@@ -257,10 +257,10 @@ void Core<Real>::forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane)
 template <class Real>
 template <class Visit>
 void Core<Real>::forDiskArrays(Visit&& visit) {
-  for (auto* array : {&position_, &velocity_, &seenVelocity_, &force_, &plateSpring_, &origin_})
+  for (auto* array : {&position_, &velocity_, &dashpotVelocity_, &force_, &plateSpring_, &origin_})
     visit(*array);
   for (auto* array :
-       {&radius_, &inverseMass_, &inverseInertia_, &spin_, &seenSpin_, &torque_, &weighed_})
+       {&radius_, &inverseMass_, &inverseInertia_, &spin_, &seenSpin_, &torque_, &gravityForce_})
     visit(*array);
   for (PlacedPlane& placed : placedPlanes_) visit(placed.spring);
 }

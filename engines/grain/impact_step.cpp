@@ -136,9 +136,9 @@ template <class Real>
 std::vector<Contact> Core<Real>::impactContacts() const {
   std::vector<Contact> contacts;
   for (const Impact& impact : impacts_) {
-    Contact contact{numberAt_[impact.i],
+    Contact contact{idAtIndex_[impact.i],
                     impact.plane >= 0 ? static_cast<std::int32_t>(position_.size()) + impact.plane
-                    : impact.j < moving_ ? numberAt_[impact.j]
+                    : impact.j < moving_ ? idAtIndex_[impact.j]
                                          : static_cast<std::int32_t>(impact.j),
                     impact.nx,
                     impact.ny,

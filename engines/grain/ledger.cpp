@@ -29,12 +29,12 @@ void LedgerSums::begin() {
   ledger.initial = ledger.states();
 }
 
-GRAIN_INLINE void LedgerSums::add(double EnergyLedger::*term, const TwoParts& power, double sign) {
+GRAIN_INLINE void LedgerSums::add(double EnergyLedger::*term, const HalfKicks& power, double sign) {
   ledger.*term += sign * power.closing * scheme_.time.closing;
   pending_.*term += sign * power.opening * scheme_.time.opening;
 }
 
-GRAIN_INLINE void LedgerSums::settleSpring(const TwoParts& power) {
+GRAIN_INLINE void LedgerSums::settleSpring(const HalfKicks& power) {
   SpringAccount& now = next_.back();
   while (place_ < springs_.size() && pairOf(springs_[place_]) < pairOf(now))
     release(springs_[place_++]);
@@ -67,7 +67,7 @@ void LedgerSums::renumber(std::span<const std::int32_t> newPlace) {
 }
 
 GRAIN_INLINE void LedgerSums::plateSpring(SpringAccount& spring, SpringAccount now,
-                                          const TwoParts& power) {
+                                          const HalfKicks& power) {
   settle(spring, now, power.closing * scheme_.time.closing, &EnergyLedger::lostBottom);
   now.openingWork = power.opening * scheme_.time.opening;
   spring = now;

@@ -29,7 +29,7 @@ struct EnergyLedger {
 /// A force acts on velocities twice: in the part of the step that leads to its time, and in the one
 /// that leads on from there. `closing` and `opening` are values of one quantity, each as that part
 /// sees it: a velocity half way through the part's kick.
-struct TwoParts {
+struct HalfKicks {
   double closing = 0.0, opening = 0.0;
 };
 
@@ -65,8 +65,8 @@ struct SpringAccount {
 class LedgerSums {
  public:
   struct Scheme {
-    TwoParts time;    ///< how long the force acts in each part [s]
-    TwoParts offset;  ///< of each part's velocity, in accelerations from the one at t [s]
+    HalfKicks time;    ///< how long the force acts in each part [s]
+    HalfKicks offset;  ///< of each part's velocity, in accelerations from the one at t [s]
   };
   explicit LedgerSums(Scheme scheme) : scheme_(scheme) {}
 
@@ -75,21 +75,21 @@ class LedgerSums {
   /// The openings noted at the last evaluation have happened.
   void beginEvaluation();
   /// Powers [W], > 0 to the disks.
-  void workOfWall(const TwoParts& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
+  void workOfWall(const HalfKicks& power) { add(&EnergyLedger::workOfWalls, power, 1.0); }
   /// Powers [W] of forces that are no spring's, > 0 to the disks: their opposites are losses.
-  void lose(double EnergyLedger::*term, const TwoParts& power) { add(term, power, -1.0); }
+  void lose(double EnergyLedger::*term, const HalfKicks& power) { add(term, power, -1.0); }
   /// Powers [W] that a convention gives the disks.
-  void gain(const TwoParts& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
+  void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
   /// One spring, in ascending (i, j): its account to be filled in, then what it did.
   /// @param power  of the spring on the disks [W]
   SpringAccount& nextSpring() { return next_.emplace_back(); }
-  void settleSpring(const TwoParts& power);
+  void settleSpring(const HalfKicks& power);
   /// After the last spring: those of contacts that are no more.
   void endSprings();
   /// Moving disks, the first ones, have other places. @param newPlace  old → new
   void renumber(std::span<const std::int32_t> newPlace);
   /// The plate's spring with one disk.
-  void plateSpring(SpringAccount& before, SpringAccount now, const TwoParts& power);
+  void plateSpring(SpringAccount& before, SpringAccount now, const HalfKicks& power);
 
   /// At t = 0, after the first evaluation: nothing has happened yet.
   void begin();
@@ -105,7 +105,7 @@ class LedgerSums {
   }
 
  private:
-  void add(double EnergyLedger::*term, const TwoParts& power, double sign);
+  void add(double EnergyLedger::*term, const HalfKicks& power, double sign);
   void settle(const SpringAccount& before, const SpringAccount& now, double closingWork,
               double EnergyLedger::*term);
   void spend(double EnergyLedger::*term, double loss);

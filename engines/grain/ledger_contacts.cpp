@@ -7,12 +7,12 @@
 namespace grain {
 
 /// One contact as the ledger reads it.
-struct Touch {
+struct ContactKinematics {
   double nx = 0.0, ny = 0.0;
   double leverI = 0.0, leverJ = 0.0;  ///< of the force
   double armI = 0.0, armJ = 0.0;      ///< of the spins in v_t
-  TwoParts normal, tangential;        ///< relative velocities half way through the kicks
-  TwoParts slip;          ///< v_t of the law then; the force does its work on tangential
+  HalfKicks normal, tangential;       ///< relative velocities half way through the kicks
+  HalfKicks slip;         ///< v_t of the law then; the force does its work on tangential
   double seenSlip = 0.0;  ///< v_t that the law saw
 
   double along(const BodyMotion& i, const BodyMotion& j) const {
@@ -28,7 +28,7 @@ struct Touch {
 
 namespace {
 
-TwoParts times(double force, const TwoParts& velocity) {
+HalfKicks times(double force, const HalfKicks& velocity) {
   return {force * velocity.closing, force * velocity.opening};
 }
 
@@ -122,7 +122,7 @@ void LedgerObserver<Real>::flushPairs() {
                           static_cast<double>(list.tangential[k]),
                           list.spring.empty() ? 0.0 : static_cast<double>(list.spring[k]),
                           list.sliding[k] != Real(0)};
-    Touch touch;
+    ContactKinematics touch;
     touch.nx = contact.nx;
     touch.ny = contact.ny;
     touch.leverI = b.leverI[p];
@@ -132,7 +132,7 @@ void LedgerObserver<Real>::flushPairs() {
     touch.slip = {b.slipClosing[p], b.slipOpening[p]};
     touch.seenSlip = b.seenSlip[p];
     const bool atWall = static_cast<std::size_t>(contact.j) >= core_.moving_;
-    accountTouch(contact, touch, atWall ? &pairWall_[p] : nullptr);
+    accountContact(contact, touch, atWall ? &pairWall_[p] : nullptr);
   }
   pairCount_ = 0;
 }
@@ -153,7 +153,7 @@ BodyMotion LedgerObserver<Real>::planeMotion(const Contact& contact) const {
   const auto i = static_cast<std::size_t>(contact.i);
   const auto own = static_cast<double>(core_.radius_[i]);
   const double reach = planePoint(core_.law_, own, own - contact.overlap);
-  const auto number = static_cast<std::size_t>(core_.numberAt_[i]);
+  const auto number = static_cast<std::size_t>(core_.idAtIndex_[i]);
   const double armX = core_.x(number) - reach * contact.nx - wall.x;
   const double armY = core_.y(number) - reach * contact.ny - wall.y;
   return {wall.vx - wall.spin * armY, wall.vy + wall.spin * armX, 0.0};
@@ -161,12 +161,12 @@ BodyMotion LedgerObserver<Real>::planeMotion(const Contact& contact) const {
 
 /// @param wall  the motion of its point that is touched; null: j moves as well
 template <class Real>
-GRAIN_INLINE Touch LedgerObserver<Real>::touchOf(const Contact& contact,
-                                                 const BodyMotion* wall) const {
+GRAIN_INLINE ContactKinematics LedgerObserver<Real>::kinematicsOf(const Contact& contact,
+                                                                  const BodyMotion* wall) const {
   const auto i = static_cast<std::size_t>(contact.i);
   const auto j = static_cast<std::size_t>(contact.j);
   const auto own = static_cast<double>(core_.radius_[i]);
-  Touch touch;
+  ContactKinematics touch;
   touch.nx = contact.nx;
   touch.ny = contact.ny;
   if (core_.law_.rotation && j < core_.diskCount()) {
@@ -181,8 +181,8 @@ GRAIN_INLINE Touch LedgerObserver<Real>::touchOf(const Contact& contact,
     touch.armI = planeArmOf(core_.law_.velocityLever, core_.law_.planeLever, own, height);
   }
   const auto parts = [&](auto&& of) {
-    return TwoParts{of(closing_.of(i), wall != nullptr ? *wall : closing_.of(j)),
-                    of(opening_.of(i), wall != nullptr ? *wall : opening_.of(j))};
+    return HalfKicks{of(closing_.of(i), wall != nullptr ? *wall : closing_.of(j)),
+                     of(opening_.of(i), wall != nullptr ? *wall : opening_.of(j))};
   };
   touch.normal = parts([&](const auto& a, const auto& b) { return touch.along(a, b); });
   touch.tangential = parts([&](const auto& a, const auto& b) { return touch.across(a, b); });
@@ -195,15 +195,15 @@ GRAIN_INLINE Touch LedgerObserver<Real>::touchOf(const Contact& contact,
 template <class Real>
 void LedgerObserver<Real>::accountContact(const Contact& contact) {
   const auto j = static_cast<std::size_t>(contact.j);
-  if (j < core_.moving_) return accountTouch(contact, touchOf(contact, nullptr), nullptr);
+  if (j < core_.moving_) return accountContact(contact, kinematicsOf(contact, nullptr), nullptr);
   const BodyMotion wall = j < core_.diskCount() ? diskMotion(j) : planeMotion(contact);
-  accountTouch(contact, touchOf(contact, &wall), &wall);
+  accountContact(contact, kinematicsOf(contact, &wall), &wall);
 }
 
 /// @param wall  the motion of its point that is touched; null: j moves as well
 template <class Real>
-void LedgerObserver<Real>::accountTouch(const Contact& contact, const Touch& touch,
-                                        const BodyMotion* wall) {
+void LedgerObserver<Real>::accountContact(const Contact& contact, const ContactKinematics& touch,
+                                          const BodyMotion* wall) {
   ContactMotion<Real> motion{};
   motion.overlap = static_cast<Real>(contact.overlap);
   motion.radius =
@@ -233,7 +233,8 @@ void LedgerObserver<Real>::accountTouch(const Contact& contact, const Touch& tou
 /// ξ is kept as the next evaluation will begin with it; what carries the force of this one is ξ
 /// without the part of v_t dt that was added since.
 template <class Real>
-GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact, const Touch& touch,
+GRAIN_INLINE void LedgerObserver<Real>::accountSpring(const Contact& contact,
+                                                      const ContactKinematics& touch,
                                                       double stiffness) {
   const bool remembersForce = core_.law_.history == History::force;
   double part = 0.0;  // of v_t dt

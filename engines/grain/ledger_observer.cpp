@@ -44,7 +44,7 @@ LedgerObserver<Real>::LedgerObserver(const Core<Real>& core, const Setup& setup)
 template <class Real>
 void LedgerObserver<Real>::takeMasses() {
   for (std::size_t place = 0; place < core_.moving_; ++place) {
-    const auto number = static_cast<std::size_t>(core_.numberAt_[place]);
+    const auto number = static_cast<std::size_t>(core_.idAtIndex_[place]);
     mass_[place] = core_.mass_[number];
     inertia_[place] = core_.inertia_[number];
   }
@@ -90,7 +90,7 @@ void LedgerObserver<Real>::account(double time) {
     for (Contact contact : core_.contacts()) {
       for (std::int32_t* disk : {&contact.i, &contact.j})
         if (static_cast<std::size_t>(*disk) < core_.moving_)
-          *disk = core_.placeOf_[static_cast<std::size_t>(*disk)];
+          *disk = core_.indexOfId_[static_cast<std::size_t>(*disk)];
       accountContact(contact);
     }
   else
@@ -118,7 +118,7 @@ void LedgerObserver<Real>::lookAtDisks(double time) {
                                 opening_.view(),
                                 kinetic_.data(),
                                 core_.motionConstants_.plate,
-                                core_.weighed_.data(),
+                                core_.gravityForce_.data(),
                                 core_.radius_.data(),
                                 core_.velocitySeen().data(),
                                 core_.spinSeen().data(),
@@ -140,7 +140,7 @@ void LedgerObserver<Real>::accountDisks() {
   for (const double energy : kinetic_) ledger.kinetic += energy;
   if (gx != 0.0 || gy != 0.0)
     for (std::size_t place = 0; place < core_.moving_; ++place) {
-      const auto number = static_cast<std::size_t>(core_.numberAt_[place]);
+      const auto number = static_cast<std::size_t>(core_.idAtIndex_[place]);
       ledger.potential -=
           mass_[place] * (gx * (core_.x(number) - middle_.x) + gy * (core_.y(number) - middle_.y));
     }

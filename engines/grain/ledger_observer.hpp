@@ -19,7 +19,7 @@ struct BodyMotion {
   double vx = 0.0, vy = 0.0, spin = 0.0;
 };
 
-struct Touch;
+struct ContactKinematics;
 
 /// Keeps the energy ledger of a core: reads it before each motion and after each evaluation of
 /// the forces, and changes nothing there. A core without one does nothing for it.
@@ -68,12 +68,13 @@ class LedgerObserver {
   void gatherPairs();
   void flushPairs();
   void accountContact(const Contact& contact);
-  void accountTouch(const Contact& contact, const Touch& touch, const BodyMotion* wall);
-  void accountSpring(const Contact& contact, const Touch& touch, double stiffness);
+  void accountContact(const Contact& contact, const ContactKinematics& touch,
+                      const BodyMotion* wall);
+  void accountSpring(const Contact& contact, const ContactKinematics& touch, double stiffness);
   void accountDisks();
   void accountPlate(std::size_t place);
   void takeMasses();
-  Touch touchOf(const Contact& contact, const BodyMotion* wall) const;
+  ContactKinematics kinematicsOf(const Contact& contact, const BodyMotion* wall) const;
   BodyMotion seen(std::size_t place) const;
   BodyMotion diskMotion(std::size_t wallDisk) const;
   BodyMotion planeMotion(const Contact& contact) const;

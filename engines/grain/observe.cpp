@@ -10,7 +10,7 @@ namespace grain {
 template <class Real>
 double Core<Real>::x(std::size_t number) const {
   if (number >= moving_) return wallDisk(number).x;
-  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  const auto i = static_cast<std::size_t>(indexOfId_[number]);
   return (origin_.empty() ? 0.0 : static_cast<double>(origin_[i].x)) +
          static_cast<double>(position_[i].x);
 }
@@ -18,7 +18,7 @@ double Core<Real>::x(std::size_t number) const {
 template <class Real>
 double Core<Real>::y(std::size_t number) const {
   if (number >= moving_) return wallDisk(number).y;
-  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  const auto i = static_cast<std::size_t>(indexOfId_[number]);
   return (origin_.empty() ? 0.0 : static_cast<double>(origin_[i].y)) +
          static_cast<double>(position_[i].y);
 }
@@ -39,21 +39,21 @@ WallPoint Core<Real>::wallDisk(std::size_t number) const {
 
 template <class Real>
 double Core<Real>::velocityX(std::size_t number) const {
-  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  const auto i = static_cast<std::size_t>(indexOfId_[number]);
   return static_cast<double>(velocity_[i].x) +
          halfKick_ * static_cast<double>(force_[i].x * inverseMass_[i]);
 }
 
 template <class Real>
 double Core<Real>::velocityY(std::size_t number) const {
-  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  const auto i = static_cast<std::size_t>(indexOfId_[number]);
   return static_cast<double>(velocity_[i].y) +
          halfKick_ * static_cast<double>(force_[i].y * inverseMass_[i]);
 }
 
 template <class Real>
 double Core<Real>::spin(std::size_t number) const {
-  const auto i = static_cast<std::size_t>(placeOf_[number]);
+  const auto i = static_cast<std::size_t>(indexOfId_[number]);
   return static_cast<double>(spin_[i]) +
          halfKick_ * static_cast<double>(torque_[i] * inverseInertia_[i]);
 }
@@ -115,9 +115,9 @@ template <class Real>
 std::vector<Contact> Core<Real>::softContacts() const {
   std::vector<Contact> contacts;
   forContactsByPlace([&](Contact contact) {
-    contact.i = numberAt_[static_cast<std::size_t>(contact.i)];
+    contact.i = idAtIndex_[static_cast<std::size_t>(contact.i)];
     if (static_cast<std::size_t>(contact.j) < moving_)
-      contact.j = numberAt_[static_cast<std::size_t>(contact.j)];
+      contact.j = idAtIndex_[static_cast<std::size_t>(contact.j)];
     contacts.push_back(fromLower(contact));
   });
   return contacts;
@@ -150,7 +150,7 @@ WallLoad Core<Real>::wallLoad(std::size_t w) const {
       armY = centre.y - wall.y;
       if (law_.rotation) {
         const auto radius = static_cast<double>(radius_[j]);
-        const auto other = static_cast<double>(radius_[static_cast<std::size_t>(placeOf_[i])]);
+        const auto other = static_cast<double>(radius_[static_cast<std::size_t>(indexOfId_[i])]);
         load.torque -= armOf(law_.lever, radius, other, contact.overlap) * contact.tangentialForce;
       }
     }
@@ -176,7 +176,7 @@ double Core<Real>::kineticEnergy() const {
 template <class Real>
 double Core<Real>::ownRadius(const Contact& contact) const {
   return static_cast<double>(
-      radius_[static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)])]);
+      radius_[static_cast<std::size_t>(indexOfId_[static_cast<std::size_t>(contact.i)])]);
 }
 
 /// R₁₂ of places; of a plane's partner its own radius.
@@ -195,8 +195,8 @@ double Core<Real>::elasticEnergy() const {
     motion.overlap = static_cast<Real>(contact.overlap);
     const auto j = static_cast<std::size_t>(contact.j);
     motion.radius =
-        pairRadius(static_cast<std::size_t>(placeOf_[static_cast<std::size_t>(contact.i)]),
-                   j < moving_ ? static_cast<std::size_t>(placeOf_[j]) : j);
+        pairRadius(static_cast<std::size_t>(indexOfId_[static_cast<std::size_t>(contact.i)]),
+                   j < moving_ ? static_cast<std::size_t>(indexOfId_[j]) : j);
     energy += static_cast<double>(storedEnergy(law_, motion, static_cast<Real>(contact.spring)));
   }
   return energy;

@@ -95,7 +95,8 @@ std::span<const double> Core<Real>::travel() {
 template <class Real>
 void Core<Real>::rememberChoice() {
   checkPlanes();
-  chosen_.assign(position_.begin(), position_.begin() + static_cast<std::ptrdiff_t>(moving_));
+  positionsAtListBuild_.assign(position_.begin(),
+                               position_.begin() + static_cast<std::ptrdiff_t>(moving_));
   allowanceSquare_.resize(moving_);
   for (std::size_t i = 0; i < moving_; ++i) {
     const double sure = 0.999 * lists_.allowances()[i];  // single precision does not see the rest
@@ -192,9 +193,9 @@ void Core<Real>::renumber() {
   forDiskArrays([&](auto& array) {
     if (!array.empty()) reorder(array, order, scratch_);
   });
-  reorder(numberAt_, order, scratch_);
+  reorder(idAtIndex_, order, scratch_);
   for (std::size_t place = 0; place < moving_; ++place)
-    placeOf_[static_cast<std::size_t>(numberAt_[place])] = static_cast<std::int32_t>(place);
+    indexOfId_[static_cast<std::size_t>(idAtIndex_[place])] = static_cast<std::int32_t>(place);
   localise();
   guarded([&] { lists_.renumber(newPlace_, places(), travel(), team_); });
   if (ledger_) ledger_->renumber(order, newPlace_, scratch_);
@@ -233,8 +234,8 @@ template <class Member>
 void Core<Real>::placeWallDisks(std::size_t w, std::size_t count, Member&& member) {
   const WallPose pose = walls_[w].pose();  // a copy, which nothing that is stored here can change
   const std::vector<WallOffset>& offsets = walls_[w].offsets();
-  Array<Vec<Real>>& velocity = seenVelocity_.empty() ? velocity_ : seenVelocity_;
-  Array<Real>& spin = seenVelocity_.empty() ? spin_ : seenSpin_;
+  Array<Vec<Real>>& velocity = dashpotVelocity_.empty() ? velocity_ : dashpotVelocity_;
+  Array<Real>& spin = dashpotVelocity_.empty() ? spin_ : seenSpin_;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t k = member(n);
     const std::size_t i = wallBegin_[w] + k;

@@ -149,10 +149,10 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   cell.value = all.held;
   cell.shown = fmt::format("{} of {}", all.held, all.judged());
   if (unknown > 0) cell.shown += fmt::format(", {} points not judged", unknown);
-  const int faults = (besidePeer ? 0 : all.fellShort) + all.failed;
-  cell.state = faults > 0                      ? CellState::bad
-               : all.model + all.fellShort > 0 ? CellState::modelDifference
-                                               : CellState::good;
+  const int faults = (besidePeer ? 0 : all.beyondLimits) + all.failed;
+  cell.state = faults > 0                         ? CellState::bad
+               : all.model + all.beyondLimits > 0 ? CellState::modelDifference
+                                                  : CellState::good;
   return cell;
 }
 
@@ -180,8 +180,8 @@ constexpr std::size_t mostEngines = 5, mostOfACause = 2, mostCauses = 2;
 /// Sweeps of an engine by outcome.
 struct EngineTally {
   std::string engine;
-  int held = 0, model = 0, fellShort = 0;
-  int judged() const { return held + model + fellShort; }
+  int held = 0, model = 0, beyondLimits = 0;
+  int judged() const { return held + model + beyondLimits; }
 };
 
 /// A possible cause of differences or failures.
@@ -206,7 +206,7 @@ std::vector<EngineTally> talliesOf(const CollideResults& results) {
     std::vector<const CollisionVariant*> variants;
     for (const CollisionVariant& variant : results.variants) variants.push_back(&variant);
     const Tally tally = tallyOf(variants, engine);
-    tallies.push_back({engine, tally.held, tally.model, tally.fellShort});
+    tallies.push_back({engine, tally.held, tally.model, tally.beyondLimits});
   }
   return tallies;
 }
@@ -268,13 +268,13 @@ std::string causesInWords(const Causes& causes) {
 
 /// "siconos (44 of 45 sweeps) and grain (2 of 242)"
 std::string failedInWords(std::vector<EngineTally> tallies) {
-  std::erase_if(tallies, [](const EngineTally& one) { return one.fellShort == 0; });
+  std::erase_if(tallies, [](const EngineTally& one) { return one.beyondLimits == 0; });
   std::ranges::stable_sort(tallies, std::greater(), [](const EngineTally& one) {
-    return static_cast<double>(one.fellShort) / one.judged();
+    return static_cast<double>(one.beyondLimits) / one.judged();
   });
   Names words;
   for (const EngineTally& one : tallies)
-    words.push_back(fmt::format("{} ({} of {}{})", one.engine, one.fellShort, one.judged(),
+    words.push_back(fmt::format("{} ({} of {}{})", one.engine, one.beyondLimits, one.judged(),
                                 words.empty() ? " sweeps" : ""));
   return listedShortly(words, mostEngines);
 }
@@ -301,7 +301,7 @@ std::string whoPasses(const CollideResults& results) {
   const std::vector<EngineTally> tallies = talliesOf(results);
   Names ownLaw, unjudged;
   for (const EngineTally& one : tallies) {
-    if (one.model > 0 && one.fellShort == 0) ownLaw.push_back(one.engine);
+    if (one.model > 0 && one.beyondLimits == 0) ownLaw.push_back(one.engine);
     if (one.judged() == 0) unjudged.push_back(one.engine);
   }
   const std::string sentence = joinedParts(
@@ -313,7 +313,7 @@ std::string whoPasses(const CollideResults& results) {
 }
 
 std::string causesOfDifferences(const CollideResults& results) {
-  const Causes quantities = causesOf(results, SweepOutcome::fellShort, failuresIn);
+  const Causes quantities = causesOf(results, SweepOutcome::beyondLimits, failuresIn);
   return joinedParts(
       {{"laws differ most by",
         causesInWords(causesOf(results, SweepOutcome::modelDifference, conventionsIn))},
@@ -325,7 +325,7 @@ std::string collideNextStep(const CollideResults& results) {
     return fmt::format("Nothing was judged: {}.", nothing);
   const CollideCount count = countOf(results);
   if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
-  if (count.fellShort > 0)
+  if (count.beyondLimits > 0)
     return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
            "another law.";
   if (count.modelDifference == 0) return "All engines pass at these time steps.";

@@ -349,13 +349,13 @@ Report collideReport(const CollideResults& results) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     addCollisionCase(report, results, groups[g], g + 1);
   addEngines(report);
-  std::vector<RealisedScene> realised;
+  std::vector<EffectiveScene> effective;
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      if (curve.realised)
-        realised.push_back(
-            {curve.engine, &*curve.realised, variant.effects ? &*variant.effects : nullptr});
-  addDetails(report, realised);
+      if (curve.effective)
+        effective.push_back(
+            {curve.engine, &*curve.effective, variant.effects ? &*variant.effects : nullptr});
+  addDetails(report, effective);
   report.tables = {{"collisions.csv", collisionsCsv(results)}};
   report.checks = collideChecks(results);
   return report;

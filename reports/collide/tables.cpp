@@ -89,8 +89,8 @@ std::optional<double> distance(const CollisionCurve* a, const CollisionCurve* b,
 
 std::string deviationWords(const CollisionCurve& curve) {
   std::vector<std::string> words;
-  if (curve.realised)
-    for (const Deviation& deviation : curve.realised->deviations)
+  if (curve.effective)
+    for (const Deviation& deviation : curve.effective->deviations)
       if (std::string name = spaced(deviation.name); std::ranges::find(words, name) == words.end())
         words.push_back(std::move(name));
   return fmt::format("{}", fmt::join(words, ", "));
@@ -172,7 +172,7 @@ std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
 }  // namespace
 
 CellState stateOf(const Tally& tally) {
-  if (tally.failed > 0 || tally.fellShort > 0) return CellState::bad;
+  if (tally.failed > 0 || tally.beyondLimits > 0) return CellState::bad;
   if (tally.judged() == 0)
     return tally.refused > 0 ? CellState::notApplicable : CellState::notMeasured;
   return tally.model > 0 ? CellState::modelDifference : CellState::good;
@@ -183,7 +183,7 @@ std::string headline(const Tally& tally) {
     return tally.failed > 0 ? "failed" : tally.refused > 0 ? "refused" : "not judged";
   std::string words = fmt::format("{} of {} passed", tally.held, tally.judged());
   if (tally.model > 0) words += fmt::format(", {} ≠", tally.model);
-  if (tally.fellShort > 0) words += fmt::format(", {} ✗", tally.fellShort);
+  if (tally.beyondLimits > 0) words += fmt::format(", {} ✗", tally.beyondLimits);
   return words;
 }
 

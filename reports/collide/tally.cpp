@@ -35,16 +35,16 @@ void addTo(Tally& tally, const CollisionCurve& curve) {
   const bool refused = outcome == SweepOutcome::refused;
   tally.held += outcome == SweepOutcome::held;
   tally.model += outcome == SweepOutcome::modelDifference;
-  tally.fellShort += outcome == SweepOutcome::fellShort;
+  tally.beyondLimits += outcome == SweepOutcome::beyondLimits;
   tally.refused += refused;
   tally.failed += outcome == SweepOutcome::failed;
   if (refused && tally.refusal.empty()) tally.refusal = clauseOf(curve.reason);
   if (!refused && tally.reason.empty()) tally.reason = curve.reason;
-  if (outcome == SweepOutcome::fellShort) tally.worst.look(declaredScore(curve));
+  if (outcome == SweepOutcome::beyondLimits) tally.worst.look(declaredScore(curve));
   if (outcome == SweepOutcome::modelDifference) tally.worstOfModel.look(curve.score);
   if (const auto own = ownDeviation(curve)) {
     tally.ownDeviation = std::max(tally.ownDeviation.value_or(0.0), *own);
-    tally.ownHeld = tally.ownHeld && curve.ownScheme->held.value_or(true);
+    tally.ownPassed = tally.ownPassed && curve.ownScheme->held.value_or(true);
   }
 }
 
@@ -61,7 +61,7 @@ std::vector<std::string> shortfalls(const Tally& tally) {
   std::vector<std::string> lines;
   if (tally.worst.times > 1.0) lines.push_back(tally.worst.words());
   if (tally.worstOfModel.times > 1.0) lines.push_back("model: " + tally.worstOfModel.words());
-  if (!tally.ownHeld) lines.push_back(fmt::format("own scheme {}", shortly(tally.ownDeviation)));
+  if (!tally.ownPassed) lines.push_back(fmt::format("own scheme {}", shortly(tally.ownDeviation)));
   return lines;
 }
 

@@ -19,9 +19,9 @@ const std::array<std::string, 7> enginesColours = {"#000000", "#d55e00", "#0072b
 constexpr std::array filledMarks = {7, 5, 9, 13};
 
 /// Darker ones, for engines that this build does not know; each with all filledMarks.
-const std::array<std::string, 5> strangersColours = {"#882255", "#332288", "#117733", "#999933",
-                                                     "#661100"};
-constexpr std::size_t strangersStyles = strangersColours.size() * filledMarks.size();
+const std::array<std::string, 5> externalColours = {"#882255", "#332288", "#117733", "#999933",
+                                                    "#661100"};
+constexpr std::size_t externalStyles = externalColours.size() * filledMarks.size();
 
 /// The open mark that goes with a filled one.
 int openMark(int pointType) {
@@ -51,12 +51,12 @@ std::string peerOf(const std::string& name) {
 std::size_t hashOf(const std::string& name) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return static_cast<std::size_t>(hash % strangersStyles);
+  return static_cast<std::size_t>(hash % externalStyles);
 }
 
 LineStyle strangersStyle(std::size_t number) {
-  return {strangersColours[number % strangersColours.size()],
-          filledMarks[number / strangersColours.size() % filledMarks.size()], false};
+  return {externalColours[number % externalColours.size()],
+          filledMarks[number / externalColours.size() % filledMarks.size()], false};
 }
 
 LineStyle asMirror(LineStyle style) {
@@ -81,7 +81,7 @@ LineStyle engineStyle(std::size_t index) {
 
 std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
   std::map<std::string, LineStyle> styles;  // by owner
-  std::vector<bool> taken(strangersStyles, false);
+  std::vector<bool> taken(externalStyles, false);
   for (const EngineRow& engine : engines) {
     const std::string owner = ownerOf(engine);
     if (styles.contains(owner)) continue;
@@ -90,8 +90,8 @@ std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
       continue;
     }
     std::size_t number = hashOf(owner);
-    for (std::size_t tried = 0; taken[number] && tried < strangersStyles; ++tried)
-      number = (number + 1) % strangersStyles;
+    for (std::size_t tried = 0; taken[number] && tried < externalStyles; ++tried)
+      number = (number + 1) % externalStyles;
     taken[number] = true;
     styles[owner] = strangersStyle(number);
   }

@@ -33,9 +33,9 @@ void addOnce(Table& table, const Names& texts) {
   if (!known) table.rows.push_back({{texts.begin(), texts.end()}});
 }
 
-Table deviationTable(const std::vector<RealisedScene>& realised) {
+Table deviationTable(const std::vector<EffectiveScene>& effective) {
   Table table{{"engine", "deviation", {"value", Kind::number}, {"note", Kind::remark}}, {}};
-  for (const auto& [engine, scene, calledFor] : realised)
+  for (const auto& [engine, scene, calledFor] : effective)
     for (const auto& [name, value, unit, note] : scene->deviations) {
       const bool has = std::isfinite(value) && (value != 0.0 || !unit.empty());
       addOnce(table,
@@ -48,14 +48,14 @@ Table deviationTable(const std::vector<RealisedScene>& realised) {
 
 /// A constant of strength 0 is none; restitutions are of pairs without a spring, the tangential one
 /// of those with friction.
-Table pairTable(const std::vector<RealisedScene>& realised) {
+Table pairTable(const std::vector<EffectiveScene>& effective) {
   Table table{{"engine", "pair"}, {}};
   for (const char* name : {"k_n", "γ_n", "k_t", "γ_t", "µ", "e_n", "e_t0"})
     table.columns.emplace_back(name, Kind::number);
   table.note =
       "In the law's own units: of a linear one N/m and kg/s (docs/cases.md has all). –: the "
       "engine's contacts have no such constant.";
-  for (const auto& [engine, scene, calledFor] : realised)
+  for (const auto& [engine, scene, calledFor] : effective)
     for (const PairCoefficients& pair : scene->pairs) {
       const bool springs = pair.kn > 0.0;
       Names cells = {engine, pair.pair};
@@ -68,9 +68,9 @@ Table pairTable(const std::vector<RealisedScene>& realised) {
   return table;
 }
 
-Names effectsOf(const Realised& realised) {
+Names effectsOf(const EffectiveParameters& effective) {
   Names names;
-  for (const Effect effect : realised.effects) names.emplace_back(toString(effect));
+  for (const Effect effect : effective.effects) names.emplace_back(toString(effect));
   return names;
 }
 
@@ -80,11 +80,11 @@ std::string partOf(std::size_t some, std::size_t all) {
 }
 
 /// How often an engine simulated an effect, of the scenes that called for it and the others.
-Cell effectCell(const std::string& effect, const std::vector<RealisedScene>& scenes) {
+Cell effectCell(const std::string& effect, const std::vector<EffectiveScene>& scenes) {
   std::size_t calledFor = 0, missing = 0, extra = 0;
-  for (const RealisedScene& scene : scenes) {
+  for (const EffectiveScene& scene : scenes) {
     const bool called = contains(*scene.calledFor, effect);
-    const bool simulated = contains(effectsOf(*scene.realised), effect);
+    const bool simulated = contains(effectsOf(*scene.effective), effect);
     calledFor += called;
     missing += called && !simulated;
     extra += simulated && !called;
@@ -99,16 +99,16 @@ Cell effectCell(const std::string& effect, const std::vector<RealisedScene>& sce
 }
 
 /// Effects by engine, of the scenes whose effects are known.
-Table effectTable(const std::vector<RealisedScene>& realised) {
+Table effectTable(const std::vector<EffectiveScene>& effective) {
   Table table{{"effect", "scene"}, {}};
-  std::vector<std::pair<std::string, std::vector<RealisedScene>>> engines;
+  std::vector<std::pair<std::string, std::vector<EffectiveScene>>> engines;
   std::set<const Names*> scenes;
   Names effects;
   const auto add = [&](const Names& names) {
     for (const std::string& name : names)
       if (!contains(effects, name)) effects.push_back(name);
   };
-  for (const RealisedScene& entry : realised) {
+  for (const EffectiveScene& entry : effective) {
     if (!entry.calledFor) continue;
     auto engine = std::ranges::find(engines, entry.engine, [](const auto& e) { return e.first; });
     if (engine == engines.end()) engine = engines.insert(engine, {entry.engine, {}});
@@ -118,7 +118,7 @@ Table effectTable(const std::vector<RealisedScene>& realised) {
   }
   for (const auto& [engine, entries] : engines) {
     table.columns.emplace_back(engine, Kind::engine);
-    for (const RealisedScene& entry : entries) add(effectsOf(*entry.realised));
+    for (const EffectiveScene& entry : entries) add(effectsOf(*entry.effective));
   }
   for (const std::string& effect : effects) {
     const auto calling = static_cast<std::size_t>(std::ranges::count_if(
@@ -171,16 +171,16 @@ std::vector<JUnitCase> matrixChecks(const Report& report) {
   return overviewCases(report.overview, titleOf(report.head));
 }
 
-void addDetails(Report& report, const std::vector<RealisedScene>& realised) {
+void addDetails(Report& report, const std::vector<EffectiveScene>& effective) {
   Section& section = report.section("deviations", "Deviations from the scene", "Deviations");
-  if (Table table = deviationTable(realised); table.rows.empty())
+  if (Table table = deviationTable(effective); table.rows.empty())
     section.blocks.push_back(Paragraph{"No engine reports any deviation from the scene."});
   else
     section.blocks.push_back(std::move(table));
-  if (Table table = pairTable(realised); !table.rows.empty())
+  if (Table table = pairTable(effective); !table.rows.empty())
     section.blocks.push_back(
         Details{"Contact coefficients after each engine's own mixing rule", {std::move(table)}});
-  if (Table table = effectTable(realised); !table.rows.empty())
+  if (Table table = effectTable(effective); !table.rows.empty())
     section.blocks.push_back(Details{"Effects: called for and simulated", {std::move(table)}});
 }
 

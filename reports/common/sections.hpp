@@ -5,20 +5,20 @@
 
 #include "adapters/engine.hpp"
 #include "reports/common/report.hpp"
-#include "results/couette_frame.hpp"
+#include "results/flow_frame.hpp"
 
 /// Sections that several studies have.
 namespace crossgrain::reports {
 
 /// What an engine made of a scene. Both must outlive it.
-struct RealisedScene {
+struct EffectiveScene {
   std::string engine;
-  const Realised* realised;
+  const EffectiveParameters* effective;
   const std::vector<std::string>* calledFor;  ///< effects of this scene; null: not known
 };
 /// Deviations of engines from the scene, pair coefficients after their mixing rules, and effects
 /// called for and simulated.
-void addDetails(Report& report, const std::vector<RealisedScene>& realised);
+void addDetails(Report& report, const std::vector<EffectiveScene>& effective);
 
 /// Seed and hash of each packing.
 void addPackings(Report& report, const std::vector<PackingRow>& packings);

@@ -35,7 +35,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-std::string indicesInWords(const std::vector<int>& indices) {
+std::string indicesText(const std::vector<int>& indices) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < indices.size();) {
     std::size_t end = k + 1;

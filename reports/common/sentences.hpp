@@ -25,7 +25,7 @@ std::string counted(std::size_t count, std::string_view noun);
 std::string capitalised(std::string text);
 
 /// Indices that rise, runs of three or more by their ends: "0, 2 to 5, 7".
-std::string indicesInWords(const std::vector<int>& indices);
+std::string indicesText(const std::vector<int>& indices);
 
 /// Drops empty ones.
 std::vector<std::string> nonEmpty(std::vector<std::string> texts);

@@ -6,9 +6,9 @@
 
 #include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
-#include "reports/couette/figures.hpp"
 #include "reports/effects/report.hpp"
 #include "reports/effects/variants.hpp"
+#include "reports/flow/figures.hpp"
 
 namespace crossgrain::reports {
 

@@ -12,8 +12,8 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sections.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/couette/engine_table.hpp"
 #include "reports/effects/variants.hpp"
+#include "reports/flow/engine_table.hpp"
 
 namespace crossgrain::reports {
 
@@ -52,7 +52,7 @@ std::string ringName(const FieldChange& change) {
   return fmt::format("ring {}", change.ring + 1);
 }
 
-std::string changeInWords(const FieldChange& change) {
+std::string describeChange(const FieldChange& change) {
   return fmt::format("{} in {}, {}", fieldWords(change.field), ringName(change),
                      changePercent(change));
 }
@@ -92,7 +92,7 @@ std::string contactsInWords(const VariantSummary& variant) {
 }
 
 /// "takes 12.1 ± 0.4 % of a step"
-std::string costInWords(const VariantSummary& variant) {
+std::string describeCost(const VariantSummary& variant) {
   if (!variant.saved) return "was not timed";
   const std::string part =
       readable(inPercent(std::abs(*variant.saved)), inPercent(variant.savedError));
@@ -107,7 +107,7 @@ std::string costInWords(const VariantSummary& variant) {
 
 /// "significant changes without it: azimuthal velocity in ring 3, −34 % (−45 to −23 %)", or the
 /// smallest that this run would have resolved; empty where there are too few packings.
-std::string changesInWords(const VariantSummary& variant) {
+std::string describeChanges(const VariantSummary& variant) {
   const auto found = detectedOf(variant);
   if (found.empty())
     return variant.decidable()
@@ -117,7 +117,7 @@ std::string changesInWords(const VariantSummary& variant) {
   constexpr std::size_t most = 3;
   std::vector<std::string> words;
   for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
-    words.push_back(changeInWords(*found[k]));
+    words.push_back(describeChange(*found[k]));
   const std::size_t more = found.size() - words.size();
   return fmt::format("significant changes without it: {}{}", fmt::join(words, "; "),
                      more == 0 ? "" : fmt::format("; and {}", counted(more, "further field")));
@@ -125,7 +125,7 @@ std::string changesInWords(const VariantSummary& variant) {
 
 /// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
 std::string againstMargin(const FieldChange& change) {
-  if (change.verdict == AgainstMargin::untold) return {};
+  if (change.verdict == AgainstMargin::notTested) return {};
   if (change.verdict == AgainstMargin::agree) return "shown within the margin";
   if (change.verdictHere == AgainstMargin::disagree) return "shown beyond the margin";
   return change.verdict == AgainstMargin::disagree ? "shown beyond the margin in another ring"
@@ -199,8 +199,8 @@ std::string effectSentence(const VariantSummary& variant) {
   const std::string effect = capitalised(effectLabel(variant.effect));
   if (!variant.ran())
     return fmt::format("{}: {}: {}.", effect, nameOf(variant.status), variant.reason);
-  const std::string changes = changesInWords(variant);
-  return fmt::format("{} {}{}{}.", effect, costInWords(variant), changes.empty() ? "" : "; ",
+  const std::string changes = describeChanges(variant);
+  return fmt::format("{} {}{}{}.", effect, describeCost(variant), changes.empty() ? "" : "; ",
                      changes);
 }
 
@@ -338,11 +338,11 @@ Report effectsReport(const EffectsResults& results) {
   for (const SwitchRow& one : results.switches)
     switches.rows.push_back({{variantLabel(one.effect), one.what}});
   report.section("reading", "How to read it").blocks = {
-      effectsReading(results), Paragraph{averagesInWords(results), Paragraph::Style::small},
+      effectsReading(results), Paragraph{describeAverages(results), Paragraph::Style::small},
       Heading{"What was switched"}, std::move(switches)};
   addEngineTable(report.section("engines", "Engines, with everything on", "Engines").blocks,
                  engines);
-  addDetails(report, realisedOf(results, engines));
+  addDetails(report, effectiveOf(results, engines));
   addPackings(report, results.packings);
   report.tables = {{"effects.csv", effectsCsv(results)}};
   return report;

@@ -8,7 +8,7 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/lockstep/words.hpp"
+#include "reports/lockstep/text.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -31,7 +31,7 @@ OverviewCell forcesCell(const LockstepRow& row) {
   if (!row.forces) return cell;
   cell.state = CellState::figure;
   cell.value = std::max(row.forces->normal, row.forces->tangential);
-  cell.shown = percentInWords(*cell.value);
+  cell.shown = percentText(*cell.value);
   cell.words = "of the largest force";
   if (const std::size_t others = row.forces->missing + row.forces->extra; others > 0)
     cell.words += fmt::format("; {} contacts missing or too many", others);
@@ -49,7 +49,7 @@ OverviewCell termCell(const LockstepRow& row) {
   cell.words = constantWords(row.term->name);
   if (!row.term->amount) return cell;
   cell.value = 100.0 * *row.term->amount;
-  cell.shown = (*cell.value < 0.0 ? "−" : "+") + percentInWords(std::abs(*row.term->amount));
+  cell.shown = (*cell.value < 0.0 ? "−" : "+") + percentText(std::abs(*row.term->amount));
   return cell;
 }
 
@@ -121,13 +121,14 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
   if (!size) return cell;
   cell.value = 100.0 * *size;
   // A percentage of the constant is a statement on it: only where it explains the difference.
-  const bool explains = row->term && row->term->name == rules.yardstick && row->term->amount;
+  const bool explains =
+      row->term && row->term->name == rules.referencePerturbation && row->term->amount;
   if (bounded || explains) {
     const double share = bounded ? *size : std::abs(*row->term->amount);
     cell.value = 100.0 * share;
     cell.shown = fmt::format("{}{} of {}", bounded ? "below " : "",
-                             share > 1.0 ? "more than all" : percentInWords(share),
-                             plainSymbol(rules.yardstick));
+                             share > 1.0 ? "more than all" : percentText(share),
+                             plainSymbol(rules.referencePerturbation));
   } else {
     cell.shown = fmt::format("{} × limit", readable(*size / rules.sameLaw));
   }

@@ -10,7 +10,7 @@
 #include "reports/common/numbers.hpp"
 #include "reports/common/sections.hpp"
 #include "reports/lockstep/overview.hpp"
-#include "reports/lockstep/words.hpp"
+#include "reports/lockstep/text.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -49,18 +49,18 @@ Table verdictTable(const LockstepFindings& findings) {
   table.columns.emplace_back("forces of the first step differ by");
   table.columns.emplace_back("deviation found");
   for (const LockstepRow& row : findings.rows) {
-    TableRow line{
-        {row.engine,
-         {verdictInWords(row, findings.rules),
-          {row.reason, resolutionInWords(row, findings.rules), readingInWords(row, findings.rules)},
-          lockstepState(row, findings.rules),
-          true},
-         readable(row.equivalent)}};
+    TableRow line{{row.engine,
+                   {describeVerdict(row, findings.rules),
+                    {row.reason, describeResolution(row, findings.rules),
+                     describeReading(row, findings.rules)},
+                    lockstepState(row, findings.rules),
+                    true},
+                   readable(row.equivalent)}};
     for (std::size_t k = 0; k < times; ++k)
       line.cells.push_back(k < row.separations.size() ? readable(row.separations[k].largest)
                                                       : absentText);
     line.cells.push_back(forcesInWords(row));
-    line.cells.push_back(orDash(termInWords(row)));
+    line.cells.push_back(orDash(describeTerm(row)));
     table.rows.push_back(std::move(line));
   }
   return table;
@@ -77,7 +77,7 @@ Table contactTable(const LockstepFindings& findings) {
     for (const std::size_t count :
          {kinds.sticking, kinds.sliding, kinds.made, kinds.opened, kinds.wall})
       line.cells.push_back(row.starts > 0 ? readableCount(static_cast<double>(count)) : absentText);
-    line.cells.push_back({orDash(firstInWords(row)), {openInLaw(row, findings.rules)}});
+    line.cells.push_back({orDash(describeFirst(row)), {openInLaw(row, findings.rules)}});
     table.rows.push_back(std::move(line));
   }
   return table;
@@ -112,7 +112,7 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
   panel.yLabel = "largest difference from the mirror [d]";
   panel.logX = panel.logY = true;
   panel.level = rules.rounding;
-  Curve yardstick;
+  Curve referencePerturbation;
   for (const LockstepRow& row : results.lockstep.rows) {
     const auto engine = std::ranges::find(results.engines, row.engine, &EngineRow::name);
     if (engine == results.engines.end() || row.track.empty()) continue;
@@ -127,13 +127,15 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
     Curve rounding =
         greyCurve(row, "rounding of " + row.engine, 3, 1.0, &LockstepSeparation::rounding);
     if (!rounding.points.empty()) panel.curves.push_back(std::move(rounding));
-    if (yardstick.points.empty())
-      yardstick = greyCurve(row,
-                            fmt::format("mirror with {} +{:g} %", constantSymbol(rules.yardstick),
-                                        100.0 * rules.yardstickChange),
-                            2, 1.5, &LockstepSeparation::yardstick);
+    if (referencePerturbation.points.empty())
+      referencePerturbation = greyCurve(
+          row,
+          fmt::format("mirror with {} +{:g} %", constantSymbol(rules.referencePerturbation),
+                      100.0 * rules.referenceChange),
+          2, 1.5, &LockstepSeparation::referencePerturbation);
   }
-  if (!yardstick.points.empty()) panel.curves.push_back(std::move(yardstick));
+  if (!referencePerturbation.points.empty())
+    panel.curves.push_back(std::move(referencePerturbation));
   if (!hasPoints(panel)) return {};
   panel.yRange = decadesOf(panel);
   Figure figure{"lockstep_separation",
@@ -161,7 +163,7 @@ std::string lockstepLine(const LockstepRow& row, const LockstepSeparation* at) {
   return reports::row(
       row.engine, std::string(nameOf(row.verdict)), row.equivalent,
       at ? Number(at->time) : Number(), at ? Number(at->median) : Number(),
-      at ? Number(at->largest) : Number(), at ? at->yardstick : Number(),
+      at ? Number(at->largest) : Number(), at ? at->referencePerturbation : Number(),
       at ? at->equivalent : Number(), row.starts, count(row.kinds.sticking),
       count(row.kinds.sliding), count(row.kinds.made), count(row.kinds.opened),
       count(row.kinds.wall), of(row.first, &FirstExceedance::after),
@@ -198,7 +200,7 @@ Blocks lockstepTables(const LockstepFindings& findings) {
 
 List lockstepReading(const LockstepFindings& findings) {
   const LockstepRules& rules = findings.rules;
-  const std::string yardstick = constantSymbol(rules.yardstick);
+  const std::string referencePerturbation = constantSymbol(rules.referencePerturbation);
   return {
       {{"The mirror",
         fmt::format("the in-house engine with the conventions that an engine declares, on the "
@@ -216,7 +218,7 @@ List lockstepReading(const LockstepFindings& findings) {
                     "has the median over starts with its 95 % interval. Where disks touch nothing, "
                     "the mirror has no answer, and a motion that differs by 10⁻⁶ d is beyond the "
                     "limit.",
-                    yardstick, readableSetting(100.0 * rules.yardstickChange))},
+                    referencePerturbation, readableSetting(100.0 * rules.referenceChange))},
        {"Verdicts",
         fmt::format(
             "identical to rounding: no disk ever differs by {} d. Identical to its precision: "
@@ -236,7 +238,7 @@ List lockstepReading(const LockstepFindings& findings) {
             "named only where the mirror that has it leaves less than a fifth of the "
             "difference. Only where that is {0} itself is the difference given as a change "
             "of {0}.",
-            yardstick)},
+            referencePerturbation)},
        {"Forces",
         "compared on one state, before any disk has moved otherwise, in units of the largest "
         "normal force. Contacts are counted once a window and kind."},
@@ -247,14 +249,14 @@ Report lockstepReport(const LockstepResults& results) {
   Report report{{results.head, results.engines, lockstepOverview(results)}};
   report.elapsed = results.elapsed;
   report.notes = results.notes;
-  std::vector<RealisedScene> realised;
+  std::vector<EffectiveScene> effective;
   for (const LockstepRow& row : results.lockstep.rows)
-    if (row.realised) realised.push_back({row.engine, &*row.realised, &results.effects});
+    if (row.effective) effective.push_back({row.engine, &*row.effective, &results.effects});
   report.figures = lockstepFigures(results);
   report.section("lockstep", "Engines and their mirrors").blocks = lockstepTables(results.lockstep);
   report.section("over-time", "Over time").blocks = {drawingsOf(report.figures, "lockstep_")};
   report.section("reading", "How to read it").blocks = {lockstepReading(results.lockstep)};
-  addDetails(report, realised);
+  addDetails(report, effective);
   addPackings(report, results.packings);
   report.tables = {{"lockstep.csv", lockstepCsv(results)}};
   report.checks = matrixChecks(report);

@@ -7,10 +7,10 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/sentences.hpp"
-#include "reports/couette/endpoint_words.hpp"
-#include "reports/couette/overview.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/overview.hpp"
 #include "reports/lockstep/overview.hpp"
-#include "reports/lockstep/words.hpp"
+#include "reports/lockstep/text.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
@@ -36,15 +36,15 @@ std::string windowsText(const DiffRow& row, const LockstepRules& rules) {
                         readable(at.largest));
     if (at.equivalent && at.largest > 0.0)
       text += fmt::format(", {} times what the limit, {} of {}, moves it",
-                          readable(*at.equivalent / rules.sameLaw), percentInWords(rules.sameLaw),
-                          constantSymbol(rules.yardstick));
+                          readable(*at.equivalent / rules.sameLaw), percentText(rules.sameLaw),
+                          constantSymbol(rules.referencePerturbation));
     text += '\n';
   }
-  if (const std::string reading = readingInWords(windows, rules); !reading.empty())
+  if (const std::string reading = describeReading(windows, rules); !reading.empty())
     text += fmt::format("  {}\n", reading);
-  if (const std::string first = firstInWords(windows); !first.empty())
+  if (const std::string first = describeFirst(windows); !first.empty())
     text += fmt::format("  first beyond {} d: {}\n", readableSetting(rules.rounding), first);
-  if (const std::string term = termInWords(windows); !term.empty())
+  if (const std::string term = describeTerm(windows); !term.empty())
     text += fmt::format("  deviation found: {}\n", term);
   else if (windows.verdict == LockstepVerdict::differs)
     text += row.mirrored ? "  deviation found: none: no single change of the mirror does that\n"
@@ -62,7 +62,7 @@ std::string collisionsText(const DiffRow& row) {
         "    {:<24} {} of {} changed, most by {} ({} of the largest) at psi_i {}, "
         "v_n {} m/s{}\n",
         change.quantity, change.changed, change.points, readable(change.largest),
-        percentInWords(change.relative), readable(change.psi), readable(change.vn),
+        percentText(change.relative), readable(change.psi), readable(change.vn),
         change.variant.empty() ? "" : ", " + change.variant);
   }
   if (row.collisions.size() > mostQuantities)
@@ -82,13 +82,13 @@ std::string rowText(const DiffRow& row, const LockstepRules& rules) {
     text += fmt::format(
         "  reported forces of the same states: of contacts by {} of the largest along the normal, "
         "{} across; on walls by {}\n",
-        percentInWords(row.forces->normal), percentInWords(row.forces->tangential),
-        percentInWords(row.forces->walls));
+        percentText(row.forces->normal), percentText(row.forces->tangential),
+        percentText(row.forces->walls));
   if (row.sweeps > 0 && row.collisionsVerdict != DiffVerdict::sameBits) text += collisionsText(row);
   if (row.endpoints.empty()) return text;
   text += fmt::format("  averages from {} starts:\n", row.windows->starts);
   for (const EndpointRow& endpoint : row.endpoints)
-    text += fmt::format("    {:<24} {}\n", endpoint.endpoint, answerInWords(endpoint));
+    text += fmt::format("    {:<24} {}\n", endpoint.endpoint, describeAnswer(endpoint));
   return text;
 }
 
@@ -101,7 +101,7 @@ CellState stateOf(DiffVerdict verdict) {
 OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
   if (row.forcesVerdict == DiffVerdict::differs && row.windowsVerdict != DiffVerdict::differs) {
     const double most = std::max({row.forces->normal, row.forces->tangential, row.forces->walls});
-    return {CellState::bad, 100.0 * most, "%", percentInWords(most), "reported forces", {}};
+    return {CellState::bad, 100.0 * most, "%", percentText(most), "reported forces", {}};
   }
   OverviewCell cell{stateOf(row.windowsVerdict), {}, "%", {}, {}, {}};
   if (cell.state == CellState::notMeasured) return cell;
@@ -127,7 +127,7 @@ OverviewCell collisionsCell(const DiffRow& row) {
   }
   const auto worst = std::ranges::max_element(row.collisions, {}, &CollisionChange::relative);
   cell.value = 100.0 * worst->relative;
-  cell.shown = percentInWords(worst->relative);
+  cell.shown = percentText(worst->relative);
   cell.words = spaced(worst->quantity);
   return cell;
 }
@@ -135,7 +135,7 @@ OverviewCell collisionsCell(const DiffRow& row) {
 OverviewCell averagesCell(const DiffRow& row) {
   std::vector<const EndpointRow*> rows;
   for (const EndpointRow& endpoint : row.endpoints) rows.push_back(&endpoint);
-  const EndpointRow* worst = gravestOf(rows);
+  const EndpointRow* worst = worstOf(rows);
   if (!worst) return {CellState::notMeasured, {}, "margins", {}, {}, {}};
   return endpointCell(*worst, false);
 }
@@ -176,7 +176,7 @@ std::string listText(const std::vector<AnswerDifference>& differences) {
 
 std::string describe(const DiffRow& row, const LockstepRules& rules) {
   if (row.verdict != DiffVerdict::differs) return spaced(nameOf(row.verdict));
-  if (row.windowsVerdict == DiffVerdict::differs) return verdictInWords(*row.windows, rules);
+  if (row.windowsVerdict == DiffVerdict::differs) return describeVerdict(*row.windows, rules);
   if (row.forcesVerdict == DiffVerdict::differs) return "differs in reported forces";
   if (row.collisionsVerdict == DiffVerdict::differs)
     return row.windows ? "differs in collisions" : "differs";

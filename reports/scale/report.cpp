@@ -16,7 +16,7 @@ namespace crossgrain::reports {
 
 namespace {
 
-std::string disksInWords(std::size_t disks) {
+std::string describeDisks(std::size_t disks) {
   return readableCount(static_cast<double>(disks)) + " disks";
 }
 
@@ -35,8 +35,8 @@ std::string sharedBy(const ScaleResults& results, const std::string& engine) {
 }
 
 /// "2 threads"; "one process" of an engine that has no workers.
-std::string workersInWords(const ScaleResults& results, const ScalePoint& point) {
-  return results::workersInWords({point.engine, sharedBy(results, point.engine)}, point.workers);
+std::string describeWorkers(const ScaleResults& results, const ScalePoint& point) {
+  return results::describeWorkers({point.engine, sharedBy(results, point.engine)}, point.workers);
 }
 
 /// Names of the engine's deviations from the scene, on any cell that it ran.
@@ -66,7 +66,7 @@ constexpr std::pair<const char*, const char*> scaleColumns[] = {
 std::vector<std::string> scaleCells(const ScaleResults& results, const ScalePoint& point) {
   const ScaleFigures figures = scaleFigures(results, point);
   return {readableCount(static_cast<double>(point.disks)),
-          workersInWords(results, point),
+          describeWorkers(results, point),
           shortDuration(figures.step),
           readable(times(figures.perDisk, 1e9)),
           sharePercent(figures.spread),
@@ -128,7 +128,7 @@ OverviewCell scaleCell(const ScaleResults& results, const EngineRow& engine,
   cell.state = CellState::figure;
   cell.value = question.factor * *(scaleFigures(results, *point).*question.figure);
   cell.shown = fmt::format("{} {}", readable(cell.value), question.unit);
-  cell.words = fmt::format("{}, {}", disksInWords(point->disks), workersInWords(results, *point));
+  cell.words = fmt::format("{}, {}", describeDisks(point->disks), describeWorkers(results, *point));
   return cell;
 }
 
@@ -140,7 +140,7 @@ std::string fastestOf(const ScaleResults& results, const std::string& engine) {
   const auto differs = deviationsOf(results, engine);
   return fmt::format("{} takes {} ns a disk and step on {} ({}{})", engine,
                      readable(1e9 * *scaleFigures(results, *point).perDisk),
-                     disksInWords(point->disks), workersInWords(results, *point),
+                     describeDisks(point->disks), describeWorkers(results, *point),
                      differs.empty() ? "" : "; deviations: " + listed(differs));
 }
 
@@ -174,7 +174,7 @@ void addCurves(Panel& panel, const ScaleResults& results,
     const auto value = scaleFigures(results, point).*figure;
     if (!value) continue;
     const std::string name =
-        fmt::format("{}, {}{}", point.engine, workersInWords(results, point), suffix);
+        fmt::format("{}, {}{}", point.engine, describeWorkers(results, point), suffix);
     auto curve = std::ranges::find(panel.curves, name, &Curve::name);
     if (curve == panel.curves.end()) {
       const auto engine = std::ranges::find(results.engines, point.engine, &EngineRow::name);
@@ -270,7 +270,7 @@ Overview scaleOverview(const ScaleResults& results) {
       return point.engine == engine.name && point.status != EngineStatus::ran;
     });
     if (trouble != results.points.end())
-      stopped.push_back(fmt::format("{} ends at {}: {}", engine.name, disksInWords(trouble->disks),
+      stopped.push_back(fmt::format("{} ends at {}: {}", engine.name, describeDisks(trouble->disks),
                                     trouble->reason));
   }
   fastest = nonEmpty(std::move(fastest));
@@ -293,8 +293,8 @@ std::string scaleText(const ScaleResults& results) {
     rows.push_back({point.engine});
     for (std::string& cell : scaleCells(results, point)) rows.back().push_back(std::move(cell));
     if (point.status != EngineStatus::ran)
-      notes += fmt::format("{}, {}, {}: {}: {}\n", point.engine, disksInWords(point.disks),
-                           workersInWords(results, point), nameOf(point.status), point.reason);
+      notes += fmt::format("{}, {}, {}: {}: {}\n", point.engine, describeDisks(point.disks),
+                           describeWorkers(results, point), nameOf(point.status), point.reason);
   }
   return alignedText(rows) + notes;
 }

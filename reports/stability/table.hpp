@@ -36,7 +36,7 @@ bool isWorse(const StabilityRun& run, const StabilityRun& than);
 const StabilityRun* worstRun(const StabilityResults& results, const std::string& engine,
                              const HardGroup& group);
 
-/// Whether these are transformed cases (runs/stability/transforms.hpp), not hard ones.
+/// Whether these are transformed cases (studies/stability/transforms.hpp), not hard ones.
 bool areTransforms(const StabilityResults& results);
 
 }  // namespace crossgrain::reports

@@ -7,7 +7,7 @@
 
 #include "reports/common/engines.hpp"
 #include "reports/common/numbers.hpp"
-#include "reports/couette/figures.hpp"
+#include "reports/flow/figures.hpp"
 #include "reports/thesis/drawing.hpp"
 
 namespace crossgrain::reports {
@@ -102,7 +102,7 @@ Figure densitiesFigure(const ThesisResults& results, const std::string& number,
 
 /// A case's first packing as a comparison of engines has it; the results must outlive it.
 struct CaseStudy {
-  CouetteFrame frame;
+  FlowFrame frame;
   std::vector<EngineRuns> engines;
 };
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "averaging/half_carry.hpp"
 #include "averaging/regime.hpp"
+#include "averaging/transition_density.hpp"
 #include "reports/common/csv_row.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/thesis/drawing.hpp"
@@ -47,7 +47,7 @@ struct StateRow {
 struct CriticalRow {
   int rotations = 0;
   int packings = 0, carry = 0;
-  std::optional<HalfCarry> critical;  ///< absent: none follows
+  std::optional<TransitionDensity> critical;  ///< absent: none follows
 };
 
 std::string groupLabel(const CaseSettings& of, const CaseSettings& reference) {
@@ -109,14 +109,14 @@ std::vector<StateRow> stateRows(const StateGroup& group) {
 std::vector<CriticalRow> criticalRows(const StateGroup& group) {
   std::vector<CriticalRow> rows;
   for (const int rotations : mapRotations) {
-    std::vector<Carrying> packings;
+    std::vector<LoadState> packings;
     for (const CaseRun& at : group.packings)
       if (const ThesisSpan* const span = spanAt(*at.run, rotations); span && span->wheelContacts)
         packings.push_back({at.setup->label, carries(*span)});
     if (packings.empty()) continue;
     rows.push_back({rotations, static_cast<int>(packings.size()),
-                    static_cast<int>(std::ranges::count_if(packings, &Carrying::carries)),
-                    halfCarry(packings, farthestCritical)});
+                    static_cast<int>(std::ranges::count_if(packings, &LoadState::carries)),
+                    transitionDensity(packings, farthestCritical)});
   }
   return rows;
 }

@@ -1,4 +1,4 @@
-#include "averaging/looks.hpp"
+#include "averaging/interim_analyses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,28 +29,28 @@ std::vector<double> alternating(int packings, double mean, double scatter) {
   return values;
 }
 
-LookAnswer answerOf(const PairedSample& sample, const LookPlan& plan, int available) {
-  return answersAfterLooks(std::vector{sample}, plan, available).front().value();
+InterimAnswer answerOf(const PairedSample& sample, const InterimPlan& plan, int available) {
+  return answersAfterInterims(std::vector{sample}, plan, available).front().value();
 }
 
-TEST(Looks, SplitTheChanceOfErrorInHalves) {
-  const LookPlan plan = looksAt(8, 4, 0.05);
+TEST(InterimSettings, SplitTheChanceOfErrorInHalves) {
+  const InterimPlan plan = interimPlanAt(8, 4, 0.05);
   EXPECT_EQ(plan.packings, (std::vector{8, 16, 24, 32}));
   const std::vector<double> alpha = {0.00625, 0.00625, 0.0125, 0.025};
   ASSERT_EQ(plan.alpha.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_DOUBLE_EQ(plan.alpha[k], alpha[k]);
   EXPECT_DOUBLE_EQ(std::accumulate(plan.alpha.begin(), plan.alpha.end(), 0.0), 0.05);
   EXPECT_NEAR(plan.agreeAlpha, 0.0194, 1e-4);  // Pocock: 2.067 standard errors
-  EXPECT_EQ(looksAt(4, 1, 0.05).alpha, std::vector{0.05});
-  EXPECT_EQ(looksAt(4, 1, 0.05).agreeAlpha, 0.05);
-  EXPECT_EQ(looksTaken(plan, 7), 0u);
-  EXPECT_EQ(looksTaken(plan, 24), 3u);
-  EXPECT_EQ(looksTaken(plan, 100), 4u);
+  EXPECT_EQ(interimPlanAt(4, 1, 0.05).alpha, std::vector{0.05});
+  EXPECT_EQ(interimPlanAt(4, 1, 0.05).agreeAlpha, 0.05);
+  EXPECT_EQ(interimsTaken(plan, 7), 0u);
+  EXPECT_EQ(interimsTaken(plan, 24), 3u);
+  EXPECT_EQ(interimsTaken(plan, 100), 4u);
 }
 
-TEST(Looks, AnswerInFiveWays) {
+TEST(InterimSettings, AnswerInFiveWays) {
   // One look at 16 packings, t(15, 5 %) = 1.753. Scatter s gives se = s √(16/15)/4.
-  const LookPlan plan = looksAt(16, 1, 0.05);
+  const InterimPlan plan = interimPlanAt(16, 1, 0.05);
   const auto answer = [&](double mean, double scatter) {
     return answerOf(differing(alternating(16, mean, scatter)), plan, 16).answer;
   };
@@ -61,50 +61,50 @@ TEST(Looks, AnswerInFiveWays) {
   EXPECT_EQ(answer(2.0, 0.5), Answer::disagree);         // 2.0 ± 0.23
   EXPECT_EQ(answer(0.9, 2.5), Answer::undecided);        // 0.9 ± 1.13: holds 0 and 2
   EXPECT_EQ(answer(1.7, 2.0), Answer::undecided);        // 1.7 ± 0.91: holds the margin and 2
-  const LookAnswer found = answerOf(differing(alternating(16, 0.99, 0.42)), plan, 16);
+  const InterimAnswer found = answerOf(differing(alternating(16, 0.99, 0.42)), plan, 16);
   const double half = 1.7530503556925547 * 0.42 * std::sqrt(16.0 / 15.0) / 4.0;
   EXPECT_NEAR(found.difference, 0.99, 1e-14);
   EXPECT_NEAR(*found.low, 0.99 - half, 1e-9);
   EXPECT_NEAR(*found.high, 0.99 + half, 1e-9);
 }
 
-TEST(Looks, KeepWhatIsDecidedAndGoOnWithTheRest) {
+TEST(InterimSettings, KeepWhatIsDecidedAndGoOnWithTheRest) {
   // Within the margin over the first 8 packings, far outside it afterwards.
   std::vector<double> differences = alternating(8, 0.0, 0.1);
   const std::vector<double> late = alternating(24, 5.0, 0.1);
   differences.insert(differences.end(), late.begin(), late.end());
-  const LookPlan plan = looksAt(8, 4, 0.05);
-  const LookAnswer first = answerOf(differing(differences), plan, 8);
-  const LookAnswer last = answerOf(differing(differences), plan, 32);
-  for (const LookAnswer& one : {first, last}) {
+  const InterimPlan plan = interimPlanAt(8, 4, 0.05);
+  const InterimAnswer first = answerOf(differing(differences), plan, 8);
+  const InterimAnswer last = answerOf(differing(differences), plan, 32);
+  for (const InterimAnswer& one : {first, last}) {
     EXPECT_EQ(one.answer, Answer::noDifference);
     EXPECT_EQ(one.look, 0u);
     EXPECT_EQ(one.packings, 8);
   }
-  const LookAnswer open = answerOf(differing(alternating(32, 0.0, 3.0)), plan, 24);
+  const InterimAnswer open = answerOf(differing(alternating(32, 0.0, 3.0)), plan, 24);
   EXPECT_EQ(open.answer, Answer::undecided);
   EXPECT_EQ(open.look, 2u);
   EXPECT_EQ(open.packings, 24);
 }
 
-TEST(Looks, SayNothingBeforeTheFirst) {
-  const LookPlan plan = looksAt(8, 4, 0.05);
-  EXPECT_FALSE(answersAfterLooks(std::vector{differing(alternating(7, 0.0, 0.1))}, plan, 7)
+TEST(InterimSettings, SayNothingBeforeTheFirst) {
+  const InterimPlan plan = interimPlanAt(8, 4, 0.05);
+  EXPECT_FALSE(answersAfterInterims(std::vector{differing(alternating(7, 0.0, 0.1))}, plan, 7)
                    .front()
                    .has_value());
 }
 
-TEST(Looks, CountPackingsThatOneEngineLost) {
+TEST(InterimSettings, CountPackingsThatOneEngineLost) {
   PairedSample sample = differing(alternating(8, 0.0, 0.1));
   sample.other[3].reset();
   sample.other[5].reset();
-  const LookAnswer found = answerOf(sample, looksAt(8, 1, 0.05), 8);
+  const InterimAnswer found = answerOf(sample, interimPlanAt(8, 1, 0.05), 8);
   EXPECT_EQ(found.packings, 6);
   EXPECT_EQ(found.lost, 2);
 }
 
-TEST(Looks, ABiasNarrowsAgreementAndWidensDisagreement) {
-  const LookPlan plan = looksAt(16, 1, 0.05);
+TEST(InterimSettings, ABiasNarrowsAgreementAndWidensDisagreement) {
+  const InterimPlan plan = interimPlanAt(16, 1, 0.05);
   const auto answer = [&](double mean, double scatter, double bias) {
     PairedSample sample = differing(alternating(16, mean, scatter));
     sample.bias = bias;
@@ -119,10 +119,10 @@ TEST(Looks, ABiasNarrowsAgreementAndWidensDisagreement) {
 /// A mirror's runs stand for an engine that differs from it by as much as the bias allows. The
 /// true difference is the margin: an agreement is false, and the interval that is widened by the
 /// bias is to hold it as often as it says.
-TEST(Looks, AnIntervalWidenedByABiasHoldsTheDifference) {
+TEST(InterimSettings, AnIntervalWidenedByABiasHoldsTheDifference) {
   std::mt19937_64 generator(11);
   std::normal_distribution<double> normal;
-  const LookPlan plan = looksAt(8, 1, 0.05);
+  const InterimPlan plan = interimPlanAt(8, 1, 0.05);
   constexpr int trials = 4000;
   constexpr double truth = 1.0, bias = 0.4;
   int held = 0, narrow = 0, falseAgree = 0;
@@ -131,7 +131,7 @@ TEST(Looks, AnIntervalWidenedByABiasHoldsTheDifference) {
     for (int k = 0; k < 8; ++k) differences.push_back(truth - bias + 0.5 * normal(generator));
     PairedSample sample = differing(differences, truth);
     sample.bias = bias;
-    const LookAnswer found = answerOf(sample, plan, 8);
+    const InterimAnswer found = answerOf(sample, plan, 8);
     held += *found.low - bias <= truth && truth <= *found.high + bias;
     narrow += *found.low <= truth && truth <= *found.high;
     falseAgree += agrees(found.answer);
@@ -146,10 +146,10 @@ TEST(Looks, AnIntervalWidenedByABiasHoldsTheDifference) {
 /// Families of nine endpoints whose true difference is exactly the margin, which is the hardest
 /// case for both: a fraction of the families at most α may say disagree, and of the endpoints at
 /// most α agree, over all looks together.
-TEST(Looks, HoldBothErrorsAtTheMargin) {
+TEST(InterimSettings, HoldBothErrorsAtTheMargin) {
   std::mt19937_64 generator(7);
   std::normal_distribution<double> normal;
-  const LookPlan plan = looksAt(8, 4, 0.05);
+  const InterimPlan plan = interimPlanAt(8, 4, 0.05);
   constexpr int families = 1500, endpoints = 9;
   int falseDisagree = 0, falseAgree = 0, late = 0;
   for (int f = 0; f < families; ++f) {
@@ -160,7 +160,7 @@ TEST(Looks, HoldBothErrorsAtTheMargin) {
       family.push_back(differing(differences));
     }
     bool any = false;
-    for (const auto& found : answersAfterLooks(family, plan, 32)) {
+    for (const auto& found : answersAfterInterims(family, plan, 32)) {
       any = any || found->answer == Answer::disagree;
       falseAgree += agrees(found->answer);
       late += found->look == 3;
@@ -178,10 +178,10 @@ TEST(Looks, HoldBothErrorsAtTheMargin) {
 
 /// A scatter of one margin, which is what the endpoints of the small cell have: at two margins 98 %
 /// of the differences are found.
-TEST(Looks, FindTwoMargins) {
+TEST(InterimSettings, FindTwoMargins) {
   std::mt19937_64 generator(8);
   std::normal_distribution<double> normal;
-  const LookPlan plan = looksAt(8, 4, 0.05);
+  const InterimPlan plan = interimPlanAt(8, 4, 0.05);
   int found = 0;
   constexpr int trials = 400;
   for (int t = 0; t < trials; ++t) {
@@ -189,17 +189,17 @@ TEST(Looks, FindTwoMargins) {
     std::vector<double> differences;
     for (int k = 0; k < 32; ++k) differences.push_back(2.0 + normal(generator));
     family.front() = differing(differences);
-    found += answersAfterLooks(family, plan, 32).front()->answer == Answer::disagree;
+    found += answersAfterInterims(family, plan, 32).front()->answer == Answer::disagree;
   }
   EXPECT_GE(found, 0.98 * trials);
 }
 
-TEST(Looks, ForecastPackingsThatDecideWithTheChanceAskedFor) {
+TEST(InterimSettings, ForecastPackingsThatDecideWithTheChanceAskedFor) {
   const auto packings = packingsFor(0.3, 1.5, 1.0, 0.025);
   ASSERT_TRUE(packings);
   std::mt19937_64 generator(9);
   std::normal_distribution<double> normal;
-  const LookPlan plan{{*packings}, {0.025}, 0.025};
+  const InterimPlan plan{{*packings}, {0.025}, 0.025};
   int decided = 0;
   constexpr int trials = 2000;
   for (int t = 0; t < trials; ++t) {
@@ -215,7 +215,7 @@ TEST(Looks, ForecastPackingsThatDecideWithTheChanceAskedFor) {
   EXPECT_GT(range->high.value(), *packings);
 }
 
-TEST(Looks, ChanceOfOneAsFarIsStudentsOverAllTests) {
+TEST(InterimSettings, ChanceOfOneAsFarIsStudentsOverAllTests) {
   // t(7) beyond 2.365 in either tail: 5 %.
   EXPECT_NEAR(chanceOfOneAsFar(2.3646242510102997, 1.0, 7, 1), 0.05, 1e-9);
   EXPECT_NEAR(chanceOfOneAsFar(-2.0 * 2.3646242510102997, 2.0, 7, 4), 0.2, 1e-9);

@@ -9,7 +9,7 @@
 #include "averaging/profiles.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "runs/couette/averages.hpp"
+#include "studies/flow/averages.hpp"
 #include "tests/bench/packings_option.hpp"
 
 namespace crossgrain::bench {

@@ -16,7 +16,7 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/engine_access.hpp"
+#include "studies/core/engine_access.hpp"
 
 using namespace crossgrain;
 using nlohmann::json;
@@ -58,16 +58,16 @@ json timed(const Case& setup, const Scene& scene, const EngineEntry& entry, int 
   const auto engine = entry.make ? entry.make()
                                  : std::make_unique<WorkerEngine>(entry.name, entry.command(),
                                                                   scratch, setup.run.timeout);
-  const Realised realised = loadScene(*engine, entry, setup, scene);
+  const EffectiveParameters effective = loadScene(*engine, entry, setup, scene);
   const double checkTime = engine->advance(check * scene.dt);
   const Snapshot at = engine->snapshot(ContactReport::instant);
   const Stats before = engine->stats();
-  engine->advance(checkTime + steps * realised.dt);
+  engine->advance(checkTime + steps * effective.dt);
   const Stats after = engine->stats();
   json differs = json::array();
-  for (const Deviation& deviation : realised.deviations) differs.push_back(deviation.name);
-  return {{"dt", realised.dt},
-          {"precision", realised.precision},
+  for (const Deviation& deviation : effective.deviations) differs.push_back(deviation.name);
+  return {{"dt", effective.dt},
+          {"precision", effective.precision},
           {"contacts", at.contacts ? at.contacts->size() : 0},
           {"kinetic_energy", globalNumbers(scene, at).kineticEnergy},
           {"us_per_step", 1e6 * (after.wallSeconds - before.wallSeconds) /

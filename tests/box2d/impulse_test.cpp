@@ -88,15 +88,15 @@ TEST(Box2dImpulse, SoftLawRunsWithItsOwnRestitution) {
   for (const auto& [tension, en] : {std::pair{Tension::allow, 0.2223}, {Tension::cut, 0.3408}}) {
     Scene scene = onePair(box2dLaw(), approach, 0.5);
     scene.law.conventions.tension = tension;
-    const Realised realised = engine->load(scene, {});
-    ASSERT_EQ(realised.pairs.size(), 1u);
-    EXPECT_NEAR(realised.pairs[0].en, en, 1e-4);
-    EXPECT_NEAR(realised.pairs[0].et0, 0.11, 0.02);
-    EXPECT_EQ(realised.deviations.at(0).name, "normal");
+    const EffectiveParameters effective = engine->load(scene, {});
+    ASSERT_EQ(effective.pairs.size(), 1u);
+    EXPECT_NEAR(effective.pairs[0].en, en, 1e-4);
+    EXPECT_NEAR(effective.pairs[0].et0, 0.11, 0.02);
+    EXPECT_EQ(effective.deviations.at(0).name, "normal");
     engine->advance(0.02);
     const Outcome got = outcome(engine->snapshot(ContactReport::none), 0, approach);
     EXPECT_NEAR(got.en, en, 1e-3);
-    EXPECT_NEAR(got.psiF, -0.5 * realised.pairs[0].et0, 5e-3);
+    EXPECT_NEAR(got.psiF, -0.5 * effective.pairs[0].et0, 5e-3);
   }
 }
 
@@ -128,11 +128,11 @@ TEST(Box2dImpulse, WhatRestsUnderGravityDoesNotRebound) {
   scene.disks.position = {{0.0, a}, {0.1, a + height}};
   scene.disks.velocity.assign(2, Vec2::Zero());
   const auto engine = makeBox2dImpulse();
-  const Realised realised = engine->load(scene, {});
+  const EffectiveParameters effective = engine->load(scene, {});
   const auto threshold =
-      std::ranges::find(realised.deviations, "restitution_threshold", &Deviation::name);
-  ASSERT_NE(threshold, realised.deviations.end());
-  EXPECT_NEAR(threshold->value, 2.0 * g * realised.dt, 1e-12);
+      std::ranges::find(effective.deviations, "restitution_threshold", &Deviation::name);
+  ASSERT_NE(threshold, effective.deviations.end());
+  EXPECT_NEAR(threshold->value, 2.0 * g * effective.dt, 1e-12);
   const double fall = std::sqrt(2.0 * height / g);
   double risen = 0.0;
   for (int k = 1; k <= 60; ++k) {

@@ -218,10 +218,10 @@ TEST_F(CaseKeysOf, Changes_KeyByKey_FewAndShort) {
             std::vector<std::string>{"averaging.rings: none → 30"});
   CaseKeys before, now;
   for (int k = 0; k < 10; ++k) now["key" + std::to_string(k)] = "1";
-  EXPECT_TRUE(changesInWords(changes(before, now)).ends_with("key7: none → 1; and 2 more"));
+  EXPECT_TRUE(describeChanges(changes(before, now)).ends_with("key7: none → 1; and 2 more"));
   before = {{"psi", "1.5"}};
   now = {{"psi", "'" + std::string(58, 'a') + "ΨΨΨΨ'"}};
-  EXPECT_EQ(changesInWords(changes(before, now)), "psi: 1.5 → '" + std::string(58, 'a') + "…");
+  EXPECT_EQ(describeChanges(changes(before, now)), "psi: 1.5 → '" + std::string(58, 'a') + "…");
 }
 
 TEST(CaseKeysIn, Section_IsNotWhatBeginsLikeIt) {

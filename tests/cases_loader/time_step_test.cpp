@@ -111,8 +111,8 @@ TEST(StepLimit, Linear_EachTerm_IsItsOscillators) {
   const double limit = 2.0 * std::sqrt(mass / thesis.kn);
   EXPECT_DOUBLE_EQ(pairStepLimit(c)->dt, limit);
   EXPECT_DOUBLE_EQ(pairStepLimit(c, LightestPair{mass / 4.0, mass / 12.0})->dt, limit / 2.0);
-  EXPECT_EQ(whyUnstableStep(c, 0.999 * limit, "run.dt"), "");
-  const std::string why = whyUnstableStep(c, 1.0, "run.dt");
+  EXPECT_EQ(unstableStepFault(c, 0.999 * limit, "run.dt"), "");
+  const std::string why = unstableStepFault(c, 1.0, "run.dt");
   for (const char* part : {"run.dt = 1 s", "0.00125 s", "normal spring", "352.1 N/m"})
     EXPECT_NE(why.find(part), std::string::npos) << why;
 
@@ -226,7 +226,7 @@ TEST(StepLimit, RigidLawsAndCollisions_HaveNone) {
   Case c = thesisCell();
   c.law.normal = NormalLaw::rigid;
   EXPECT_FALSE(pairStepLimit(c));
-  EXPECT_EQ(whyUnstableStep(c, 1.0, "run.dt"), "");
+  EXPECT_EQ(unstableStepFault(c, 1.0, "run.dt"), "");
   c.law = thesisLaw();
   c.kind = CaseKind::collision;
   EXPECT_FALSE(pairStepLimit(c));

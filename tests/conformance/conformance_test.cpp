@@ -1,4 +1,4 @@
-// Every engine of the registry passes every check of runs/conformance, each through its real
+// Every engine of the registry passes every check of studies/conformance, each through its real
 // worker; what it skips is what is listed here, no more and no less, so that coverage does not
 // shrink unseen. The program itself lists the ctest entries, since engines are the registry's
 // business, and it is the worker that it tests.
@@ -15,7 +15,7 @@
 #include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
 #include "results/json_fields.hpp"
-#include "runs/conformance/conformance.hpp"
+#include "studies/conformance/conformance.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::test {

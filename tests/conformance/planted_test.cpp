@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <regex>
 
-#include "runs/conformance/conformance.hpp"
+#include "studies/conformance/conformance.hpp"
 #include "support/scratch_folder.hpp"
-#include "tests/mischief/entries.hpp"
+#include "tests/misbehaving/entries.hpp"
 
 namespace crossgrain::test {
 namespace {

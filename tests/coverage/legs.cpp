@@ -10,9 +10,9 @@
 #include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/engine_access.hpp"
-#include "runs/couette/run.hpp"
-#include "runs/couette/summary.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/flow/run.hpp"
+#include "studies/flow/summary.hpp"
 
 namespace crossgrain::coverage {
 

@@ -7,7 +7,7 @@
 
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
-#include "results/couette_fields.hpp"
+#include "results/flow_fields.hpp"
 
 /// Runs of the in-house engine whose truth is known: repeats of one case, and repeats with a fault.
 namespace crossgrain::coverage {
@@ -29,12 +29,12 @@ const Leg& leg(const std::string& name);
 Packing prepared(const Case& setup, int index);
 
 /// The profiles of one window of a run.
-struct WindowRun : CouetteRun {
+struct WindowRun : FlowRun {
   int window = 0;
   double rotations = 0.0;  ///< that it averages over
 };
 void fields(auto& io, WindowRun& run) {
-  fields(io, static_cast<CouetteRun&>(run));
+  fields(io, static_cast<FlowRun&>(run));
   io("window", run.window);
   io("rotations", run.rotations);
 }

@@ -25,7 +25,7 @@ def at_least(x, n, share):
 
 
 def verdict(row, readings, rules):
-    """The rule of runs/lockstep/account.cpp on some of the starts; main() compares it with the program's own on all of them."""
+    """The rule of studies/lockstep/account.cpp on some of the starts; main() compares it with the program's own on all of them."""
     if row["verdict"] in ("not_measured", "same_to_rounding"):
         return row["verdict"]
     read = sum(reading["until_s"] > 0.0 for reading in readings)

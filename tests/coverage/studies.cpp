@@ -8,11 +8,11 @@
 #include <ranges>
 
 #include "averaging/agreement.hpp"
-#include "averaging/looks.hpp"
+#include "averaging/interim_analyses.hpp"
 #include "averaging/statistics.hpp"
-#include "runs/couette/endpoint_table.hpp"
-#include "runs/couette/endpoint_values.hpp"
-#include "runs/couette/paired_rings.hpp"
+#include "studies/flow/endpoint_table.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/paired_rings.hpp"
 
 namespace crossgrain::coverage {
 
@@ -41,7 +41,7 @@ std::vector<Numbers> ringsOfLeg(const Sample& sample, const std::string& leg,
 /// Indices of the packings that a leg has run, in an order of its own for every shuffle.
 std::vector<std::size_t> shuffled(const Sample& sample, const std::string& leg, int shuffle) {
   std::vector<std::size_t> order;
-  for (const CouetteRun* run : finishedRuns(sample.runs, engineName, leg))
+  for (const FlowRun* run : finishedRuns(sample.runs, engineName, leg))
     order.push_back(static_cast<std::size_t>(run->packing));
   std::mt19937_64 generator(static_cast<std::uint64_t>(shuffle));
   std::ranges::shuffle(order, generator);
@@ -196,7 +196,7 @@ std::vector<Rate> withinRuns(const Case& setup, const std::vector<WindowRun>& en
 
 std::vector<Rate> ensembles(const Sample& sample, int group) {
   std::vector<Rate> rates;
-  const CouetteRun& first = *finishedRuns(sample.runs, engineName).front();
+  const FlowRun& first = *finishedRuns(sample.runs, engineName).front();
   for (const Profile& profile : first.profiles) {
     const std::string& field = profile.field;
     const auto rings = ringsOfLeg(sample, "", field);
@@ -253,7 +253,7 @@ std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, in
 
 std::vector<Rate> looks(const Sample& sample) {
   const Case& setup = *sample.setup;
-  const LookPlan plan = looksOf(setup);
+  const InterimPlan plan = interimPlanOf(setup);
   const int group = plan.packings.back();
   const Runs whole = finishedRuns(sample.runs, engineName);
   const Runs again = finishedRuns(sample.runs, engineName, "again");
@@ -269,7 +269,7 @@ std::vector<Rate> looks(const Sample& sample) {
           for (const std::string& name : names)
             family.push_back(shiftedSample(setup, name, whole, again, sample.packings, order, first,
                                            group, only.empty() || only == name ? margins : 0.0));
-          return answersAfterLooks(family, plan, group);
+          return answersAfterInterims(family, plan, group);
         };
         const auto same = shifted(0.0, ""), edge = shifted(sign, "");
         bool any = false;

@@ -27,7 +27,7 @@ struct Rate {
 /// Runs as `run()` makes them, of all legs; window 0 of runs that have several.
 struct Sample {
   const Case* setup;
-  std::vector<CouetteRun> runs;
+  std::vector<FlowRun> runs;
   std::size_t packings = 0;
 };
 
@@ -44,11 +44,11 @@ std::vector<Rate> ensembles(const Sample& sample, int group);
 /// one, packing by packing.
 std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, int group);
 
-/// Verdicts on endpoints after the case's looks, of groups of as many packings of leg "again" against
-/// the case itself, whose true difference is 0. Studies "looks_decided": agree, as it is (of
-/// every endpoint); "looks_false_disagree": any disagree in the family where every difference is the
-/// margin itself; "looks_false_agree": an agree there; "looks_found": disagree where one endpoint
-/// is two margins off.
+/// Verdicts on endpoints after the case's looks, of groups of as many packings of leg "again"
+/// against the case itself, whose true difference is 0. Studies "looks_decided": agree, as it is
+/// (of every endpoint); "looks_false_disagree": any disagree in the family where every difference
+/// is the margin itself; "looks_false_agree": an agree there; "looks_found": disagree where one
+/// endpoint is two margins off.
 std::vector<Rate> looks(const Sample& sample);
 
 /// Study "power": how often a shift of the size that smallestDetectable() names for the sample's

@@ -15,7 +15,7 @@
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "runs/common/engine_access.hpp"
+#include "studies/core/engine_access.hpp"
 
 using namespace crossgrain;
 
@@ -69,16 +69,16 @@ int main(int argc, char** argv) {
   Scene scene = couetteScene(setup, packingOf(setup, 0, dt, *preparing, [](double) {}), dt);
   scene.energyLedger = true;
   const auto engine = entry.make();
-  const Realised realised = loadScene(*engine, entry, setup, scene);
+  const EffectiveParameters effective = loadScene(*engine, entry, setup, scene);
   bool sound = true;
   for (int tenth = 1; tenth <= 10; ++tenth) {
     const double done = std::round(0.1 * tenth * steps);
-    engine->advance(done * realised.dt);
+    engine->advance(done * effective.dt);
     const Health health = healthOf(setup, scene, engine->snapshot(ContactReport::instant));
     const bool within = health.residual <= residualBound && health.momentum <= momentumBound;
     fmt::print(
         "{:.0f} steps, {:.3g} rotations: residual {:.2e}, momentum {:.2e}, overlap {:.2e}{}\n",
-        done, done * realised.dt * setup.cell.omega / (2.0 * std::numbers::pi), health.residual,
+        done, done * effective.dt * setup.cell.omega / (2.0 * std::numbers::pi), health.residual,
         health.momentum, health.overlap, within ? "" : "  OUT OF BOUNDS");
     std::fflush(stdout);
     sound = sound && within;

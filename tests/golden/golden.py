@@ -76,7 +76,7 @@ COMMANDS = {
         "replay {first}.rec --engines box2d-penalty --json",
     ],
     "identify": ["identify {cell} --engines box2d-penalty"],
-    "thesis": ["thesis tests/runs/thesis/ladder.toml --out {out}"],
+    "thesis": ["thesis tests/studies/thesis/ladder.toml --out {out}"],
     "plan": ["plan {cell} --engines grain,yade --seeds 1,2 --slurm {out}"],
     "engines": ["engines --json"],
     "check": ["check {cell} --engines {built_in}"],

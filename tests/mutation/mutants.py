@@ -13,7 +13,7 @@ folders = {
     "stability": ["stability/**/*.[ch]pp"],
     "adapters": ["adapters/motion.cpp"],
     "cases": ["cases/**/*.[ch]pp"],
-    "runs": ["runs/**/*.[ch]pp"],
+    "studies": ["studies/**/*.[ch]pp"],
 }
 
 # Binary operators stand between spaces, as clang-format sets them: brackets of templates, pointers and references do not.

@@ -28,9 +28,9 @@ programs = {
     "grain": ("unit/grain_tests", "*"),
     "oracle": ("oracle/oracle_tests", "*"),
     "averaging": ("averaging/averaging_tests", "*"),
-    "runs": ("runs/runs_tests", f"-{fixtures}"),
+    "studies": ("studies/studies_tests", f"-{fixtures}"),
     "conformance": ("conformance/conformance_tests", "*/grain:*/box2d_penalty:*/box2d_impulse"),
-    "cells": ("runs/runs_tests", fixtures),
+    "cells": ("studies/studies_tests", fixtures),
 }
 # The tests of the folder that a mutant is in, first.
 own = {
@@ -41,7 +41,7 @@ own = {
     "stability": ["stability"],
     "adapters": ["adapters", "cases"],
     "cases": ["cases", "loader"],
-    "runs": ["runs"],
+    "studies": ["studies"],
 }
 memory = 8 << 30  # [bytes] what a program may take
 

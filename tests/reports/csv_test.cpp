@@ -1,4 +1,4 @@
-#include "reports/couette/report.hpp"
+#include "reports/flow/report.hpp"
 
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   results.endpoints.rows[0].packings = 15;
   results.endpoints.rows[0].lost = 1;
   results.endpoints.rows[0].reason = "why one is lost";
-  results.endpoints.rows[0].carrierB = "mirror";
+  results.endpoints.rows[0].surrogateB = "mirror";
   results.endpoints.rows[0].bound = 0.01;
   results.endpoints.rows[0].reach = 0.002;
   results.regimes = {{"one", "two", PairKind::peer, 4, {1, 3}}};
@@ -158,7 +158,7 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   one.points.columns[QuantityId::lostStiffening] = {-2e-9};
   one.points.status = {PairStatus::noLimit};
   one.points.reason = {"it jumps"};
-  one.score.verdict = CurveVerdict::fellShort;
+  one.score.verdict = CurveVerdict::beyondLimits;
   one.declared.emplace().score.verdict = CurveVerdict::held;
   one.ownScheme.emplace().position = 1e-14;
   one.ownScheme->velocity = 2e-14;

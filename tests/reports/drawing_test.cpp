@@ -5,8 +5,8 @@
 
 #include "reports/common/engines.hpp"
 #include "reports/common/pictures.hpp"
-#include "reports/couette/figures.hpp"
-#include "reports/couette/report.hpp"
+#include "reports/flow/figures.hpp"
+#include "reports/flow/report.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
@@ -73,12 +73,12 @@ TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
 TEST(Profiles, SayWhatTheirBarsAre) {
   const CompareResults several = sample::compareResults(4, 10),
                        single = sample::compareResults(1, 10), two = sample::compareResults(2, 10);
-  EXPECT_EQ(barsInWords(engineRuns(several)),
+  EXPECT_EQ(describeBars(engineRuns(several)),
             "Bars: ± one standard error of the mean over packings.");
-  EXPECT_NE(barsInWords(engineRuns(single)).find("conditional on its one packing"),
+  EXPECT_NE(describeBars(engineRuns(single)).find("conditional on its one packing"),
             std::string::npos);
   // One of two runs of the second engine failed: the other is drawn pale.
-  EXPECT_NE(barsInWords(engineRuns(two)).find("over packings; pale, without: one run of yade"),
+  EXPECT_NE(describeBars(engineRuns(two)).find("over packings; pale, without: one run of yade"),
             std::string::npos);
 }
 
@@ -178,7 +178,7 @@ TEST(Pictures, ForcesAreDrawnOnOneScaleTheFirstOnes) {
     return toSvg(comparePictures(results)[place].drawing, 100, "");
   };
   // Twice the forces of all engines: the same lines.
-  for (CouetteRun& run : results.runs)
+  for (FlowRun& run : results.runs)
     for (double& force : run.picture->contactForce.value()) force *= 2.0;
   EXPECT_EQ(linesOf(4), toSvg(pictures[4].drawing, 100, ""));
   EXPECT_EQ(linesOf(5), toSvg(pictures[5].drawing, 100, ""));

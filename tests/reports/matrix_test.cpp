@@ -11,11 +11,11 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/couette/endpoint_words.hpp"
-#include "reports/couette/figures.hpp"
-#include "reports/couette/overview.hpp"
-#include "reports/couette/report.hpp"
 #include "reports/effects/report.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/figures.hpp"
+#include "reports/flow/overview.hpp"
+#include "reports/flow/report.hpp"
 #include "reports/lockstep/overview.hpp"
 #include "reports/regression/regression.hpp"
 #include "reports/render/html.hpp"
@@ -261,9 +261,9 @@ CompareResults randomResults(std::mt19937& random) {
         if (row.answer == Answer::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
         results.endpoints.rows.push_back(row);
       }
-  CarriedEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
+  SurrogateEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
   for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
-    own.canary.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
+    own.spotCheck.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
   results.endpoints.carried = {own};
   return results;
 }
@@ -272,11 +272,11 @@ TEST(CompareSentences, TheFarthestEndpointIsNamed) {
   std::mt19937 random(1);
   for (int k = 0; k < 300; ++k) {
     const CompareResults results = randomResults(random);
-    const CarriedEngine& own = results.endpoints.carried.front();
+    const SurrogateEngine& own = results.endpoints.carried.front();
     const auto farthest = std::ranges::max_element(
-        own.canary, {}, [](const CanaryNumber& number) { return std::abs(*number.difference); });
-    EXPECT_TRUE(has(sentenceOf(own), "margins of " + spaced(farthest->endpoint)))
-        << sentenceOf(own);
+        own.spotCheck, {},
+        [](const SpotCheckNumber& number) { return std::abs(*number.difference); });
+    EXPECT_TRUE(has(describe(own), "margins of " + spaced(farthest->endpoint))) << describe(own);
   }
 }
 
@@ -334,7 +334,7 @@ TEST(CompareSentences, DoNotContradictEachOther) {
 TEST(CompareReport, TheTableHasTheMatrixMarkOfTheSameAnswer) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
-  results.lockstep->rules.yardstick = "kn";
+  results.lockstep->rules.referencePerturbation = "kn";
   results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
   const std::string text = textOf(compareReport(results));
   EXPECT_TRUE(has(text, "≠ disagree by the declared law // 3.00 margins")) << text;
@@ -376,7 +376,7 @@ TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
   profile.standardError = {0.1, 0.1};
   for (const auto& [name, runs] : {std::pair("ours", 2), std::pair("theirs", 1), {"mirror", 2}}) {
     for (int k = 0; k < runs; ++k) {
-      CouetteRun run;
+      FlowRun run;
       run.engine = name;
       run.packing = k;
       run.profiles = {profile};
@@ -402,7 +402,7 @@ TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
   EXPECT_EQ(curves[2].name, "mirror");
   EXPECT_EQ(curves[2].style.colour, engines[2].style.colour);
   EXPECT_TRUE(curves[2].points.at(0).error);
-  EXPECT_TRUE(has(barsInWords(engines), "theirs (its verdicts rest on mirror)"));
+  EXPECT_TRUE(has(describeBars(engines), "theirs (its verdicts rest on mirror)"));
 }
 
 TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
@@ -540,7 +540,7 @@ TEST(LockstepOverview, NamesTheDeviationFound) {
 
 TEST(DiffOverview, NamesWhatHasChanged) {
   DiffResults results;
-  results.rules.yardstick = "kn";
+  results.rules.referencePerturbation = "kn";
   DiffRow same;
   same.engine = "one";
   same.verdict = same.windowsVerdict = same.collisionsVerdict = DiffVerdict::sameBits;

@@ -45,10 +45,10 @@ TEST(Numbers, SettingsKeepTheirDigits) {
 }
 
 TEST(Numbers, IndicesInARowAreToldByTheirEnds) {
-  EXPECT_EQ(indicesInWords({}), "");
-  EXPECT_EQ(indicesInWords({3}), "3");
-  EXPECT_EQ(indicesInWords({0, 1, 4}), "0, 1, 4");
-  EXPECT_EQ(indicesInWords({0, 2, 3, 4, 5, 7}), "0, 2 to 5, 7");
+  EXPECT_EQ(indicesText({}), "");
+  EXPECT_EQ(indicesText({3}), "3");
+  EXPECT_EQ(indicesText({0, 1, 4}), "0, 1, 4");
+  EXPECT_EQ(indicesText({0, 2, 3, 4, 5, 7}), "0, 2 to 5, 7");
 }
 
 TEST(Numbers, Durations) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "reports/collide/report.hpp"
-#include "reports/couette/overview.hpp"
-#include "reports/couette/report.hpp"
+#include "reports/flow/overview.hpp"
+#include "reports/flow/report.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 
@@ -111,7 +111,7 @@ TEST(CollideReport, ModelDifference_IsNoFailure) {
   EXPECT_TRUE(has(page, " | declared | "));
   const CollideCount count = countOf(results);
   EXPECT_EQ(count.modelDifference, 2);
-  EXPECT_EQ(count.fellShort, 2);
+  EXPECT_EQ(count.beyondLimits, 2);
 }
 
 TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
@@ -124,7 +124,7 @@ TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   const std::string page = textOf(collideReport(results));
   EXPECT_TRUE(has(page, "own scheme 1×10⁻⁹"));
   EXPECT_TRUE(has(page, "| ✗ 1×10⁻⁹ |"));
-  EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::fellShort);
+  EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::beyondLimits);
 }
 
 /// A mirror beside its peer shows what the peer should do; alone it is an
@@ -152,7 +152,7 @@ TEST(CollideScores, PassedBetweenTimeSteps_IsLeftOut) {
   const std::size_t before = rows();
   CollisionCurve& middle = results.variants[0].curves[2];
   ASSERT_EQ(middle.engine, "grain");
-  middle.score.verdict = CurveVerdict::fellShort;
+  middle.score.verdict = CurveVerdict::beyondLimits;
   EXPECT_EQ(rows(), before + 1) << "what failed is there";
 }
 

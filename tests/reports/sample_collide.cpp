@@ -32,7 +32,7 @@ CollisionCurve curve(const std::string& name, double steps, double stick, double
   curve.engine = name;
   curve.dt = 2.18e-3 / steps;
   curve.stepsPerContact = steps;
-  curve.realised = readAs<Realised>(realised(name, curve.dt));
+  curve.effective = readAs<EffectiveParameters>(effective(name, curve.dt));
   for (int k = 0; k < places; ++k) {
     const double psi = psiAt(k);
     curve.points.psi.push_back(psi);
@@ -47,7 +47,7 @@ CollisionCurve curve(const std::string& name, double steps, double stick, double
   psi.rms = error / 4;
   psi.limit = 0.01;
   psi.held = psi.max <= *psi.limit;
-  curve.score.verdict = *psi.held ? CurveVerdict::held : CurveVerdict::fellShort;
+  curve.score.verdict = *psi.held ? CurveVerdict::held : CurveVerdict::beyondLimits;
   return curve;
 }
 

@@ -39,7 +39,7 @@ inline EngineRow engineRow(const std::string& name, const std::string& summary,
   return {name, summary, "1.0", mirrors, status, reason};
 }
 
-inline Json realised(const std::string& name, double dt) {
+inline Json effective(const std::string& name, double dt) {
   const Json effects = {"normal_damping", "friction", "tangential_spring", "rotation",
                         "moving_walls"};
   Json result = {{"engine", name},

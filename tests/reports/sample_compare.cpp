@@ -192,7 +192,7 @@ Json run(const std::string& name, int packing, double bias, double dt, int disks
           {"packing", packing},
           {"status", "finished"},
           {"reason", ""},
-          {"realised", realised(name, dt)},
+          {"realised", effective(name, dt)},
           {"stats", stats},
           {"head", headNumbers(bias, impulses)},
           {"regime", regime(packing == 2 && !impulses)},
@@ -211,7 +211,7 @@ Json failedRun(const std::string& name, int packing, const std::string& reason) 
           {"packing", packing},
           {"status", "failed"},
           {"reason", reason},
-          {"realised", realised(name, 4e-5)},
+          {"realised", effective(name, 4e-5)},
           {"stats", Json::object()},
           {"head", Json::array()},
           {"profiles", Json::array()},
@@ -265,7 +265,7 @@ Json agreement(const std::string& a, const std::string& b, const std::string& ki
 
 /// Two endpoints of a pair, `distance` margins apart.
 Json endpoints(const std::string& a, const std::string& b, const std::string& kind, double distance,
-               const char* one, const char* two, const std::string& carrier) {
+               const char* one, const char* two, const std::string& surrogate) {
   Json rows = Json::array();
   const bool decided = std::string_view(one) != "undecided";
   for (const auto& [name, answer] : {std::pair("pressure", one), std::pair("spin_at_wheel", two)}) {
@@ -292,8 +292,8 @@ Json endpoints(const std::string& a, const std::string& b, const std::string& ki
       row["needs"] = 12;
       row["needs_at_most"] = 20;
     }
-    if (!carrier.empty()) {
-      row["carrier_b"] = carrier;
+    if (!surrogate.empty()) {
+      row["carrier_b"] = surrogate;
       row["bound"] = 2e-3;
       row["reach"] = 1.5e-3;
     }
@@ -425,8 +425,8 @@ CompareResults averageResults() {
   results.head.command = "crossgrain average cases/a.toml snapshots.csv";
   results.engines.resize(1);
   results.runs.resize(1);
-  CouetteRun& run = results.runs.front();
-  run.realised.reset();
+  FlowRun& run = results.runs.front();
+  run.effective.reset();
   run.stats.reset();
   run.picture.reset();
   results.agreement.clear();

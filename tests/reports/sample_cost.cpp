@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "runs/cost/analysis.hpp"
+#include "studies/cost/analysis.hpp"
 #include "tests/reports/sample_common.hpp"
 #include "tests/reports/sample_results.hpp"
 

@@ -23,7 +23,7 @@ Json run(const std::string& without, int packing, double shift) {
                  {"packing", packing},
                  {"status", "finished"},
                  {"reason", ""},
-                 {"realised", realised("grain", 4e-5)},
+                 {"realised", effective("grain", 4e-5)},
                  {"stats", {{"steps", 1000}, {"wall_s", 0.05}, {"cpu_s", 0.05}}},
                  {"head", Json::array()},
                  {"fits", Json::array()}};

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/couette/endpoint_words.hpp"
-#include "reports/couette/overview.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/overview.hpp"
 #include "reports/report.hpp"
 #include "reports/site/history.hpp"
 #include "results/schema.hpp"

@@ -1,8 +1,8 @@
-#include "reports/couette/state.hpp"
+#include "reports/flow/state.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reports/couette/report.hpp"
+#include "reports/flow/report.hpp"
 #include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
@@ -124,7 +124,7 @@ TEST(StateSentences, GiveOneOfThreeAnswersOnSteadiness) {
 }
 
 TEST(AveragedRotations, CountFromTheHandOverAndFromThePreparation) {
-  CouetteAveraging averaging = compareFromJson(flowing(1)).averaging;
+  FlowAveraging averaging = compareFromJson(flowing(1)).averaging;
   EXPECT_EQ(averagedRotations(averaging),
             "rotations 0.25 to 1.25 since the hand-over, 2.25 to 3.25 since the ring had closed");
   averaging.preparedRotations.reset();  // a packing of the user's own

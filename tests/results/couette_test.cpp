@@ -10,8 +10,8 @@
 namespace crossgrain {
 namespace {
 
-Realised realised() {
-  Realised result;
+EffectiveParameters effective() {
+  EffectiveParameters result;
   result.engine = "one";
   result.dt = 1e-5;
   result.effects = {Effect::friction, Effect::rotation};
@@ -20,11 +20,11 @@ Realised realised() {
   return result;
 }
 
-CouetteRun finishedRun() {
-  CouetteRun run;
+FlowRun finishedRun() {
+  FlowRun run;
   run.engine = "one";
   run.packing = 1;
-  run.realised = realised();
+  run.effective = effective();
   run.stats = Stats{7, 11, 0.5, 0.25, {{"impacts", 3.0}}};
   run.head = {{"inertial_number", "-", 0.0041, {}, {}}};
   run.regime = RegimeRow{Regime::blocked, "it stands", 15.5, 0.9, {}, 1e-4, 1.0};
@@ -51,8 +51,8 @@ CouetteRun finishedRun() {
   return run;
 }
 
-CouetteRun failedRun() {
-  CouetteRun run;
+FlowRun failedRun() {
+  FlowRun run;
   run.engine = "one";
   run.status = RunStatus::failed;
   run.reason = "died";
@@ -83,7 +83,7 @@ Study ranStudy(std::string_view kind) {
   return study;
 }
 
-TEST(CouetteRuns, ComeBackAsTheyWere) {
+TEST(FlowRuns, ComeBackAsTheyWere) {
   const Json there = toJson(finishedRun());
   EXPECT_EQ(toJson(runFromJson(Json::parse(there.dump()))).dump(), there.dump());
   EXPECT_EQ(there["regime"]["name"], "blocked");
@@ -96,13 +96,13 @@ TEST(CouetteRuns, ComeBackAsTheyWere) {
   EXPECT_FALSE(there.contains("without"));
 }
 
-TEST(CouetteRuns, ThatDidNotFinishHoldNothingElse) {
+TEST(FlowRuns, ThatDidNotFinishHoldNothingElse) {
   EXPECT_EQ(toJson(failedRun()),
             Json({{"engine", "one"}, {"packing", 0}, {"status", "failed"}, {"reason", "died"}}));
 }
 
-TEST(CouetteRuns, WithoutSeriesShowNeitherDistributionsNorPicture) {
-  CouetteRun run = finishedRun();
+TEST(FlowRuns, WithoutSeriesShowNeitherDistributionsNorPicture) {
+  FlowRun run = finishedRun();
   run.without = "friction";
   run.series.reset();
   const Json there = toJson(run);
@@ -111,13 +111,13 @@ TEST(CouetteRuns, WithoutSeriesShowNeitherDistributionsNorPicture) {
   EXPECT_EQ(runFromJson(there).without, "friction");
   // Snapshots of a file: crossgrain ran nothing.
   run = finishedRun();
-  run.realised.reset();
+  run.effective.reset();
   EXPECT_FALSE(toJson(run).contains("picture"));
   EXPECT_TRUE(toJson(run).contains("series"));
 }
 
-TEST(CouetteRuns, OfAPackingWithoutAPictureSaySo) {
-  CouetteRun run = finishedRun();
+TEST(FlowRuns, OfAPackingWithoutAPictureSaySo) {
+  FlowRun run = finishedRun();
   run.picture.reset();
   EXPECT_TRUE(toJson(run).at("picture").is_null());
   EXPECT_FALSE(runFromJson(toJson(run)).picture);
@@ -149,7 +149,7 @@ TEST(CompareResults, RoundTrip) {
   endpoint.endpoint = "pressure";
   endpoint.answer = Answer::borderline;
   endpoint.distance = -0.99;
-  endpoint.carrierB = "mirror";
+  endpoint.surrogateB = "mirror";
   endpoint.bound = 1e-3;
   endpoint.reach = 5e-4;
   results.endpoints = {{{{8, 0.0125}}, 0.0193, 1, 120.0, "all is decided"},
@@ -202,7 +202,7 @@ TEST(EffectsResults, RoundTrip) {
   ring.resolved = false;
   ring.verdict = AgainstMargin::disagree;
   switched.changes = {
-      1, BarKind::withinRun, {{"spin", "rad/s", true, AgainstMargin::untold, {ring}}}};
+      1, BarKind::withinRun, {{"spin", "rad/s", true, AgainstMargin::notTested, {ring}}}};
   refused.effect = "rotation";
   refused.status = EngineStatus::refused;
   refused.reason = "cannot";

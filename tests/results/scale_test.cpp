@@ -76,9 +76,9 @@ TEST(ScaleFigures, WhatDidNotRunHasNoneAndLendsNone) {
 }
 
 TEST(ScaleFigures, WorkersInWords) {
-  EXPECT_EQ(workersInWords({"grain", "threads"}, 1), "1 thread");
-  EXPECT_EQ(workersInWords({"lammps", "ranks"}, 4), "4 ranks");
-  EXPECT_EQ(workersInWords({"yade", ""}, 1), "one process");
+  EXPECT_EQ(describeWorkers({"grain", "threads"}, 1), "1 thread");
+  EXPECT_EQ(describeWorkers({"lammps", "ranks"}, 4), "4 ranks");
+  EXPECT_EQ(describeWorkers({"yade", ""}, 1), "one process");
 }
 
 TEST(ScaleResults, RoundTrip) {

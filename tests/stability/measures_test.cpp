@@ -24,8 +24,8 @@ struct Series {
     disks.spin = {0.0, 0.0};
     run.scene.law.kn = 100.0;
     run.scene.law.tangential = TangentialLaw::none;
-    run.realised.dt = 1.0;
-    run.realised.integrator = "position_verlet";
+    run.effective.dt = 1.0;
+    run.effective.integrator = "position_verlet";
     look(0.0, disks.position[0], disks.position[1], disks.velocity[0], disks.velocity[1]);
   }
 
@@ -82,7 +82,7 @@ TEST(StabilityMeasures, LeapfrogPositionsAreTakenBackToTheVelocities) {
 
 TEST(StabilityMeasures, ImpulsesInPlaceOfSpringsHoldNoEnergy) {
   Series at;
-  at.run.realised.deviations.push_back({"normal", 0.5, "-", "rigid contacts"});
+  at.run.effective.deviations.push_back({"normal", 0.5, "-", "rigid contacts"});
   at.look(1.0, {0, 0}, {1.0, 0});
   EXPECT_NEAR(at.last("energy_drift"), 0.0, 1e-12);
 }

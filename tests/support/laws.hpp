@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runs/conformance/conformance_scenes.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 
 namespace crossgrain::test {
 using namespace crossgrain::conformance;

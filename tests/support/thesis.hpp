@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runs/conformance/thesis_numbers.hpp"
+#include "studies/conformance/thesis_numbers.hpp"
 
 namespace crossgrain::test {
 using namespace crossgrain::conformance;

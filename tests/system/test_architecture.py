@@ -10,22 +10,22 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Each may include those before it. In runs/ and reports/ the jobs stand on common/, and on each other where
-# one job makes use of another.
+# Each may include those before it. Studies stand on core/, reports on common/ and render/, and on each other where
+# one makes use of another.
 ORDER = [
     "support",
     "continuum",
     "engines/cpp", "engines/chipmunk", "engines/grain", "engines/box2d",
     "adapters", "adapters/worker",
     "oracle", "stability", "averaging", "cases", "results",
-    "reports/common", "reports/render", "reports/lockstep", "reports/couette", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",
+    "reports/common", "reports/render", "reports/lockstep", "reports/flow", "reports/regression", "reports/collide", "reports/conformance", "reports/effects", "reports/cost", "reports/scale", "reports/stability", "reports/thesis", "reports/site",
     "reports",
-    "runs/common", "runs/lockstep", "runs/couette", "runs/collide", "runs/conformance", "runs/stability", "runs/effects", "runs/cost", "runs/scale", "runs/regression", "runs/check", "runs/thesis", "runs/plan",
+    "studies/core", "studies/lockstep", "studies/flow", "studies/collide", "studies/conformance", "studies/stability", "studies/effects", "studies/cost", "studies/scale", "studies/regression", "studies/check", "studies/thesis", "studies/plan",
     "cli",
 ]  # fmt: skip
 
 # Those that know nothing of the other, though the order would let them.
-STRANGERS = [("engines/box2d", "engines/grain"), ("oracle", "averaging")]
+UNRELATED = [("engines/box2d", "engines/grain"), ("oracle", "averaging")]
 
 
 def sources():
@@ -75,7 +75,7 @@ class Architecture(unittest.TestCase):
         wrong = [
             f"{file} includes {target}/"
             for file, folder, target in includes()
-            for who, whom in STRANGERS
+            for who, whom in UNRELATED
             if (folder + "/").startswith(who + "/") and target == whom
         ]
         self.assertEqual([], wrong)

@@ -51,7 +51,7 @@ class Terminal(SystemTest):
 
     def test_redraws_one_row(self):
         drawn = self.on_terminal("box2d-penalty", *settings(averaging__rotations=0.15), "--jobs=1")
-        # Which of the two it says is a matter of the machine's speed; tests/runs/executor_test.cpp has the words.
+        # Which of the two it says is a matter of the machine's speed; tests/studies/executor_test.cpp has the words.
         self.assertRegex(drawn, r"running engines: +\d+ %, (\d+ s left|estimating the time left)")
         # Every redrawing starts where the last one did, and fits in one row of the terminal.
         rows = re.findall(r"\r\x1b\[K(running engines:[^\r\n]*)", drawn)

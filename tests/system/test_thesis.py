@@ -9,7 +9,7 @@ import unittest
 
 from harness import BAD_INPUT, ENGINE_FAILED, FELL_SHORT, HELD, INTERRUPTED, SystemTest
 
-FOLDER = pathlib.Path(__file__).resolve().parents[1] / "runs/thesis"
+FOLDER = pathlib.Path(__file__).resolve().parents[1] / "studies/thesis"
 SWEEP = FOLDER / "ladder.toml"
 
 # Binding: columns that other programs read, in this order; further ones come after.

@@ -35,8 +35,8 @@ class Audit : public testing::Test {
     scene_.bodies[0].centre = {-0.05, 0.0};
     scene_.bodies[0].motion = test::rotating(1.0);
     can_.lawOptions = {{"normal", {"linear"}}};
-    realised_.dt = dt;
-    realised_.precision = "double";
+    effective_.dt = dt;
+    effective_.precision = "double";
 
     shown_.position = scene_.disks.position;
     shown_.velocity = scene_.disks.velocity;
@@ -55,14 +55,14 @@ class Audit : public testing::Test {
     contacts.tangentialForce = {0.5 * scene_.law.mu * fn, 0.0};
   }
 
-  AuditBasis basis() const { return auditBasis(scene_, can_, realised_); }
-  std::string why() const { return whyUnsound(shown_, basis(), 0.0); }
-  std::string whyOfLaw() const { return whyNotOfLaw(shown_, basis(), scene_.law); }
+  AuditBasis basis() const { return auditBasis(scene_, can_, effective_); }
+  std::string why() const { return auditFault(shown_, basis(), 0.0); }
+  std::string lawFaultOf() const { return lawFault(shown_, basis(), scene_.law); }
   Contacts& contacts() { return *shown_.contacts; }
 
   Scene scene_;
   Capabilities can_;
-  Realised realised_;
+  EffectiveParameters effective_;
   Snapshot shown_;
 };
 
@@ -72,7 +72,7 @@ void expectSays(const std::string& why, const std::string& part) {
 
 TEST_F(Audit, SoundSnapshotsPass) {
   EXPECT_EQ(why(), "");
-  EXPECT_EQ(whyOfLaw(), "");
+  EXPECT_EQ(lawFaultOf(), "");
   shown_.contacts.reset();
   EXPECT_EQ(why(), "") << "what is not shown is not asked for";
 }
@@ -234,13 +234,13 @@ TEST_F(Audit, TurningPlanes) {
   contacts.overlap = {depth};
   contacts.normalForce = {scene_.law.kn * depth};
   contacts.tangentialForce = {0.0};
-  const auto why = [&] { return whyUnsound(shown_, basis(), t); };
+  const auto why = [&] { return auditFault(shown_, basis(), t); };
   EXPECT_EQ(why(), "");
-  EXPECT_EQ(whyOfLaw(), "");
+  EXPECT_EQ(lawFaultOf(), "");
   shown_.velocity[0] *= 2.0;  // leaves it at Ω·arm
-  expectSays(whyOfLaw(), "contact 0 (disk 0 with plane 0): f_n is");
+  expectSays(lawFaultOf(), "contact 0 (disk 0 with plane 0): f_n is");
   contacts.normalForce[0] -= scene_.law.gn * omega * arm;
-  EXPECT_EQ(whyOfLaw(), "");
+  EXPECT_EQ(lawFaultOf(), "");
   contacts.normal = {Vec2(0.0, 1.0)};
   expectSays(why(),
              "(disk 0 with plane 0): its normal is (0.0000, 1.0000), from the positions "
@@ -261,9 +261,9 @@ TEST_F(Audit, StaggeredContacts) {
   for (std::size_t i = 0; i < 3; ++i) shown_.position[i] += dt * shown_.velocity[i];
   shown_.positionTime = dt;
   shown_.velocityTime = 0.5 * dt;
-  EXPECT_EQ(whyUnsound(shown_, basis(), dt), "");
+  EXPECT_EQ(auditFault(shown_, basis(), dt), "");
   shown_.contactTime = dt;
-  expectSays(whyUnsound(shown_, basis(), dt), "overlaps by 1e-05 m, from the positions by -5e-06");
+  expectSays(auditFault(shown_, basis(), dt), "overlaps by 1e-05 m, from the positions by -5e-06");
 }
 
 /// Rigid disks have moved on since their impulse, and no pair is asked for.
@@ -273,57 +273,57 @@ TEST_F(Audit, RigidContacts) {
   shown_.position[1] += dt * shown_.velocity[1];
   shown_.positionTime = shown_.velocityTime = shown_.contactTime = dt;
   shown_.bodies[0].angle = dt;
-  EXPECT_EQ(whyNoContacts(shown_, basis()), "");
+  EXPECT_EQ(contactFault(shown_, basis()), "");
   shown_.velocity[1].setZero();
-  expectSays(whyNoContacts(shown_, basis()), "overlaps by 1e-05 m, from the positions by -0.00019");
+  expectSays(contactFault(shown_, basis()), "overlaps by 1e-05 m, from the positions by -0.00019");
   shown_.position[1].x() -= 19.0 * depth;
-  EXPECT_EQ(whyNoContacts(shown_, basis()), "")
+  EXPECT_EQ(contactFault(shown_, basis()), "")
       << "moved out of another as deep as disk 0 lies in the wall";
 }
 
 TEST_F(Audit, SinglePrecisionIsRounded) {
   contacts().overlap[0] += 1e-9;
   EXPECT_NE(why(), "");
-  realised_.precision = "float";
+  effective_.precision = "float";
   EXPECT_EQ(why(), "");
 }
 
 TEST_F(Audit, NormalForces) {
   contacts().normalForce[1] *= 1.02;
-  expectSays(whyOfLaw(), "contact 1 (disk 0 with wall disk 0): f_n is");
+  expectSays(lawFaultOf(), "contact 1 (disk 0 with wall disk 0): f_n is");
   EXPECT_EQ(why(), "") << "the law is the expensive part";
 }
 
 TEST_F(Audit, DashpotsAreHeldToTheVelocitiesShown) {
   shown_.velocity[1] = {-0.5, 0.0};
-  EXPECT_NE(whyOfLaw(), "");
+  EXPECT_NE(lawFaultOf(), "");
   contacts().normalForce[0] += 0.5 * scene_.law.gn;
-  EXPECT_EQ(whyOfLaw(), "");
+  EXPECT_EQ(lawFaultOf(), "");
 }
 
 TEST_F(Audit, TangentialForces) {
   contacts().tangentialForce[1] = 1.01 * scene_.law.mu * contacts().normalForce[1];
-  expectSays(whyOfLaw(), "|f_t| is");
+  expectSays(lawFaultOf(), "|f_t| is");
   scene_.law.conventions.dashpot = Dashpot::outside;
   shown_.spin = {{1e3, 0.0, 0.0}};
-  EXPECT_EQ(whyOfLaw(), "") << "the dashpot's part is not bounded";
+  EXPECT_EQ(lawFaultOf(), "") << "the dashpot's part is not bounded";
 }
 
 TEST_F(Audit, RigidDisksDoNotPull) {
   can_.lawOptions["normal"] = {"rigid"};
   scene_.law.normal = NormalLaw::rigid;
   contacts().normalForce[1] = -1e-3;
-  expectSays(whyOfLaw(), "rigid disks do not pull");
+  expectSays(lawFaultOf(), "rigid disks do not pull");
 }
 
 TEST_F(Audit, Costs) {
   Stats stats{100, 3, 0.1, 0.1, {}};
-  EXPECT_EQ(whyNoStats(stats, dt, 100.0 * dt), "");
+  EXPECT_EQ(statsFault(stats, dt, 100.0 * dt), "");
   stats.steps = static_cast<std::uint64_t>(-1);
-  expectSays(whyNoStats(stats, dt, 100.0 * dt), "18446744073709551615 steps are counted");
+  expectSays(statsFault(stats, dt, 100.0 * dt), "18446744073709551615 steps are counted");
   stats.steps = 100;
   stats.cpuSeconds = -1.0;
-  expectSays(whyNoStats(stats, dt, 100.0 * dt), "which cannot be");
+  expectSays(statsFault(stats, dt, 100.0 * dt), "which cannot be");
 }
 
 }  // namespace

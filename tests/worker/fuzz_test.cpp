@@ -73,7 +73,7 @@ class Hostile : public ::testing::Test {
     }
     requireAnswerTo(message.request, answer);
     if (message.request == "hello") readAs<Capabilities>(answer.at("capabilities"));
-    if (message.request == "load") readAs<Realised>(answer.at("realised"));
+    if (message.request == "load") readAs<EffectiveParameters>(answer.at("realised"));
     if (message.request == "advance") static_cast<void>(answer.at("time").get<double>());
     if (message.request == "stats") expectSound(statsFromJson(answer.at("stats")));
     if (message.request != "snapshot") return;

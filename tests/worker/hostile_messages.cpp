@@ -113,7 +113,7 @@ void changeFile(std::string& file, Dice& dice) {
 
 std::vector<Message> trueAnswers() {
   ToyEngine engine("");
-  const json realised = jsonOf(engine.load(toyScene(), {}));
+  const json effective = jsonOf(engine.load(toyScene(), {}));
   engine.advance(0.1);
   ArrayWriter arrays;
   json snapshot = {{"ok", true},
@@ -122,7 +122,7 @@ std::vector<Message> trueAnswers() {
   const json hello = {
       {"ok", true}, {"protocol", protocolVersion}, {"capabilities", jsonOf(engine.capabilities())}};
   return {{"hello", hello.dump(), {}},
-          {"load", json{{"ok", true}, {"realised", realised}}.dump(), {}},
+          {"load", json{{"ok", true}, {"realised", effective}}.dump(), {}},
           {"advance", R"({"ok":true,"time":0.1})", {}},
           {"snapshot",
            snapshot.dump(),

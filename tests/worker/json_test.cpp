@@ -142,23 +142,24 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
   const Settings settings = {{"a", true}, {"b", 0.1}, {"c", std::string("x")}};
   EXPECT_EQ(readAs<Settings>(nlohmann::json::parse(jsonOf(settings).dump())), settings);
 
-  const Realised realised = engine.load(test::toyScene(), {});
-  const Realised again = readAs<Realised>(nlohmann::json::parse(jsonOf(realised).dump()));
-  EXPECT_EQ(again.effects, realised.effects);
-  EXPECT_EQ(again.dt, realised.dt);
+  const EffectiveParameters effective = engine.load(test::toyScene(), {});
+  const EffectiveParameters again =
+      readAs<EffectiveParameters>(nlohmann::json::parse(jsonOf(effective).dump()));
+  EXPECT_EQ(again.effects, effective.effects);
+  EXPECT_EQ(again.dt, effective.dt);
   ASSERT_EQ(again.pairs.size(), 1u);
   EXPECT_EQ(again.pairs[0].pair, "a – b");
   EXPECT_EQ(again.pairs[0].kt, 0.2);
   // What a contact does not have is absent, not 0: springs have no restitutions, and rebounds no
   // springs.
-  const nlohmann::json soft = jsonOf(realised)["pairs"][0];
+  const nlohmann::json soft = jsonOf(effective)["pairs"][0];
   EXPECT_TRUE(soft["en"].is_null() && soft["et0"].is_null());
-  Realised rigid = realised;
+  EffectiveParameters rigid = effective;
   rigid.pairs[0] = {"a – b", 0.0, 0.0, 0.0, 0.0, 0.4, 0.0, 0.6};
   const nlohmann::json rebounding = jsonOf(rigid)["pairs"][0];
   for (const char* key : {"kn", "gn", "kt", "gt"}) EXPECT_TRUE(rebounding[key].is_null()) << key;
   EXPECT_EQ(rebounding["en"], 0.0);
-  EXPECT_EQ(readAs<Realised>(jsonOf(rigid)).pairs[0].et0, 0.6);
+  EXPECT_EQ(readAs<EffectiveParameters>(jsonOf(rigid)).pairs[0].et0, 0.6);
   ASSERT_EQ(again.deviations.size(), 1u);
   EXPECT_EQ(again.deviations[0].value, 1e-300);
 
@@ -176,7 +177,7 @@ TEST(WorkerJson, CapabilitiesSettingsRealisedAndStatsComeBack) {
 TEST(WorkerJson, RequiredKey_MissingOrNull_IsRefusedByName) {
   test::ToyEngine engine;
   const Json can = jsonOf(engine.capabilities());
-  const Json realised = jsonOf(engine.load(test::toyScene(), {}));
+  const Json effective = jsonOf(engine.load(test::toyScene(), {}));
   const auto refusal = [](auto read) -> std::string {
     try {
       read();
@@ -187,12 +188,12 @@ TEST(WorkerJson, RequiredKey_MissingOrNull_IsRefusedByName) {
   };
   for (const char* key : {"dt", "precision", "effects", "pairs"})
     for (const bool missing : {true, false}) {
-      Json broken = realised;
+      Json broken = effective;
       if (missing)
         broken.erase(key);
       else
         broken[key] = nullptr;
-      EXPECT_EQ(refusal([&] { readAs<Realised>(broken); }).find(key), 0u) << key;
+      EXPECT_EQ(refusal([&] { readAs<EffectiveParameters>(broken); }).find(key), 0u) << key;
     }
   Json broken = can;
   broken["law_options"]["dashpot"] = {"sideways"};

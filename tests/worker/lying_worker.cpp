@@ -66,15 +66,15 @@ int lyingWorker(const std::string& mischief) {
   std::FILE* requests = ::fdopen(3, "r");
   char* line = nullptr;
   std::size_t size = 0;
-  Realised realised;
-  realised.dt = toyScene().dt;
+  EffectiveParameters effective;
+  effective.dt = toyScene().dt;
   while (::getline(&line, &size, requests) > 0) {
     const auto request = nlohmann::json::parse(line);
     nlohmann::json reply = {{"ok", true},
                             {"protocol", protocolVersion},
                             {"capabilities", jsonOf(ToyEngine().capabilities())},
                             {"writes_over", writesOver(mischief)},
-                            {"realised", jsonOf(realised)}};
+                            {"realised", jsonOf(effective)}};
     if (request.at("request") == "snapshot") {
       reply["snapshot"] = snapshotOf();
       reply["arrays"] = arraysOf(mischief, request.at("file"));

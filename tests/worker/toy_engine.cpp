@@ -32,7 +32,7 @@ Capabilities ToyEngine::capabilities() const {
   return can;
 }
 
-Realised ToyEngine::load(const Scene& scene, const Settings& settings) {
+EffectiveParameters ToyEngine::load(const Scene& scene, const Settings& settings) {
   if (const auto refused = settings.find("refuse"); refused != settings.end()) {
     const auto* reason = std::get_if<std::string>(&refused->second);
     throw UnsupportedScene(reason ? *reason : "has no such thing");
@@ -42,13 +42,13 @@ Realised ToyEngine::load(const Scene& scene, const Settings& settings) {
   if (mischief_ == "once" && loads_ > 1) std::exit(5);
   scene_ = scene;
   steps_ = 0;
-  Realised realised;
-  realised.engine = "toy";
-  realised.dt = mischief_ == "step" ? 0.0 : scene.dt;
-  realised.effects = effectsOf(scene);
-  realised.pairs.push_back({"a – b", scene.law.kn, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
-  realised.deviations.push_back({"rounding", 1e-300, "m", "a sentence"});
-  return realised;
+  EffectiveParameters effective;
+  effective.engine = "toy";
+  effective.dt = mischief_ == "step" ? 0.0 : scene.dt;
+  effective.effects = effectsOf(scene);
+  effective.pairs.push_back({"a – b", scene.law.kn, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
+  effective.deviations.push_back({"rounding", 1e-300, "m", "a sentence"});
+  return effective;
 }
 
 double ToyEngine::advance(double t) {

@@ -13,7 +13,7 @@ class ToyEngine final : public Engine {
   explicit ToyEngine(std::string mischief = "") : mischief_(std::move(mischief)) {}
 
   Capabilities capabilities() const override;
-  Realised load(const Scene& scene, const Settings& settings) override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;

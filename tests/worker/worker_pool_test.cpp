@@ -74,7 +74,7 @@ TEST_F(Pool, HandsAWorkerFromRunToRunToTheSameBits) {
   EXPECT_EQ(first.pid, second.pid);
   EXPECT_EQ(second.pid, third.pid);
   for (const Ran& each : {first, second, third}) EXPECT_EQ(each.force, forceAlone());
-  EXPECT_EQ(pool_.whyAlwaysNew("toy"), "");
+  EXPECT_EQ(pool_.reasonNotReused("toy"), "");
 }
 
 TEST_F(Pool, GivesTwoAtOnceOneEach) {
@@ -96,23 +96,24 @@ TEST_F(Pool, SeesLeftoversAndGivesEachRunAProcessOfItsOwn) {
   EXPECT_NE(first.pid, second.pid);
   EXPECT_EQ(first.force, forceAlone());
   EXPECT_EQ(second.force, forceAlone());
-  EXPECT_EQ(pool_.whyAlwaysNew("toy"),
+  EXPECT_EQ(pool_.reasonNotReused("toy"),
             "what it did after a second load is not what it did after the first");
 }
 
 TEST_F(Pool, SurvivesThatAnEngineCannotBeLoadedTwice) {
   EXPECT_EQ(run("once").force, forceAlone());
   EXPECT_EQ(run("once").force, forceAlone());
-  EXPECT_NE(pool_.whyAlwaysNew("toy").find("it broke down while it was loaded twice: toy, toy at t "
-                                           "= 0 s: ended (exit status 5) during load"),
-            std::string::npos)
-      << pool_.whyAlwaysNew("toy");
+  EXPECT_NE(
+      pool_.reasonNotReused("toy").find("it broke down while it was loaded twice: toy, toy at t "
+                                        "= 0 s: ended (exit status 5) during load"),
+      std::string::npos)
+      << pool_.reasonNotReused("toy");
 }
 
 TEST_F(Pool, TakesNothingOnTrustBeforeContactsWereSeen) {
   const pid_t first = run("lonely").pid;
   EXPECT_NE(run("lonely").pid, first);
-  EXPECT_EQ(pool_.whyAlwaysNew("toy"), "") << "nothing was seen against it either";
+  EXPECT_EQ(pool_.reasonNotReused("toy"), "") << "nothing was seen against it either";
   EXPECT_EQ(pool_.loadsOf(kindOf("lonely")), WorkerPool::Loads::untried);
 }
 
@@ -131,7 +132,7 @@ TEST_F(Pool, EndsAWorkerThatFailedOrIsDistrusted) {
   }
   Ran next = run("");
   EXPECT_NE(next.pid, pid) << "after a failure that the worker itself reported";
-  start("")->distrust();
+  start("")->discardWorker();
   EXPECT_NE(run("").pid, next.pid);
   pid = run("").pid;
   EXPECT_THROW(start("")->load(test::toyScene(), {{"refuse", true}}), UnsupportedScene);

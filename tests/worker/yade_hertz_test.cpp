@@ -152,9 +152,9 @@ TEST_F(YadeWorker, MixesToTheScenesConstantsOfHertzLaw) {
   addDisk(scene, largeRadius, largeMass, {0.1, 0.0}, {0, 0});
   scene.bodies.push_back(ringBody("ring", {0, 0}, 0.3, 4, {}));
   scene.bodies[0].planes.push_back({{0.0, -0.1}, {0.0, 1.0}});
-  const Realised realised = engine_->load(scene, {});
-  ASSERT_EQ(realised.pairs.size(), 5u);
-  for (const PairCoefficients& pair : realised.pairs) {
+  const EffectiveParameters effective = engine_->load(scene, {});
+  ASSERT_EQ(effective.pairs.size(), 5u);
+  for (const PairCoefficients& pair : effective.pairs) {
     // A plane is a sphere of 1e8 radii to YADE.
     const double allowed = pair.pair.ends_with("plane") ? 1e-8 : 1e-14;
     EXPECT_NEAR(pair.kn / scene.law.kn, 1.0, allowed) << pair.pair;
@@ -163,7 +163,7 @@ TEST_F(YadeWorker, MixesToTheScenesConstantsOfHertzLaw) {
     EXPECT_DOUBLE_EQ(pair.gt, scene.law.gt) << pair.pair;
     EXPECT_DOUBLE_EQ(pair.mu, scene.law.mu) << pair.pair;
   }
-  EXPECT_EQ(realised.effects, effectsOf(scene));
+  EXPECT_EQ(effective.effects, effectsOf(scene));
 }
 
 TEST_F(YadeWorker, RefusesWhatItsHertzLawCannotDo) {

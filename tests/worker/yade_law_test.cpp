@@ -33,9 +33,9 @@ TEST_F(YadeWorker, BlocksSpinsThatTheSceneBlocks) {
   addDisk(scene, smallRadius, smallMass, {-smallRadius - 0.5e-6, 0.0}, {0.05, 0.0}, 10.0);
   addDisk(scene, smallRadius, smallMass, {smallRadius + 0.5e-6, 0.0}, {-0.05, 0.0}, -3.0);
   scene.dt = 4e-5;
-  const Realised realised = engine_->load(scene, {});
-  EXPECT_TRUE(realised.effects.contains(Effect::friction));
-  EXPECT_FALSE(realised.effects.contains(Effect::rotation));
+  const EffectiveParameters effective = engine_->load(scene, {});
+  EXPECT_TRUE(effective.effects.contains(Effect::friction));
+  EXPECT_FALSE(effective.effects.contains(Effect::rotation));
   engine_->advance(0.004);
   const Snapshot after = engine_->snapshot(ContactReport::instant);
   EXPECT_EQ(*after.spin, (std::vector<double>{10.0, -3.0}));
@@ -50,10 +50,10 @@ TEST_F(YadeWorker, MixesToTheScenesConstantsForEveryPair) {
   addDisk(scene, largeRadius, largeMass, {0.2, 0.0}, {0, 0});
   scene.bodies.push_back(ringBody("ring", {0, 0}, 0.3, 4, {}));
   scene.bodies[0].planes.push_back({{0.0, -0.1}, {0.0, 1.0}});
-  const Realised realised = engine_->load(scene, {});
+  const EffectiveParameters effective = engine_->load(scene, {});
   // small–large, large–large, and each with a wall disk and a plane; there is one small disk only.
-  ASSERT_EQ(realised.pairs.size(), 6u);
-  for (const PairCoefficients& pair : realised.pairs) {
+  ASSERT_EQ(effective.pairs.size(), 6u);
+  for (const PairCoefficients& pair : effective.pairs) {
     // 1/(1/2k + 1/2k) and tan(atan µ) may be off by an ulp or two; EXPECT_DOUBLE_EQ allows four.
     EXPECT_DOUBLE_EQ(pair.kn, scene.law.kn) << pair.pair;
     EXPECT_DOUBLE_EQ(pair.gn, scene.law.gn) << pair.pair;
@@ -61,8 +61,8 @@ TEST_F(YadeWorker, MixesToTheScenesConstantsForEveryPair) {
     EXPECT_DOUBLE_EQ(pair.gt, scene.law.gt) << pair.pair;
     EXPECT_DOUBLE_EQ(pair.mu, scene.law.mu) << pair.pair;
   }
-  EXPECT_TRUE(realised.deviations.empty());
-  EXPECT_EQ(realised.effects, effectsOf(scene));
+  EXPECT_TRUE(effective.deviations.empty());
+  EXPECT_EQ(effective.effects, effectsOf(scene));
 }
 
 TEST_F(YadeWorker, KeepsMomentumInAnObliqueCollision) {

@@ -18,20 +18,20 @@ Capabilities DisguisedEngine::capabilities() const {
   return can;
 }
 
-Realised DisguisedEngine::load(const Scene& scene, const Settings& /*none*/) {
+EffectiveParameters DisguisedEngine::load(const Scene& scene, const Settings& /*none*/) {
   by_ = disguise_.transform;
   if (disguise_.order) by_.order = shuffledOrder(scene.disks.size(), *disguise_.order);
   own_ = transformed(scene, by_);
   if (disguise_.nudge)
     own_.disks = nudged(own_.disks, std::numeric_limits<double>::epsilon(), *disguise_.nudge);
   engine_ = makeGrain();
-  Realised realised = engine_->load(own_, {});
+  EffectiveParameters effective = engine_->load(own_, {});
   before_ = {};
   advances_ = 0;
-  realised.dt = scene.dt;
-  realised.velocityLag /= by_.units.time;
-  realised.pairs.clear();
-  return realised;
+  effective.dt = scene.dt;
+  effective.velocityLag /= by_.units.time;
+  effective.pairs.clear();
+  return effective;
 }
 
 void DisguisedEngine::beginAnew() {
@@ -55,7 +55,7 @@ double DisguisedEngine::advance(double t) {
 }
 
 Snapshot DisguisedEngine::snapshot(ContactReport contacts) {
-  return toldBack(engine_->snapshot(contacts), by_);
+  return transformedBack(engine_->snapshot(contacts), by_);
 }
 
 Stats DisguisedEngine::stats() const {
@@ -87,7 +87,7 @@ void tellBack(Contacts& contacts, const Transform& by, std::size_t disks, double
 
 }  // namespace
 
-Snapshot toldBack(Snapshot now, const Transform& by) {
+Snapshot transformedBack(Snapshot now, const Transform& by) {
   const Units& units = by.units;
   const double handed = by.placement.mirror ? -1.0 : 1.0;
   const double force = units.of(1, 1, -2), energy = units.of(2, 1, -2);

@@ -26,7 +26,7 @@ class DisguisedEngine final : public Engine {
   DisguisedEngine(const Disguise& disguise, std::filesystem::path scratch);
 
   Capabilities capabilities() const override;
-  Realised load(const Scene& scene, const Settings& settings) override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
   double advance(double t) override;
   Snapshot snapshot(ContactReport contacts) override;
   Stats stats() const override;
@@ -44,6 +44,6 @@ class DisguisedEngine final : public Engine {
 };
 
 /// A snapshot of the transformed scene, told as one of the scene.
-Snapshot toldBack(Snapshot snapshot, const Transform& by);
+Snapshot transformedBack(Snapshot snapshot, const Transform& by);
 
 }  // namespace crossgrain::test

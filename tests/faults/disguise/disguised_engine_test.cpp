@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "adapters/grain.hpp"
-#include "runs/conformance/conformance_scenes.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

@@ -88,11 +88,11 @@ void Simulation::moveWalls() {
 /// @param ahead  how far velocities are brought on [s]
 void Simulation::addForces(double ahead) {
   const World& w = world_;
-  seenVelocity_ = w.velocity;
+  dashpotVelocity_ = w.velocity;
   seenSpin_ = w.spin;
   if (faults_.lagged == 0.0)
     for (std::size_t i = 0; i < w.disks; ++i) {
-      seenVelocity_[i] = w.velocity[i] + (ahead / w.mass[i]) * force_[i];
+      dashpotVelocity_[i] = w.velocity[i] + (ahead / w.mass[i]) * force_[i];
       if (w.turns) seenSpin_[i] = w.spin[i] + ahead * torque_[i] / w.inertia[i];
     }
   torque_.assign(w.disks, 0.0);
@@ -115,12 +115,12 @@ void Simulation::addForces(double ahead) {
 void Simulation::addPlate(std::size_t i) {
   const Plate& plate = world_.plate;
   const double bound = faults_.plateMu * plate.mu * plate.gravity * world_.mass[i];
-  const Vector trial = -plate.kb * plateSpring_[i] - plate.gb * seenVelocity_[i];
+  const Vector trial = -plate.kb * plateSpring_[i] - plate.gb * dashpotVelocity_[i];
   const double size = std::sqrt(dot(trial, trial));
   const bool holds = size <= bound;
   const Vector force = (holds ? 1.0 : bound / size) * trial;
   if (holds)
-    plateSpring_[i] = plateSpring_[i] + world_.dt * seenVelocity_[i];
+    plateSpring_[i] = plateSpring_[i] + world_.dt * dashpotVelocity_[i];
   else
     plateSpring_[i] = (plate.kb > 0.0 ? -1.0 / plate.kb : 0.0) * force;
   force_[i] = force_[i] + force;
@@ -145,7 +145,8 @@ void Simulation::addPairs() {
     const bool flipped = wall && faults_.flippedWalls == static_cast<double>(i + 1);
     const Vector n = ((flipped ? -1.0 : 1.0) / distance) * apart;
     const double rim = arm(i, overlap) * seenSpin_[i] + arm(j, overlap) * seenSpin_[j];
-    Contact c = contact(i, j, n, overlap, seenVelocity_[i] - seenVelocity_[j], rim, pair.spring);
+    Contact c =
+        contact(i, j, n, overlap, dashpotVelocity_[i] - dashpotVelocity_[j], rim, pair.spring);
     if (wall) {
       push(bodyOf_[j - w.disks], w.position[j], c, arm(j, overlap));
     } else {
@@ -177,8 +178,8 @@ void Simulation::addPlanes() {
         wall = wall + ((faults_.planeBelt - 1.0) * along) * turned(plane.normal);
         const double lever = faults_.leverMiddle != 0.0 ? height : w.radius[i];
         const Contact c =
-            contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap, seenVelocity_[i] - wall,
-                    faults_.planeSpin * lever * seenSpin_[i], spring);
+            contact(i, id, (flipped ? -1.0 : 1.0) * plane.normal, overlap,
+                    dashpotVelocity_[i] - wall, faults_.planeSpin * lever * seenSpin_[i], spring);
         push(b, foot, c, 0.0);
       }
       ++springs;

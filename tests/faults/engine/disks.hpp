@@ -89,7 +89,7 @@ class Simulation {
   std::vector<std::size_t> bodyOf_;               ///< of each wall disk
   std::vector<std::vector<double>> planeSpring_;  ///< by plane and disk
   std::vector<Vector> plateSpring_;
-  std::vector<Vector> force_, seenVelocity_, onBody_;
+  std::vector<Vector> force_, dashpotVelocity_, onBody_;
   std::vector<double> torque_, seenSpin_, torqueOnBody_;
   std::vector<Contact> contacts_;
   std::vector<int> touching_;  ///< contacts of each disk in this step

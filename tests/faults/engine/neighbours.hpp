@@ -33,7 +33,7 @@ class Neighbours {
     if (valid(position, faults)) return;
     std::vector<Pair> before;
     before.swap(pairs);
-    chosen_ = position;
+    positionsAtListBuild_ = position;
     find(position, radius, disks);
     ++lists_;
     const bool lost = everyNth(faults.historyLostEvery, lists_);
@@ -47,10 +47,10 @@ class Neighbours {
 
  private:
   bool valid(const std::vector<Vector>& position, const Faults& faults) const {
-    if (chosen_.size() != position.size()) return false;
+    if (positionsAtListBuild_.size() != position.size()) return false;
     const double most = 0.5 * skin_ * faults.listReach;
     for (std::size_t k = 0; k < position.size(); ++k) {
-      const Vector gone = position[k] - chosen_[k];
+      const Vector gone = position[k] - positionsAtListBuild_[k];
       if (!(dot(gone, gone) <= most * most)) return false;
     }
     return true;
@@ -99,7 +99,7 @@ class Neighbours {
     }
   }
 
-  std::vector<Vector> chosen_;  ///< where everything was when the list was made
+  std::vector<Vector> positionsAtListBuild_;  ///< where everything was when the list was made
   double skin_ = 0.0;
   unsigned long long lists_ = 0;
 };

@@ -1,0 +1,166 @@
+#include "reports/flow/endpoint_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cases/endpoints.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+const EndpointSpec* shippedEndpoint(const std::string& name) {
+  const auto found = std::ranges::find(endpointTable(), name, &EndpointSpec::name);
+  return found == endpointTable().end() ? nullptr : &*found;
+}
+
+std::string signedNumber(double value) {
+  return fmt::format("{}{}", value < 0.0 ? "−" : "", readable(std::abs(value)));
+}
+
+/// Which endpoint of a spot-check run differs by most margins.
+const SpotCheckNumber* farthest(const std::vector<SpotCheckNumber>& spotCheck) {
+  const SpotCheckNumber* worst = nullptr;
+  for (const SpotCheckNumber& number : spotCheck)
+    if (finite(number.difference) &&
+        (!worst || std::abs(*number.difference) > std::abs(*worst->difference)))
+      worst = &number;
+  return worst;
+}
+
+}  // namespace
+
+std::string endpointWords(const std::string& name) {
+  const EndpointSpec* const endpoint = shippedEndpoint(name);
+  return endpoint ? std::string(endpoint->words) : spaced(name);
+}
+
+std::string endpointSymbol(const std::string& name, bool ofCell) {
+  const EndpointSpec* const endpoint = ofCell ? shippedEndpoint(name) : nullptr;
+  return endpoint ? std::string(endpoint->symbol) : spaced(name);
+}
+
+std::string wordOf(Answer answer) {
+  static constexpr std::array<const char*, 5> words = {"agree, no difference seen",
+                                                       "agree, small difference", "borderline",
+                                                       "disagree", "undecided"};
+  return words[static_cast<std::size_t>(answer)];
+}
+
+std::string describeDistance(const EndpointRow& row) {
+  const auto distance = finite(row.distance), low = finite(row.distanceLow),
+             high = finite(row.distanceHigh);
+  if (!distance) return {};
+  const std::string size = signedNumber(*distance) + " margins";
+  if (!low || !high) return size;
+  return fmt::format("{} ({} to {})", size, signedNumber(*low), signedNumber(*high));
+}
+
+std::string describeNeeds(const EndpointRow& row) {
+  if (row.answer != Answer::undecided || !row.needs) return {};
+  if (!row.needsAtMost)
+    return fmt::format("{} packings or many more decide with 90 % chance", *row.needs);
+  if (*row.needs == *row.needsAtMost)
+    return fmt::format("about {} packings decide with 90 % chance", *row.needs);
+  return fmt::format("{} to {} packings decide with 90 % chance", *row.needs, *row.needsAtMost);
+}
+
+std::string describeValue(const EndpointRow& row) {
+  const std::string unit = row.unit == "-" ? "" : " " + row.unit;
+  const auto expected = finite(row.reference), difference = finite(row.difference);
+  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+  return fmt::format("{} for {}{}",
+                     expected && difference ? number(*expected + *difference) : absentText,
+                     expected ? number(*expected) : absentText, unit);
+}
+
+std::string describeSurrogate(const EndpointRow& row) {
+  std::vector<std::string> mirrors;
+  for (const std::string& mirror : {row.surrogateA, row.surrogateB})
+    if (!mirror.empty()) mirrors.push_back(mirror);
+  if (mirrors.empty()) return {};
+  std::string words =
+      fmt::format("through {}, B = {} margins", fmt::join(mirrors, " and "), readable(row.bound));
+  if (row.reach)
+    words +=
+        fmt::format(", {} of it could have been missed by the followed run", readable(row.reach));
+  return words;
+}
+
+std::string describeAnswer(const EndpointRow& row) {
+  std::string words = wordOf(row.answer);
+  if (row.kind == PairKind::closedForm)
+    words += fmt::format(" with the closed form ({})", describeValue(row));
+  if (const std::string distance = describeDistance(row); !distance.empty())
+    words += ": " + distance;
+  if (row.lost > 0) words += fmt::format(", {} failed", counted(std::size_t(row.lost), "packing"));
+  if (!row.reason.empty()) words += fmt::format(" ({})", row.reason);
+  for (const std::string& more : {describeSurrogate(row), describeNeeds(row)})
+    if (!more.empty()) words += "; " + more;
+  return words;
+}
+
+std::string describe(const SurrogateEngine& own) {
+  if (!own.carried)
+    return fmt::format("{}: its mirror {} is no surrogate for it: {}.", own.engine, own.mirror,
+                       own.alarm);
+  // The rule of three: no event in n trials leaves at most 3/n, at 95 %.
+  const double unseen = std::min(1.0, 3.0 / static_cast<double>(own.starts));
+  std::string words = fmt::format(
+      "{}: evaluated through its mirror {} (ε_eq {}; {} equal windows leave at most {:.0f} % of "
+      "states different)",
+      own.engine, own.mirror, readable(own.equivalent), own.starts, 100.0 * unseen);
+  words += "; spot check: ";
+  std::vector<std::string> parts;
+  if (!own.late.equivalents.empty()) {
+    std::vector<std::string> changes;
+    for (const EquivalentChange& one : own.late.equivalents)
+      changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
+    parts.push_back(fmt::format(
+        "{} windows of {} over its own run of packing {} differ from the mirror as at most {} "
+        "would",
+        own.late.times.size(), shortDuration(own.late.length), own.late.packing,
+        fmt::join(changes, " or ")));
+  }
+  if (const SpotCheckNumber* const worst = farthest(own.spotCheck))
+    parts.push_back(fmt::format(
+        "its own run of packing {} differs from the mirror's by no more than chaos: {} margins of "
+        "{} at most, where less than {} cannot be seen",
+        own.spotCheckPacking, signedNumber(worst->difference.value_or(0.0)),
+        spaced(worst->endpoint), readable(worst->reach)));
+  return words + fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+std::string describe(const AlarmRow& alarm) {
+  return fmt::format("{} against {}: {}.", alarm.b, alarm.a, alarm.what);
+}
+
+std::string describe(const InterimFindings& looks) {
+  std::vector<int> packings;
+  double spent = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < looks.planned.size(); ++k) {
+    all += looks.planned[k].alpha;
+    if (k >= looks.taken) continue;
+    packings.push_back(looks.planned[k].packings);
+    spent += looks.planned[k].alpha;
+  }
+  const std::string agree = looks.agreeAlpha ? fmt::format("agree tested at {:.3g} % in each; ",
+                                                           100.0 * *looks.agreeAlpha)
+                                             : "";
+  return fmt::format(
+      "Analysed after {} packings ({} of {} interim analyses), {}{:.3g} of {:.3g} % chance of a "
+      "false disagree "
+      "spent; "
+      "{}.",
+      fmt::join(packings, ", "), looks.taken, looks.planned.size(), agree, 100.0 * spent,
+      100.0 * all, looks.ended);
+}
+
+}  // namespace crossgrain::reports

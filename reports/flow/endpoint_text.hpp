@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/endpoints.hpp"
+
+/// Verdicts on endpoints, in words; for the page and the command line alike.
+namespace crossgrain::reports {
+
+/// Name and symbol of an endpoint (cases/endpoints.hpp); of one that a case made up, its
+/// name with blanks.
+std::string endpointWords(const std::string& name);
+/// @param ofCell  whether a cell was averaged: what an assembly calls "stress_ratio" is no
+/// σ_rφ/σ_rr
+std::string endpointSymbol(const std::string& name, bool ofCell);
+
+/// "agree, no difference seen", "agree, small difference", "borderline", "disagree", "undecided".
+std::string wordOf(Answer answer);
+
+/// "0.31 margins (0.05 to 0.57)"; empty where nothing was measured.
+std::string describeDistance(const EndpointRow& row);
+
+/// "24 to 60 packings decide with 90 % chance"; empty where that is not known, or all is decided.
+std::string describeNeeds(const EndpointRow& row);
+
+/// "0.0688 for 0.069 m": an engine's value beside the closed form's.
+std::string describeValue(const EndpointRow& row);
+
+/// "through grain-as-x, B = 0.002 margins"; empty: its own runs.
+std::string describeSurrogate(const EndpointRow& row);
+
+/// All of them in a line.
+std::string describeAnswer(const EndpointRow& row);
+
+/// Whether an engine is evaluated through its mirror, with its spot-check run and 3/n.
+std::string describe(const SurrogateEngine& carried);
+
+std::string describe(const AlarmRow& alarm);
+
+/// Interim analyses, the error probability spent, why there was no further one.
+std::string describe(const InterimFindings& looks);
+
+}  // namespace crossgrain::reports

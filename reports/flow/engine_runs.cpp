@@ -1,0 +1,136 @@
+#include "reports/flow/engine_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/common/engines.hpp"
+#include "reports/common/numbers.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// A member of the ensemble, else of the only finished run.
+template <typename T>
+const T& meansOf(const EngineRuns& engine, T CouetteEnsemble::*ofEnsemble, T FlowRun::*ofRun) {
+  static const T none;
+  if (engine.ensemble) return engine.ensemble->*ofEnsemble;
+  return engine.finished.empty() ? none : engine.finished.front()->*ofRun;
+}
+
+}  // namespace
+
+const std::vector<Profile>& EngineRuns::profiles() const {
+  return meansOf(*this, &CouetteEnsemble::profiles, &FlowRun::profiles);
+}
+const std::vector<Distribution>& EngineRuns::distributions() const {
+  return meansOf(*this, &CouetteEnsemble::distributions, &FlowRun::distributions);
+}
+const std::vector<FitRow>& EngineRuns::fits() const {
+  return meansOf(*this, &CouetteEnsemble::fits, &FlowRun::fits);
+}
+const std::vector<HeadNumber>& EngineRuns::head() const {
+  return meansOf(*this, &CouetteEnsemble::head, &FlowRun::head);
+}
+
+const EffectiveParameters* EngineRuns::effective() const {
+  for (const FlowRun* run : runs)
+    if (run->effective) return &*run->effective;
+  return nullptr;
+}
+
+void EngineRuns::takeRuns(const std::vector<FlowRun>& all,
+                          const std::vector<CouetteEnsemble>& ensembles, const std::string& engine,
+                          const std::string& without) {
+  for (const FlowRun& run : all) {
+    if (run.engine != engine || run.without != without) continue;
+    runs.push_back(&run);
+    if (run.finished()) finished.push_back(&run);
+  }
+  for (const CouetteEnsemble& mean : ensembles)
+    if (mean.engine == engine && mean.without == without && finished.size() > 1) {
+      ensemble = &mean;
+      break;
+    }
+}
+
+std::vector<EngineRuns> engineRuns(const FlowStudy& study,
+                                   const std::vector<CouetteEnsemble>& ensembles) {
+  const std::vector<LineStyle> styles = engineStyles(study.engines);
+  std::vector<EngineRuns> engines;
+  for (const EngineRow& row : study.engines) {
+    EngineRuns engine{row, styles[engines.size()], {}, {}, nullptr};
+    engine.takeRuns(study.runs, ensembles, row.name, "");
+    engines.push_back(std::move(engine));
+  }
+  return engines;
+}
+
+std::vector<EngineRuns> engineRuns(const CompareResults& results) {
+  std::vector<EngineRuns> engines = engineRuns(results, results.ensemble);
+  const bool means =
+      std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
+  for (EngineRuns& engine : engines) {
+    engine.isSingle = means && !engine.ensemble && !engine.finished.empty();
+    for (const SurrogateEngine& own : results.endpoints.carried)
+      if (own.carried && own.engine == engine.name) engine.surrogate = own.mirror;
+  }
+  return engines;
+}
+
+namespace {
+
+/// Two thirds of the way to white.
+std::string paled(const std::string& colour) {
+  std::string pale = "#";
+  for (const std::size_t at : {1u, 3u, 5u}) {
+    const int part = std::stoi(colour.substr(at, 2), nullptr, 16);
+    pale += fmt::format("{:02x}", part + (255 - part) * 2 / 3);
+  }
+  return pale;
+}
+
+}  // namespace
+
+Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width) {
+  Curve curve{engine.name, engine.style, Draw::linesAndPoints, std::move(points), width};
+  if (!engine.isSingle) return curve;
+  curve.name += ", one run";
+  curve.style.colour = paled(curve.style.colour);
+  curve.draw = Draw::lines;
+  for (Point& point : curve.points) point.error.reset();
+  return curve;
+}
+
+namespace {
+
+void addTo(std::optional<double>& sum, std::optional<double> value) {
+  if (value) sum = sum.value_or(0.0) + *value;
+}
+
+}  // namespace
+
+std::optional<double> EngineCost::cpuPerSecond() const {
+  return quotient(cpu, simulated);
+}
+
+EngineCost costOf(const EngineRuns& engine) {
+  EngineCost cost;
+  for (const FlowRun* run : engine.finished) {
+    if (!run->stats) continue;
+    const auto steps = static_cast<double>(run->stats->steps);
+    addTo(cost.steps, steps);
+    addTo(cost.wall, finite(run->stats->wallSeconds));
+    addTo(cost.cpu, finite(run->stats->cpuSeconds));
+    if (run->effective) addTo(cost.simulated, finite(steps * run->effective->dt));
+  }
+  return cost;
+}
+
+std::optional<double> quotient(std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *b == 0.0) return std::nullopt;
+  return *a / *b;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/common/figure.hpp"
+#include "results/compare.hpp"
+
+namespace crossgrain::reports {
+
+/// An engine's part of a study, or a variant's of an engine: its runs and their means. The study
+/// must outlive it.
+struct EngineRuns : EngineRow {
+  LineStyle style;                             ///< a mirror has its peer's, dashed and open
+  std::vector<const FlowRun*> runs, finished;  ///< in the order of the results
+  const CouetteEnsemble* ensemble = nullptr;   ///< null with fewer than two finished runs
+  bool isSingle = false;       ///< one finished run beside means of others: it is drawn pale
+  std::string surrogate = {};  ///< the mirror whose runs its verdicts rest on; empty: its own runs
+
+  /// Of the ensemble, else of the only finished run; empty without one.
+  const std::vector<Profile>& profiles() const;
+  const std::vector<Distribution>& distributions() const;
+  const std::vector<FitRow>& fits() const;
+  const std::vector<HeadNumber>& head() const;
+  /// Of the first run that got as far as loading the scene, or null.
+  const EffectiveParameters* effective() const;
+
+  /// Sets runs, finished and ensemble: of that engine, with that effect switched off (empty: none).
+  void takeRuns(const std::vector<FlowRun>& all, const std::vector<CouetteEnsemble>& ensembles,
+                const std::string& engine, const std::string& without);
+};
+
+/// In the results' order: the reference first. Runs with an effect switched off are left out.
+std::vector<EngineRuns> engineRuns(const FlowStudy& study,
+                                   const std::vector<CouetteEnsemble>& ensembles);
+/// The same with `isSingle` and `surrogate`.
+std::vector<EngineRuns> engineRuns(const CompareResults& results);
+
+/// What is drawn of an engine in its style; of a single run beside means a pale line without bars.
+Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
+
+/// Sums over an engine's finished runs, of stepping alone.
+struct EngineCost {
+  std::optional<double> steps, wall, cpu, simulated;  ///< [-], [s], [s], [s]
+
+  /// CPU time that a second of the scene takes [-].
+  std::optional<double> cpuPerSecond() const;
+};
+EngineCost costOf(const EngineRuns& engine);
+
+/// Absent where one of both is, or b is 0.
+std::optional<double> quotient(std::optional<double> a, std::optional<double> b);
+
+}  // namespace crossgrain::reports

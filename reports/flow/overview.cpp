@@ -1,0 +1,272 @@
+#include "reports/flow/overview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/flow/agreement_entries.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/lockstep/overview.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+int severity(Answer answer) {
+  switch (answer) {
+    case Answer::noDifference:
+      return 0;
+    case Answer::smallDifference:
+      return 1;
+    case Answer::undecided:
+      return 2;
+    case Answer::borderline:
+      return 3;
+    case Answer::disagree:
+      break;
+  }
+  return 4;
+}
+
+CellState answerState(Answer answer, bool isModel) {
+  switch (answer) {
+    case Answer::noDifference:
+    case Answer::smallDifference:
+      return CellState::good;
+    case Answer::undecided:
+      return CellState::undecided;
+    case Answer::borderline:
+      return CellState::borderline;
+    case Answer::disagree:
+      break;
+  }
+  return isModel ? CellState::modelDifference : CellState::bad;
+}
+
+OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
+  static const LockstepFindings none;
+  const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
+  const auto row = std::ranges::find(findings.rows, engine.name, &LockstepRow::engine);
+  return lockstepCell(row == findings.rows.end() ? nullptr : &*row, findings.rules,
+                      !engine.mirrors.empty());
+}
+
+bool alarmed(const CompareResults& results, const std::string& engine) {
+  return std::ranges::any_of(results.endpoints.alarms,
+                             [&](const AlarmRow& alarm) { return alarm.b == engine; });
+}
+
+/// On how many packings the two are in different regimes: means are of different states there.
+std::size_t otherRegime(const CompareResults& results, const std::string& a, const std::string& b) {
+  for (const RegimesOfPair& pair : results.regimes)
+    if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return pair.differ.size();
+  return 0;
+}
+
+/// The engine that is evaluated through a mirror; null: none.
+const SurrogateEngine* surrogateOf(const CompareResults& results, const std::string& mirror) {
+  const auto found = std::ranges::find_if(
+      results.endpoints.carried,
+      [&](const SurrogateEngine& carried) { return carried.carried && carried.mirror == mirror; });
+  return found == results.endpoints.carried.end() ? nullptr : &*found;
+}
+
+OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) {
+  const std::string& reference = results.engines.front().name;
+  const Endpoints& rows = results.endpoints.rows;
+  if (const auto own = rowsOf(rows, closedFormName, engine.name); !own.empty()) {
+    const EndpointRow* worst = worstOf(own);
+    OverviewCell cell = endpointCell(*worst, isModelDifference(results, engine));
+    cell.words += " by the closed form";
+    return cell;
+  }
+  if (engine.name == reference)
+    return {CellState::notApplicable, {}, "margins", {}, "the reference", {}};
+  if (const SurrogateEngine* carried = surrogateOf(results, engine.name)) {
+    const EndpointRow* worst = worstOf(rowsOf(rows, reference, carried->engine));
+    OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
+    cell.words = "surrogate of " + carried->engine;
+    return cell;
+  }
+  const EndpointRow* worst = worstOf(rowsOf(rows, reference, engine.name));
+  if (!worst) return {CellState::notMeasured, {}, "margins", {}, "not compared with it", {}};
+  OverviewCell cell = endpointCell(results, *worst);
+  if (alarmed(results, engine.name)) {
+    cell.state = CellState::bad;
+    cell.words = "ALARM: " + cell.words;
+  }
+  if (const std::size_t packings = otherRegime(results, reference, engine.name); packings > 0)
+    cell.words += fmt::format("; on {} in another regime", counted(packings, "packing"));
+  return cell;
+}
+
+OverviewCell costOfEngine(const EngineRuns& engine) {
+  OverviewCell cell{CellState::notMeasured, costOf(engine).cpuPerSecond(), "s", {}, {}, "engines"};
+  if (!cell.value) return cell;
+  cell.state = CellState::figure;
+  cell.shown = shortDuration(cell.value);
+  return cell;
+}
+
+/// Endpoints that lack a packing, as one of both has no value on it.
+std::size_t endpointsWithoutValue(const CompareResults& results, const std::string& engine) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(results.endpoints.rows, [&](const EndpointRow& row) {
+        return row.lost > 0 && row.b == engine && row.kind != PairKind::mirrorImplementation;
+      }));
+}
+
+OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engine) {
+  OverviewCell cell{CellState::notApplicable, {}, "runs", {}, {}, "packings"};
+  if (engine.status != EngineStatus::ran && engine.runs.empty()) {
+    if (engine.status == EngineStatus::failed) cell.state = CellState::bad;
+    cell.shown = engine.status == EngineStatus::refused ? "refused" : "failed";
+    cell.words = engine.reason;
+    return cell;
+  }
+  if (engine.runs.empty()) return cell;
+  const std::size_t failed = engine.runs.size() - engine.finished.size();
+  cell.value = static_cast<double>(failed);
+  cell.shown = fmt::format("{} of {}", failed, engine.runs.size());
+  cell.state = failed > 0 ? CellState::bad : CellState::good;
+  if (const std::size_t endpoints = endpointsWithoutValue(results, engine.name);
+      failed == 0 && endpoints > 0) {
+    cell.state = CellState::borderline;
+    cell.words = fmt::format("{} without a value somewhere", counted(endpoints, "endpoint"));
+  }
+  return cell;
+}
+
+OverviewCell valueCell(double value, const std::string& unit, CellState state) {
+  const bool plain = unit.empty() || unit == "1" || unit == "-";
+  return {state, value, unit, readable(value) + (plain ? "" : " " + unit), {}, {}};
+}
+
+}  // namespace
+
+const EndpointRow* worstOf(const std::vector<const EndpointRow*>& rows) {
+  const auto size = [](const EndpointRow& row) {
+    return std::abs(finite(row.distance).value_or(0.0));
+  };
+  const EndpointRow* worst = nullptr;
+  for (const EndpointRow* row : rows)
+    if (!worst || std::pair(severity(row->answer), size(*row)) >
+                      std::pair(severity(worst->answer), size(*worst)))
+      worst = row;
+  return worst;
+}
+
+OverviewCell endpointCell(const EndpointRow& row, bool isModel) {
+  OverviewCell cell{answerState(row.answer, isModel), finite(row.distance), "margins", {},
+                    endpointWords(row.endpoint),      "agreement"};
+  if (cell.value)
+    cell.shown =
+        fmt::format("{}{} margins", *cell.value < 0.0 ? "−" : "", readable(std::abs(*cell.value)));
+  return cell;
+}
+
+OverviewCell endpointCell(const CompareResults& results, const EndpointRow& row) {
+  // Both sides have to be true to their laws: a fault of one of them is no model difference.
+  const auto isTrue = [&](const std::string& name) {
+    const auto engine = std::ranges::find(results.engines, name, &EngineRow::name);
+    if (engine == results.engines.end()) return false;
+    return engine == results.engines.begin() || isModelDifference(results, *engine);
+  };
+  const bool isModel = row.kind != PairKind::mirrorImplementation && isTrue(row.a) && isTrue(row.b);
+  OverviewCell cell = endpointCell(row, isModel);
+  const bool alarmed = std::ranges::any_of(results.endpoints.alarms, [&](const AlarmRow& alarm) {
+    return alarm.a == row.a && alarm.b == row.b;
+  });
+  if (alarmed && row.answer == Answer::disagree) cell.state = CellState::bad;
+  if (results.nothingJudged) {
+    cell.state = CellState::notMeasured;
+    cell.words += ", not judged";
+  }
+  return cell;
+}
+
+std::vector<std::string> disagreementsWithMirror(const CompareResults& results,
+                                                 const std::string& engine) {
+  std::vector<std::string> endpoints;
+  for (const EndpointRow& row : results.endpoints.rows)
+    if (row.kind == PairKind::mirrorImplementation && row.b == engine &&
+        row.answer == Answer::disagree)
+      endpoints.push_back(row.endpoint);
+  return endpoints;
+}
+
+bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
+  if (!engine.mirrors.empty()) return true;
+  if (!disagreementsWithMirror(results, engine.name).empty()) return false;
+  if (results.lockstep)
+    for (const LockstepRow& row : results.lockstep->rows)
+      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured &&
+          row.verdict != LockstepVerdict::undecided)
+        return row.verdict != LockstepVerdict::differs;
+  const Endpoints& endpoints = results.endpoints.rows;
+  const std::string& reference = results.engines.front().name;
+  for (const EngineRow& mirror : results.engines) {
+    if (mirror.mirrors != engine.name) continue;
+    bool disagrees = false;
+    for (const EndpointRow* row : rowsOf(endpoints, reference, engine.name)) {
+      if (row->answer != Answer::disagree) continue;
+      disagrees = true;
+      const EndpointRow* own = rowOf(endpoints, mirror.name, engine.name, row->endpoint);
+      if (!own || severity(own->answer) > severity(Answer::smallDifference)) return false;
+    }
+    return disagrees;
+  }
+  return false;
+}
+
+Overview compareOverview(const CompareResults& results) {
+  Overview overview;
+  if (results.engines.empty()) return overview;
+  const std::string& reference = results.engines.front().name;
+  const bool closed = !closedFormEngines(results.endpoints.rows).empty();
+  overview.columns = {
+      {"law verified",
+       "Does the engine have the law that it declares? Its difference from its mirror, step by "
+       "step, in units of the limit.",
+       results.lockstep ? "lockstep" : ""},
+      {closed ? "closed forms" : "largest difference from " + reference,
+       closed ? "The endpoint farthest from its expected value, in margins."
+              : "The worst endpoint, as its distance from the reference in margins.",
+       results.endpoints.rows.empty() ? "" : "agreement"},
+      {"CPU time per simulated second", "Of stepping alone.", "engines"},
+      {"failed runs", "Packings that the engine did not finish.", "packings"}};
+  overview.states = {{CellState::bad, "disagrees, or failed"}};
+  for (const EngineRuns& engine : engineRuns(results))
+    overview.rows.push_back({engine.name,
+                             true,
+                             {lockstepOf(results, engine), averagesOf(results, engine),
+                              costOfEngine(engine), failedRunsOf(results, engine)}});
+  overview.conclusion = compareConclusion(results);
+  return overview;
+}
+
+std::vector<DigestValue> compareValues(const CompareResults& results) {
+  std::vector<DigestValue> values;
+  if (results.engines.empty()) return values;
+  const std::string& reference = results.engines.front().name;
+  for (const EndpointRow& row : results.endpoints.rows) {
+    const auto of = finite(row.reference), difference = finite(row.difference);
+    if (row.a != reference || !of) continue;
+    const std::string quantity = "mean of " + endpointWords(row.endpoint);
+    const auto known = std::ranges::find_if(values, [&](const DigestValue& value) {
+      return value.engine == reference && value.quantity == quantity;
+    });
+    if (known == values.end())
+      values.push_back({reference, quantity, valueCell(*of, row.unit, CellState::figure)});
+    const auto other = std::ranges::find(results.engines, row.b, &EngineRow::name);
+    if (!difference || other == results.engines.end()) continue;
+    values.push_back({row.b, quantity,
+                      valueCell(*of + *difference, row.unit, endpointCell(results, row).state)});
+  }
+  return values;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,253 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "reports/flow/figures.hpp"
+#include "reports/flow/state.hpp"
+
+namespace crossgrain::reports {
+
+namespace {
+
+/// What a profile is divided by before it is drawn, and the axis' name then.
+struct Scaled {
+  double factor = 1.0;
+  std::string label;
+};
+
+/// One plot of one field. Axes: thesis-style r̃, or where both are logarithmic r/R_i, and r without
+/// a wheel.
+struct ProfilePlot {
+  std::string name, field;
+  std::string scales;  ///< of its axes, for the title; empty: linear ones
+  bool logX = false, logY = false;
+  std::optional<double> guide;  ///< exponent of a power law to compare the slope with
+
+  std::string title() const { return fieldWords(field) + scales; }
+};
+
+/// Of bins along x or y.
+const std::vector<ProfilePlot>& regionPlots() {
+  static const std::vector<ProfilePlot> plots = {
+      {"volume_fraction", "volume_fraction", "", false, false, {}},
+      {"velocity_x", "velocity_x", "", false, false, {}},
+      {"velocity_y", "velocity_y", "", false, false, {}},
+      {"spin", "spin", "", false, false, {}},
+      {"stress_xx", "stress_xx", "", false, false, {}},
+      {"stress_yy", "stress_yy", "", false, false, {}},
+      {"stress_xy", "stress_xy", "", false, false, {}},
+      {"coordination", "coordination", "", false, false, {}},
+  };
+  return plots;
+}
+
+const std::vector<ProfilePlot>& profilePlots() {
+  static const std::vector<ProfilePlot> plots = {
+      {"volume_fraction", "volume_fraction", "", false, false, {}},
+      {"azimuthal_velocity", "azimuthal_velocity", "", false, false, {}},
+      {"azimuthal_velocity_log", "azimuthal_velocity", ", log axis", false, true, {}},
+      {"spin", "spin", "", false, false, {}},
+      {"stress_rr", "stress_rr", "", false, false, {}},
+      {"stress_pp", "stress_pp", "", false, false, {}},
+      {"stress_rp", "stress_rp", ", log axes", true, true, -2.0},
+      {"fabric_trace", "fabric_trace", "", false, false, {}},
+  };
+  return plots;
+}
+
+/// v_φ/(ΩR_i) and S d/(ΩD) with D = 2R_i (Lätzel 2003, chapter 6) where the cell has a turning
+/// wheel.
+Scaled scaled(const ProfilePlot& plot, const CouetteCell& cell) {
+  const double rim = cell.omega * cell.innerRadius;
+  const bool turning = rim != 0.0;
+  if (turning && plot.field == "azimuthal_velocity")
+    return {1.0 / rim, "velocity v_{φ} / (Ω R_{i})"};
+  if (turning && cell.diameter > 0.0 && plot.field == "spin")
+    return {cell.diameter / (cell.omega * 2.0 * cell.innerRadius), "spin S d / (Ω D)"};
+  // Shear stress follows the sense of rotation; a logarithmic axis shows no negative values.
+  if (turning && cell.omega < 0.0 && plot.field == "stress_rp")
+    return {-1.0, "− " + fieldAxis(plot.field)};
+  return {1.0, fieldAxis(plot.field)};
+}
+
+void addPoints(const FlowFrame& frame, const EngineRuns& engine, const ProfilePlot& plot,
+               double factor, Curve& curve) {
+  const Profile* profile = profileOf(engine.profiles(), plot.field);
+  if (!profile) return;
+  const double inner = frame.cell.innerRadius;
+  for (std::size_t ring = 0; ring < profile->mean.size(); ++ring) {
+    const auto mean = at(profile->mean, ring), error = at(profile->standardError, ring);
+    auto x = at(plot.logX ? frame.rings.r : binPlaces(frame), ring);
+    if (x && plot.logX && inner > 0.0) *x /= inner;
+    if (!x || !mean) continue;
+    Point point{*x, *mean * factor, {}};
+    if (error && !engine.isSingle) point.error = *error * std::abs(factor);
+    curve.points.push_back(point);
+  }
+}
+
+/// A straight line of that slope on log axes, below all curves.
+std::optional<Curve> powerLaw(const Panel& panel, double exponent) {
+  double factor = INFINITY, first = INFINITY, last = 0.0;
+  for (const Curve& curve : panel.curves)
+    for (const Point& point : curve.points) {
+      if (point.y <= 0.0) continue;
+      factor = std::min(factor, point.y / std::pow(point.x, exponent));
+      first = std::min(first, point.x);
+      last = std::max(last, point.x);
+    }
+  if (last <= 0.0) return std::nullopt;
+  Curve line{"slope " + readableSetting(exponent), {"#888888", 0, true}, Draw::lines, {}, 2.0};
+  for (const double x : {first, last})
+    line.points.push_back({x, 0.8 * factor * std::pow(x, exponent), {}});
+  return line;
+}
+
+void makeFaint(Curve& curve) {
+  curve.name.clear();
+  curve.style = {"#b8bec4", 0, false};
+  curve.draw = Draw::lines;
+  curve.width = 1.0;
+}
+
+Panel profilePanel(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+                   const ProfilePlot& plot, const IsFaint& faint) {
+  const Scaled scale = scaled(plot, frame.cell);
+  Panel panel;
+  const double inner = frame.cell.innerRadius, outer = frame.cell.outerRadius;
+  panel.xLabel = !plot.logX ? binAxis(frame) : inner > 0.0 ? "r / R_{i}" : "r [m]";
+  panel.yLabel = scale.label;
+  panel.logX = plot.logX;
+  panel.logY = plot.logY;
+  for (const EngineRuns& engine : engines) {
+    Curve curve = curveOf(engine);
+    addPoints(frame, engine, plot, scale.factor, curve);
+    if (faint && faint(engine, plot.field)) makeFaint(curve);
+    if (!curve.points.empty()) panel.curves.push_back(std::move(curve));
+  }
+  std::ranges::stable_partition(panel.curves, [](const Curve& c) { return c.name.empty(); });
+  if (plot.field.starts_with("stress_") && !plot.logY) chooseLogY(panel);
+  if (plot.guide)
+    if (auto line = powerLaw(panel, *plot.guide)) panel.curves.push_back(*line);
+  if (!plot.logX) {
+    panel.xRange = rTildeRange(frame);
+    if (plot.field == "spin") panel.level = 0.0;
+  } else if (inner > 0.0 && outer > inner) {
+    panel.xRange = Range{1.0, outer / inner};
+    panel.xTicks = {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
+  }
+  return panel;
+}
+
+const std::vector<ProfilePlot>& plotsOf(const FlowFrame& frame) {
+  return frame.region && frame.region->bins != "rings" ? regionPlots() : profilePlots();
+}
+
+/// Velocity twice, shear stress and volume fraction: a comparison at one glance.
+Figure overview(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+                const IsFaint& faint) {
+  Figure figure;
+  figure.name = "overview";
+  const auto& plots = plotsOf(frame);
+  const bool rings = &plots == &profilePlots();
+  figure.title = rings ? "Azimuthal velocity, shear stress and volume fraction of all engines"
+                       : "Velocity, stresses and volume fraction of all engines";
+  const std::string when = averagedRotations(frame.averaging);
+  figure.caption = describeBars(engines) + (when.empty() ? "" : " Averaged: " + when + ".");
+  figure.columns = 2;
+  figure.panelWidth = 480;
+  figure.panelHeight = 330;
+  figure.png = true;
+  const std::vector<std::string> shown =
+      rings ? std::vector<std::string>{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp",
+                                       "volume_fraction"}
+            : std::vector<std::string>{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
+  for (const std::string& name : shown) {
+    const auto plot = std::ranges::find(plots, name, &ProfilePlot::name);
+    Panel panel = profilePanel(frame, engines, *plot, faint);
+    if (!hasPoints(panel)) continue;
+    panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+/// With the rotations averaged over: cells drift.
+std::string captionOf(const FlowFrame& frame, const ProfilePlot& plot, const Panel& panel) {
+  std::string caption = capitalised(plot.title());
+  const bool guided = std::ranges::any_of(
+      panel.curves, [](const Curve& curve) { return curve.name.starts_with("slope "); });
+  if (guided)
+    caption += fmt::format("; grey: the slope of a power law of exponent {}",
+                           readableSetting(*plot.guide));
+  const bool hidden =
+      panel.logY && std::ranges::any_of(panel.curves, [](const Curve& curve) {
+        return std::ranges::any_of(curve.points, [](const Point& p) { return p.y <= 0.0; });
+      });
+  if (hidden) caption += "; values that are not positive do not show";
+  if (const std::string when = averagedRotations(frame.averaging); !when.empty())
+    caption += "; " + when;
+  return caption + ".";
+}
+
+}  // namespace
+
+const std::vector<double>& binPlaces(const FlowFrame& frame) {
+  return frame.region ? frame.rings.r : frame.rings.rTilde;
+}
+
+const char* binWord(const FlowFrame& frame) {
+  return frame.region ? "bin" : "ring";
+}
+
+std::string binAxis(const FlowFrame& frame) {
+  if (!frame.region) return "(r − R_{i}) / d";
+  return (frame.region->along.empty() ? "r" : frame.region->along) + " [m]";
+}
+
+std::optional<Range> rTildeRange(const FlowFrame& frame) {
+  const CouetteCell& cell = frame.cell;
+  if (cell.outerRadius <= cell.innerRadius || cell.diameter <= 0.0) return std::nullopt;
+  return Range{0.0, (cell.outerRadius - cell.innerRadius) / cell.diameter};
+}
+
+std::string describeBars(const std::vector<EngineRuns>& engines) {
+  std::vector<std::string> single;
+  for (const EngineRuns& engine : engines)
+    if (engine.isSingle)
+      single.push_back(engine.surrogate.empty() ? engine.name
+                                                : fmt::format("{} (its verdicts rest on {})",
+                                                              engine.name, engine.surrogate));
+  const bool ensemble =
+      std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
+  if (!ensemble)
+    return "Bars: ± one standard error within the run: conditional on its one packing, it says "
+           "nothing about other packings.";
+  const std::string over = "Bars: ± one standard error of the mean over packings";
+  return over +
+         (single.empty() ? "." : fmt::format("; pale, without: one run of {}.", listed(single)));
+}
+
+std::vector<Figure> profileFigures(const FlowFrame& frame, const std::vector<EngineRuns>& engines,
+                                   const IsFaint& faint) {
+  std::vector<Figure> figures;
+  if (Figure all = overview(frame, engines, faint); !all.panels.empty())
+    figures.push_back(std::move(all));
+  for (const ProfilePlot& plot : plotsOf(frame)) {
+    Panel panel = profilePanel(frame, engines, plot, faint);
+    if (!hasPoints(panel)) continue;
+    Figure figure;
+    figure.name = "profile_" + plot.name;
+    figure.title = "Profile of the " + plot.title();
+    figure.caption = captionOf(frame, plot, panel);
+    figure.panels.push_back(std::move(panel));
+    figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,191 @@
+#include "reports/lockstep/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reports/common/labels.hpp"
+#include "reports/common/numbers.hpp"
+#include "reports/common/sentences.hpp"
+#include "results/json_fields.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+std::string milliseconds(double time) {
+  return fmt::format("{} ms", readable(1e3 * time));
+}
+
+struct Constant {
+  std::string name, symbol, words;
+};
+
+/// What is no constant, as "tension = cut", stands for itself.
+Constant lookUp(const std::string& name) {
+  static const Constant constants[] = {
+      {"kn", "k_n", "the normal stiffness"},   {"kn3", "k_n3", "the cubic normal stiffness"},
+      {"gn", "γ_n", "the normal damping"},     {"kt", "k_t", "the tangential stiffness"},
+      {"gt", "γ_t", "the tangential damping"}, {"mu", "µ", "the coefficient of friction"},
+      {"en", "e_n", "the normal restitution"}, {"et0", "e_t0", "the tangential restitution"}};
+  const auto* const found = std::ranges::find(constants, name, &Constant::name);
+  return found == std::end(constants) ? Constant{name, name, name} : *found;
+}
+
+}  // namespace
+
+std::string percentText(double fraction) {
+  return fmt::format("{} %", readable(100.0 * fraction));
+}
+
+std::string constantSymbol(const std::string& constant) {
+  return lookUp(constant).symbol;
+}
+
+std::string plainSymbol(const std::string& constant) {
+  std::string symbol = constantSymbol(constant);
+  for (const auto& [mark, below] : {std::pair("_n", "ₙ"), std::pair("_t", "ₜ")})
+    if (const std::size_t at = symbol.find(mark); at != std::string::npos)
+      symbol.replace(at, 2, below);
+  return symbol;
+}
+
+std::string constantWords(const std::string& constant) {
+  return lookUp(constant).words;
+}
+
+std::string verdictWord(LockstepVerdict verdict) {
+  constexpr std::array words = {"not measured",
+                                "identical to rounding",
+                                "identical to its precision",
+                                "equivalent",
+                                "differs",
+                                "undecided"};
+  return words.at(static_cast<std::size_t>(verdict));
+}
+
+std::string describeVerdict(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.verdict != LockstepVerdict::differs) return verdictWord(row.verdict);
+  if (row.term && row.term->name == rules.referencePerturbation && row.term->amount)
+    return fmt::format("differs (equivalent to {} of {})", percentText(std::abs(*row.term->amount)),
+                       constantSymbol(rules.referencePerturbation));
+  if (row.equivalent.value_or(0.0) > rules.sameLaw)
+    return fmt::format("differs ({} times the limit)", readable(*row.equivalent / rules.sameLaw));
+  return fmt::format("differs from {} of {} starts", row.beyond, row.read);
+}
+
+std::string describeReading(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.read == 0) return {};
+  std::string words;
+  if (row.equivalent)
+    words = fmt::format("ε_eq {}{}, limit {}; ", readable(*row.equivalent),
+                        row.equivalentLow < row.equivalentHigh
+                            ? fmt::format(" ({} to {})", readable(*row.equivalentLow),
+                                          readable(*row.equivalentHigh))
+                            : "",
+                        readableSetting(rules.sameLaw));
+  words += fmt::format("read from {} starts, beyond the limit from {}", row.read, row.beyond);
+  if (row.shareHigh && *row.shareHigh < 1.0)
+    words += fmt::format(" (at most {} of all states)", percentText(*row.shareHigh));
+  return words;
+}
+
+std::string describeTerm(const LockstepRow& row) {
+  if (!row.term) return {};
+  const NamedTerm& term = *row.term;
+  const std::string amount = term.amount ? fmt::format(" {}{}", *term.amount < 0.0 ? "−" : "+",
+                                                       percentText(std::abs(*term.amount)))
+                                         : std::string();
+  return fmt::format("{}{} (leaves {} of the difference)", constantSymbol(term.name), amount,
+                     percentText(term.unexplained));
+}
+
+std::string describeFirst(const LockstepRow& row) {
+  if (!row.first) return {};
+  const FirstExceedance& first = *row.first;
+  std::string words = fmt::format("between {} and {} after start {}: disk {}",
+                                  first.after > 0.0 ? milliseconds(first.after) : "0",
+                                  milliseconds(first.until), first.start + 1, first.disk);
+  if (first.partner) words += fmt::format(" with {}", *first.partner);
+  if (!first.contact.empty()) words += fmt::format(" ({})", first.contact);
+  return words;
+}
+
+std::string openInLaw(const LockstepRow& row, const LockstepRules& rules) {
+  if (rules.referencePerturbation != "en" || row.term || !row.severalAtOnce) return {};
+  return "where they part a disk touches several at once, and the law of rigid disks leaves the "
+         "order of these collisions open";
+}
+
+std::string describeResolution(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.verdict != LockstepVerdict::sameToPrecision) return {};
+  return row.resolution && *row.resolution < 1.0
+             ? fmt::format("{} of {} would show", percentText(*row.resolution),
+                           constantSymbol(rules.referencePerturbation))
+             : fmt::format("no change of {} would show",
+                           constantSymbol(rules.referencePerturbation));
+}
+
+std::string describe(const LockstepRow& row, const LockstepRules& rules) {
+  if (row.verdict == LockstepVerdict::notMeasured)
+    return fmt::format("{}: not measured: {}.", row.engine, row.reason);
+  std::string words =
+      fmt::format("{}: {} over {} starts", row.engine, describeVerdict(row, rules), row.starts);
+  if (row.verdict == LockstepVerdict::undecided) words += ": " + row.reason;
+  if (row.separations.size() > 1)
+    words += fmt::format(
+        "; largest difference {} d after {}, {} d after {}", readable(row.separations[0].largest),
+        milliseconds(row.separations[0].time), readable(row.separations.back().largest),
+        milliseconds(row.separations.back().time));
+  if (const std::string reading = describeReading(row, rules);
+      !reading.empty() && row.verdict != LockstepVerdict::sameToRounding &&
+      row.verdict != LockstepVerdict::sameToPrecision)
+    words += "; " + reading;
+  if (const std::string resolution = describeResolution(row, rules); !resolution.empty())
+    words += fmt::format(" ({})", resolution);
+  if (const std::string term = describeTerm(row); !term.empty())
+    words += fmt::format("; deviation found: {}", term);
+  else if (row.verdict == LockstepVerdict::differs)
+    words += "; no single term accounts for it";
+  if (row.verdict != LockstepVerdict::sameToPrecision && row.precise > 0)
+    words += fmt::format("; {} of these starts stay identical to its precision", row.precise);
+  if (row.verdict == LockstepVerdict::differs && row.first)
+    words += fmt::format("; first seen {}", describeFirst(row));
+  if (const std::string open = openInLaw(row, rules);
+      row.verdict == LockstepVerdict::differs && !open.empty())
+    words += fmt::format("; {}", open);
+  if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
+  return words + '.';
+}
+
+std::string leadOf(const LockstepFindings& findings) {
+  std::vector<std::string> same, differ, ordered, open, undecided;
+  for (const LockstepRow& row : findings.rows) {
+    if (row.verdict == LockstepVerdict::notMeasured)
+      open.push_back(row.engine);
+    else if (row.verdict == LockstepVerdict::undecided)
+      undecided.push_back(row.engine);
+    else if (row.verdict == LockstepVerdict::differs && !openInLaw(row, findings.rules).empty())
+      ordered.push_back(row.engine);
+    else
+      (row.verdict == LockstepVerdict::differs ? differ : same).push_back(row.engine);
+  }
+  if (same.empty() && differ.empty() && ordered.empty() && undecided.empty())
+    return "Nothing was measured.";
+  std::vector<std::string> parts;
+  const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
+    if (!names.empty())
+      parts.push_back(fmt::format("{} {}", listed(names), names.size() == 1 ? one : many));
+  };
+  add(same, "is the law that it declares", "are the laws that they declare");
+  add(differ, "is another law than it declares", "are other laws than they declare");
+  add(ordered, "differs from its mirror where disks touch several at once",
+      "differ from their mirrors where disks touch several at once");
+  add(undecided, "is undecided", "are undecided");
+  add(open, "was not measured", "were not measured");
+  return fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+}  // namespace crossgrain::reports

@@ -1,0 +1,363 @@
+#include "studies/collide/collide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "cases/case_files.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "results/collision_fields.hpp"
+#include "results/collision_outcome.hpp"
+#include "results/schema.hpp"
+#include "studies/collide/own_scheme.hpp"
+#include "studies/collide/sweep.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study_cases.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One case of collisions, with what its curves are compared with.
+struct CollisionCase {
+  const Case* setup;
+  std::vector<double> steps;  ///< time steps, a sweep for each [s]
+  std::vector<CollisionStart> starts;
+  OracleCurve oracle = {};  ///< not of a dry run
+};
+
+/// Engines with their versions; empty: it did not answer.
+using VersionedEngines = std::vector<std::pair<EngineEntry, std::string>>;
+
+/// The curves of each engine in each case, step by step; none where it takes no part.
+using CollisionCurves = std::map<RunId, std::vector<CollisionCurve>>;
+
+RunId idOf(const EngineEntry& entry, const Case& setup) {
+  return {entry.name, fullName(setup)};
+}
+
+/// Whether an engine takes part in a case: mirrors only where the case wants them.
+bool takesPart(const EngineEntry& entry, const Case& setup, const std::vector<std::string>& named) {
+  if (entry.mirrors.empty() || isNamed(named, entry)) return true;
+  return setup.run.mirrors && standsForItsPeer(entry, setup.law);
+}
+
+/// The engines of any of the cases, those named first. @throws BadInput, Interrupted
+VersionedEngines enginesForAny(const std::vector<Case>& variants, const RunCommand& command,
+                               const RunStore& store) {
+  std::vector<EngineEntry> engines = selectEngines(command.engines);
+  for (const Case& setup : variants) checkEngineSections(setup);
+  for (const EngineEntry& mirror : mirrorsOf(engines))
+    if (std::ranges::any_of(
+            variants, [&](const Case& setup) { return takesPart(mirror, setup, command.engines); }))
+      engines.push_back(mirror);
+  requireInstalled(engines);
+  VersionedEngines versioned;
+  for (const EngineEntry& entry : engines) {
+    throwIfInterrupted();
+    versioned.emplace_back(entry, "");
+    try {
+      const double timeout = variants.front().run.timeout;
+      versioned.back().second =
+          startEngine(entry, store.scratch(entry.name), timeout)->capabilities().version;
+    } catch (const EngineFailure&) {  // each of its sweeps will say so
+    }
+  }
+  return versioned;
+}
+
+/// All sweeps of a case in one worker, which is started again after a failure. Failures end up in
+/// the curve that failed, and the case is not kept.
+/// @throws Interrupted, BadInput
+CachedTask<std::vector<CollisionCurve>>::Outcome sweepsOf(
+    const EngineEntry& entry, const CollisionCase& each, const fs::path& scratch,
+    const std::function<void(double)>& progress) {
+  std::vector<CollisionCurve> curves;
+  DeclaredOracles declared;
+  std::unique_ptr<Engine> worker;
+  bool failed = false;
+  for (std::size_t k = 0; k < each.steps.size(); ++k) {
+    throwIfInterrupted();
+    const double dt = each.steps[k];
+    try {
+      if (!worker) worker = startAudited(entry, scratch, each.setup->run.timeout);
+      const bool largest = dt == std::ranges::max(each.steps);
+      CollisionCurve curve =
+          runSweep(*worker, entry, *each.setup, dt, each.starts, each.oracle, largest, &declared);
+      if (largest) curve.ownScheme = schemeScore(*worker, entry, *each.setup, dt);
+      // An engine that keeps its own step has nothing new to say at another of the case's.
+      if (std::ranges::find(curves, curve.dt, &CollisionCurve::dt) == curves.end())
+        curves.push_back(std::move(curve));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const BadInput&) {
+      throw;
+    } catch (const std::exception& error) {
+      const bool refused = dynamic_cast<const UnsupportedScene*>(&error) != nullptr;
+      CollisionCurve& none = curves.emplace_back();
+      none.engine = entry.name;
+      none.dt = dt;
+      none.status = refused ? SweepStatus::refused : SweepStatus::failed;
+      none.reason = error.what();
+      // What a law lacks, it lacks at every time step.
+      if (refused) break;
+      worker.reset();
+      failed = true;
+    }
+    progress(static_cast<double>(k + 1) / static_cast<double>(each.steps.size()));
+  }
+  return {std::move(curves), !failed, "done"};
+}
+
+/// In the order of cases, then engines. @param cases, engines  outlive the tasks
+std::vector<CachedTask<std::vector<CollisionCurve>>> tasksOf(
+    const std::vector<CollisionCase>& cases, const VersionedEngines& engines,
+    const std::vector<std::string>& named, const RunStore& store) {
+  std::vector<CachedTask<std::vector<CollisionCurve>>> tasks;
+  for (const auto& [entry, version] : engines)
+    for (const CollisionCase& each : cases) {
+      const Case& setup = *each.setup;
+      if (!takesPart(entry, setup, named)) continue;
+      CachedTask<std::vector<CollisionCurve>> task;
+      task.of = idOf(entry, setup);
+      task.name = fmt::format("{} {} {}", entry.name, setup.name, setup.variant);
+      std::ranges::replace(task.name, ' ', '-');
+      task.label = entry.name + " " + fullName(setup);
+      task.key = runKey(setup, entry.name, version);
+      // Workers in another language are slow, so they go first.
+      task.weight = entry.command ? 2.0 : 1.0;
+      task.work = [&entry, &each, scratch = store.scratch(task.name)](const auto& progress) {
+        return sweepsOf(entry, each, scratch, progress);
+      };
+      tasks.push_back(std::move(task));
+    }
+  return tasks;
+}
+
+/// Why an engine can run no variant at all; empty where it can run any.
+std::string refusalReason(const EngineEntry& entry, const std::vector<Case>& variants,
+                          const CollisionCurves& curves) {
+  std::string reason;
+  for (const Case& setup : variants)
+    if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
+      for (const CollisionCurve& curve : found->second) {
+        if (curve.status != SweepStatus::refused) return {};
+        reason = curve.reason;
+      }
+  return reason;
+}
+
+/// Engines that were named and can run no variant at all were asked for in vain, all of them.
+/// @throws UnsupportedScene
+void requireAnyRun(const VersionedEngines& engines, const std::vector<std::string>& named,
+                   const std::vector<Case>& variants, const CollisionCurves& curves) {
+  std::string refusal;
+  for (const auto& [entry, version] : engines) {
+    if (!isNamed(named, entry)) continue;
+    const std::string why = refusalReason(entry, variants, curves);
+    if (why.empty()) return;
+    if (refusal.empty()) refusal = why;
+  }
+  if (!refusal.empty()) throw UnsupportedScene(refusal);
+}
+
+/// How an engine came through all cases.
+EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
+                const CollisionCurves& curves) {
+  EngineRow row = engineRow(entry, "");
+  // Refusing some variants is no failure; the curves say which.
+  if (const std::string why = refusalReason(entry, variants, curves); !why.empty()) {
+    row.status = EngineStatus::refused;
+    row.reason = why;
+  }
+  for (const Case& setup : variants)
+    if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
+      for (const CollisionCurve& curve : found->second) {
+        if (curve.status == SweepStatus::failed) {
+          row.status = EngineStatus::failed;
+          row.reason = curve.reason;
+        }
+        if (curve.effective) row.version = curve.effective->version;
+      }
+  return row;
+}
+
+/// The oracle on a grid fine enough for a smooth line, about 80 points, at the first v_n.
+CollisionTable fineOracle(const Case& setup) {
+  const auto& psi = setup.collision.psi;
+  const auto parts = std::max<std::size_t>(1, 80 / psi.size());
+  std::vector<CollisionStart> starts;
+  Case one = setup;
+  one.collision.margins.clear();  // nothing is judged by it
+  for (std::size_t k = 0; k < psi.size(); ++k)
+    for (std::size_t part = 0; part < (k + 1 < psi.size() ? parts : 1); ++part) {
+      const double next = k + 1 < psi.size() ? psi[k + 1] : psi[k];
+      const double fraction = static_cast<double>(part) / static_cast<double>(parts);
+      one.collision.psi = {psi[k] + (next - psi[k]) * fraction};
+      starts.push_back(collisionStarts(one).front());
+    }
+  return tableOf(starts, outcomesOf(oracleCurve(one, starts)));
+}
+
+/// All but the engines' curves.
+CollisionVariant variantOf(const CollisionCase& sweep) {
+  const Case& setup = *sweep.setup;
+  const CollidingPair pair = collidingPair(setup);
+  CollisionVariant variant;
+  variant.name = setup.name;
+  variant.variant = setup.variant.empty() ? setup.name : setup.variant;
+  variant.law = describeLaw(setup.law);
+  variant.effects.emplace();
+  for (const Effect effect : effectsOf(collisionScene(setup, sweep.starts, sweep.steps.front())))
+    variant.effects->push_back(toString(effect));
+  variant.closedEn = closedRestitution(setup.law, pair.reducedMass());
+  if (!setup.law.soft()) variant.sticking.et0 = setup.law.et0;
+  variant.slidingConstant = slidingConstant(setup.law, pair);
+  variant.oracle = fineOracle(setup);
+  variant.oracleReason = sweep.oracle.reason;
+  variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle));
+  for (std::size_t k = 0; k < sweep.starts.size(); ++k)
+    if (const std::string& why = sweep.oracle.unsure[k]; !why.empty() && sweep.oracle.ends[k])
+      variant.noLimit.push_back(
+          {sweep.starts[k].psi, sweep.starts[k].vn, sweep.oracle.ends[k]->psi, why});
+  return variant;
+}
+
+std::string collidePlan(const StudyWork& work, const CollideOptions&) {
+  const RunCommand& command = work.line.run;
+  const VersionedEngines engines = enginesForAny(work.cases, command, work.store);
+  std::vector<CollisionCase> cases;
+  std::string head;
+  for (const Case& setup : work.cases) {
+    cases.push_back({&setup, collisionTimeSteps(setup), collisionStarts(setup)});
+    head += fmt::format("{}: {} sweeps of {} collisions\n", fullName(setup),
+                        cases.back().steps.size(), cases.back().starts.size());
+  }
+  const auto tasks = tasksOf(cases, engines, command.engines, work.store);
+  return describeDryRun(head, plannedWork(tasks, "cases", work.store), work.store, command);
+}
+
+/// The collisions of a folder's case files, by file name; cases of other kinds are left out.
+std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::string>& overrides) {
+  std::vector<Case> variants;
+  for (const fs::path& file : caseFilesIn(folder))
+    for (Case& setup : loadCase(file, overrides))
+      if (setup.kind == CaseKind::collision) variants.push_back(std::move(setup));
+  requireOwnNames(variants);
+  if (variants.empty()) throw BadInput(folder.string() + ": none of its cases is a collision");
+  return variants;
+}
+
+/// What a folder's cases are together.
+CaseHead headOfFolder(const fs::path& folder, const std::vector<Case>& variants) {
+  std::string toml;
+  for (const Case& setup : variants)
+    toml += fmt::format("# {}{}{}\n\n{}\n", setup.name, setup.variant.empty() ? "" : ": ",
+                        setup.variant, setup.resolvedToml);
+  const fs::path last = folder.has_filename() ? folder : folder.parent_path();
+  return {last.filename().string(), "", folder.string(), toml};
+}
+
+std::vector<Case> casesToCollide(const CommandLine& line, CollideOptions&) {
+  const fs::path& input = line.inputs.front();
+  std::vector<Case> variants = fs::is_directory(input) ? collisionsOf(input, line.overrides)
+                                                       : loadCase(input, line.overrides);
+  if (variants.front().kind != CaseKind::collision) refuseKind(variants.front(), input, "collide");
+  if (line.only) variants = selectedCases(variants, *line.only);
+  reportKeysWithoutUse(variants, "collide", line.json ? stderr : stdout);
+  return variants;
+}
+
+CollideResults collide(const StudyWork& work, const CollideOptions&) {
+  CollideResults results = collideEngines(work.cases, work.line.run, work.store);
+  if (const fs::path& input = work.line.inputs.front(); fs::is_directory(input))
+    results.head.setup = headOfFolder(input, work.cases);
+  return results;
+}
+
+Outcome outcomeOfCollide(const CollideResults& results, const CommandLine&,
+                         const CollideOptions& options) {
+  std::map<std::string, std::string> reasons;  // the first of each engine
+  for (const CollisionVariant& variant : results.variants)
+    for (const CollisionCurve& curve : variant.curves)
+      if (curve.status == SweepStatus::failed) reasons.emplace(curve.engine, curve.reason);
+  Outcome outcome;
+  for (const auto& [engine, reason] : reasons) outcome.failures.push_back(reason);
+  const CollideCount count = countOf(results);
+  if (count.failed > 0)
+    outcome.status = exitEngineFailed;
+  else if (count.judged() == 0)
+    return notJudged(nothingJudged(results));
+  // An engine that is true to conventions which the case lets it have does what it says. Whether
+  // that is the scene's law, too, is what --strict asks.
+  else if (count.beyondLimits > 0 || (options.strict && count.modelDifference > 0))
+    outcome.status = exitFailed;
+  return outcome;
+}
+
+}  // namespace
+
+CollideResults collideEngines(const std::vector<Case>& variants, const RunCommand& command,
+                              RunStore& store) {
+  const auto started = std::chrono::steady_clock::now();
+  const VersionedEngines engines = enginesForAny(variants, command, store);
+  Progress progress(command.quiet);
+  store.begin();
+  std::vector<CollisionCase> cases;
+  for (const Case& setup : variants) {
+    throwIfInterrupted();
+    CollisionCase each{&setup, collisionTimeSteps(setup), collisionStarts(setup)};
+    each.oracle = oracleCurve(setup, each.starts);
+    cases.push_back(std::move(each));
+  }
+  const auto tasks = tasksOf(cases, engines, command.engines, store);
+  const CollisionCurves curves =
+      byId(tasks, runOrLoad(tasks, store, progress, "collisions", command.jobs));
+  requireAnyRun(engines, command.engines, variants, curves);
+
+  CollideResults results;
+  results.head = headOf(kindCollide, variants.front(), command.commandLine);
+  results.head.setup.variant.clear();
+  for (const CollisionCase& each : cases) {
+    CollisionVariant& variant = results.variants.emplace_back(variantOf(each));
+    for (const auto& [entry, version] : engines) {
+      const auto own = curves.find(idOf(entry, *each.setup));
+      if (own == curves.end()) continue;
+      if (auto order = convergenceOrder(own->second)) {
+        order->name = variant.name;
+        order->variant = variant.variant;
+        results.orders.push_back(std::move(*order));
+      }
+      variant.curves.insert(variant.curves.end(), own->second.begin(), own->second.end());
+    }
+  }
+  for (const auto& [entry, version] : engines)
+    results.engines.push_back(rowOf(entry, variants, curves));
+  results.elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return results;
+}
+
+const Study<CollideOptions, CollideResults> collideStudy = {
+    "collide",
+    {.inputIs = "case file or folder of case files", .selection = true},
+    Keeps::eachCase,
+    [](CollideOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--strict", "engines must follow the scene's law, not only the one that they declare",
+           &own.strict}};
+    },
+    casesToCollide,
+    collidePlan,
+    collide,
+    outcomeOfCollide};
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/collision_scene.hpp"
+#include "oracle/collision_quantities.hpp"
+#include "results/collision.hpp"
+
+namespace crossgrain::inline studies {
+
+/// One outcome per collision of a sweep; absent where the pair did not part or there is no oracle.
+using Outcomes = std::vector<std::optional<CollisionOutcome>>;
+
+/// What a quantity's errors are given in.
+struct ErrorUnit {
+  ErrorUnitKind kind = ErrorUnitKind::range;
+  double value = 1.0;  ///< in the quantity's own unit
+};
+
+/// The range of the oracle's curve, so that no part of it is favoured; where that is below a tenth
+/// of the curve's largest magnitude, as e_n of a linear law, that magnitude; 1 for a curve that is
+/// zero throughout. (Energies are scored in units of the energy before, not by this.)
+ErrorUnit errorUnit(const std::vector<double>& oracle);
+
+/// Whether at least half of the outcomes are there: fewer are no curve to judge by.
+bool mostAreKnown(const Outcomes& outcomes);
+
+/// For each quantity that both the engine and the oracle have, its largest and rms error over the
+/// whole curve; and whether it held, within the case's margins, where there are any. A sweep holds
+/// where every quantity with a margin does and no pair is missing. Where the oracle lacks more than
+/// half of the collisions nothing is judged: the range of what is left is no unit either.
+/// @param units  a score whose units are taken, where it has them: margins are of the scene's curve
+CurveScore scoreSweep(const Case& setup, const std::vector<CollisionStart>& starts,
+                      const Outcomes& found, const Outcomes& oracle,
+                      const CurveScore* units = nullptr);
+
+/// The order of convergence p of each quantity's rms error ∝ dt^p, from two or more time steps;
+/// absent where there is none. Case and variant are left to be filled in.
+/// @param curves  of one engine and one variant
+std::optional<ConvergenceOrder> convergenceOrder(const std::vector<CollisionCurve>& curves);
+
+}  // namespace crossgrain::inline studies

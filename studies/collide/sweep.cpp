@@ -1,0 +1,347 @@
+#include "studies/collide/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "adapters/declared_law.hpp"
+#include "adapters/law_options.hpp"
+#include "adapters/pair_table.hpp"
+#include "adapters/registry.hpp"
+#include "cases/time_step.hpp"
+#include "oracle/collision_flight.hpp"
+#include "studies/collide/contact_account.hpp"
+
+namespace crossgrain::inline studies {
+
+LawDescription describeLaw(const ContactLaw& law) {
+  LawDescription words;
+  for (const LawOption& option : lawOptions())
+    if (mattersTo(law, option.name))
+      words[std::string(option.name)] = std::string(option.values[option.get(law)]);
+  const PairCoefficients has = coefficientsOf(law);
+  const std::pair<const char*, double> constants[] = {
+      {"kn", has.kn}, {"gn", has.gn}, {"kt", has.kt}, {"gt", has.gt}, {"mu", has.mu}};
+  for (const auto& [name, value] : constants)
+    if (value > 0.0) words[name] = value;
+  if (!law.soft()) words["e_n"] = law.en;
+  if (!law.soft() && has.mu > 0.0) words["e_t0"] = law.et0;
+  if (law.normal == NormalLaw::polynomial) words["kn3"] = law.kn3;
+  return words;
+}
+
+LawDescription lawDifference(const ContactLaw& law, const ContactLaw& from) {
+  const LawDescription before = describeLaw(from);
+  LawDescription difference = describeLaw(law);
+  std::erase_if(difference, [&](const auto& word) {
+    const auto found = before.find(word.first);
+    return found != before.end() && found->second == word.second;
+  });
+  // Another normal law has constants of its own; where it is the same one, what is gone is 0.
+  if (law.normal != from.normal) return difference;
+  for (const auto& [name, value] : before)
+    if (std::holds_alternative<double>(value) && !describeLaw(law).contains(name))
+      difference[name] = 0.0;
+  return difference;
+}
+
+namespace {
+
+/// The case's margin of Ψ_f [-]; absent without one.
+std::optional<double> marginOfPsi(const Case& setup, const OracleCurve& oracle) {
+  const auto margin = setup.collision.margins.find("psi_f");
+  if (margin == setup.collision.margins.end()) return std::nullopt;
+  if (!margin->second.relative) return margin->second.value;
+  std::vector<double> psi;
+  for (const auto& end : oracle.ends)
+    if (end) psi.push_back(end->psi);
+  return margin->second.value * errorUnit(psi).value;
+}
+
+/// Margins by which Ψ_f moves at a jump at least.
+constexpr double steepest = 3.0;
+
+/// Where Ψ_f moves by more than three margins while Ψ_i moves by one. Sticking and sliding move it
+/// by one at most; the rest is room for what is steep but smooth in between.
+void findJumps(const Case& setup, const std::vector<CollisionStart>& starts, OracleCurve& oracle) {
+  const auto margin = marginOfPsi(setup, oracle);
+  if (!margin || !setup.law.springs() || !setup.law.soft()) return;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!oracle.ends[k] || !oracle.unsure[k].empty()) continue;
+    for (const double side : {-1.0, 1.0}) {
+      CollisionStart beside = starts[k];
+      beside.psi += side * *margin;
+      try {
+        const double there = oracleOutcome(setup.law, collidingPair(setup), beside).psi;
+        if (std::abs(there - oracle.ends[k]->psi) > steepest * *margin)
+          oracle.unsure[k] = fmt::format(
+              "the law jumps within the margin of psi_f: psi_f is {:.4g} here and {:.4g} at psi_i "
+              "= {:.4g}",
+              oracle.ends[k]->psi, there, beside.psi);
+      } catch (const std::invalid_argument&) {  // nothing is known beside it
+      }
+    }
+  }
+}
+
+}  // namespace
+
+OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts) {
+  OracleCurve curve;
+  for (const CollisionStart& start : starts) {
+    std::string& unsure = curve.unsure.emplace_back();
+    try {
+      const CollisionEnd end = oracleOutcome(setup.law, collidingPair(setup), start);
+      curve.ends.emplace_back(end);
+      if (end.noLimit)
+        unsure = jumpsAtTouch(setup.law, collidingPair(setup), start)
+                     ? "no limit of small time steps: the law jumps at this psi_i = mu gn/gt, "
+                       "sticking from the first touch on, and slipping, end elsewhere"
+                     : "no limit of small time steps: a slip ends while its bound falls, and the "
+                       "outcome goes on varying with log(dt), however small dt is";
+    } catch (const std::exception& none) {
+      curve.ends.emplace_back();
+      unsure = curve.reason = none.what();
+    }
+  }
+  findJumps(setup, starts, curve);
+  return curve;
+}
+
+OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
+                   double dt) {
+  const auto margin = marginOfPsi(setup, oracle);
+  if (!margin) return oracle;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    if (!oracle.ends[k] || !oracle.unsure[k].empty() ||
+        !stepMissesSlip(setup.law, collidingPair(setup), starts[k], dt))
+      continue;
+    CollisionStart late = starts[k];
+    late.late = dt;
+    const double here = oracle.ends[k]->psi;
+    const double there = oracleOutcome(setup.law, collidingPair(setup), late).psi;
+    if (std::abs(there - here) > steepest * *margin)
+      oracle.unsure[k] = fmt::format(
+          "beside the law's jump at psi_i = mu gn/gt: it slips from the first touch on, psi_f "
+          "{:.4g}; "
+          "evaluated first within a step of {:.3g} s it sticks, psi_f {:.4g}",
+          here, dt, there);
+  }
+  return oracle;
+}
+
+const OracleCurve& DeclaredOracles::of(const Case& setup,
+                                       const std::vector<CollisionStart>& starts) {
+  const auto found =
+      std::ranges::find(known_, setup.law, [](const auto& one) { return one.first; });
+  if (found != known_.end()) return *found->second;
+  known_.emplace_back(setup.law, std::make_unique<OracleCurve>(oracleCurve(setup, starts)));
+  return *known_.back().second;
+}
+
+namespace {
+
+/// To nine digits.
+double shortened(double value) {
+  return std::stod(fmt::format("{:.9g}", value));
+}
+
+/// As files have it; absent where no outcome has the quantity.
+std::optional<std::vector<std::optional<double>>> columnOf(const CollisionQuantity& quantity,
+                                                           const Outcomes& outcomes) {
+  std::vector<std::optional<double>> column;
+  for (const auto& outcome : outcomes) {
+    auto value = outcome ? quantity.value(*outcome) : std::nullopt;
+    if (value && quantity.inFiles == CollisionQuantity::InFiles::nineDigits)
+      value = shortened(*value);
+    column.push_back(value);
+  }
+  if (std::ranges::none_of(column, [](const auto& value) { return bool(value); }))
+    return std::nullopt;
+  return column;
+}
+
+}  // namespace
+
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes) {
+  CollisionTable table;
+  for (const CollisionStart& start : starts) {
+    table.psi.push_back(start.psi);
+    table.vn.push_back(start.vn);
+  }
+  for (const CollisionQuantity& quantity : collisionQuantities())
+    if (quantity.inFiles != CollisionQuantity::InFiles::no)
+      table.columns[quantity.id] = columnOf(quantity, outcomes);
+  const auto noLimit = [](const auto& outcome) { return outcome && outcome->end.noLimit; };
+  if (std::ranges::any_of(outcomes, noLimit))
+    for (const auto& outcome : outcomes) table.noLimit.push_back(noLimit(outcome));
+  return table;
+}
+
+double sweepEnd(const Case& setup, double dt, double engineStep) {
+  const double contact = impactTimes(setup).longest;
+  return dt + 2.5 * contact + 20.0 * engineStep;
+}
+
+Outcomes outcomesOf(const OracleCurve& oracle) {
+  Outcomes outcomes;
+  for (const auto& end : oracle.ends)
+    outcomes.push_back(end ? std::optional(outcomeOf(*end)) : std::nullopt);
+  return outcomes;
+}
+
+Outcomes referenceOf(const OracleCurve& oracle) {
+  Outcomes outcomes = outcomesOf(oracle);
+  for (std::size_t k = 0; k < outcomes.size(); ++k)
+    if (!oracle.unsure[k].empty()) outcomes[k].reset();
+  return outcomes;
+}
+
+namespace {
+
+/// The sweep's outcomes; those of a run that is watched also with overlaps and work.
+/// @param law  as the engine runs it
+Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup, const Scene& scene,
+                     const ContactLaw& law, const EffectiveParameters& effective,
+                     const std::vector<CollisionStart>& starts, bool watch) {
+  const double end = sweepEnd(setup, scene.dt, effective.dt);
+  const ContactRecording watched{scene, collidingPair(setup), law, effective, can.slidingFlags};
+  std::vector<std::optional<ContactAccount>> accounts(starts.size());
+  if (watch && can.instantContacts)
+    accounts = recordContacts(engine, watched, end);
+  else
+    engine.advance(end);
+  const Snapshot after = engine.snapshot(ContactReport::none);
+  Outcomes outcomes;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto parted = collisionEnd(scene, after, k, starts[k]);
+    outcomes.push_back(parted ? std::optional(CollisionOutcome{*parted, {}}) : std::nullopt);
+    if (!parted || !accounts[k]) continue;
+    outcomes[k]->end.maxOverlap = accounts[k]->maxOverlap;
+    outcomes[k]->end.lost = accounts[k]->split;
+    outcomes[k]->work = accounts[k]->work;
+  }
+  return outcomes;
+}
+
+/// What the in-house engine makes of the sweep under the law that another declares, at the step
+/// that it takes.
+Outcomes mirrorOutcomes(const Case& setup, const Scene& asRun, const ContactLaw& law, double dt,
+                        const std::vector<CollisionStart>& starts, bool watch) {
+  const auto mirror = engineRegistry().front().make();
+  Scene scene = asRun;
+  scene.law = law;
+  scene.dt = dt;
+  scene.precision = Precision::float64;
+  const EffectiveParameters effective = mirror->load(scene, {});
+  return runOutcomes(*mirror, mirror->capabilities(), setup, scene, law, effective, starts, watch);
+}
+
+/// One engine's curve and how it came about.
+struct SweptCurve {
+  const Case& setup;
+  const std::vector<CollisionStart>& starts;
+  const Scene& asRun;
+  const EffectiveParameters& effective;
+  const Outcomes& found;
+  bool watch;
+  double step;              ///< that references are taken for: atStep() [s]
+  const CurveScore& score;  ///< against the scene's law
+};
+
+/// Against the oracle. Integrator, damping velocity and spring update are conventions that no
+/// solution in continuous time has, and others have no limit of small steps at all: where the curve
+/// is short of the oracle, or there is none, the in-house engine decides, with the same conventions
+/// at the same step. Absent where it is the scene's law.
+std::optional<DeclaredScore> scoreDeclared(const SweptCurve& swept, const EngineEntry& entry,
+                                           const std::optional<ContactLaw>& law,
+                                           DeclaredOracles& oracles) {
+  DeclaredScore score;
+  if (!law) {
+    score.oracleReason = "it has another normal law, whose constants it does not report";
+    return score;
+  }
+  score.law = lawDifference(*law, swept.setup.law);
+  if (score.law.empty()) return std::nullopt;
+  Case declared = swept.setup;
+  declared.law = *law;
+  const OracleCurve oracle =
+      atStep(oracles.of(declared, swept.starts), declared, swept.starts, swept.step);
+  score.oracleReason = oracle.reason;
+  const Outcomes reference = referenceOf(oracle);
+  const bool known = mostAreKnown(reference);
+  if (known) {
+    score.reference = DeclaredReference::oracle;
+    score.score = scoreSweep(declared, swept.starts, swept.found, reference, &swept.score);
+    if (score.score.verdict != CurveVerdict::beyondLimits) return score;
+  }
+  if (!entry.mirrors.empty()) {  // it would be held against itself
+    if (!known) score.reference = DeclaredReference::itself;
+    return score;
+  }
+  if (!law->soft()) return score;
+  CurveScore beside = scoreSweep(
+      declared, swept.starts, swept.found,
+      mirrorOutcomes(declared, swept.asRun, *law, swept.effective.dt, swept.starts, swept.watch),
+      &swept.score);
+  if (known && beside.verdict != CurveVerdict::held) return score;
+  score.reference = DeclaredReference::mirror;
+  score.score = std::move(beside);
+  return score;
+}
+
+}  // namespace
+
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Scene& scene, const EffectiveParameters& effective,
+                       const std::vector<CollisionStart>& starts, bool watch) {
+  const Capabilities can = engine.capabilities();
+  const ContactLaw law = sceneFor(can, entry, setup, scene).scene.law;
+  return runOutcomes(engine, can, setup, scene, law, effective, starts, watch);
+}
+
+CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& limit,
+                        bool watch, DeclaredOracles* declared) {
+  const Scene scene = collisionScene(setup, starts, dt);
+  const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
+  const Capabilities can = engine.capabilities();
+  const Scene asRun = sceneFor(can, entry, setup, scene).scene;
+  const Outcomes found =
+      runOutcomes(engine, can, setup, scene, asRun.law, effective, starts, watch);
+  CollisionCurve curve;
+  curve.engine = entry.name;
+  curve.dt = effective.dt;
+  const double contact = impactTimes(setup).shortest;  // 0 for rigid disks
+  if (contact > 0.0) curve.stepsPerContact = contact / effective.dt;
+  // An engine of impulses does not resolve a contact: its steps excuse nothing.
+  const double step = std::min(dt, effective.dt);
+  const OracleCurve oracle = atStep(limit, setup, starts, step);
+  const auto missing = std::ranges::count_if(found, [](const auto& outcome) { return !outcome; });
+  if (missing > 0) {
+    curve.status = SweepStatus::incomplete;
+    curve.reason = fmt::format("{} pairs did not part", missing);
+  }
+  curve.effective = effective;
+  curve.stats = engine.stats();
+  static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    curve.points.status.push_back(!found[k]                  ? PairStatus::notParted
+                                  : oracle.unsure[k].empty() ? PairStatus::parted
+                                                             : PairStatus::noLimit);
+  curve.points.reason = oracle.unsure;
+  const Outcomes reference = referenceOf(oracle);
+  if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });
+      unknown > 0)
+    curve.reason += fmt::format("{}{} of {} points have no reference", missing > 0 ? "; " : "",
+                                unknown, reference.size());
+  curve.score = scoreSweep(setup, starts, found, reference);
+  if (declared)
+    curve.declared = scoreDeclared(
+        {setup, starts, asRun, effective, found, watch, step, curve.score}, entry,
+        declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass()), *declared);
+  return curve;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "adapters/contact_law.hpp"
+#include "cases/case.hpp"
+#include "cases/collision_scene.hpp"
+#include "oracle/collision_oracle.hpp"
+#include "results/collision.hpp"
+#include "results/collision_score.hpp"
+#include "studies/collide/score.hpp"
+#include "studies/core/engine_access.hpp"
+
+namespace crossgrain::inline studies {
+
+/// Options that matter to the law, and constants that it has.
+LawDescription describeLaw(const ContactLaw& law);
+
+/// Those in which a law differs from another; a constant that it lacks is 0. Empty: it is the same
+/// law.
+LawDescription lawDifference(const ContactLaw& law, const ContactLaw& from);
+
+/// What the oracle says of each start; absent where it has no outcome.
+struct OracleCurve {
+  std::vector<std::optional<CollisionEnd>> ends;
+  std::string reason;  ///< why there is none
+  /// Why there is no reference, in a clause; empty where there is one. The oracle has no outcome,
+  /// or the law no limit of small time steps there, or its outcome jumps nearer to this Ψ_i than
+  /// the case's margin of Ψ_f: an error of v_t that the margin allows after the contact decides,
+  /// within it, on which side of the jump a scheme finds itself.
+  std::vector<std::string> unsure;
+};
+OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& starts);
+
+/// The same for a sweep in steps of dt [s]: beside a jump of the law at the first touch (where
+/// stepMissesSlip()) there is no reference either, if the law ends elsewhere by more than jumps are
+/// told by where it is evaluated a step late. That scales with dt, and hides no sweep: what lacks
+/// most of its references is not judged (mostAreKnown()).
+OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
+                   double dt);
+
+/// Oracles of the laws that an engine declares for the starts of one case. The case's time steps
+/// share them.
+class DeclaredOracles {
+ public:
+  /// @param setup  the same at each call, but for its law
+  const OracleCurve& of(const Case& setup, const std::vector<CollisionStart>& starts);
+
+ private:
+  std::vector<std::pair<ContactLaw, std::unique_ptr<OracleCurve>>> known_;
+};
+
+/// Long enough for every collision of a sweep to be over: contacts last about t_c, a rigid engine's
+/// a few of its own steps [s].
+double sweepEnd(const Case& setup, double dt, double engineStep);
+
+Outcomes outcomesOf(const OracleCurve& oracle);
+
+/// Those that an engine can be compared with.
+Outcomes referenceOf(const OracleCurve& oracle);
+
+/// Ψ_i, v_n and all that is known of the outcomes, with as many digits as files have. Of the
+/// oracle's, `noLimit` marks points that have no limit of small time steps.
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
+
+/// What became of each collision of a scene of collisionScene() that the engine has just loaded.
+/// @param watch  the contacts, step by step: then also with overlaps and work
+Outcomes sweepOutcomes(Engine& engine, const EngineEntry& entry, const Case& setup,
+                       const Scene& scene, const EffectiveParameters& effective,
+                       const std::vector<CollisionStart>& starts, bool watch);
+
+/// One engine on one sweep.
+/// @param watch  the contacts, step by step, for the largest overlap and the energy's whereabouts,
+///               where the engine shows them; the outcome is the same
+/// @param declared  to score the curve against the law that the engine declares, too; null: not
+/// @throws EngineFailure, UnsupportedScene, BadInput
+CollisionCurve runSweep(Engine& engine, const EngineEntry& entry, const Case& setup, double dt,
+                        const std::vector<CollisionStart>& starts, const OracleCurve& oracle,
+                        bool watch, DeclaredOracles* declared = nullptr);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,346 @@
+#include "studies/conformance/conformance.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "adapters/suitability.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "reports/collide/tally.hpp"
+#include "reports/lockstep/text.hpp"
+#include "results/schema.hpp"
+#include "studies/collide/collide.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study.hpp"
+#include "studies/lockstep/comparison.hpp"
+#include "studies/lockstep/identify.hpp"
+#include "studies/lockstep/lockstep.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/terms.hpp"
+#include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain {
+namespace conformance {
+namespace {
+
+constexpr double timeout = 60.0;  // for one answer [s]
+constexpr int mostBreakdowns = 3;
+
+void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
+  try {
+    check.run(context);
+  } catch (const Skipped& skip) {
+    row.outcome = ConformanceOutcome::skipped;
+    row.detail = skip.reason;
+  } catch (const GivenUp&) {
+  } catch (const EngineFailure& failure) {
+    row.outcome = ConformanceOutcome::brokeDown;
+    row.detail = failure.what();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    context.fault(error.what());
+  }
+  row.faults = context.faults.size();
+  result.refused.merge(context.refused);
+  if (row.outcome == ConformanceOutcome::brokeDown) return;
+  result.examined.merge(context.examined);
+  if (context.faults.empty()) return;
+  row.outcome = ConformanceOutcome::failed;
+  row.detail = context.faults.front();
+  row.cause = context.cause.value_or("");
+}
+
+}  // namespace
+
+std::vector<Check> checksOf(bool isMirror) {
+  std::vector<Check> all;
+  for (const Checks& part :
+       {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
+        symmetryChecks(), wallChecks(), contactChecks(), reachChecks(), refusalChecks(),
+        isMirror ? mirrorChecks() : Checks{}})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks,
+                      const std::filesystem::path& scratch,
+                      const std::function<void(const std::string&, double)>& progress) {
+  using Clock = std::chrono::steady_clock;
+  int workers = 0;
+  const CheckContext::Start start = [&](const EngineEntry& of) {
+    return startNew(of, scratch / fmt::format("{}-{}", of.name, ++workers), timeout);
+  };
+  std::unique_ptr<Engine> engine = start(entry);  // all checks share it
+  CheckReport result;
+  result.declared = declaredBy(engine->capabilities());
+  std::vector<ConformanceRow>& rows = result.rows;
+  int breakdowns = 0;
+  for (const Check& check : checks) {
+    throwIfInterrupted();
+    progress(check.name, static_cast<double>(rows.size()) / static_cast<double>(checks.size()));
+    ConformanceRow& row = rows.emplace_back();
+    row.part = "suite";
+    row.name = check.name;
+    row.what = check.what;
+    if (breakdowns >= mostBreakdowns) {
+      row.outcome = ConformanceOutcome::skipped;
+      row.detail = fmt::format("not tried: it broke down {} times before", breakdowns);
+      continue;
+    }
+    const auto began = Clock::now();
+    if (!engine) engine = start(entry);
+    runOne(check, CheckContext(*engine, entry, start), row, result);
+    row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    breakdowns += row.outcome == ConformanceOutcome::brokeDown;
+    // It may have died of it; the next check needs a sound one.
+    if (row.outcome == ConformanceOutcome::brokeDown || row.outcome == ConformanceOutcome::failed)
+      engine.reset();
+  }
+  return result;
+}
+
+}  // namespace conformance
+
+inline namespace studies {
+
+namespace {
+
+/// Collisions of the laws of Lätzel's figure 4.3, or of rigid disks, at 50 steps a contact: whether
+/// they converge is the business of `collide`. Without the pure spring, which has two limits of
+/// small steps (README.md, known limits): no single oracle says which an engine is to reach.
+std::vector<Case> collisionCases(const Capabilities& can) {
+  const bool rigid =
+      conformance::valuesOf(can, ContactLaw{}, "normal") == std::vector<std::string>{"rigid"};
+  const auto file =
+      dataFolder() / "cases/collision" / (rigid ? "hard-sphere.toml" : "figure-4-3.toml");
+  std::vector<std::string> less = {"run.mirrors=false"};
+  if (!rigid) less.emplace_back("collision.steps_per_contact=[50]");
+  std::vector<Case> cases = loadCase(file, less);
+  std::erase_if(cases, [](const Case& each) {
+    return each.law.soft() && each.law.tangential == TangentialLaw::spring;
+  });
+  return cases;
+}
+
+std::vector<FlowState> flowOf(const Case& setup, std::size_t starts) {
+  const double dt = timeStep(setup);
+  const auto inHouse = engineRegistry().front().make();
+  const Packing packing = packingOf(setup, 0, dt, *inHouse, [](double) { throwIfInterrupted(); });
+  return statesAlongTheFlow(setup, {packing}, dt, starts, [](double) {});
+}
+
+std::string contradictionsOf(const Identification& found) {
+  if (!found.closeEnough()) return {};
+  std::vector<std::string> parts;
+  for (const FoundOption& option : found.options)
+    if (option.contradicts())
+      parts.push_back(fmt::format(
+          "it has {} = {}, and declares {}", option.name, fmt::join(option.values, " or "),
+          option.declared.empty() ? "nothing"
+                                  : fmt::format("{}", fmt::join(option.declared, " or "))));
+  for (const FoundConstant& constant : found.constants)
+    parts.push_back(fmt::format("its {} is {:+.3g} % off the case's",
+                                reports::constantSymbol(constant.name), 100.0 * constant.change));
+  for (const std::string& effect : found.missing)
+    if (std::ranges::find(found.declaredMissing, effect) == found.declaredMissing.end())
+      parts.push_back(fmt::format("it does not simulate {}, which it declares", effect));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// A term explains a divergence where it leaves a tenth at most, which is more than anything else
+/// does by chance, and is small enough for responses to be linear: it was tried with 1e-4.
+constexpr double termLeavesAtMost = 0.1, termAmountAtMost = 0.25;
+
+bool explains(const NamedTerm& term) {
+  return term.unexplained <= termLeavesAtMost &&
+         (!term.amount || std::abs(*term.amount) <= termAmountAtMost);
+}
+
+/// Lockstep's own term where it explains the divergence, and the contradictions that identify
+/// finds.
+std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                    const LockstepRow& row) {
+  std::vector<std::string> causes;
+  if (row.term && explains(*row.term))
+    causes.push_back("lockstep's closest term: " + reports::describeTerm(row));
+  const std::string found = contradictionsOf(
+      identify(engine, entry, setup, flowOf(setup, 2), timeStep(setup), [](double) {}));
+  if (!found.empty()) causes.push_back("found from outside: " + found);
+  return fmt::format("{}", fmt::join(causes, "; "));
+}
+
+ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path& scratch) {
+  const Case setup =
+      loadCase(dataFolder() / "cases/couette/quick.toml", {"preparation.rotations=0.1"}).front();
+  ConformanceRow row;
+  row.part = "lockstep";
+  row.name = "FollowsItsMirror";
+  row.what = "it does step by step what the in-house engine does with the conventions declared";
+  const auto engine = startNew(entry, scratch / "lockstep", setup.run.timeout);
+  if (const std::string why = noMirrorReason(entry, engine->capabilities(), setup); !why.empty()) {
+    row.outcome = ConformanceOutcome::skipped;
+    row.detail = why;
+    return row;
+  }
+  const LockstepRow found = holdAgainstMirror(
+      *engine, entry, setup, flowOf(setup, quickLockstepStarts), timeStep(setup), [](double) {});
+  row.detail = reports::describe(found, lockstepRules(setup.law));
+  if (!found.failure.empty()) {
+    row.outcome = ConformanceOutcome::brokeDown;
+    row.detail = found.failure;
+  } else if (found.verdict == LockstepVerdict::notMeasured ||
+             found.verdict == LockstepVerdict::undecided) {
+    row.outcome = ConformanceOutcome::skipped;
+  } else if (found.verdict == LockstepVerdict::differs) {
+    row.outcome = ConformanceOutcome::failed;
+    row.faults = 1;
+    row.cause = causeOf(*engine, entry, setup, found);
+  }
+  return row;
+}
+
+/// What explains the failures, each cause once: lockstep's first, which is the most exact.
+std::string causesOf(const std::vector<ConformanceRow>& rows) {
+  std::vector<std::string> causes;
+  for (const bool lockstep : {true, false})
+    for (const ConformanceRow& row : rows) {
+      if ((row.part == "lockstep") != lockstep || row.cause.empty()) continue;
+      const std::string cause = row.cause.substr(0, row.cause.find(", "));  // without the place
+      if (std::ranges::none_of(causes,
+                               [&](const std::string& known) { return known.starts_with(cause); }))
+        causes.push_back(row.cause);
+    }
+  return fmt::format("{}", fmt::join(causes, "; "));
+}
+
+constexpr const char* collisionsProperty = "collisions of two come to what the declared law says";
+
+ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curve) {
+  ConformanceRow row;
+  row.part = "collisions";
+  row.name = variant.variant.empty() ? variant.name : variant.variant;
+  row.what = collisionsProperty;
+  row.seconds = curve.stats ? curve.stats->wallSeconds : 0.0;
+  switch (outcomeOf(curve)) {
+    case SweepOutcome::held:
+    case SweepOutcome::modelDifference:
+      break;
+    case SweepOutcome::beyondLimits: {
+      reports::Worst worst;
+      worst.look(declaredScore(curve));
+      row.outcome = ConformanceOutcome::failed;
+      row.faults = 1;
+      row.detail = worst.words();
+      if (const auto own = ownDeviation(curve))
+        row.detail += fmt::format("{}off its own time stepping by {:.2g}",
+                                  row.detail.empty() ? "" : "; ", *own);
+      break;
+    }
+    case SweepOutcome::failed:
+      row.outcome = ConformanceOutcome::brokeDown;
+      row.detail = curve.reason;
+      break;
+    case SweepOutcome::notJudged:
+    case SweepOutcome::refused:
+      row.outcome = ConformanceOutcome::skipped;
+      row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
+      break;
+  }
+  return row;
+}
+
+std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabilities& can,
+                                          const std::filesystem::path& scratch) {
+  RunCommand command;
+  command.engines = {entry.name};
+  command.out = scratch / "collisions";
+  command.quiet = true;
+  const std::vector<Case> cases = collisionCases(can);
+  std::vector<ConformanceRow> rows;
+  try {
+    RunStore store(command, "collide", keysOfEach(cases));
+    for (const CollisionVariant& variant : collideEngines(cases, command, store).variants)
+      for (const CollisionCurve& curve : variant.curves) rows.push_back(rowOf(variant, curve));
+  } catch (const UnsupportedScene& refusal) {
+    rows.push_back({"collisions", cases.front().name, collisionsProperty,
+                    ConformanceOutcome::skipped, refusal.what()});
+  }
+  return rows;
+}
+
+}  // namespace
+
+ConformanceResults runConformance(const ConformanceTask& task) {
+  const auto began = std::chrono::steady_clock::now();
+  const EngineEntry& entry = task.entry;
+  const ScratchFolder scratch;
+  const auto wanted = [&](const std::string& name) {
+    return !task.only || name.find(*task.only) != std::string::npos;
+  };
+  std::vector<conformance::Check> checks = conformance::checksOf(!entry.mirrors.empty());
+  std::erase_if(checks, [&](const conformance::Check& check) { return !wanted(check.name); });
+
+  ConformanceResults results;
+  results.head = headOf(kindConformance, Case{}, task.commandLine);
+  results.head.setup.name = entry.name;
+  results.engine = engineRow(entry, "");
+  const Capabilities can = startNew(entry, scratch.path / "hello", 60.0)->capabilities();
+  results.engine.version = can.version;
+  settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
+
+  Progress progress(task.quiet);
+  progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});
+  conformance::CheckReport suite = conformance::runChecks(
+      entry, checks, scratch.path,
+      [&](const std::string& check, double fraction) { progress.update(0, check, fraction); });
+  results.rows = std::move(suite.rows);
+  progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
+  const bool alive = results.count(ConformanceOutcome::brokeDown) < 3;
+  if (alive && wanted("FollowsItsMirror")) {
+    results.rows.push_back(lockstepRow(entry, scratch.path));
+    progress.finish(1, "lockstep");
+  }
+  if (alive && wanted("collisions")) {
+    std::ranges::move(collisionRows(entry, can, scratch.path), std::back_inserter(results.rows));
+    progress.finish(2, "collisions");
+  }
+  if (results.rows.empty())
+    throw BadInput(fmt::format("-k '{}': no check has that in its name", *task.only));
+  results.cause = causesOf(results.rows);
+  if (!task.only) {
+    results.declared = suite.declared.size();
+    for (const std::string& one : suite.declared) {
+      if (suite.examined.contains(one)) continue;
+      const auto why = suite.refused.find(one);
+      results.notExamined.push_back(
+          why == suite.refused.end() ? one : fmt::format("{} ({})", one, why->second));
+    }
+  }
+  for (const ConformanceRow& row : results.rows)
+    if (row.outcome == ConformanceOutcome::brokeDown && results.engine.reason.empty()) {
+      results.engine.status = EngineStatus::failed;
+      results.engine.reason = row.detail;
+    }
+  results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return results;
+}
+
+Outcome outcomeOf(const ConformanceResults& results) {
+  using enum ConformanceOutcome;
+  if (results.count(brokeDown) > 0) return {exitEngineFailed, {results.engine.reason}};
+  if (results.count(failed) > 0) return {exitFailed};
+  return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
+}
+
+}  // namespace studies
+}  // namespace crossgrain

@@ -1,0 +1,389 @@
+#include "studies/core/engine_access.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "adapters/audit.hpp"
+#include "adapters/audit_basis.hpp"
+#include "adapters/law_options.hpp"
+#include "adapters/start_check.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/time_step.hpp"
+#include "studies/core/mirrors.hpp"
+#include "support/bad_input.hpp"
+#include "support/nearest.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+/// An engine whose every snapshot is compared with what must be true of it before anybody sees it;
+/// all else is handed on.
+class AuditedEngine final : public Engine {
+ public:
+  AuditedEngine(std::string name, std::unique_ptr<Engine> engine)
+      : name_(std::move(name)), engine_(std::move(engine)) {}
+
+  Capabilities capabilities() const override { return engine_->capabilities(); }
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    EffectiveParameters effective = engine_->load(scene, settings);
+    scene_ = scene;
+    basis_ = auditBasis(scene_, engine_->capabilities(), effective);
+    reached_ = 0.0;
+    return effective;
+  }
+  double advance(double t) override {
+    reached_ = engine_->advance(t);
+    return *reached_;
+  }
+  /// @throws EngineFailure of one line: engine, scene, time, and what cannot be
+  Snapshot snapshot(ContactReport contacts) override {
+    Snapshot seen = engine_->snapshot(contacts);
+    if (const std::string why = auditFault(seen, basis_, reached_); !why.empty()) {
+      discardWorker(*engine_);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its snapshot cannot be: {}", name_,
+                                      scene_.name, reached_.value_or(seen.positionTime), why));
+    }
+    return seen;
+  }
+  Stats stats() const override { return engine_->stats(); }
+  void checkpoint(const std::filesystem::path& file) override { engine_->checkpoint(file); }
+  void restore(const std::filesystem::path& file) override {
+    engine_->restore(file);
+    reached_.reset();
+  }
+
+  Engine& inner() { return *engine_; }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Engine> engine_;
+  Scene scene_;  ///< as the engine was given it
+  AuditBasis basis_;
+  std::optional<double> reached_;  ///< what advance() returned last; absent: not known [s]
+};
+
+std::string typeName(const SettingValue& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, bool>) return "true or false";
+        if constexpr (std::is_same_v<T, double>) return "a number";
+        return "a string";
+      },
+      value);
+}
+
+std::vector<std::string> knownEngines() {
+  std::vector<std::string> names;
+  for (const EngineEntry& entry : engineRegistry()) names.push_back(entry.name);
+  return names;
+}
+
+}  // namespace
+
+std::string ownProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe").string();
+}
+
+std::vector<EngineEntry> selectEngines(const std::vector<std::string>& names) {
+  std::vector<EngineEntry> engines;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (const EngineEntry& entry : engineRegistry())
+        if (entry.mirrors.empty() && (!entry.missing || entry.missing().empty()) &&
+            std::ranges::find(engines, entry.name, &EngineEntry::name) == engines.end())
+          engines.push_back(entry);
+      continue;
+    }
+    const EngineEntry* entry = findEngine(name);
+    if (!entry)
+      throw BadInput(fmt::format("--engines: there is no engine '{}'{}", name,
+                                 suggestion(name, knownEngines())));
+    if (std::ranges::find(engines, name, &EngineEntry::name) != engines.end())
+      throw BadInput(fmt::format("--engines: '{}' is named twice", name));
+    engines.push_back(*entry);
+  }
+  return engines;
+}
+
+bool isNamed(const std::vector<std::string>& names, const EngineEntry& entry) {
+  return std::ranges::find(names, entry.name) != names.end();
+}
+
+void checkEngineSections(const Case& setup) {
+  for (const auto& [name, settings] : setup.engines) {
+    const auto near = nearest(name, knownEngines());
+    if (!findEngine(name) && near)
+      throw BadInput(fmt::format("{}: [engines.{}]: there is no such engine (did you mean {}?)",
+                                 whereSaid(setup, "engines." + name), name, *near));
+  }
+}
+
+std::vector<EngineEntry> mirrorsOf(const std::vector<EngineEntry>& engines) {
+  std::vector<EngineEntry> mirrors;
+  for (const EngineEntry& entry : engineRegistry()) {
+    const bool peerRuns =
+        std::ranges::find(engines, entry.mirrors, &EngineEntry::name) != engines.end();
+    const bool runsAlready =
+        std::ranges::find(engines, entry.name, &EngineEntry::name) != engines.end();
+    if (peerRuns && !runsAlready) mirrors.push_back(entry);
+  }
+  return mirrors;
+}
+
+bool standsForItsPeer(const EngineEntry& mirror, const ContactLaw& law) {
+  return std::ranges::find(mirror.mirrorsNormal, lawOptionValue(law, "normal")) !=
+         mirror.mirrorsNormal.end();
+}
+
+std::vector<EngineEntry> enginesFor(const Case& setup, const std::vector<std::string>& names) {
+  checkEngineSections(setup);
+  std::vector<EngineEntry> engines = selectEngines(names);
+  if (setup.run.mirrors)
+    for (const EngineEntry& mirror : mirrorsOf(engines))
+      if (standsForItsPeer(mirror, setup.law)) engines.push_back(mirror);
+  return engines;
+}
+
+namespace {
+
+/// @throws BadInput if it is not installed
+WorkerPool::Kind workerOf(const EngineEntry& entry) {
+  requireInstalled({entry});
+  return {entry.name, entry.command
+                          ? entry.command()
+                          : std::vector<std::string>{ownProgram(), "__serve", entry.name}};
+}
+
+}  // namespace
+
+void requireInstalled(const std::vector<EngineEntry>& engines) {
+  for (const EngineEntry& entry : engines)
+    if (entry.missing)
+      if (const std::string why = entry.missing(); !why.empty())
+        throw BadInput(fmt::format("engine {} is not available: {}", entry.name, why));
+}
+
+std::unique_ptr<Engine> startEngine(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                    double timeout) {
+  return std::make_unique<PooledEngine>(workerPool(), workerOf(entry), scratch, timeout);
+}
+
+std::unique_ptr<Engine> startNew(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                 double timeout, ExchangeListener listener) {
+  const WorkerPool::Kind kind = workerOf(entry);
+  return std::make_unique<WorkerEngine>(kind.name, kind.call, scratch, timeout,
+                                        std::move(listener));
+}
+
+std::unique_ptr<Engine> startAudited(const EngineEntry& entry, const std::filesystem::path& scratch,
+                                     double timeout) {
+  return audited(entry.name, startEngine(entry, scratch, timeout));
+}
+
+std::unique_ptr<Engine> audited(std::string name, std::unique_ptr<Engine> engine) {
+  return std::make_unique<AuditedEngine>(std::move(name), std::move(engine));
+}
+
+void discardWorker(Engine& engine) {
+  if (auto* const pooled = dynamic_cast<PooledEngine*>(&engine)) pooled->discardWorker();
+  if (auto* const audited = dynamic_cast<AuditedEngine*>(&engine)) discardWorker(audited->inner());
+}
+
+namespace {
+
+bool isWithin(const SettingSpec& spec, double number) {
+  return std::isfinite(number) && spec.least <= number && number <= spec.most &&
+         (!spec.whole || number == std::floor(number));
+}
+
+std::string rangeOf(const SettingSpec& spec) {
+  const std::string kind = spec.whole ? "a whole number " : "";
+  if (std::isfinite(spec.most))
+    return fmt::format("{}from {:g} to {:g}", kind, spec.least, spec.most);
+  return fmt::format("{}>= {:g}", kind, spec.least);
+}
+
+}  // namespace
+
+Settings settingsFor(const Case& setup, const std::string& engine, const Capabilities& can) {
+  Settings settings = settingsSaid(setup, engine);
+  const auto section = setup.engines.find(engine);
+  for (const auto& [name, value] : settings) {
+    const bool ofCase = section != setup.engines.end() && section->second.contains(name);
+    const std::string where =
+        ofCase ? fmt::format("{}: [engines.{}]",
+                             whereSaid(setup, fmt::format("engines.{}.{}", engine, name)), engine)
+               : fmt::format("{}: [settings] of its file:", engine);
+    const auto spec = std::ranges::find(can.settings, name, &SettingSpec::name);
+    if (spec == can.settings.end()) {
+      std::vector<std::string> known;
+      for (const SettingSpec& each : can.settings) known.push_back(each.name);
+      throw BadInput(
+          fmt::format("{} there is no setting '{}'{}", where, name, suggestion(name, known)));
+    }
+    if (value.index() != spec->defaultValue.index())
+      throw BadInput(fmt::format("{} {} must be {}, not {}", where, name,
+                                 typeName(spec->defaultValue), typeName(value)));
+    if (const auto* number = std::get_if<double>(&value); number && !isWithin(*spec, *number))
+      throw BadInput(fmt::format("{} {} = {:g} must be {}", where, name, *number, rangeOf(*spec)));
+    if (const auto* text = std::get_if<std::string>(&value); text && !spec->choices.empty())
+      if (std::ranges::find(spec->choices, *text) == spec->choices.end())
+        throw BadInput(fmt::format("{} {} cannot be '{}' (it is one of: {})", where, name, *text,
+                                   fmt::join(spec->choices, ", ")));
+  }
+  return withStep(std::move(settings), setup, can);
+}
+
+namespace {
+
+/// Does `work`, and says engine and case where it is refused.
+template <typename Work>
+auto namingRefusals(const EngineEntry& entry, const Case& setup, Work&& work) {
+  try {
+    return work();
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(
+        fmt::format("{} cannot run {}: {}", entry.name, setup.file.string(), refusal.what()));
+  }
+}
+
+/// An engine's own time step, if it runs soft laws with it. @param law  as it runs it
+void checkOwnStep(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                  const ContactLaw& law, const Settings& settings) {
+  const auto step = settings.find("dt");
+  if (step == settings.end() || !std::holds_alternative<double>(step->second)) return;
+  const auto normal = can.lawOptions.find("normal");
+  if (normal != can.lawOptions.end() && normal->second == std::vector<std::string>{"rigid"}) return;
+  Case own = setup;
+  own.law = law;
+  const std::string why = unstableStepFault(own, std::get<double>(step->second),
+                                            fmt::format("[engines.{}] dt", entry.name));
+  if (!why.empty())
+    throw BadInput(
+        fmt::format("{}: {}", whereSaid(setup, fmt::format("engines.{}.dt", entry.name)), why));
+}
+
+}  // namespace
+
+void checkSuitable(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                   const Scene& scene) {
+  const Adapted adapted =
+      namingRefusals(entry, setup, [&] { return sceneFor(can, entry, setup, scene); });
+  checkOwnStep(can, entry, setup, adapted.scene.law, settingsFor(setup, entry.name, can));
+}
+
+Adapted sceneFor(const Capabilities& can, const EngineEntry& entry, const Case& setup,
+                 const Scene& scene) {
+  if (entry.mirrors.empty()) return adaptScene(can, scene, setup.run.mayDiffer);
+  Adapted theirs = sceneOfPeer(entry, setup, scene);
+  Adapted own = adaptScene(can, theirs.scene, setup.run.mayDiffer);
+  std::ranges::move(own.deviations, std::back_inserter(theirs.deviations));
+  return {std::move(own.scene), std::move(theirs.deviations)};
+}
+
+EffectiveParameters loadAdapted(Engine& engine, const EngineEntry& entry, const Case& setup,
+                                const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  EffectiveParameters effective = engine.load(adapted.scene, settingsFor(setup, entry.name, can));
+  effective.engine = entry.name;
+  effective.version = can.version;
+  effective.deviations.insert(effective.deviations.begin(), adapted.deviations.begin(),
+                              adapted.deviations.end());
+  if (auto step = stepDeviation(effective.dt, scene.dt))
+    effective.deviations.push_back(std::move(*step));
+  return effective;
+}
+
+EffectiveParameters loadScene(Engine& engine, const EngineEntry& entry, const Case& setup,
+                              const Scene& scene) {
+  if (const std::string why = startFault(scene); !why.empty())
+    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  return namingRefusals(entry, setup, [&] { return loadAdapted(engine, entry, setup, scene); });
+}
+
+void requireSameStep(const EffectiveParameters& first, const EffectiveParameters& now) {
+  if (now.dt != first.dt || now.precision != first.precision)
+    throw EngineFailure(
+        fmt::format("from one start of the case its step is {} s ({}), from another {} s ({})",
+                    first.dt, first.precision, now.dt, now.precision));
+}
+
+LoadedEngine loadEngine(const EngineEntry& entry, const Case& setup, const Scene& scene,
+                        const std::filesystem::path& scratch) {
+  LoadedEngine loaded;
+  loaded.engine = startAudited(entry, scratch, setup.run.timeout);
+  loaded.can = loaded.engine->capabilities();
+  loaded.effective = loadScene(*loaded.engine, entry, setup, scene);
+  return loaded;
+}
+
+namespace {
+
+const double* stepIn(const Settings& settings) {
+  const auto found = settings.find("dt");
+  return found == settings.end() ? nullptr : std::get_if<double>(&found->second);
+}
+
+}  // namespace
+
+Settings settingsSaid(const Case& setup, const std::string& engine) {
+  Settings settings;
+  if (const auto section = setup.engines.find(engine); section != setup.engines.end())
+    settings = section->second;
+  if (const EngineEntry* const entry = findEngine(engine))
+    settings.insert(entry->settings.begin(), entry->settings.end());
+  return settings;
+}
+
+Settings withStep(Settings settings, const Case& setup, const Capabilities& can) {
+  const bool has = std::ranges::find(can.settings, "dt", &SettingSpec::name) != can.settings.end();
+  if (setup.run.dt && has) settings.try_emplace("dt", 0.0);
+  return settings;
+}
+
+std::optional<double> stepOfItsOwn(const Case& setup, const std::string& engine,
+                                   const Capabilities& can) {
+  Settings used;
+  for (const SettingSpec& spec : can.settings) used[spec.name] = spec.defaultValue;
+  Settings given = withStep(settingsSaid(setup, engine), setup, can);
+  given.merge(used);
+  const double* step = stepIn(given);
+  return step && *step > 0.0 ? std::optional(*step) : std::nullopt;
+}
+
+std::optional<Deviation> stepDeviation(double engineStep, double sceneStep) {
+  constexpr double roundings = 1e-12;
+  if (!(std::abs(engineStep - sceneStep) > roundings * sceneStep)) return std::nullopt;
+  return Deviation{
+      "dt", engineStep, "s",
+      fmt::format("takes steps of {:.4g} s, the case's are {:.4g} s", engineStep, sceneStep)};
+}
+
+Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                          const Scene& scene) {
+  const Capabilities can = engine.capabilities();
+  settingsFor(setup, entry.name, can);
+  const Adapted adapted = sceneFor(can, entry, setup, scene);
+  std::vector<Deviation> deviations = adapted.deviations;
+  Effects effects = simulatedEffects(can, adapted.scene);
+  Suitability found;
+  if (scene.disks.size() > 0 && startFault(scene).empty()) {
+    const EffectiveParameters effective = loadAdapted(engine, entry, setup, scene);
+    deviations = effective.deviations;
+    effects = effective.effects;
+    found.dt = effective.dt;
+  }
+  for (const Deviation& deviation : deviations) found.deviations.push_back(deviation.note);
+  for (const Effect effect : effectsOf(scene))
+    if (!effects.contains(effect)) found.notSimulated.emplace_back(toString(effect));
+  return found;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "adapters/engine.hpp"
+#include "studies/core/engine_access.hpp"
+
+namespace crossgrain::inline studies {
+
+/// Advances in pieces that an engine can answer within its time-out; Ctrl-C is heard in between.
+/// @throws EngineFailure if it stops anywhere else, Interrupted
+void advanceInPieces(Engine& engine, const EffectiveParameters& effective, double from, double to);
+
+/// What a step of an engine takes, from a brief look.
+struct BriefTiming {
+  EffectiveParameters effective;      ///< its scene, with the engine's own time step
+  double secondsPerStep = 0.0;        ///< wall time [s]
+  int steps = 0;                      ///< that were timed
+  std::optional<std::size_t> memory;  ///< most that its worker held so far [bytes]
+};
+
+/// Loads the scene and does steps, about a tenth of a second of them after a few to warm up.
+/// @throws UnsupportedScene, EngineFailure, BadInput
+BriefTiming briefTiming(Engine& engine, const EngineEntry& entry, const Case& setup,
+                        const Scene& scene);
+
+/// The most that an engine's worker and what it has started held in memory so far: the sum of
+/// VmHWM of /proc/PID/status (proc(5)) over those that still run [bytes]. Pages that several share
+/// count in each. Absent for an engine that is no worker, or has gone.
+std::optional<std::size_t> mostMemoryOf(const Engine& engine);
+
+/// What programs can still have without swapping: MemAvailable of /proc/meminfo [bytes]; absent
+/// where the kernel does not say.
+std::optional<std::size_t> availableMemory();
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <compare>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results/json_fields.hpp"
+#include "studies/core/run_store.hpp"
+#include "support/task_pool.hpp"
+
+namespace crossgrain::inline studies {
+
+/// How long work goes on at its speed so far, in words: "12 s left". Nothing is predicted within
+/// the first second and the first hundredth.
+/// @param fraction  of the work that is done
+/// @param elapsed  since it began [s]
+std::string timeLeft(double fraction, double elapsed);
+
+/// What is done of some pieces of work, shown on standard error: one line that is redrawn with the
+/// time left on a terminal, a plain line per finished piece elsewhere. Safe to call from all
+/// threads.
+class Progress {
+ public:
+  /// @param quiet  shows nothing
+  explicit Progress(bool quiet);
+  ~Progress();
+
+  /// A new stage of work; weights [any unit] say how long each of its pieces takes.
+  void begin(const std::string& stage, std::vector<double> weights);
+
+  /// Piece `index` is done to that fraction; label is shown while it runs.
+  void update(std::size_t index, const std::string& label, double fraction);
+  /// Piece `index` is over; `line` says how it ended.
+  void finish(std::size_t index, const std::string& line);
+  /// A line of its own.
+  void say(const std::string& line);
+
+ private:
+  void draw();
+  void erase();
+
+  bool quiet_, terminal_;
+  std::mutex mutex_;
+  std::string stage_;
+  std::vector<double> weights_, fractions_;
+  std::size_t finished_ = 0;
+  std::vector<std::string> running_;
+  std::chrono::steady_clock::time_point started_, drawn_;
+  bool lineOpen_ = false;
+};
+
+/// What a run is: whose, of which case or change of it, from which packing. Results are looked up
+/// by it.
+struct RunId {
+  std::string engine, variant = {};
+  int packing = 0;
+  auto operator<=>(const RunId&) const = default;
+};
+
+/// A piece of work whose result stays in the store, so that it is done once.
+/// @tparam Result  has fields(); or is JSON
+template <typename Result>
+struct CachedTask {
+  struct Outcome {
+    Result result;
+    bool finished;     ///< is kept; what failed is tried again by the next command
+    std::string line;  ///< how it ended, for the progress
+  };
+
+  std::string name;     ///< of its file
+  std::string label;    ///< for people
+  CaseKeys key;         ///< what it depends on
+  double weight = 1.0;  ///< how long it is likely to take; the longest start first
+  /// @param progress  to be called with the fraction done, 0 … 1
+  std::function<Outcome(const std::function<void(double)>& progress)> work;
+  /// Where all tasks have one, the highest start first, however long they take.
+  std::optional<double> priority = {};
+  RunId of = {};
+};
+
+/// Loads the results that are there and does the rest, `jobs` at a time. All that are there are
+/// read before anything is done, so that what stands in the way does so at once.
+/// @returns the results in the order of the tasks
+/// @throws BadInput from RunStore::find(); Interrupted; the first thing that a task threw
+template <typename Result>
+std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, const RunStore& store,
+                              Progress& progress, const std::string& stage, int jobs) {
+  std::vector<Result> results(tasks.size());
+  std::vector<double> weights;
+  for (const auto& task : tasks) weights.push_back(task.weight);
+  progress.begin(stage, weights);
+  std::vector<Task> open;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const auto& task = tasks[k];
+    if (auto before = store.findAs<Result>(task.name, task.key)) {
+      results[k] = *std::move(before);
+      progress.finish(k, task.label + ": finished in an earlier run");
+      continue;
+    }
+    open.push_back({task.priority.value_or(task.weight), [&, k] {
+                      const auto& own = tasks[k];
+                      auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
+                      if (outcome.finished) store.keep(own.name, own.key, jsonOf(outcome.result));
+                      results[k] = std::move(outcome.result);
+                      progress.finish(k, own.label + ": " + outcome.line);
+                    }});
+  }
+  runTasks(open, jobs);
+  return results;
+}
+
+/// What an engine has to do for a command, as far as is known without computing anything.
+struct PlannedWork {
+  std::string engine;
+  std::string what;  ///< "runs", "cases"
+  std::string refusal = {};
+  std::size_t total = 0, finished = 0;
+  double seconds = 0.0;  ///< that the finished ones took, where they say
+};
+
+/// Counts a piece of work, and what it took if its result is there.
+void count(PlannedWork& work, const std::optional<nlohmann::json>& kept);
+
+/// The work of tasks, engine by engine in the order of tasks.
+/// @param what  a piece of it: "runs", "cases"
+template <typename Result>
+std::vector<PlannedWork> plannedWork(const std::vector<CachedTask<Result>>& tasks,
+                                     const std::string& what, const RunStore& store) {
+  std::vector<PlannedWork> works;
+  for (const auto& task : tasks) {
+    auto work = std::ranges::find(works, task.of.engine, &PlannedWork::engine);
+    if (work == works.end()) work = works.insert(works.end(), {task.of.engine, what});
+    count(*work, store.find(task.name, task.key));
+  }
+  return works;
+}
+
+/// The results of tasks by what they are.
+/// @param results  of runOrLoad()
+template <typename Result>
+std::map<RunId, Result> byId(const std::vector<CachedTask<Result>>& tasks,
+                             std::vector<Result> results) {
+  std::map<RunId, Result> all;
+  for (std::size_t k = 0; k < tasks.size(); ++k) all[tasks[k].of] = std::move(results[k]);
+  return all;
+}
+
+/// One line for an engine: "grain   4 runs: 2 finished, 2 to do, about 3.1 s".
+std::string describe(const PlannedWork& work);
+
+/// All that `--dry-run` prints.
+/// @param head  what is to be run, a line or more
+std::string describeDryRun(const std::string& head, const std::vector<PlannedWork>& works,
+                           const RunStore& store, const RunCommand& command);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,150 @@
+#include "studies/core/mirrors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include "adapters/law_options.hpp"
+#include "adapters/registry.hpp"
+#include "studies/core/engine_access.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+std::optional<Capabilities> ask(const EngineEntry& entry, double timeout) {
+  if (entry.make) return entry.make()->capabilities();
+  const ScratchFolder scratch;
+  try {
+    return startEngine(entry, scratch.path, timeout)->capabilities();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;  // a mirror says so where it matters
+  }
+}
+
+}  // namespace
+
+std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double timeout) {
+  static std::mutex mutex;
+  static std::map<std::string, std::optional<Capabilities>> known;
+  const std::lock_guard lock(mutex);
+  const auto [found, isNew] = known.try_emplace(entry.name);
+  if (isNew) found->second = ask(entry, timeout);
+  return found->second;
+}
+
+Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& scene) {
+  const EngineEntry* peer = findEngine(mirror.mirrors);
+  const auto can = peer ? capabilitiesOf(*peer, setup.run.timeout) : std::nullopt;
+  if (!can)
+    return {
+        scene,
+        {{"peer", 0.0, "",
+          fmt::format("{} cannot be asked here: what it lacks is not left out", mirror.mirrors)}}};
+  const bool sameLaw = hasNormalLaw(*can, scene.law);
+  Adapted adapted;
+  try {
+    adapted = adaptScene(*can, scene, setup.run.mayDiffer);
+  } catch (const UnsupportedScene& refusal) {
+    throw UnsupportedScene(fmt::format("its peer {} {}", peer->name, refusal.what()));
+  }
+  adapted.scene.precision = scene.precision;
+  if (!sameLaw) adapted.scene.law.conventions = scene.law.conventions;
+  std::erase_if(adapted.deviations, [&](const Deviation& deviation) {
+    return deviation.name == "precision" || (!sameLaw && deviation.name == "normal");
+  });
+  for (Deviation& deviation : adapted.deviations)
+    deviation.note = fmt::format("as its peer {}: {}", peer->name, deviation.note);
+  if (sameLaw) {
+    if (const auto step = stepOfItsOwn(setup, peer->name, *can)) adapted.scene.dt = *step;
+  }
+  return adapted;
+}
+
+namespace {
+
+/// Longest wait for the first answer of an engine that nobody has seen yet [s].
+constexpr double patience = 60.0;
+
+/// The in-house engine with the conventions of another. Which law a scene has is the scene's
+/// matter.
+std::optional<EngineEntry> mirrorOf(const std::string& name, const Capabilities& can) {
+  EngineEntry mirror;
+  if (const auto laws = can.lawOptions.find("normal"); laws != can.lawOptions.end())
+    for (const std::string& law : laws->second)
+      if (law != "rigid") mirror.mirrorsNormal.push_back(law);
+  if (mirror.mirrorsNormal.empty()) return std::nullopt;
+  LawConventionSets conventions;
+  for (const LawOption& option : lawOptions()) {
+    const auto own = can.lawOptions.find(std::string(option.name));
+    const bool isLaw =
+        option.name == "normal" || option.name == "damper" || option.name == "tangential";
+    if (own != can.lawOptions.end() && !isLaw) conventions.insert(*own);
+  }
+  mirror.name = "grain-as-" + name;
+  mirror.summary = "the in-house engine with the conventions that " + name + " declares";
+  mirror.make = [conventions] { return makeGrainMirror(conventions); };
+  // Its worker's registry does not know it.
+  std::vector<std::string> call = {ownProgram(), "__serve", engineRegistry().front().name};
+  std::ranges::move(describeConventions(conventions), std::back_inserter(call));
+  mirror.command = [call] { return call; };
+  mirror.mirrors = name;
+  return mirror;
+}
+
+void addMirror(const EngineEntry& entry) {
+  if (const auto can = capabilitiesOf(entry, patience))
+    if (auto mirror = mirrorOf(entry.name, *can)) addEngine(std::move(*mirror));
+}
+
+}  // namespace
+
+std::vector<std::string> describeConventions(const LawConventionSets& conventions) {
+  std::vector<std::string> words;
+  for (const auto& [option, values] : conventions)
+    words.push_back(fmt::format("{}={}", option, fmt::join(values, ",")));
+  return words;
+}
+
+LawConventionSets conventionsFromWords(const std::vector<std::string>& words) {
+  LawConventionSets conventions;
+  for (const std::string& word : words) {
+    const std::size_t sign = word.find('=');
+    std::istringstream values(sign == std::string::npos ? "" : word.substr(sign + 1));
+    for (std::string value; std::getline(values, value, ',');)
+      conventions[word.substr(0, sign)].push_back(value);
+  }
+  return conventions;
+}
+
+std::string addExternalEngine(EngineEntry entry) {
+  const std::string name = entry.name;
+  addEngine(std::move(entry));
+  addMirror(*findEngine(name));
+  return name;
+}
+
+void addMirrorOfShelved(const std::string& name) {
+  const std::size_t known = engineRegistry().size();
+  for (std::size_t k = builtInEngines(); k < known; ++k) {
+    const EngineEntry& entry = engineRegistry()[k];
+    const bool hasOne = std::ranges::find(engineRegistry(), entry.name, &EngineEntry::mirrors) !=
+                        engineRegistry().end();
+    if ((entry.name == name || name == "all") && entry.mirrors.empty() && !hasOne &&
+        entry.missing().empty())
+      addMirror(entry);
+  }
+}
+
+}  // namespace crossgrain::inline studies

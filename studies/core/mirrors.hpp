@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/engine_entry.hpp"
+#include "adapters/grain.hpp"
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "cases/case.hpp"
+
+namespace crossgrain::inline studies {
+
+/// What an engine can do, asked once in the life of this program. Absent if it cannot be started.
+std::optional<Capabilities> capabilitiesOf(const EngineEntry& entry, double timeout);
+
+/// The scene that a mirror is given: the one that its peer runs. Effects that the peer lacks are
+/// gone, its conventions stand in place of those that it lacks, and its time step is taken, so that
+/// what is left between the two is nobody's model. All of it follows from the peer's capabilities.
+/// Where the peer has another normal law (soft contacts that stand for rigid ones) law and step are
+/// the mirror's own, as contacts of another kind need another step.
+///
+/// The mirror's precision stays its own: a peer's rounding is the peer's implementation.
+/// Deviations say what came from the peer, in the peer's words.
+/// @throws UnsupportedScene if the case does not let the peer run it
+Adapted sceneOfPeer(const EngineEntry& mirror, const Case& setup, const Scene& scene);
+
+/// Adds an engine of the user's own to the registry and, behind it, its mirror: the in-house engine
+/// with the conventions that the engine declares. The engine is started once to be asked; one that
+/// does not start, or has no soft law, gets no mirror, and says so itself where it is used.
+/// @returns its name
+std::string addExternalEngine(EngineEntry entry);
+
+/// The same mirror for an engine that came with the program as a file, unless it has one; for
+/// "all", for each of them that can be started.
+void addMirrorOfShelved(const std::string& name);
+
+/// Conventions on the command line of such a mirror's worker, "lever_arm=radius,contact_point", and
+/// back.
+std::vector<std::string> describeConventions(const LawConventionSets& conventions);
+LawConventionSets conventionsFromWords(const std::vector<std::string>& words);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,162 @@
+#include "studies/core/study.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "results/schema.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+std::string cpuName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string operatingSystem() {
+  std::ifstream release("/etc/os-release");
+  for (std::string line; std::getline(release, line);)
+    if (line.starts_with("PRETTY_NAME=")) return line.substr(13, line.size() - 14);
+  utsname names{};
+  ::uname(&names);
+  return names.sysname;
+}
+
+}  // namespace
+
+std::string timeStamp() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command) {
+  ResultsHead head;
+  head.schema = schemaVersion;
+  head.kind = kind;
+  head.version = programVersion;
+  head.build = programBuild;
+  head.command = command;
+  head.started = timeStamp();
+  head.machine = {cpuName(), operatingSystem(), std::thread::hardware_concurrency()};
+  head.setup = {setup.name, setup.variant, setup.file.string(), setup.resolvedToml};
+  return head;
+}
+
+ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
+  ScenePicture picture;
+  picture.radius = scene.disks.radius;
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
+    picture.x.push_back(now.position[i].x());
+    picture.y.push_back(now.position[i].y());
+    const Vec2& start = scene.disks.position[i];
+    picture.startR.push_back(start.norm());
+    picture.startPhi.push_back(std::atan2(start.y(), start.x()));
+  }
+  for (const Vec2& position : now.wallPosition) {
+    picture.wallX.push_back(position.x());
+    picture.wallY.push_back(position.y());
+  }
+  for (const WallBody& body : scene.bodies)
+    picture.wallRadius.insert(picture.wallRadius.end(), body.diskRadius.begin(),
+                              body.diskRadius.end());
+  picture.time = now.positionTime;
+  picture.rotation = rotation;
+  if (now.contacts) {
+    picture.contactI.emplace(now.contacts->i.begin(), now.contacts->i.end());
+    picture.contactJ.emplace(now.contacts->j.begin(), now.contacts->j.end());
+    picture.contactForce = now.contacts->normalForce;
+  }
+  return picture;
+}
+
+int resumably(const RunCommand& command, const std::function<int()>& work) {
+  const std::string same =
+      fmt::format("the same command{} goes on from there", command.fresh ? " without --fresh" : "");
+  const Interrupted stopped(
+      fmt::format("interrupted; what is finished is kept in {}: {}", command.out.string(), same));
+  const auto explained = [&](const OutputError& error) {
+    if (!error.noRoom) return error;
+    return error.with(fmt::format("; what is finished is kept: make room, and {}", same));
+  };
+  try {
+    return work();
+  } catch (const Interrupted&) {
+    throw stopped;
+  } catch (const OutputError& error) {
+    throw explained(error);
+  } catch (const std::system_error& error) {
+    throw explained(OutputError(error));
+  } catch (const std::exception&) {
+    // Ctrl-C goes to all programs of a terminal: what fails after it failed of it.
+    if (interrupted()) throw stopped;
+    throw;
+  }
+}
+
+namespace {
+
+/// A positive number and one of some units. @throws BadInput
+double numberWithUnit(const std::string& option, const std::string& text,
+                      const std::map<std::string, double>& units, const char* example) {
+  std::size_t end = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const auto unit = units.find(text.substr(end));
+  if (end == 0 || unit == units.end() || !(value > 0.0) || !std::isfinite(value))
+    throw BadInput(fmt::format("{} {}: must be like {}", option, text, example));
+  return value * unit->second;
+}
+
+}  // namespace
+
+double wholeNumberOf(const std::string& option, double value, double least, double most) {
+  if (value != std::floor(value) || !(value >= least && value <= most))
+    throw BadInput(fmt::format("{}: {:g} must be a whole number from {:g} to {:g}", option, value,
+                               least, most));
+  return value;
+}
+
+double secondsOf(const std::string& budget) {
+  return numberWithUnit("--budget", budget, {{"", 1.0}, {"s", 1.0}, {"m", 60.0}, {"h", 3600.0}},
+                        "90s, 10m or 1h");
+}
+
+double fractionOf(const std::string& target) {
+  return numberWithUnit("--want", target, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
+}
+
+Outcome notJudged(std::string why, bool byRequest) {
+  return {byRequest ? exitPassed : exitFailed, {}, std::move(why)};
+}
+
+std::vector<std::string> refusals(const std::vector<EngineRow>& engines,
+                                  const std::vector<std::string>& named) {
+  std::vector<std::string> lines;
+  for (const EngineRow& engine : engines)
+    if (engine.status == EngineStatus::refused &&
+        std::ranges::find(named, engine.name) != named.end())
+      lines.push_back(engine.reason);
+  return lines;
+}
+
+EngineRow engineRow(const EngineEntry& entry, const std::string& version) {
+  return {entry.name, entry.summary, version, entry.mirrors, EngineStatus::ran, ""};
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "adapters/engine_entry.hpp"
+#include "adapters/scene.hpp"
+#include "adapters/snapshot.hpp"
+#include "cases/case.hpp"
+#include "results/engine_row.hpp"
+#include "results/head.hpp"
+#include "results/scene_picture.hpp"
+#include "studies/core/run_store.hpp"
+
+namespace crossgrain::inline studies {
+
+/// Exit statuses, as design and README promise them.
+enum ExitStatus {
+  exitPassed = 0,
+  exitFailed = 1,
+  exitBadInput = 2,
+  exitEngineFailed = 3,  ///< or the machine: no room on the disk
+  exitInterrupted = 130
+};
+
+/// The options that studies share; a study's own are its Options.
+struct CommandLine {
+  RunCommand run;
+  std::vector<std::filesystem::path> inputs;  ///< case files, or result folders
+  std::filesystem::path snapshots;            ///< file to average
+  std::vector<std::string> overrides;         ///< --set, then what other options stand for
+  std::optional<std::int64_t> seed;           ///< --seed: preparation.seed
+  std::optional<std::string> only;            ///< -k: part of the cases
+  bool quick = false;
+  bool json = false;
+};
+
+/// Which of them a study takes.
+struct SharedOptions {
+  enum class Input { oneCase, anyCases, snapshots, none } input = Input::oneCase;
+  const char* inputIs = "case file";
+  bool selection = false;  ///< -k
+  bool engines = true;     ///< --engines and what goes with running them
+  bool inHouse = false;    ///< where --engines is missing: the in-house engine
+  bool jobs = true;        ///< --jobs; without: one engine at a time
+  bool packings = false;   ///< --seed, --quick
+};
+
+/// One of its own.
+struct StudyOption {
+  std::string name, what;
+  std::variant<bool*, std::optional<std::string>*, std::optional<double>*> value;
+  std::string type = "TEXT";  ///< how the value is called
+};
+
+/// Two options of which only one may be given.
+using Exclusion = std::pair<std::string, std::string>;
+
+/// What results come to, for scripts.
+struct Outcome {
+  ExitStatus status = exitPassed;
+  std::vector<std::string> failures = {};         ///< runs that failed, engines that refused
+  std::optional<std::string> nothingJudged = {};  ///< why; absent: something was
+};
+
+/// The cases of a study and where it keeps what is finished.
+struct StudyWork {
+  const CommandLine& line;
+  const std::vector<Case>& cases;
+  RunStore& store;
+
+  const Case& setup() const { return cases.front(); }
+};
+
+/// What finished runs in a study's output folder depend on.
+enum class Keeps { nothing, oneCase, eachCase };
+
+/// A question about engines, as data: from the options of its command to what came of it. All else
+/// is the same for all studies (cli/studies.cpp): cases are loaded once; what is finished in the
+/// output folder is loaded, the rest is run; results are written, reported and printed; the exit
+/// status is the outcome's.
+///
+///   options ── cases ── plan (--dry-run) | run: tasks (executor.hpp) → results ── outcome
+template <typename Options, typename Results>
+struct Study {
+  const char* name;  ///< of its command
+  SharedOptions takes;
+  Keeps keeps;
+  std::vector<StudyOption> (*options)(Options&, CommandLine&);
+  /// Checks the options and loads what is to be run. @throws BadInput
+  std::vector<Case> (*cases)(const CommandLine&, Options&);
+  /// What run() would do, for people; nothing is computed. Null: the study has no --dry-run.
+  std::string (*plan)(const StudyWork&, const Options&);
+  Results (*run)(const StudyWork&, const Options&);
+  Outcome (*outcome)(const Results&, const CommandLine&, const Options&);
+  std::vector<Exclusion> exclusions = {};
+};
+
+/// What nothing judged comes to: no success, unless that was clear from what was asked for.
+Outcome notJudged(std::string why, bool byRequest = false);
+
+/// Why engines that the user named did not run, one line each.
+std::vector<std::string> refusals(const std::vector<EngineRow>& engines,
+                                  const std::vector<std::string>& named);
+
+/// A row for an engine as it came with the program. @param version  empty: it did not answer
+EngineRow engineRow(const EngineEntry& entry, const std::string& version);
+
+/// Does the work of a command that loads what is finished in its folder. Where it cannot go on,
+/// since the user interrupted it or the disk is full, what it throws says how to.
+/// @returns what the work returns
+/// @throws Interrupted, OutputError; what else the work throws
+int resumably(const RunCommand& command, const std::function<int()>& work);
+
+/// An option's value that must be whole. @throws BadInput
+double wholeNumberOf(const std::string& option, double value, double least, double most);
+
+/// The value of --budget, "90s", "10m", "1h" [s]. @throws BadInput
+double secondsOf(const std::string& budget);
+
+/// The value of --want, "1%" or "1e-3", as a share: 0.01, 0.001. @throws BadInput
+double fractionOf(const std::string& target);
+
+/// Now, as ISO 8601 in UTC.
+std::string timeStamp();
+
+/// What all results begin with.
+ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command);
+
+/// What the report's two pictures need of one snapshot: disks with the place they started from
+/// (scene) and contacts with their normal force. @param rotation  of the wheel so far
+ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation);
+
+}  // namespace crossgrain::inline studies

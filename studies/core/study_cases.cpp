@@ -1,0 +1,118 @@
+#include "studies/core/study_cases.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "adapters/registry.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/flow.hpp"
+#include "cases/keys.hpp"
+#include "cases/loader.hpp"
+#include "support/bad_input.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
+  std::vector<std::string> keys;
+  for (const auto& [name, settings] : setup.engines)
+    if (!findEngine(name))
+      keys.push_back(fmt::format(
+          "engines.{} (of no engine that is known here; --engines takes its file)", name));
+  if (command == "check") return keys;
+  for (const auto& [key, value] : caseKeys(setup.resolvedToml)) {
+    const KeyUse* use = nullptr;  // the longest name that holds the key
+    for (const KeyUse& each : keyUses())
+      if (isIn(each.name, key) && (!use || each.name.size() > use->name.size())) use = &each;
+    if (!use || use->by(command)) continue;
+    // A section of which some keys are used is named key by key.
+    const bool partly = std::ranges::any_of(keyUses(), [&](const KeyUse& each) {
+      return isIn(use->name, each.name) && each.by(command);
+    });
+    const std::string& name = partly ? key : use->name;
+    if (std::ranges::find(keys, name) == keys.end()) keys.push_back(name);
+  }
+  return keys;
+}
+
+void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to) {
+  const std::vector<std::string> keys = keysWithoutUse(setup, command);
+  if (!keys.empty())
+    fmt::print(to, "{}{}: {} does not use {}\n",
+               to == stdout ? "# " : "note: ", setup.file.string(), command, fmt::join(keys, ", "));
+}
+
+void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to) {
+  const fs::path* last = nullptr;
+  for (const Case& setup : cases)
+    if (!last || *last != setup.file) {
+      reportKeysWithoutUse(setup, command, to);
+      last = &setup.file;
+    }
+}
+
+std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
+  const std::string packings =
+      fmt::format("preparation.packings={}", std::min(2, setup.preparation.packings));
+  if (setup.average)
+    return {packings,
+            fmt::format("average.snapshots={}", std::min(20, setup.average->region.snapshots))};
+  return {
+      packings, fmt::format("preparation.rotations={}", std::min(0.1, setup.preparation.rotations)),
+      fmt::format("averaging.settle_rotations={}", std::min(0.02, setup.averaging.settleRotations)),
+      fmt::format("averaging.rotations={}", std::min(rotations, setup.averaging.rotations)),
+      "averaging.snapshots_per_rotation=400"};
+}
+
+Case onlyCase(const CommandLine& line, const char* command) {
+  const fs::path& file = line.inputs.front();
+  const Case setup = loadCase(file, line.overrides).front();
+  if (setup.kind != CaseKind::couette) refuseKind(setup, file, command);
+  return onlyFlow(line, command);
+}
+
+Case onlyFlow(const CommandLine& line, const char* command) {
+  const fs::path& file = line.inputs.front();
+  const std::vector<Case> cases = loadCase(file, line.overrides);
+  if (!hasFlow(cases.front())) {
+    if (cases.front().kind != CaseKind::assembly) refuseKind(cases.front(), file, command);
+    throw BadInput(fmt::format(
+        "{}: {} cannot run an assembly that does not say what is averaged: give it [average] and "
+        "[[endpoints]]",
+        file.string(), command));
+  }
+  if (cases.size() > 1)
+    throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
+  if (std::string_view(command) != "plan")  // whose every job is a compare
+    reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
+  if (!line.quick) return cases.front();
+  std::vector<std::string> overrides = quickOverrides(cases.front());
+  overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
+  return loadCase(file, overrides).front();
+}
+
+void refuseKind(const Case& setup, const fs::path& input, const char* command) {
+  const char* const able = setup.kind == CaseKind::collision ? "collide"
+                           : hasFlow(setup)                  ? "compare"
+                                                             : "stability";
+  throw BadInput(fmt::format("{}: {} cannot run a case of this kind; crossgrain {} can",
+                             input.string(), command, able));
+}
+
+void printWarnings(const Case& setup) {
+  for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
+}
+
+std::string describeEffects(const Effects& called) {
+  std::vector<std::string> in, out;
+  for (const Effect effect : allEffects)
+    (called.contains(effect) ? in : out).push_back(toString(effect));
+  return fmt::format("effects called for: {}; left out: {}",
+                     in.empty() ? "none" : fmt::format("{}", fmt::join(in, ", ")),
+                     out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "adapters/effects.hpp"
+#include "cases/case.hpp"
+#include "studies/core/study.hpp"
+
+namespace crossgrain::inline studies {
+
+/// The one Couette case that a command was given, without variants; shortened by --quick.
+/// @throws BadInput
+Case onlyCase(const CommandLine& line, const char* command);
+
+/// The same, or an assembly that says what is averaged.
+Case onlyFlow(const CommandLine& line, const char* command);
+
+/// What --quick changes of a flow: nothing becomes longer than the case has it.
+/// @param rotations  averaged
+std::vector<std::string> quickOverrides(const Case& setup, double rotations = 0.1);
+
+/// Says which command can.
+[[noreturn]] void refuseKind(const Case& setup, const std::filesystem::path& input,
+                             const char* command);
+
+/// Keys and sections that the case says and that mean nothing to a command, settings of engines
+/// that it does not know among them; else none for `check`, which reads all of it.
+std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command);
+
+/// One line with them, if there are any: nothing that a user said is ignored in silence. On stdout
+/// a comment, so that what is printed to be pasted loads.
+void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE* to);
+/// The same of many cases, once for each file.
+void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to);
+
+/// What loads but is hardly meant, one line each on standard error.
+void printWarnings(const Case& setup);
+
+/// "effects called for: friction, rotation; left out: gravity"
+std::string describeEffects(const Effects& called);
+
+}  // namespace crossgrain::inline studies

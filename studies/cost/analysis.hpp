@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/cost.hpp"
+
+/// What follows from the points of a study of cost.
+namespace crossgrain::inline studies {
+
+/// Sets fronts, advice and cells from points and models; advice for 10 %, 1 %, 0.1 %, 1e-6 and the
+/// results' own target.
+void addCostAnalysis(CostResults& results);
+
+/// The points that no other beats: none is at most as slow and at most as wrong, and less in one of
+/// both. By rising wall time; points that are equal in both stay together.
+/// @param points  of one kind and measure; those without time or error are on no front
+std::vector<std::size_t> paretoFront(const std::vector<CostPoint>& points);
+
+/// For each kind and measure: the front over all engines, then that of each engine.
+std::vector<Front> paretoFronts(const std::vector<CostPoint>& points);
+
+/// For every target and engine, in that order; the engine that reaches a target in the least time
+/// is marked.
+std::vector<Advice> advice(const std::vector<CostPoint>& points,
+                           const std::vector<double>& targets);
+
+/// For every engine, kind of error, basis and target (10 %, 1 % and 0.1 %), in that order, what was
+/// measured says of it. Not reached only where that was shown: of every setting, or, of the case's
+/// law, of the engine's own limit of small steps, which lies above the target whatever the step.
+std::vector<CostCell> costCells(const std::vector<CostPoint>& points,
+                                const std::vector<CostModel>& models,
+                                const std::vector<double>& targets = {0.1, 0.01, 1e-3});
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,187 @@
+#include "studies/cost/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "adapters/law_options.hpp"
+#include "cases/effect_switch.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/effects/effects.hpp"
+#include "support/bad_input.hpp"
+
+namespace crossgrain::inline studies {
+
+double costContactTime(const Case& setup) {
+  if (!setup.law.soft())
+    throw BadInput(
+        fmt::format("{}: cost counts steps in the contact time of a soft law: rigid disks "
+                    "have none",
+                    setup.file.string()));
+  return impactTime(
+      setup.law, {lightestReducedMass(setup), setup.particles.smallRadius / 2.0, setup.cost.speed});
+}
+
+double engineStep(const Case& setup, const std::string& engine, const Capabilities& can) {
+  const auto own = stepOfItsOwn(setup, engine, can);
+  return own ? *own : timeStep(setup);
+}
+
+std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
+                         double steps) {
+  const double dt = costContactTime(setup) / steps;
+  Case unset = setup;  // the fragment's step replaces that of [run]
+  unset.run.dt.reset();
+  if (stepOfItsOwn(unset, engine, can)) return fmt::format("[engines.{}]\ndt = {}\n", engine, dt);
+  // The loader takes so few steps for a slip of the pen, and counts none in a contact time that
+  // depends on the speed.
+  if (steps < 2.0 || setup.law.stiffens()) return fmt::format("[run]\ndt = {}\n", dt);
+  return fmt::format("[run]\nsteps_per_contact = {:g}\n", steps);
+}
+
+Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps) {
+  return caseWith(setup, stepFragment(setup, engine, can, steps));
+}
+
+CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt) {
+  CostPoint point;
+  point.engine = engine;
+  point.knob = setting.knob;
+  point.setting = setting.setting;
+  point.fragment = setting.fragment;
+  point.kind = kind;
+  if (dt > 0.0) point.dt = dt;
+  point.stepsPerContact = costContactTime(setting.setup) / dt;
+  return point;
+}
+
+void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations) {
+  if (steps > 0) point.steps = steps;
+  if (contactEvaluations > 0) point.contactEvaluations = contactEvaluations;
+}
+
+namespace {
+
+/// What the settings of every knob need.
+struct SettingList {
+  const Case& setup;
+  std::string engine;
+  const Capabilities& can;
+  const std::vector<double>& steps;  ///< per t_c
+  std::vector<CostSetting> settings = {};
+
+  CostSetting& add(const std::string& knob, const std::string& setting,
+                   const std::string& fragment) {
+    CostSetting one{knob, setting, fragment, caseWith(setup, fragment)};
+    one.refusal = switchRefusal(can, setup, {knob, "", {}, one.setup});
+    return settings.emplace_back(std::move(one));
+  }
+};
+
+void addSteps(SettingList& to) {
+  for (const double n : to.steps)
+    to.add("time_step", fmt::format("t_c/{:g}", n), stepFragment(to.setup, to.engine, to.can, n));
+}
+
+/// Every other integrator at every step; one that the engine lacks is refused once, and one that
+/// it always takes is what its time steps show.
+void addIntegrators(SettingList& to) {
+  const auto option = std::ranges::find(lawOptions(), "integrator", &LawOption::name);
+  const auto own = to.can.lawOptions.find("integrator");
+  for (const std::string_view value : option->values) {
+    if (value == lawOptionValue(to.setup.law, "integrator")) continue;
+    if (own != to.can.lawOptions.end() && own->second == std::vector{std::string(value)}) continue;
+    const std::string law = fmt::format("[law]\nintegrator = \"{}\"\n", value);
+    std::string& refusal = to.add("integrator", std::string(value), law).refusal;
+    if (own == to.can.lawOptions.end()) refusal = "has no such option";
+    if (!refusal.empty()) continue;
+    to.settings.pop_back();
+    for (const double n : to.steps)
+      to.add("integrator", fmt::format("{}, t_c/{:g}", value, n),
+             law + "\n" + stepFragment(to.setup, to.engine, to.can, n));
+  }
+}
+
+void addPrecision(SettingList& to) {
+  if (to.setup.run.precision == Precision::float64)
+    to.add("precision", "float", "[run]\nprecision = \"float\"\n");
+}
+
+void addOwnSettings(SettingList& to) {
+  const auto own = to.setup.cost.settings.find(to.engine);
+  if (own == to.setup.cost.settings.end()) return;
+  for (const auto& [name, values] : own->second)
+    for (const double value : values) {
+      const CostSetting& one =
+          to.add(name, fmt::format("{} = {:g}", name, value),
+                 fmt::format("[engines.{}]\n{} = {}\n", to.engine, name, value));
+      settingsFor(one.setup, to.engine, to.can);  // throws for one that it does not have
+    }
+}
+
+void addLaw(SettingList& to, const std::string& option, const std::vector<std::string>& values) {
+  for (const std::string& value : values) {
+    if (value == lawOptionValue(to.setup.law, option)) continue;
+    const std::string fragment = fmt::format("[law]\n{} = \"{}\"\n", option, value);
+    try {
+      to.add(option, value, fragment);
+    } catch (const BadInput& lacking) {  // a case without a dashpot, asked for a law of dashpots
+      to.settings.push_back({option, value, fragment, to.setup, lacking.what()});
+    }
+  }
+}
+
+void addEffects(SettingList& to) {
+  for (const EffectSwitch& off : effectSwitches(to.setup)) {
+    if (!off.effect) continue;  // tension and precision are knobs of their own
+    to.add("effect:" + off.name, "without " + off.name, off.fragment).refusal =
+        switchRefusal(to.can, to.setup, off);
+  }
+}
+
+using enum CostKind;
+
+/// In the order of the results. What an integrator does to averages is far below what packings
+/// scatter, and two disks that collide head on once show no effect.
+const struct Knob {
+  std::string_view name;
+  std::vector<CostKind> kinds;  ///< of error that it may change
+  void (*add)(SettingList&);
+} knobs[] = {
+    {"time_step", {collision, trajectory, averages}, addSteps},
+    {"integrator", {collision, trajectory}, addIntegrators},
+    {"precision", {collision, trajectory, averages}, addPrecision},
+    {"settings", {collision, trajectory, averages}, addOwnSettings},
+    {"tangential",
+     {collision, averages},
+     [](SettingList& to) { addLaw(to, "tangential", to.setup.cost.tangential); }},
+    {"tension",
+     {collision, averages},
+     [](SettingList& to) {
+       addLaw(to, "tension", {"allow", "cut"});
+     }},
+    {"effects", {averages}, addEffects},
+};
+
+}  // namespace
+
+std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
+                                      const Capabilities& can) {
+  const Cost& cost = setup.cost;
+  SettingList list{setup, engine, can,
+                   kind == collision    ? cost.collisionSteps
+                   : kind == trajectory ? cost.trajectorySteps
+                                        : cost.averageSteps};
+  list.add("time_step", "the case's own", "");
+  for (const Knob& knob : knobs)
+    if (std::ranges::find(cost.knobs, knob.name) != cost.knobs.end() &&
+        std::ranges::find(knob.kinds, kind) != knob.kinds.end())
+      knob.add(list);
+  return std::move(list.settings);
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+#include "results/cost.hpp"
+
+namespace crossgrain::inline studies {
+
+/// A setting that `crossgrain cost` measures on one engine: the case with a fragment merged in.
+struct CostSetting {
+  std::string knob, setting;  ///< as in CostPoint
+  std::string fragment;       ///< TOML; empty: the case as it is
+  Case setup;                 ///< what the loader makes of case and fragment
+  std::string refusal = {};   ///< why the engine has no such setting; empty if it has
+
+  /// Of another integrator which; empty: the one the engine has by itself.
+  std::string integrator() const { return schemeOf(knob, setting).value_or(""); }
+};
+
+/// Every setting of [cost] that matters to that kind of error, the case as it is first. Settings
+/// that the engine lacks are there, with the reason. @throws BadInput for an engine's setting that
+/// does not exist
+std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const std::string& engine,
+                                      const Capabilities& can);
+
+/// What the time step of an engine is set by: an engine with a step of its own does not follow the
+/// case's. @param steps  per contact time t_c
+std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
+                         double steps);
+
+/// The case with that step.
+Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps);
+
+/// t_c of two small disks, which steps are counted in [s]. @throws BadInput for a law without one
+double costContactTime(const Case& setup);
+
+/// The step that an engine will take [s].
+double engineStep(const Case& setup, const std::string& engine, const Capabilities& can);
+
+/// A point of that setting without any numbers but dt and the steps in t_c of the setting's case.
+CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKind kind, double dt);
+
+/// What was done per unit of a point's time; 0 is not known.
+void countWork(CostPoint& point, std::uint64_t steps, std::uint64_t contactEvaluations);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,162 @@
+#include "studies/cost/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/cost/trajectory.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+double pairLimit(const Case& setup) {
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / setup.law.kn);
+}
+
+double packingLimit(const Case& setup) {
+  return 2.0 * std::sqrt(lightestReducedMass(setup) / (6.0 * setup.law.kn));
+}
+
+void requireSound(const Case& setup, const Snapshot& snapshot) {
+  // A packing whose springs are dropped, or that loses its friction, lets go at several times ΩR_i;
+  // an instability grows without bound.
+  constexpr double mostSpeed = 10.0;
+  double squares = 0.0;
+  for (std::size_t k = 0; k < snapshot.position.size(); ++k) {
+    const double radius = snapshot.position[k].norm();
+    if (!(radius < setup.cell.outerRadius) || !(radius > setup.cell.innerRadius))
+      throw EngineFailure(fmt::format("{}: disk {} left the cell by t = {:.3g} s", beyondLimit, k,
+                                      snapshot.positionTime));
+    squares += snapshot.velocity[k].squaredNorm();
+  }
+  const double speed = std::sqrt(squares / static_cast<double>(snapshot.position.size()));
+  const double rim = std::abs(setup.cell.omega) * setup.cell.innerRadius;
+  if (!(speed < mostSpeed * rim))
+    throw EngineFailure(
+        fmt::format("{}: at t = {:.3g} s the disks' rms speed is {:.3g} times the wheel's rim",
+                    beyondLimit, snapshot.positionTime, speed / rim));
+}
+
+CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
+    : setup(of),
+      jobs(command.jobs),
+      campaign(setup, command, selectEngines(command.engines), store),
+      engines(campaign.engines().size()),
+      inHouse(engineRegistry().front()),
+      inHouseEngine(inHouse.make()) {
+  costContactTime(setup);  // throws, before anything runs, for a law without one
+}
+
+void CostStudy::ask() {
+  campaign.askEngines();
+  campaign.lookForPackings();
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    if (campaign.capabilities(e)) listSettings(e);
+}
+
+void CostStudy::prepare() {
+  campaign.askEngines();
+  campaign.preparePackings();
+  campaign.timeEngines();
+  campaign.progress().begin("timing starts and steps", std::vector<double>(engines.size(), 1.0));
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    throwIfInterrupted();
+    if (!campaign.refusal(e).empty()) continue;
+    try {
+      timeStart(e);
+    } catch (const EngineFailure& failure) {
+      engineFailures.push_back(failure.what());
+      continue;
+    }
+    if (!campaign.capabilities(e)) continue;
+    listSettings(e);
+    engines[e].takesPart = true;
+    campaign.progress().finish(
+        e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].step));
+  }
+  timeInHouse();
+}
+
+Engine& CostStudy::workerOf(std::size_t engine) {
+  auto& worker = engines[engine].worker;
+  const EngineEntry& entry = entryOf(engine);
+  if (!worker) worker = startNew(entry, campaign.store().scratch(entry.name), setup.run.timeout);
+  return *worker;
+}
+
+void CostStudy::listSettings(std::size_t engine) {
+  for (const CostKind kind : setup.cost.kinds)
+    engines[engine].settings[static_cast<std::size_t>(kind)] =
+        costSettings(setup, kind, entryOf(engine).name, canOf(engine));
+}
+
+void CostStudy::timeStart(std::size_t engine) {
+  constexpr int warmUp = 50, steps = 200;
+  TimedEngine& timed = engines[engine];
+  const Clock::time_point start = Clock::now();
+  Engine& worker = workerOf(engine);
+  worker.capabilities();
+  timed.start = secondsSince(start);
+  const Scene scene = couetteScene(setup, campaign.packings().front(), campaign.dt());
+  const Clock::time_point load = Clock::now();
+  const double dt = loadScene(worker, entryOf(engine), setup, scene).dt;
+  timed.load = secondsSince(load);
+  worker.advance(warmUp * dt);
+  const double before = worker.stats().wallSeconds;
+  worker.advance((warmUp + steps) * dt);
+  timed.step = (worker.stats().wallSeconds - before) / steps;
+}
+
+void CostStudy::timeInHouse() {
+  constexpr int steps = 2000;
+  const Track track = followPacking(*inHouseEngine, inHouse, setup, campaign.packings().front(),
+                                    steps * campaign.dt());
+  inHouseStep = track.wallSeconds / static_cast<double>(track.steps);
+}
+
+double CostStudy::stepOf(std::size_t engine, const Case& of) const {
+  return engineStep(of, entryOf(engine).name, canOf(engine));
+}
+
+std::string CostStudy::nameOf(const PlannedPoint& point) const {
+  const CostSetting& setting = settingOf(point);
+  std::string what = fmt::format("{}-{}", setting.knob, setting.setting);
+  std::ranges::replace_if(
+      what, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_'; }, '-');
+  return fmt::format("{}-{}-{}", toString(point.kind), entryOf(point.engine).name, what);
+}
+
+CaseKeys CostStudy::keyOf(const PlannedPoint& point, int packing) const {
+  return campaign.keyOf(
+      point.engine, packing,
+      fmt::format("cost: {} {}", toString(point.kind), settingOf(point).fragment));
+}
+
+CaseKeys CostStudy::inHouseKey(std::size_t packing, const std::string& part) const {
+  CaseKeys key = runKey(setup, inHouse.name, inHouseEngine->capabilities().version);
+  key["packing"] = campaign.packings()[packing].hash;
+  key["part"] = part;
+  return key;
+}
+
+bool ErrorKind::isKept(const PlannedPoint& point) const {
+  return study_.campaign.store().find(study_.nameOf(point), study_.keyOf(point)).has_value();
+}
+
+}  // namespace crossgrain::inline studies

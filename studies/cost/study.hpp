@@ -1,0 +1,138 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "results/cost.hpp"
+#include "studies/core/run_store.hpp"
+#include "studies/cost/plan.hpp"
+#include "studies/cost/settings.hpp"
+#include "studies/flow/campaign.hpp"
+
+namespace crossgrain::inline studies {
+
+/// @name Stability limits
+/// @{
+
+/// What every point past a stability limit begins its reason with: such a failure is a result.
+inline constexpr const char* beyondLimit = "beyond its stability limit";
+
+/// The largest stable step of a contact, 2/ω with ω² = k_n/m₁₂ [s]: what a symplectic integrator
+/// bears of an undamped oscillator.
+double pairLimit(const Case& setup);
+
+/// The smallest step at which a packing may be unstable [s]: 2/ω of a disk between six others, six
+/// times as stiff as a pair (Gershgorin: ω² ≤ 6 · 2 k_n/m).
+double packingLimit(const Case& setup);
+
+/// Whether a packing has blown up: a position is no number, a disk has left the cell, or the disks'
+/// rms speed exceeds ten times the rim's ΩR_i, which nothing in the cell is driven faster than.
+/// @throws EngineFailure that says which, after `beyondLimit`
+void requireSound(const Case& setup, const Snapshot& snapshot);
+
+/// @}
+
+/// What the store has by that name, else what `make` makes, which is then kept.
+template <class Make>
+auto keptOr(const RunStore& store, const std::string& name, const CaseKeys& key, Make make) {
+  using Run = decltype(make());
+  if (auto kept = store.findAs<Run>(name, key)) return std::move(*kept);
+  Run made = make();
+  store.keep(name, key, jsonOf(made));
+  return made;
+}
+
+/// An engine, its worker, what it takes to start and to step, and what there is to measure on it.
+struct TimedEngine {
+  std::array<std::vector<CostSetting>, costKinds.size()> settings;  ///< by CostKind
+  double start = 0.0, load = 0.0, step = 0.0;                       ///< [s]
+  bool takesPart = false;
+  std::unique_ptr<Engine> worker;  ///< null: to be started anew
+};
+
+/// What planning and measuring work with: engines and packings, the settings to measure, and by
+/// which names and keys the store has what is measured.
+///
+///   ask          of a dry run
+///   prepare      of a real one
+struct CostStudy {
+  /// @throws BadInput for a law without a contact time
+  CostStudy(const Case& setup, const RunCommand& command, RunStore& store);
+
+  /// Which settings there are and which packings there would be; computes nothing.
+  void ask();
+  /// Engines, packings, settings, and what starts and steps take.
+  void prepare();
+
+  const EngineEntry& entryOf(std::size_t engine) const { return campaign.engines()[engine]; }
+  const Capabilities& canOf(std::size_t engine) const { return *campaign.capabilities(engine); }
+  /// Its worker, started when it is first needed and again after it failed.
+  Engine& workerOf(std::size_t engine);
+  const std::vector<CostSetting>& settingsOf(std::size_t engine, CostKind kind) const {
+    return engines[engine].settings[static_cast<std::size_t>(kind)];
+  }
+  const CostSetting& settingOf(const PlannedPoint& point) const {
+    return settingsOf(point.engine, point.kind)[point.setting];
+  }
+  double stepOf(std::size_t engine, const Case& setup) const;  ///< that it will take [s]
+  double packingCount() const { return static_cast<double>(campaign.packings().size()); }
+
+  /// By what it is, not by its place in lists that may grow: "averages-grain-time_step-t_c-50".
+  std::string nameOf(const PlannedPoint& point) const;
+  CaseKeys keyOf(const PlannedPoint& point, int packing = 0) const;
+  /// Of what the in-house engine does for all: it need not be among the engines named.
+  CaseKeys inHouseKey(std::size_t packing, const std::string& part) const;
+
+  const Case& setup;
+  const int jobs;
+  Campaign campaign;
+  std::vector<TimedEngine> engines;
+  const EngineEntry& inHouse;  ///< whose runs are references for all
+  std::unique_ptr<Engine> inHouseEngine;
+  double inHouseStep = 0.0;  ///< what a step of it takes [s]
+  /// For other reasons than a step beyond the stability limit.
+  std::vector<std::string> engineFailures;
+
+ private:
+  void listSettings(std::size_t engine);
+  void timeStart(std::size_t engine);
+  void timeInHouse();
+};
+
+/// One kind of error: how its points are predicted and measured, and what against.
+///
+///   predicted, commonTime, ownTime ── makeReferences ── measure … ── addTo
+class ErrorKind {
+ public:
+  explicit ErrorKind(CostStudy& study) : study_(study) {}
+  virtual ~ErrorKind() = default;
+  ErrorKind(const ErrorKind&) = delete;
+  ErrorKind& operator=(const ErrorKind&) = delete;
+
+  virtual CostKind kind() const = 0;
+  virtual std::vector<std::string> measures() const = 0;
+  /// What measuring a setting on an engine will take; what references take that all engines share,
+  /// and an engine's own [s].
+  virtual double predicted(std::size_t engine, const CostSetting& setting) const = 0;
+  virtual double commonTime() const { return 0.0; }
+  virtual double ownTime(std::size_t engine) const = 0;
+  /// Whether an earlier command has measured it.
+  virtual bool isKept(const PlannedPoint& point) const;
+  /// Those references that all points need. Not called where they take too long.
+  virtual void makeReferences() {}
+  /// @returns one point per measure @throws as Engine does
+  virtual std::vector<CostPoint> measure(const PlannedPoint& point) = 0;
+  /// Whether points are kept as they are; else measure() keeps what they are made of.
+  virtual bool keepsPoints() const { return true; }
+  /// Adds its references and what else it has found out.
+  virtual void addTo(CostResults& results) const = 0;
+
+ protected:
+  CostStudy& study_;
+};
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,179 @@
+#include "studies/effects/changes.hpp"
+
+#include <cmath>
+
+#include "studies/flow/agreement_table.hpp"
+#include "studies/flow/paired_rings.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+struct TestedChange {
+  TestedRing test;                  ///< of no change: margin 0, on the scale of the case's margin
+  PairedSample plain;               ///< in the field's unit
+  std::optional<double> reference;  ///< mean over packings
+  std::optional<double> withinRun;  ///< error of the only packing's difference
+};
+
+struct TestedField {
+  std::string name, unit;
+  bool judged;
+  std::vector<TestedChange> rings;
+};
+
+/// The two runs' own errors together, where one packing is all there is. Both have a place for each
+/// packing.
+std::optional<double> combined(const Numbers& one, const Numbers& other) {
+  for (std::size_t k = 0; k < one.size(); ++k)
+    if (one[k] && other[k]) return std::hypot(*one[k], *other[k]);
+  return std::nullopt;
+}
+
+struct PairedRuns {
+  Runs whole, switched;
+  std::size_t packings;
+};
+
+/// Of a relative margin ratios are tested, as they are against the margin: so what is shown to lie
+/// beyond the margin is also told apart from no change, µ = 0 being the smaller claim of the same
+/// test.
+TestedRing testOfNoChange(const Margin* margin, const Numbers& whole, const Numbers& switched) {
+  TestedRing ring = testedRing(margin ? *margin : Margin{}, whole, switched);
+  ring.sample.margin = 0.0;
+  return ring;
+}
+
+std::vector<TestedChange> ringsOf(const PairedRuns& runs, const std::string& method,
+                                  const std::string& field, const Margin* margin) {
+  const auto means = [&](const auto& of) { return fieldByRing(of, method, field, runs.packings); };
+  const auto errors = [&](const auto& of) {
+    return fieldByRing(of, method, field, runs.packings, &Profile::standardError);
+  };
+  const auto whole = means(runs.whole), switched = means(runs.switched);
+  const auto wholeError = errors(runs.whole), switchedError = errors(runs.switched);
+  std::vector<TestedChange> tested;
+  for (std::size_t ring = 0; ring < std::min(whole.size(), switched.size()); ++ring) {
+    const auto mean = ensembleMean(whole[ring]);
+    tested.push_back({testOfNoChange(margin, whole[ring], switched[ring]),
+                      {whole[ring], switched[ring], 0.0, 0.0, {}},
+                      mean ? std::optional(mean->mean) : std::nullopt,
+                      combined(wholeError[ring], switchedError[ring])});
+  }
+  return tested;
+}
+
+std::vector<TestedField> fieldsOf(const Case& setup, const PairedRuns& runs) {
+  const std::string& method = setup.averaging.methods.front();
+  const auto& margins = setup.averaging.margins;
+  std::vector<TestedField> fields;
+  for (const Profile& profile : runs.whole.front()->profiles) {
+    if (profile.method != method) continue;
+    const auto margin = margins.find(profile.field);
+    fields.push_back({profile.field, profile.unit, margins.empty() || margin != margins.end(),
+                      ringsOf(runs, method, profile.field,
+                              margin == margins.end() ? nullptr : &margin->second)});
+  }
+  return fields;
+}
+
+/// Sets what the paired packings say in the field's own unit.
+void describe(RingChange& row, const TestedChange& ring) {
+  const auto found = comparePaired({&ring.plain, 1}, 0.95).front();
+  if (!found || found->packings == 0) return;
+  row.change = found->difference;
+  row.standardError = found->packings == 1 ? ring.withinRun : found->standardError;
+}
+
+/// How the family of one variant's tests ended.
+struct Family {
+  double confidence;
+  std::size_t tests = 0, rejected = 0;
+  bool resolves(const PairedComparison& one) const { return *one.pDisagree <= 1.0 - confidence; }
+};
+
+/// Sets the verdict and the interval that it rests on: half as wide as the smallest change that
+/// would have been told apart, so that it leaves out 0 exactly if the change is. Holm (1979) holds
+/// the largest t against the level α/m of m tests, the next against α/(m − 1), and stops at the
+/// first that fails, the K + 1st: all that he rejects pass α/(m − K + 1), all others fail
+/// α/(m − K).
+void judge(RingChange& row, const TestedChange& ring, const PairedComparison& found,
+           const Family& family) {
+  if (!found.pDisagree) return;
+  const bool resolved = family.resolves(found);
+  row.p = *found.pDisagree;
+  row.resolved = resolved;
+  const auto half =
+      smallestSignificant(*found.standardError, found.packings,
+                          family.tests - family.rejected + (resolved ? 1 : 0), family.confidence);
+  row.low = inUnit(ring.test, found.difference - *half);
+  row.high = inUnit(ring.test, found.difference + *half);
+  row.smallest = std::abs(inUnit(ring.test, std::copysign(*half, found.difference)));
+}
+
+std::vector<ChangedField> changesOf(const std::vector<TestedField>& fields, double confidence) {
+  std::vector<PairedSample> judged;
+  for (const TestedField& field : fields)
+    for (const TestedChange& ring : field.rings)
+      if (field.judged) judged.push_back(ring.test.sample);
+  const auto results = comparePaired(judged, confidence);
+  Family family{confidence};
+  for (const auto& found : results)
+    if (found && found->pDisagree) {
+      ++family.tests;
+      family.rejected += family.resolves(*found);
+    }
+
+  auto next = results.begin();
+  std::vector<ChangedField> changes;
+  for (const TestedField& field : fields) {
+    ChangedField& change = changes.emplace_back(
+        ChangedField{field.name, field.unit, field.judged, AgainstMargin::notTested, {}});
+    for (const TestedChange& ring : field.rings) {
+      RingChange row;
+      row.ring = change.rings.size();
+      row.reference = ring.reference;
+      describe(row, ring);
+      if (field.judged)
+        if (const auto& found = *next++) judge(row, ring, *found, family);
+      change.rings.push_back(std::move(row));
+    }
+  }
+  return changes;
+}
+
+std::size_t packingsInBoth(const PairedRuns& runs) {
+  std::size_t both = 0;
+  for (const FlowRun* whole : runs.whole)
+    for (const FlowRun* switched : runs.switched) both += whole->packing == switched->packing;
+  return both;
+}
+
+AgainstMargin againstMargin(Verdict verdict) {
+  if (verdict == Verdict::agree) return AgainstMargin::agree;
+  return verdict == Verdict::disagree ? AgainstMargin::disagree : AgainstMargin::undecided;
+}
+
+}  // namespace
+
+EffectChanges effectChanges(const Case& setup, std::span<const FlowRun> runs,
+                            const std::string& engine, const std::string& without) {
+  const PairedRuns paired = {finishedRuns(runs, engine), finishedRuns(runs, engine, without),
+                             packingsOf(runs)};
+  EffectChanges changes;
+  changes.packings = packingsInBoth(paired);
+  changes.bars = changes.packings == 1 ? BarKind::withinRun : BarKind::packings;
+  if (changes.packings == 0) return changes;
+  changes.fields = changesOf(fieldsOf(setup, paired), setup.averaging.confidence);
+  for (const AgreementRow& row :
+       agreementOf(setup, runs, {{engine, engine, PairKind::effect, without}}))
+    for (ChangedField& field : changes.fields) {
+      if (field.field != row.field) continue;
+      field.verdict = againstMargin(row.verdict);
+      for (const AgreementRing& ring : row.rings)
+        field.rings.at(ring.ring).verdict = againstMargin(ring.verdict);
+    }
+  return changes;
+}
+
+}  // namespace crossgrain::inline studies

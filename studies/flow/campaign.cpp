@@ -1,0 +1,371 @@
+#include "studies/flow/campaign.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "cases/case_keys.hpp"
+#include "cases/flow.hpp"
+#include "cases/time_step.hpp"
+#include "results/flow_fields.hpp"
+#include "studies/core/engine_running.hpp"
+#include "studies/flow/frame.hpp"
+#include "studies/flow/run.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/interrupt.hpp"
+#include "support/task_pool.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+void requireStable(const Case& setup, double dt, std::optional<LightestPair> lightest = {}) {
+  const char* const key = setup.run.dt ? "run.dt" : "run.steps_per_contact";
+  if (const std::string why = unstableStepFault(setup, dt, key, lightest); !why.empty())
+    throw BadInput(fmt::format("{}: {}", whereSaid(setup, key), why));
+}
+
+double stepOf(const Case& setup) {
+  if (!setup.run.dt && setup.particles.file)  // whose masses are not known yet
+    throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
+  const double dt = timeStep(setup);
+  requireStable(setup, dt);
+  return dt;
+}
+
+/// A step that is too large ends a run in any way, and no engine names it.
+std::string stepHint(const Case& setup, double dt) {
+  const std::string why = riskyStepFault(setup, dt);
+  return why.empty() ? why : "; " + why;
+}
+
+}  // namespace
+
+Campaign::Campaign(const Case& setup, const RunCommand& command, std::vector<EngineEntry> engines,
+                   RunStore& store)
+    : setup_(setup),
+      command_(command),
+      dt_(stepOf(setup)),
+      store_(store),
+      progress_(command.quiet) {
+  for (EngineEntry& entry : engines) engines_.push_back({std::move(entry)});
+}
+
+void Campaign::forEachEngine(const std::function<void(CampaignEngine&)>& work) {
+  struct Ending {
+    std::exception_ptr thrown;  ///< what the user is to resolve
+    std::string failure;        ///< of it, or of an engine named that refuses
+  };
+  std::vector<Ending> endings(engines_.size());
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < engines_.size(); ++e)
+    tasks.push_back({1.0, [this, e, &endings, &work] {
+                       throwIfInterrupted();
+                       CampaignEngine& own = engines_[e];
+                       if (!own.refusal.empty()) return;
+                       try {
+                         work(own);
+                       } catch (const UnsupportedScene& refusal) {
+                         own.refusal = refusal.what();
+                         if (isNamed(command_.engines, own.entry)) endings[e].failure = own.refusal;
+                       } catch (const EngineFailure& failure) {
+                         endings[e].failure = failure.what();  // its runs will tell, one by one
+                       } catch (const BadInput&) {
+                         endings[e].thrown = std::current_exception();
+                       }
+                     }});
+  runTasks(tasks, command_.jobs);
+  for (const Ending& ending : endings)
+    if (ending.thrown) std::rethrow_exception(ending.thrown);
+  const auto takesPart = [](const CampaignEngine& own) { return own.refusal.empty(); };
+  const auto wanted = [&](const CampaignEngine& own) {
+    return own.entry.mirrors.empty() || isNamed(command_.engines, own.entry);
+  };
+  const auto inVain = std::ranges::find_if(engines_, wanted);
+  if (inVain != engines_.end() && std::ranges::none_of(engines_, [&](const auto& own) {
+        return wanted(own) && takesPart(own);
+      }))
+    throw UnsupportedScene(inVain->refusal);
+  for (const Ending& ending : endings)
+    if (!ending.failure.empty()) progress_.say(ending.failure);
+  std::ranges::stable_partition(engines_, takesPart);
+}
+
+void Campaign::askEngines() {
+  const Scene scene = unplacedScene(setup_, dt_);
+  forEachEngine([&](CampaignEngine& own) {
+    const auto engine =
+        startEngine(own.entry, store_.scratch("ask-" + own.entry.name), setup_.run.timeout);
+    const Capabilities can = engine->capabilities();
+    own.version = can.version;
+    checkSuitable(can, own.entry, setup_, scene);
+    if (command_.dryRun) own.can = can;
+  });
+}
+
+void Campaign::preparePackings(int count) {
+  const int there = static_cast<int>(packings_.size());
+  if (count <= there) return;
+  packings_.resize(static_cast<std::size_t>(count));
+  std::vector<std::string> failures(packings_.size());
+  std::vector<double> seconds(packings_.size());
+  progress_.begin("preparing packings",
+                  std::vector<double>(static_cast<std::size_t>(count - there), 1.0));
+  std::vector<Task> tasks;
+  for (int k = there; k < count; ++k) {
+    tasks.push_back(
+        {1.0, [this, k, there, &failures, &seconds] {
+           const auto began = std::chrono::steady_clock::now();
+           const auto at = static_cast<std::size_t>(k);
+           const auto place = static_cast<std::size_t>(k - there);
+           const std::string label = fmt::format("packing {}", k);
+           try {
+             const auto engine = engineRegistry().front().make();
+             packings_[at] = flowPacking(setup_, k, dt_, *engine, [&](double fraction) {
+               throwIfInterrupted();
+               progress_.update(place, label, fraction);
+             });
+             std::string line =
+                 label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
+             if (!packings_[at].anew.empty()) line += " anew: " + packings_[at].anew;
+             if (!packings_[at].notCached.empty())
+               line += ", not kept for next time: " + packings_[at].notCached;
+             if (!packings_[at].fromCache)
+               seconds[at] =
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+             progress_.finish(place, line);
+           } catch (const Interrupted&) {
+             throw;
+           } catch (const std::exception& error) {
+             failures[at] = error.what() + stepHint(setup_, setup_.preparation.dt.value_or(dt_));
+           }
+         }});
+  }
+  runTasks(tasks, command_.jobs);
+  for (const std::string& failure : failures)
+    if (!failure.empty()) throw BadInput(failure);
+  std::ranges::copy_if(seconds, std::back_inserter(preparedIn_), [](double s) { return s > 0.0; });
+  if (setup_.particles.file)  // its disks may be lighter than the case says
+    for (const Packing& packing : packings_)
+      requireStable(setup_, dt_, lightestPair(packing.disks, true));
+  if (there == 0) store_.begin();
+}
+
+void Campaign::timeEngines() {
+  const double end = flowDuration(setup_);
+  const Scene scene = flowScene(setup_, packings_.front(), dt_);
+  forEachEngine([&](CampaignEngine& own) {
+    const auto engine =
+        startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
+    const BriefTiming timing = briefTiming(*engine, own.entry, setup_, scene);
+    own.can = engine->capabilities();
+    own.effective = timing.effective;
+    own.predicted = timing.secondsPerStep * end / timing.effective.dt;
+  });
+  reportNonReusableWorkers(engines(), progress_);
+}
+
+CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {
+  CaseKeys key = runKey(setup_, engines_[engine].entry.name, engines_[engine].version);
+  key["packing"] = packings_[static_cast<std::size_t>(packing)].hash;
+  if (!part.empty()) key["part"] = part;
+  return key;
+}
+
+namespace {
+
+/// What makes a variant another run than the case's.
+const std::string& partOf(const Variant& variant) {
+  return variant.without.empty() ? variant.changed : variant.without;
+}
+
+/// "grain packing 0", "grain without friction packing 0"
+std::string labelOf(const EngineEntry& entry, const Variant& variant, int packing) {
+  return fmt::format("{}{}{} packing {}", entry.name,
+                     variant.without.empty() ? "" : " without " + variant.without,
+                     variant.changed.empty() ? "" : " with " + variant.changed, packing);
+}
+
+std::string runName(const EngineEntry& entry, const Variant& variant, int packing) {
+  return fmt::format("{}{}{}-p{}", entry.name,
+                     variant.without.empty() ? "" : "-without-" + variant.without,
+                     variant.changed.empty() ? "" : "-with-" + variant.changed, packing);
+}
+
+}  // namespace
+
+CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packing,
+                                              const std::function<void(double)>& progress) const {
+  const EngineEntry& entry = engines_[variant.engine].entry;
+  const std::string name = runName(entry, variant, packing);
+  FlowRun run;
+  run.engine = entry.name;
+  run.packing = packing;
+  try {
+    const CouetteTask task{variant.setup,
+                           entry,
+                           packing,
+                           &packings_[static_cast<std::size_t>(packing)],
+                           dt_,
+                           store_.scratch(name),
+                           store_.snapshots(name),
+                           store_.unfinished(name),
+                           Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
+    run = runCouette(task, progress);
+    run.without = variant.without;
+    return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const OutputError&) {
+    throw;  // nothing more can be kept
+  } catch (const std::exception& error) {
+    run.without = variant.without;
+    run.status = RunStatus::failed;
+    const std::string why = error.what() + stepHint(*variant.setup, dt_);
+    run.reason = fmt::format("packing {}: {}", packing, why);
+    return {run, false, "failed: " + why};
+  }
+}
+
+std::vector<Variant> Campaign::wholeCase() const {
+  std::vector<Variant> variants;
+  for (std::size_t e = 0; e < engines_.size(); ++e)
+    if (engines_[e].refusal.empty()) variants.push_back({e, "", &setup_});
+  return variants;
+}
+
+void Campaign::run(const std::vector<Variant>& variants) {
+  const PlannedRuns all{variants, {0, static_cast<int>(packings_.size())}};
+  runs_ = runOrLoad(tasksOf(all), store_, progress_, "running engines", command_.jobs);
+}
+
+RunsById Campaign::runSome(const std::vector<PlannedRuns>& lists, const std::string& stage) {
+  std::vector<CachedTask<FlowRun>> tasks;
+  for (const PlannedRuns& list : lists) std::ranges::move(tasksOf(list), std::back_inserter(tasks));
+  return byId(tasks, runOrLoad(tasks, store_, progress_, stage, command_.jobs));
+}
+
+double Campaign::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+double Campaign::secondsOfPreparing(int count) const {
+  if (preparedIn_.empty()) return 0.0;
+  int missing = 0;
+  for (int k = static_cast<int>(packings_.size()); k < count; ++k)
+    missing += !expectedPacking(setup_, k, dt_).there;
+  return missing * std::accumulate(preparedIn_.begin(), preparedIn_.end(), 0.0) /
+         static_cast<double>(preparedIn_.size());
+}
+
+double Campaign::secondsOf(const std::vector<PlannedRuns>& lists) const {
+  double all = 0.0, longest = 0.0;
+  for (const PlannedRuns& list : lists)
+    for (const auto& task : tasksOf(list)) {
+      if (store_.find(task.name, task.key)) continue;
+      all += task.weight;
+      longest = std::max(longest, task.weight);
+    }
+  return std::max(all / std::max(command_.jobs, 1), longest);
+}
+
+void Campaign::add(RunsById runs) {
+  for (auto& [id, run] : runs) runs_.push_back(std::move(run));
+  const auto place = [this](const FlowRun& run) {
+    const auto own = std::ranges::find(engines_, run.engine,
+                                       [](const CampaignEngine& one) { return one.entry.name; });
+    return std::pair(own - engines_.begin(), run.packing);
+  };
+  std::ranges::stable_sort(runs_, {}, place);
+}
+
+std::vector<CachedTask<FlowRun>> Campaign::tasksOf(const PlannedRuns& list) const {
+  std::vector<CachedTask<FlowRun>> tasks;
+  for (const Variant& variant : list.variants) {
+    const CampaignEngine& own = engines_[variant.engine];
+    for (int k = list.packings.from; k < list.packings.to; ++k)
+      tasks.push_back({runName(own.entry, variant, k), labelOf(own.entry, variant, k),
+                       keyOf(variant.engine, k, partOf(variant)), own.predicted,
+                       [this, &variant, k](const std::function<void(double)>& progress) {
+                         return runOne(variant, k, progress);
+                       },
+                       std::nullopt, RunId{own.entry.name, partOf(variant), k}});
+  }
+  return tasks;
+}
+
+void Campaign::lookForPackings() {
+  packings_.resize(static_cast<std::size_t>(packingCount()));
+  for (std::size_t k = 0; k < packings_.size(); ++k) {
+    const ExpectedPacking expected = expectedPacking(setup_, static_cast<int>(k), dt_);
+    packings_[k].hash = expected.hash;
+    packings_[k].fromCache = expected.there;
+  }
+}
+
+std::string Campaign::planHead() const {
+  return fmt::format("{}: {} packings, {} of them prepared already\n", setup_.name,
+                     packings_.size(), std::ranges::count_if(packings_, &Packing::fromCache));
+}
+
+std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) const {
+  std::vector<PlannedWork> works;
+  for (const Variant& variant : variants) {
+    const std::string& name = engines_[variant.engine].entry.name;
+    PlannedWork work{name + (variant.without.empty() ? "" : " without " + variant.without), "runs"};
+    const PlannedRuns list{{variant}, {0, static_cast<int>(packings_.size())}};
+    for (const auto& task : tasksOf(list)) count(work, store_.find(task.name, task.key));
+    works.push_back(work);
+  }
+  for (const CampaignEngine& own : engines_)
+    if (!own.refusal.empty()) works.push_back({own.entry.name, "runs", own.refusal});
+  return works;
+}
+
+std::vector<EngineRow> Campaign::engineRows() const {
+  std::vector<EngineRow> rows;
+  for (const CampaignEngine& own : engines_) {
+    EngineRow row{own.entry.name,    own.entry.summary, own.version,
+                  own.entry.mirrors, EngineStatus::ran, own.refusal};
+    if (!own.refusal.empty()) row.status = EngineStatus::refused;
+    for (const FlowRun& run : runs_)
+      if (run.engine == row.name && run.status == RunStatus::failed && row.reason.empty()) {
+        row.status = EngineStatus::failed;
+        row.reason = run.reason;
+      }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+FlowStudy Campaign::study(std::string_view kind) const {
+  FlowStudy study;
+  static_cast<FlowFrame&>(study) =
+      couetteFrame(kind, setup_, command_.commandLine, packings_.front().disks);
+  study.engines = engineRows();
+  for (std::size_t k = 0; k < packings_.size(); ++k)
+    study.packings.push_back(
+        {k, setup_.preparation.seed, packings_[k].hash, packings_[k].fromCache});
+  study.runs = runs_;
+  const bool all = std::ranges::find(command_.engines, "all") != command_.engines.end();
+  for (const EngineEntry& entry : engineRegistry())
+    if (all && entry.missing && !entry.missing().empty())
+      study.notes.push_back(
+          fmt::format("{} was left out: it is not installed ({}).", entry.name, entry.missing()));
+  if (const EngineRow& first = study.engines.front(); !all && !command_.engines.empty() &&
+                                                      first.name != command_.engines.front() &&
+                                                      first.mirrors.empty())
+    study.notes.push_back(
+        fmt::format("{} was named first and cannot run the case: the reference is {}.",
+                    command_.engines.front(), first.name));
+  study.elapsed = elapsed();
+  return study;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,202 @@
+#include "studies/flow/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "cases/flow.hpp"
+#include "results/schema.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/flow/agreement_table.hpp"
+#include "studies/flow/alarms.hpp"
+#include "studies/flow/campaign.hpp"
+#include "studies/flow/contact_notes.hpp"
+#include "studies/flow/interim_analyses.hpp"
+#include "studies/flow/lockstep_job.hpp"
+#include "studies/flow/state_table.hpp"
+#include "studies/flow/velocity_notes.hpp"
+#include "studies/lockstep/rules.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+/// The pair with the engines whose runs stand for both.
+ComparedPair byRuns(const EndpointPair& pair) {
+  return {pair.runsOfA, pair.runsOfB, pair.kind, ""};
+}
+
+/// What runs show, under the names of the engines that they stand for.
+void nameEngines(auto& rows, const EndpointPair& pair) {
+  for (auto& row : rows) {
+    row.a = pair.a;
+    row.b = pair.b;
+  }
+}
+
+/// Those whose implementation is in question: not what mirrors are made of, nor mirrors themselves.
+bool hasMirror(const EngineEntry& entry) {
+  return entry.mirrors.empty() && entry.name != engineRegistry().front().name;
+}
+
+/// What nothing is left to be compared with is not run.
+/// @throws UnsupportedScene of an engine named that cannot run the case, where fewer than two can
+void requireTwo(const Campaign& campaign, const std::vector<std::string>& named) {
+  std::size_t able = 0;
+  std::string refusal;
+  for (std::size_t e = 0; e < campaign.engines().size(); ++e) {
+    const EngineEntry entry = campaign.engines()[e];
+    const bool asked = isNamed(named, entry);
+    able += (asked || entry.mirrors.empty()) && campaign.refusal(e).empty();
+    if (asked && refusal.empty()) refusal = campaign.refusal(e);
+  }
+  if (able < 2 && !refusal.empty()) throw UnsupportedScene(refusal);
+}
+
+}  // namespace
+
+std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const EndpointRow> rows,
+                                           std::size_t named) {
+  const auto judged = [](const EndpointRow& row) {
+    return row.kind == PairKind::closedForm && row.answer != Answer::undecided;
+  };
+  if (std::ranges::any_of(rows, judged)) return std::nullopt;
+  if (hasClosedForms(setup))
+    return NothingJudged{"no engine has a value that comes back when its one start is run again"};
+  if (named < 2) return NothingJudged{"one engine has nothing to be compared with", true};
+  if (setup.averaging.endpoints.empty())
+    return NothingJudged{setup.average ? "the case has no [[endpoints]]"
+                                       : "the case has no [averaging.endpoints]"};
+  constexpr int fewest = 4;  // of packings, for any test
+  int endpoints = 0, most = 0;
+  for (const EndpointRow& row : rows) {
+    if (row.kind != PairKind::peer) continue;
+    ++endpoints;
+    most = std::max(most, row.packings);
+  }
+  if (endpoints == 0)
+    return NothingJudged{"no two engines finished a run that shows an endpoint with a margin"};
+  if (most == 0) return NothingJudged{"no endpoint has a value on two engines"};
+  if (most >= fewest) return std::nullopt;
+  return NothingJudged{fmt::format("{} packing{} of both engines, and a verdict needs at least {}",
+                                   most, most == 1 ? "" : "s", fewest)};
+}
+
+namespace {
+
+std::string comparePlan(const StudyWork& work, const CompareOptions&) {
+  Campaign campaign(work.setup(), work.line.run, enginesFor(work.setup(), work.line.run.engines),
+                    work.store);
+  campaign.askEngines();
+  requireTwo(campaign, work.line.run.engines);
+  campaign.lookForPackings();
+  return describeDryRun(campaign.planHead(), campaign.plan(campaign.wholeCase()), work.store,
+                        work.line.run);
+}
+
+CompareResults compare(const StudyWork& work, const CompareOptions& own) {
+  const Case& setup = work.setup();
+  const RunCommand& command = work.line.run;
+  const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
+  const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
+  Campaign campaign(setup, command, enginesFor(setup, command.engines), work.store);
+  campaign.askEngines();
+  requireTwo(campaign, command.engines);
+  campaign.preparePackings();
+  LockstepFindings lockstep;
+  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
+  campaign.timeEngines();
+  EndpointFindings endpoints = runWithInterims(setup, campaign, command, lockstep, budget);
+  CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}};
+  if (!lockstep.rows.empty()) results.lockstep = std::move(lockstep);
+  std::vector<std::string> names;
+  for (const EngineRow& engine : results.engines) names.push_back(engine.name);
+  for (const EndpointPair& pair : pairsOf(campaign, command.engines, endpoints.carried)) {
+    auto regimes = regimesOf(results.runs, {byRuns(pair)});
+    auto rings = agreementOf(setup, results.runs, {byRuns(pair)});
+    nameEngines(regimes, pair);
+    nameEngines(rings, pair);
+    std::ranges::move(regimes, std::back_inserter(results.regimes));
+    std::ranges::move(rings, std::back_inserter(results.agreement));
+  }
+  results.steadiness = steadinessOf(results.runs, names, setup.averaging.confidence);
+  results.ensemble = ensembleOf(results.runs, names);
+  endpoints.alarms = alarmsOf(setup, results, endpoints.rows);
+  const auto named = std::ranges::count_if(campaign.engines(), [&](const EngineEntry& entry) {
+    return entry.mirrors.empty() || isNamed(command.engines, entry);
+  });
+  results.nothingJudged = nothingJudged(setup, endpoints.rows, static_cast<std::size_t>(named));
+  results.endpoints = std::move(endpoints);
+  if (const auto& nothing = results.nothingJudged)
+    results.notes.push_back(fmt::format("Nothing was judged: {}.", nothing->reason));
+  std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));
+  std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
+  return results;
+}
+
+std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
+  const Case setup = onlyFlow(line, "compare");
+  printWarnings(setup);
+  if (own.budget) secondsOf(*own.budget);  // throws for what is none
+  return {setup};
+}
+
+/// Only the verdicts on engines that the user named decide.
+Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
+                         const CompareOptions& own) {
+  const auto any = [&](Answer answer) {
+    return std::ranges::any_of(results.endpoints.rows, [&](const EndpointRow& row) {
+      return row.answer == answer &&
+             (row.kind == PairKind::peer || row.kind == PairKind::closedForm);
+    });
+  };
+  const auto anyLockstep = [&](LockstepVerdict verdict) {
+    return results.lockstep &&
+           std::ranges::find(results.lockstep->rows, verdict, &LockstepRow::verdict) !=
+               results.lockstep->rows.end();
+  };
+  Outcome outcome;
+  if (const auto& nothing = results.nothingJudged)
+    outcome = notJudged(nothing->reason, (nothing->byRequest || line.quick) && !own.strict);
+  for (const FlowRun& run : results.runs)
+    if (run.status == RunStatus::failed) outcome.failures.push_back(run.reason);
+  const bool failed = !outcome.failures.empty();
+  const std::vector<std::string> refused = refusals(results.engines, line.run.engines);
+  outcome.failures.insert(outcome.failures.end(), refused.begin(), refused.end());
+  // Another law than it declares is a disagreement, whatever averages make of it.
+  const bool disagree =
+      any(Answer::disagree) || anyLockstep(LockstepVerdict::differs) ||
+      std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
+  const bool open = any(Answer::undecided) || any(Answer::borderline) || !refused.empty() ||
+                    anyLockstep(LockstepVerdict::undecided);
+  if (failed)
+    outcome.status = exitEngineFailed;
+  else if (disagree || (own.strict && open))
+    outcome.status = exitFailed;
+  return outcome;
+}
+
+}  // namespace
+
+const Study<CompareOptions, CompareResults> compareStudy = {
+    "compare",
+    {.packings = true},
+    Keeps::oneCase,
+    [](CompareOptions& own, CommandLine&) {
+      return std::vector<StudyOption>{
+          {"--budget",
+           "no interim analysis of more packings begins that would end later, e.g. 90s, 10m, 1h "
+           "(default: looks.budget of the case)",
+           &own.budget, "TIME"},
+          {"--strict",
+           "undecided and borderline verdicts, engines that cannot run the case and nothing judged "
+           "count as failed",
+           &own.strict}};
+    },
+    caseToCompare,
+    comparePlan,
+    compare,
+    outcomeOfCompare};
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,155 @@
+#include "studies/flow/endpoint_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "averaging/fields.hpp"
+#include "studies/flow/flow_averages.hpp"
+#include "studies/flow/own_endpoints.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+using Value = std::optional<double>;
+
+Value inRing(const Case& setup, const FlowRun& run, std::string_view field, std::size_t ring) {
+  const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
+  return profile && ring < profile->mean.size() ? profile->mean[ring] : Value{};
+}
+
+Value ratio(const Value& above, const Value& below) {
+  return above && below && *below > 0.0 ? Value(*above / *below) : Value{};
+}
+
+/// p = (σ_rr + σ_φφ)/2 in two dimensions; a cell without contacts has none.
+Value pressure(const Case& setup, const FlowRun& run) {
+  const Value rr = cellMean(setup, run, "stress_rr"), pp = cellMean(setup, run, "stress_pp");
+  if (!rr || !pp || !(*rr + *pp > 0.0)) return {};
+  return 0.5 * (*rr + *pp);
+}
+
+Value stressRatio(const Case& setup, const FlowRun& run) {
+  return ratio(cellMean(setup, run, "stress_rp"), cellMean(setup, run, "stress_rr"));
+}
+
+Value stressAnisotropy(const Case& setup, const FlowRun& run) {
+  return ratio(cellMean(setup, run, "stress_pp"), cellMean(setup, run, "stress_rr"));
+}
+
+Value coordination(const Case&, const FlowRun& run) {
+  for (const HeadNumber& number : run.head)
+    if (number.name == "coordination") return number.value;
+  return {};
+}
+
+Value meanVelocity(const Case& setup, const FlowRun& run) {
+  return cellMean(setup, run, "azimuthal_velocity");
+}
+
+Value meanSpin(const Case& setup, const FlowRun& run) {
+  return cellMean(setup, run, "spin");
+}
+
+Value velocityAtWheel(const Case& setup, const FlowRun& run) {
+  return inRing(setup, run, "azimuthal_velocity", 0);
+}
+
+Value volumeFractionAtWheel(const Case& setup, const FlowRun& run) {
+  return inRing(setup, run, "volume_fraction", 0);
+}
+
+Value spinAtWheel(const Case& setup, const FlowRun& run) {
+  return inRing(setup, run, "spin", 0);
+}
+
+const OwnEndpoint* ownEndpoint(const Case& setup, std::string_view name) {
+  if (!setup.average) return nullptr;
+  const auto& endpoints = setup.average->endpoints;
+  const auto found = std::ranges::find(endpoints, name, &OwnEndpoint::name);
+  return found == endpoints.end() ? nullptr : &*found;
+}
+
+struct Formula {
+  std::string_view endpoint;
+  Value (*of)(const Case& setup, const FlowRun& run);
+};
+
+constexpr std::array<Formula, 9> formulas = {{{"pressure", pressure},
+                                              {"stress_ratio", stressRatio},
+                                              {"stress_anisotropy", stressAnisotropy},
+                                              {"coordination", coordination},
+                                              {"mean_velocity", meanVelocity},
+                                              {"mean_spin", meanSpin},
+                                              {"velocity_at_wheel", velocityAtWheel},
+                                              {"volume_fraction_at_wheel", volumeFractionAtWheel},
+                                              {"spin_at_wheel", spinAtWheel}}};
+
+}  // namespace
+
+WeightedBins weightedBins(const Case& setup, const FlowRun& run, std::string_view field) {
+  const std::string& method = setup.averaging.methods.front();
+  const Profile* profile = profileOf(run.profiles, method, field);
+  const Profile* filling = profileOf(run.profiles, method, "volume_fraction");
+  if (!profile || !filling) return {};
+  const bool perVolume = fieldSpec(field).perVolume;
+  const bool any = std::ranges::any_of(profile->mean, [](const Value& x) { return x.has_value(); });
+  WeightedBins bins{profile->mean, {}};
+  const auto places = binsOf(setup);
+  // Profiles leave the overflow out.
+  for (std::size_t slot = 0; slot < places->slots(); ++slot) {
+    const std::size_t k = bins.weight.size();
+    if (places->isOverflow(slot) || k == bins.value.size()) continue;
+    const double filled = k < filling->mean.size() ? filling->mean[k].value_or(0.0) : 0.0;
+    bins.weight.push_back(places->volume(slot) * (perVolume ? 1.0 : filled));
+    if (perVolume && any && filled == 0.0) bins.value[k] = bins.value[k].value_or(0.0);
+  }
+  return bins;
+}
+
+std::optional<double> cellMean(const Case& setup, const FlowRun& run, std::string_view field) {
+  const auto [value, weight] = weightedBins(setup, run, field);
+  double sum = 0.0, whole = 0.0;
+  for (std::size_t k = 0; k < weight.size(); ++k) {
+    if (!value[k]) continue;
+    sum += weight[k] * *value[k];
+    whole += weight[k];
+  }
+  return whole > 0.0 ? Value(sum / whole) : Value{};
+}
+
+std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
+                                 const FlowRun& run) {
+  const auto finite = [](const Value& value) {
+    return value && std::isfinite(*value) ? value : Value{};
+  };
+  if (const OwnEndpoint* own = ownEndpoint(setup, endpoint.name))
+    return finite(ownEndpointOf(*own, setup, run).value);
+  for (const Formula& formula : formulas)
+    if (formula.endpoint == endpoint.name) return finite(formula.of(setup, run));
+  throw std::logic_error("no formula of endpoint " + std::string(endpoint.name));
+}
+
+std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs) {
+  const OwnEndpoint* const own = ownEndpoint(setup, endpoint.name);
+  if (own)
+    for (const FlowRun* run : runs)
+      if (const OwnValue found = ownEndpointOf(*own, setup, *run); !found.why.empty())
+        return fmt::format("{}, packing {}: {}", run->engine, run->packing, found.why);
+  return {};
+}
+
+Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
+                          std::size_t packings) {
+  Numbers values(packings);
+  for (const FlowRun* run : runs)
+    if (const auto k = static_cast<std::size_t>(run->packing); k < packings)
+      values[k] = endpointOf(endpoint, setup, *run);
+  return values;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cases/case.hpp"
+#include "cases/endpoints.hpp"
+#include "studies/flow/paired_rings.hpp"
+
+namespace crossgrain::inline studies {
+
+/// An endpoint of one finished run, from its profiles by the case's first method; absent where
+/// there is nothing to measure. [unit of the endpoint]
+std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup,
+                                 const FlowRun& run);
+
+/// Of the first of these runs that has no value and of which more can be said than that there was
+/// nothing to measure: "yade, packing 3: no mean_x in 120 of 200 snapshots".
+std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs);
+
+/// Of one engine's finished runs, by packing index.
+Numbers endpointByPacking(const EndpointSpec& endpoint, const Case& setup, const Runs& runs,
+                          std::size_t packings);
+
+/// A field bin by bin, as means and slopes over bins take it. What is per volume weighs the bin's
+/// volume and is 0 where a bin is empty; what is of the content weighs that, Σ w V = ν V: so a bin
+/// that holds next to nothing counts as one that holds nothing, and rounding decides nothing.
+struct WeightedBins {
+  Numbers value;               ///< [its unit]
+  std::vector<double> weight;  ///< as long [m³]
+};
+WeightedBins weightedBins(const Case& setup, const FlowRun& run, std::string_view field);
+
+/// Mean of them over the cell, Σ weight · value / Σ weight [its unit].
+std::optional<double> cellMean(const Case& setup, const FlowRun& run, std::string_view field);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,117 @@
+#include "studies/flow/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "averaging/grid.hpp"
+#include "cases/effect_switch.hpp"
+#include "cases/flow.hpp"
+#include "studies/core/study.hpp"
+#include "studies/flow/flow_averages.hpp"
+#include "studies/flow/run.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+CouetteCell cellOf(const Case& setup, const Disks& disks) {
+  const Cell& cell = setup.cell;
+  const auto small =
+      static_cast<std::size_t>(std::ranges::count(disks.radius, setup.particles.smallRadius));
+  double diskArea = 0.0;
+  for (const double a : disks.radius) diskArea += a * a;
+  const double cellArea = cell.outerRadius * cell.outerRadius - cell.innerRadius * cell.innerRadius;
+  return {cell.innerRadius,
+          cell.outerRadius,
+          cell.wallRadius,
+          cell.wallSpacing,
+          cell.height,
+          cell.omega,
+          small,
+          disks.size() - small,
+          setup.particles.smallRadius,
+          setup.particles.largeRadius,
+          diskArea / cellArea,
+          2.0 * setup.particles.smallRadius};
+}
+
+RegionRow regionOf(const Case& setup, const Disks& disks) {
+  const Region& region = setup.average->region;
+  RegionRow row;
+  row.bins = binKindNames[static_cast<std::size_t>(region.bins)];
+  if (region.bins == BinKind::slabs) row.along = region.axis == 0 ? "x" : "y";
+  row.height = region.height;
+  row.diameter = flowDiameter(setup);
+  row.disks = disks.size();
+  if (const auto* grid = dynamic_cast<const Grid*>(binsOf(setup).get()))
+    for (int cell = 0; cell < grid->cells(); ++cell) {
+      row.x.push_back(grid->centre(cell).x());
+      row.y.push_back(grid->centre(cell).y());
+    }
+  const FlowTimes times = flowTimes(setup);
+  row.from = times.settled;
+  row.to = times.end();
+  return row;
+}
+
+FlowAveraging averagingOf(const Case& setup) {
+  const Averaging& averaging = setup.averaging;
+  FlowAveraging result;
+  result.method = averaging.methods.front();
+  result.confidence = averaging.confidence;
+  if (setup.average) {  // timed in seconds: see RegionRow
+    result.snapshots = setup.average->region.snapshots;
+    return result;
+  }
+  result.settleRotations = result.fromRotation = averaging.settleRotations;
+  result.rotations = averaging.rotations;
+  result.toRotation = averaging.settleRotations + averaging.rotations;
+  // Nobody knows how long a packing of the user's own has been sheared.
+  if (!setup.particles.file) result.preparedRotations = setup.preparation.rotations;
+  result.snapshots = std::lround(averaging.snapshotsPerRotation * averaging.rotations);
+  return result;
+}
+
+}  // namespace
+
+RingPlaces placesOf(const Rings& rings) {
+  RingPlaces places;
+  for (int ring = 0; ring < rings.count(); ++ring) {
+    places.r.push_back(rings.centre(ring));
+    places.rTilde.push_back(rings.rTilde(ring));
+  }
+  places.width = rings.edge(1) - rings.edge(0);
+  return places;
+}
+
+RingPlaces placesOf(const Case& setup) {
+  if (!setup.average) return placesOf(ringsOf(setup));
+  const Region& region = setup.average->region;
+  if (region.hasRings()) return placesOf(dynamic_cast<const Rings&>(*binsOf(setup)));
+  const Grid& grid = dynamic_cast<const Grid&>(*binsOf(setup));
+  const bool inLine = region.bins == BinKind::slabs;
+  RingPlaces places;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    const double along = inLine ? grid.centre(cell)[region.axis] : NAN;
+    places.r.push_back(along);
+    places.rTilde.push_back((along - region.low[region.axis]) / flowDiameter(setup));
+  }
+  if (inLine) places.width = (region.high - region.low)[region.axis] / region.count;
+  return places;
+}
+
+FlowFrame couetteFrame(std::string_view kind, const Case& setup, const std::string& command,
+                       const Disks& disks) {
+  FlowFrame frame;
+  frame.head = headOf(kind, setup, command);
+  if (setup.average)
+    frame.region = regionOf(setup, disks);
+  else
+    frame.cell = cellOf(setup, disks);
+  frame.averaging = averagingOf(setup);
+  for (const Effect effect : effectsOf(setup)) frame.effects.emplace_back(toString(effect));
+  frame.rings = placesOf(setup);
+  return frame;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,188 @@
+#include "studies/flow/own_endpoints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/frame.hpp"
+#include "studies/flow/summary.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+using Value = std::optional<double>;
+
+/// Slope of the straight line through the points that are there, by weighted least squares:
+/// Σ w (x − x̄)(y − ȳ) / Σ w (x − x̄)².
+Value slopeOf(const std::vector<double>& x, const Numbers& y, const std::vector<double>& weight) {
+  const std::size_t size = std::min({x.size(), y.size(), weight.size()});
+  double whole = 0.0, meanX = 0.0, meanY = 0.0;
+  for (std::size_t k = 0; k < size; ++k)
+    if (y[k]) {
+      whole += weight[k];
+      meanX += weight[k] * x[k];
+      meanY += weight[k] * *y[k];
+    }
+  if (!(whole > 0.0)) return {};
+  meanX /= whole;
+  meanY /= whole;
+  double both = 0.0, square = 0.0;
+  for (std::size_t k = 0; k < size; ++k)
+    if (y[k]) {
+      both += weight[k] * (x[k] - meanX) * (*y[k] - meanY);
+      square += weight[k] * (x[k] - meanX) * (x[k] - meanX);
+    }
+  return square > 0.0 ? Value(both / square) : Value{};
+}
+
+/// A series where it is there, in the order of time.
+struct Points {
+  std::vector<double> t, y;
+};
+
+/// At t, on the parabola through point k and its two neighbours (Lagrange's form). Fewer than three
+/// points: through those that are there.
+double onParabola(const Points& points, std::size_t k, double t) {
+  const std::size_t count = std::min<std::size_t>(3, points.t.size());
+  const std::size_t first = std::min(k > 0 ? k - 1 : 0, points.t.size() - count);
+  double sum = 0.0;
+  for (std::size_t i = first; i < first + count; ++i) {
+    double term = points.y[i];
+    for (std::size_t j = first; j < first + count; ++j)
+      if (j != i) term *= (t - points.t[j]) / (points.t[i] - points.t[j]);
+    sum += term;
+  }
+  return sum;
+}
+
+double atTime(const Points& points, double t) {
+  const auto nearest =
+      std::ranges::min_element(points.t, {}, [t](double each) { return std::abs(each - t); });
+  return onParabola(points, static_cast<std::size_t>(nearest - points.t.begin()), t);
+}
+
+/// Of y, or of −y for the smallest. What flies freely lies on a parabola; at either end, or where
+/// the three are on a line, the point itself is all that is known.
+double largest(const Points& points, double sign) {
+  const auto top = std::ranges::max_element(points.y, {}, [sign](double y) { return sign * y; });
+  const auto k = static_cast<std::size_t>(top - points.y.begin());
+  if (k == 0 || k + 1 == points.y.size()) return *top;
+  const double before = points.t[k - 1] - points.t[k], after = points.t[k + 1] - points.t[k];
+  const double left = (points.y[k - 1] - *top) / before, right = (points.y[k + 1] - *top) / after;
+  const double bend = (right - left) / (after - before);  // y = top + slope t + bend t²
+  const double slope = left - bend * before;
+  return bend == 0.0 ? *top : *top - slope * slope / (4.0 * bend);
+}
+
+/// On the straight line between the two points on either side of the level.
+Value whenAt(const Points& points, double level) {
+  for (std::size_t k = 0; k < points.t.size(); ++k) {
+    const double now = points.y[k] - level;
+    if (now == 0.0) return points.t[k];
+    if (k == 0 || (now > 0.0) == (points.y[k - 1] > level)) continue;
+    const double before = points.y[k - 1] - level;
+    return points.t[k - 1] + (points.t[k] - points.t[k - 1]) * before / (before - now);
+  }
+  return {};
+}
+
+bool isOfContacts(const std::string& quantity) {
+  const auto numbers = regionNumbers();
+  const auto found = std::ranges::find(numbers, quantity, &RegionNumber::name);
+  return found != numbers.end() && found->ofContacts;
+}
+
+std::string missing(const std::string& what, std::size_t count, std::size_t all) {
+  return fmt::format("{} in {} of {} snapshots", what, count, all);
+}
+
+OwnValue ofSeries(const std::string& quantity, const OwnEndpoint& how, const FlowRun& run) {
+  if (!run.series) return {};
+  const std::string name = how.disk ? how.series() : quantity;
+  // A disk's velocity may be of another instant than its place.
+  const bool ofVelocity = how.disk && quantity != "x" && quantity != "y";
+  const Numbers& values = valuesOf(*run.series, name);
+  const Numbers& times = valuesOf(*run.series, ofVelocity ? "velocity_t_s" : "t_s");
+  Points points;
+  std::size_t all = 0;
+  Value last;
+  for (std::size_t k = 0; k < std::min(values.size(), times.size()); ++k) {
+    const auto [from, to] = how.between.value_or(std::pair(-INFINITY, INFINITY));
+    if (!times[k] || *times[k] < from || *times[k] > to) continue;
+    ++all;
+    last = values[k];
+    if (!values[k]) continue;
+    points.t.push_back(*times[k]);
+    points.y.push_back(*values[k]);
+  }
+  if (all == 0) return {};
+  const std::size_t absent = all - points.t.size();
+  const bool extreme = how.reduction == Reduction::maximum || how.reduction == Reduction::minimum;
+  const bool gap = static_cast<double>(absent) > mostMissing * static_cast<double>(all);
+  if (points.t.empty() ||
+      (gap && !(extreme && isOfContacts(quantity)) && how.reduction != Reduction::end))
+    return {{}, missing("no " + name, absent, all)};
+  switch (how.reduction) {
+    case Reduction::end:
+      // With `between` the value at its end, where a snapshot need not be.
+      return {how.between && last ? Value(atTime(points, how.between->second)) : last, ""};
+    case Reduction::rate:
+      return {slopeOf(points.t, Numbers(points.y.begin(), points.y.end()),
+                      std::vector(points.t.size(), 1.0)),
+              ""};
+    case Reduction::maximum:
+      return {largest(points, 1.0), ""};
+    case Reduction::minimum:
+      return {largest(points, -1.0), ""};
+    case Reduction::time:
+      return {atTime(points, how.level), ""};
+    case Reduction::reaches:
+      if (const Value t = whenAt(points, how.level)) return {t, ""};
+      return {{}, fmt::format("{} never is {:g}", name, how.level)};
+    default:
+      break;
+  }
+  double sum = 0.0;
+  for (const double y : points.y) sum += y;
+  return {sum / static_cast<double>(points.y.size()), ""};
+}
+
+OwnValue ofField(const std::string& field, const OwnEndpoint& how, const Case& setup,
+                 const FlowRun& run) {
+  if (how.reduction == Reduction::bin) {
+    const Profile* profile = profileOf(run.profiles, setup.averaging.methods.front(), field);
+    const auto bin = static_cast<std::size_t>(how.bin);
+    return {profile && bin < profile->mean.size() ? profile->mean[bin] : Value{}, ""};
+  }
+  const Numbers& disks = run.series ? valuesOf(*run.series, "disks") : Numbers{};
+  const auto empty = static_cast<std::size_t>(std::ranges::count(disks, std::optional(0.0)));
+  if (static_cast<double>(empty) > mostMissing * static_cast<double>(disks.size()))
+    return {{}, missing("no disk in the averaged part", empty, disks.size())};
+  if (how.reduction == Reduction::mean) return {cellMean(setup, run, field), ""};
+  const auto [value, weight] = weightedBins(setup, run, field);
+  return {slopeOf(placesOf(setup).r, value, weight), ""};
+}
+
+OwnValue reduced(const std::string& quantity, const OwnEndpoint& how, const Case& setup,
+                 const FlowRun& run) {
+  const auto numbers = regionNumbers();
+  if (how.disk || std::ranges::find(numbers, quantity, &RegionNumber::name) != numbers.end())
+    return ofSeries(quantity, how, run);
+  return ofField(quantity, how, setup, run);
+}
+
+}  // namespace
+
+OwnValue ownEndpointOf(const OwnEndpoint& endpoint, const Case& setup, const FlowRun& run) {
+  const OwnValue own = reduced(endpoint.quantity, endpoint, setup, run);
+  if (endpoint.per.empty() || !own.value) return own;
+  const OwnValue below = reduced(endpoint.per, endpoint, setup, run);
+  if (!below.value) return below;
+  if (*below.value == 0.0) return {{}, endpoint.per + " is 0"};
+  return {*own.value / *below.value, ""};
+}
+
+}  // namespace crossgrain::inline studies

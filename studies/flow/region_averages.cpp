@@ -1,0 +1,102 @@
+#include "studies/flow/region_averages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "cases/flow.hpp"
+#include "cases/time_step.hpp"
+#include "studies/flow/run.hpp"
+#include "studies/flow/series.hpp"
+#include "studies/flow/summary.hpp"
+
+namespace crossgrain::inline studies {
+
+RegionSeries::RegionSeries(const Case& setup, const Scene& scene)
+    : average_(*setup.average), region_(average_.region), scene_(scene), bins_(binsOf(setup)) {}
+
+void RegionSeries::add(const Snapshot& now) {
+  addGlobalNumbers(rows_, scene_, now);
+  addMoments(now);
+  addDisks(now);
+}
+
+void RegionSeries::addDisks(const Snapshot& now) {
+  std::set<std::string> added;  // two endpoints may share a column
+  for (const OwnEndpoint& own : average_.endpoints) {
+    if (!own.disk || !added.insert(own.series()).second) continue;
+    const auto i = static_cast<std::size_t>(*own.disk);
+    Numbers& row = rows_[own.series()];
+    if (own.quantity == "spin")
+      row.push_back(now.spin ? std::optional((*now.spin)[i]) : std::nullopt);
+    else {
+      const Vec2& pair = own.quantity.starts_with("velocity") ? now.velocity[i] : now.position[i];
+      row.push_back(own.quantity.ends_with("y") ? pair.y() : pair.x());
+    }
+  }
+  if (!added.empty()) rows_["velocity_t_s"].push_back(now.velocityTime);
+}
+
+void RegionSeries::addMoments(const Snapshot& now) {
+  std::vector<std::size_t> inside;
+  double mass = 0.0, top = -INFINITY;
+  Vec2 first = Vec2::Zero(), second = Vec2::Zero();
+  for (std::size_t i = 0; i < now.position.size(); ++i) {
+    const Vec2& x = now.position[i];
+    if (bins_->isOverflow(bins_->slotAt(x))) continue;
+    inside.push_back(i);
+    mass += scene_.disks.mass[i];
+    first += scene_.disks.mass[i] * x;
+    top = std::max(top, x.y() + scene_.disks.radius[i]);
+  }
+  const bool any = !inside.empty();
+  const Vec2 centre = any ? Vec2(first / mass) : Vec2::Zero();
+  for (const std::size_t i : inside)
+    second += scene_.disks.mass[i] * (now.position[i] - centre).cwiseAbs2();
+  const Vec2 rms = any ? Vec2((second / mass).cwiseSqrt()) : Vec2::Zero();
+  const double height = centre.y() - region_.low.y();
+  const auto number = [&](const char* name, double value) {
+    rows_[name].push_back(any && std::isfinite(value) ? std::optional(value) : std::nullopt);
+  };
+  rows_["disks"].push_back(static_cast<double>(inside.size()));
+  number("top", top - region_.low.y());
+  number("mean_x", centre.x());
+  number("mean_y", height);
+  number("rms_x", rms.x());
+  number("rms_y", rms.y());
+  number("heap_slope", 3.0 * height / (std::sqrt(6.0) * rms.x()));
+}
+
+RegionAverages::RegionAverages(const Case& setup, const Scene& scene)
+    : setup_(setup),
+      profiles_(binsOf(setup), weightsOf(setup, setup.averaging.methods), scene),
+      series_(setup, scene) {}
+
+void RegionAverages::add(const Snapshot& snapshot) {
+  profiles_.add(snapshot);
+  series_.add(snapshot);
+}
+
+void RegionAverages::describe(const EffectiveParameters& effective, FlowRun& run) const {
+  run.profiles = profiles_.profiles();
+  run.series = series_.rows();
+  if (const auto times = run.series->find("velocity_t_s"); times != run.series->end())
+    for (auto& t : times->second) *t -= effective.velocityLag;
+  const double diameter = flowDiameter(setup_);
+  const auto mean = [&](const char* name) { return meanOf(valuesOf(*run.series, name)); };
+  const auto add = [&](const char* name, std::optional<double> value, double factor = 1.0) {
+    if (value) *value *= factor;
+    run.head.push_back({name, "-", value, {}, {}});
+  };
+  const auto overlaps = presentNumbers(valuesOf(*run.series, "max_overlap"));
+  add("coordination", mean("coordination"));
+  add("mean_overlap_over_d", mean("mean_overlap"), 1.0 / diameter);
+  add("max_overlap_over_d",
+      overlaps.empty() ? std::nullopt : std::optional(std::ranges::max(overlaps)), 1.0 / diameter);
+  add("sliding_fraction", mean("sliding_fraction"));
+  if (const auto contact = pairContactTime(setup_); contact && effective.dt > 0.0)
+    add("dt_over_tc", effective.dt / *contact);
+}
+
+}  // namespace crossgrain::inline studies

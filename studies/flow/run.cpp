@@ -1,0 +1,142 @@
+#include "studies/flow/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "adapters/audit.hpp"
+#include "cases/flow.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/study.hpp"
+#include "studies/flow/flow_averages.hpp"
+#include "studies/flow/snapshot_file.hpp"
+#include "studies/flow/unfinished_run.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+Rings ringsOf(const Case& setup) {
+  return ringsOf(setup, setup.averaging.rings);
+}
+
+Rings ringsOf(const Case& setup, int count) {
+  return Rings(setup.cell.innerRadius, setup.cell.outerRadius, count, setup.cell.height,
+               2.0 * setup.particles.smallRadius);
+}
+
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names) {
+  const double width = flowDiameter(setup) * setup.averaging.lineWidth;
+  std::vector<Weight> weights;
+  for (const std::string& name : names) weights.emplace_back(weightMethod(name), width);
+  return weights;
+}
+
+FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
+                   const SnapshotObserver& watch) {
+  const Case& setup = *task.setup;
+  const Scene scene = flowScene(setup, *task.packing, task.dt);
+  LoadedEngine loaded = loadEngine(task.entry, setup, scene, task.scratch);
+  Engine& engine = *loaded.engine;
+  // Forces of one instant belong to the positions beside them; those summed over an interval do not
+  // where the wheel's disks moved on meanwhile.
+  const ContactReport report =
+      loaded.can.instantContacts ? ContactReport::instant : ContactReport::accumulated;
+
+  const FlowTimes times = flowTimes(setup);
+  const auto [settled, interval, samples] = times;
+  const double end = times.end();
+  // In pieces: an engine answers within its time-out however far apart snapshots are.
+  const double piece = 2000.0 * loaded.effective.dt;
+  UnfinishedRun unfinished(task.unfinished, task.key, scene,
+                           loaded.can.checkpoints && report == ContactReport::instant);
+  const auto before = unfinished.resume(engine);
+  // What the watch has seen of the settling; what it sees later is shown to it again.
+  int settlingSeen = 0;
+  nlohmann::json watched;
+  if (before && watch.restore) {
+    settlingSeen = before->aside.at("settling");
+    watch.restore(before->aside.at("watched"));
+  }
+  if (watch.state)
+    unfinished.keepAside([&] {
+      const bool settling = settlingSeen < watch.settlingSnapshots;
+      return nlohmann::json{{"settling", settlingSeen},
+                            {"watched", settling ? watch.state() : watched}};
+    });
+  double now = before ? before->time : 0.0;
+  std::optional<double> reached;
+  const auto advanceTo = [&](double t) {
+    while (now < t) {
+      if (interrupted()) unfinished.keep(engine, now);
+      throwIfInterrupted();
+      const double next = std::min(t, now + piece);
+      reached = engine.advance(next);
+      if (!(std::abs(*reached - next) <= loaded.effective.dt)) {
+        discardWorker(engine);
+        throw EngineFailure(fmt::format("{}, {}: asked for t = {:g} s it stopped at {:g} s",
+                                        task.entry.name, setup.name, next, *reached));
+      }
+      now = next;
+      unfinished.keepIfDue(engine, now);
+    }
+    progress(t / end);
+  };
+
+  // Slices only tell the progress: advanceTo() goes in pieces of its own.
+  constexpr double mostSlices = 1e6;
+  const int settleSlices =
+      watch.settlingSnapshots > 0
+          ? watch.settlingSnapshots
+          : static_cast<int>(std::min(std::ceil(settled / interval), mostSlices));
+  for (int k = 1; k <= settleSlices; ++k) {
+    advanceTo(settled * k / settleSlices);
+    if (k <= settlingSeen || k > watch.settlingSnapshots) continue;
+    watch.settling(engine.snapshot(report));
+    settlingSeen = k;
+  }
+  if (watch.state) watched = watch.state();
+  if (report == ContactReport::accumulated) engine.snapshot(report);  // starts the first interval
+
+  const auto averages = flowAverages(setup, scene);
+  SnapshotFile kept(task.snapshots, task.entry.name, scene, samples, setup.run.keepSnapshots);
+  FlowRun run;
+  const double pictureTime = std::min(0.5 * flowUnit(setup), end);
+  int taken = 0;
+  const auto take = [&](const Snapshot& snapshot) {
+    averages->add(snapshot);
+    if (watch.averaged) watch.averaged(snapshot);
+    kept.offer(snapshot, ++taken);
+    if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
+      run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
+  };
+  for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
+  while (taken < samples) {
+    advanceTo(settled + (taken + 1) * interval);
+    const Snapshot snapshot = engine.snapshot(report);
+    take(snapshot);
+    unfinished.took(snapshot);
+  }
+  kept.close();
+
+  Stats stats = engine.stats();
+  if (!before && reached)
+    if (const std::string why = statsFault(stats, loaded.effective.dt, *reached); !why.empty()) {
+      discardWorker(engine);
+      throw EngineFailure(fmt::format("{}, {} at t = {:g} s: its stats cannot be: {}",
+                                      task.entry.name, setup.name, *reached, why));
+    }
+  if (before) {
+    stats.wallSeconds += before->wallSeconds;
+    stats.cpuSeconds += before->cpuSeconds;
+  }
+  run.engine = task.entry.name;
+  run.packing = task.packingIndex;
+  run.effective = loaded.effective;
+  run.stats = stats;
+  averages->describe(loaded.effective, run);
+  return run;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "averaging/rings.hpp"
+#include "averaging/weights.hpp"
+#include "cases/case.hpp"
+#include "cases/packing.hpp"
+#include "results/run.hpp"
+#include "studies/core/engine_access.hpp"
+
+namespace crossgrain::inline studies {
+
+/// The rings that a Couette case averages over, or so many of its cell.
+Rings ringsOf(const Case& setup);
+Rings ringsOf(const Case& setup, int count);
+
+/// Weights of these names, with the case's kernel width.
+std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> names);
+
+/// What one engine on one packing is to do, and where its files go.
+struct CouetteTask {
+  const Case* setup;
+  EngineEntry entry;
+  int packingIndex;
+  const Packing* packing;
+  double dt;                         ///< the case's time step [s]
+  std::filesystem::path scratch;     ///< the worker's
+  std::filesystem::path snapshots;   ///< HDF5 file of kept snapshots
+  std::filesystem::path unfinished;  ///< folder of what is kept while it runs
+  std::string key;                   ///< everything that the run depends on
+};
+
+/// Somebody who looks on from the hand-over to the end, beside what is averaged. All or none of
+/// the functions are there.
+struct SnapshotObserver {
+  int settlingSnapshots = 0;  ///< evenly over the time that is not averaged, its end included
+  std::function<void(const Snapshot&)> settling, averaged;
+  /// All that the snapshots so far have left, so that an unfinished run goes on to the bit.
+  std::function<nlohmann::json()> state;
+  std::function<void(const nlohmann::json&)> restore;
+};
+
+/// Lets the packing settle and averages over the case's rotations.
+/// @param progress  told the fraction done, 0 … 1
+/// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
+FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
+                   const SnapshotObserver& watch = {});
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,128 @@
+#include "studies/flow/snapshot_file.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include "results/snapshot_layout.hpp"
+#include "support/files.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+void writeVectors(Hdf5File& out, const std::string& path, const std::vector<Vec2>& values) {
+  out.write(path, values.empty() ? nullptr : values.front().data(), values.size(), 2);
+}
+
+void writeContacts(Hdf5File& out, const std::string& path, const Contacts& contacts) {
+  out.write(path + "/i", contacts.i);
+  out.write(path + "/j", contacts.j);
+  writeVectors(out, path + "/normal", contacts.normal);
+  out.write(path + "/overlap", contacts.overlap);
+  out.write(path + "/normal_force", contacts.normalForce);
+  out.write(path + "/tangential_force", contacts.tangentialForce);
+  if (!contacts.sliding.empty())
+    out.write(path + "/sliding",
+              std::vector<std::int32_t>(contacts.sliding.begin(), contacts.sliding.end()));
+}
+
+/// One row per body; force and torque where every body has them.
+void writeBodies(Hdf5File& out, const std::string& path, const std::vector<BodySnapshot>& bodies) {
+  std::vector<Vec2> centre, velocity, force;
+  std::vector<double> angle, spin, torque;
+  for (const BodySnapshot& body : bodies) {
+    centre.push_back(body.centre);
+    velocity.push_back(body.velocity);
+    angle.push_back(body.angle);
+    spin.push_back(body.angularVelocity);
+    if (body.force) force.push_back(*body.force);
+    if (body.torque) torque.push_back(*body.torque);
+  }
+  writeVectors(out, path + "/centre", centre);
+  out.write(path + "/angle", angle);
+  writeVectors(out, path + "/velocity", velocity);
+  out.write(path + "/angular_velocity", spin);
+  if (force.size() == bodies.size()) writeVectors(out, path + "/force", force);
+  if (torque.size() == bodies.size()) out.write(path + "/torque", torque);
+}
+
+void writeSnapshot(Hdf5File& out, const std::string& group, const Snapshot& now) {
+  out.write(group + "/time",
+            std::vector{now.positionTime, now.velocityTime, now.contactTime, now.contactInterval});
+  writeVectors(out, group + "/position", now.position);
+  writeVectors(out, group + "/velocity", now.velocity);
+  if (now.spin) out.write(group + "/spin", *now.spin);
+  writeVectors(out, group + "/wall_position", now.wallPosition);
+  if (!now.bodies.empty()) writeBodies(out, group + "/bodies", now.bodies);
+  if (now.energies)
+    out.write(group + "/energies", std::vector{now.energies->kinetic, now.energies->elastic});
+  if (now.contacts) writeContacts(out, group + "/contacts", *now.contacts);
+}
+
+std::vector<std::int32_t> countedUp(std::size_t count) {
+  std::vector<std::int32_t> result(count);
+  std::iota(result.begin(), result.end(), 0);
+  return result;
+}
+
+}  // namespace
+
+SnapshotFile::SnapshotFile(std::filesystem::path file, std::string engine, const Scene& scene,
+                           int samples, int keep)
+    : file_(std::move(file)),
+      part_(file_.string() + ".part"),
+      engine_(std::move(engine)),
+      scene_(scene),
+      samples_(samples),
+      keep_(keep) {}
+
+void SnapshotFile::offer(const Snapshot& snapshot, int k) {
+  // Kept are those with which ⌊k·keep/samples⌋ grows: evenly spaced, the last one among them.
+  const auto count = [&](long long n) { return n * keep_ / samples_; };
+  if (count(k) == count(k - 1)) return;
+  try {
+    if (kept_.empty()) begin();
+    Hdf5File out = Hdf5File::append(part_);
+    writeSnapshot(out, snapshotGroup(kept_.size()), snapshot);
+    out.save();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    std::filesystem::remove(part_, ignored);
+    throw;
+  }
+  kept_.push_back({snapshot.positionTime, snapshot.spin.has_value()});
+}
+
+void SnapshotFile::begin() {
+  makeDirectory(part_.parent_path());
+  std::filesystem::remove(part_);  // of a run that was broken off
+  Hdf5File out = Hdf5File::append(part_);
+  out.writeAttribute("engine", engine_);
+  out.write("/disks/index", countedUp(scene_.disks.size()));
+  out.write("/disks/radius", scene_.disks.radius);
+  out.write("/disks/mass", scene_.disks.mass);
+  out.write("/disks/inertia", scene_.disks.inertia);
+  std::vector<double> wallRadius;
+  std::vector<std::int32_t> wallBody;
+  for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+    const std::vector<double>& radii = scene_.bodies[b].diskRadius;
+    wallRadius.insert(wallRadius.end(), radii.begin(), radii.end());
+    wallBody.insert(wallBody.end(), radii.size(), static_cast<std::int32_t>(b));
+  }
+  out.write("/walls/index", countedUp(wallRadius.size()));
+  out.write("/walls/radius", wallRadius);
+  out.write("/walls/body", wallBody);
+  out.save();
+}
+
+void SnapshotFile::close() {
+  if (kept_.empty()) return;
+  std::error_code error;
+  std::filesystem::rename(part_, file_, error);
+  if (error) throw OutputError(file_, error.value());
+  std::filesystem::path xdmf = file_;
+  writeFile(
+      xdmf.replace_extension(".xdmf"),
+      snapshotXdmf(file_.filename().string(), scene_.disks.size(), scene_.wallDiskCount(), kept_));
+}
+
+}  // namespace crossgrain::inline studies

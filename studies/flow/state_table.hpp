@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/run.hpp"
+#include "studies/flow/agreement_table.hpp"
+
+namespace crossgrain::inline studies {
+
+/// Of every pair that has any packing that both have a regime for. Asked before any mean is taken:
+/// a difference of means over different regimes says nothing of either.
+std::vector<RegimesOfPair> regimesOf(std::span<const FlowRun> runs,
+                                     const std::vector<ComparedPair>& pairs);
+
+/// Per engine and watched series.
+///
+/// From 4 packings on the packing is a random effect: the mean of the runs' changes, with Student's
+/// t over packings, which needs no model of a run's own noise. Its level is shared out over the
+/// watched series (Bonferroni), so that a steady engine is called drifting in at most 1 −
+/// confidence of reports. With fewer packings all runs must say the same, each by its own interval;
+/// else it cannot be told.
+std::vector<EngineDrift> steadinessOf(std::span<const FlowRun> runs,
+                                      const std::vector<std::string>& engines, double confidence);
+
+}  // namespace crossgrain::inline studies

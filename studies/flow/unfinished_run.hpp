@@ -1,0 +1,67 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+
+namespace crossgrain::inline studies {
+
+/// What a long run has done so far, kept on disk now and then, so that --resume goes on in the
+/// middle of it: the engine's own checkpoint and the snapshots taken before. Engines without
+/// checkpoints keep nothing.
+class UnfinishedRun {
+ public:
+  /// @param key  everything that the run depends on
+  UnfinishedRun(std::filesystem::path folder, std::string key, const Scene& scene, bool possible);
+
+  struct Before {
+    double time = 0.0;          ///< that the engine has reached [s]
+    std::size_t snapshots = 0;  ///< taken up to then
+    double wallSeconds = 0.0, cpuSeconds = 0.0;
+    nlohmann::json aside;  ///< as of keepAside()
+  };
+
+  /// Takes the engine, which has loaded the scene, to where the run was left. Absent if nothing
+  /// was kept under this key, or it is damaged: then the run begins anew.
+  /// @throws EngineFailure if the engine does not take its own checkpoint
+  std::optional<Before> resume(Engine& engine);
+
+  /// The k-th of those taken before, from disk.
+  Snapshot snapshot(std::size_t k) const;
+
+  void took(const Snapshot& snapshot);
+  /// Of what is to be kept beside it; asked whenever something is.
+  void keepAside(std::function<nlohmann::json()> aside) { aside_ = std::move(aside); }
+  /// @param time  that the engine has reached [s]
+  void keep(Engine& engine, double time);
+  /// The same, if the last time is half a minute ago.
+  void keepIfDue(Engine& engine, double time);
+  /// The run is finished, and kept elsewhere.
+  void remove();
+
+ private:
+  Before readBack(const nlohmann::json& kept);
+
+  std::filesystem::path folder_;
+  std::string key_;
+  const Scene& scene_;
+  bool possible_;
+  nlohmann::json snapshots_ = nlohmann::json::array();  ///< on disk
+  std::vector<Snapshot> pending_;                       ///< not yet there
+  double earlierWall_ = 0.0, earlierCpu_ = 0.0;
+  int checkpoints_ = 0;
+  std::function<nlohmann::json()> aside_;
+  std::chrono::steady_clock::time_point keptAt_;
+};
+
+/// How far a run came that was kept in that folder under that key [s]; 0: there is none, or nobody
+/// can tell.
+double timeReached(const std::filesystem::path& folder, const std::string& key);
+
+}  // namespace crossgrain::inline studies

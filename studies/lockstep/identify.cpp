@@ -1,0 +1,326 @@
+#include "studies/lockstep/identify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "adapters/law_options.hpp"
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "cases/flow.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/separation.hpp"
+#include "studies/lockstep/terms.hpp"
+#include "studies/lockstep/window.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+/// A mirror that leaves more of the first separation than this is none.
+constexpr double leftOfNoMirror = 0.01;
+
+}  // namespace
+
+bool FoundOption::contradicts() const {
+  if (declared.empty()) return false;
+  return std::ranges::none_of(declared, [&](const std::string& value) {
+    return std::ranges::find(values, value) != values.end();
+  });
+}
+
+bool Identification::closeEnough() const {
+  return left <= std::max(lockstepRounding, leftOfNoMirror * before);
+}
+
+bool Identification::contradicts() const {
+  return !closeEnough() || !constants.empty() || missing != declaredMissing ||
+         std::ranges::any_of(options, &FoundOption::contradicts);
+}
+
+namespace {
+
+/// First what acts at once, while no contact is made or broken at another step; then what takes
+/// contacts to open.
+constexpr std::array identifyTimes = {1e-3, 10e-3};  // [s]
+
+/// What fits worse than the best by less than this part of it fits alike.
+constexpr double alike = 0.01;
+
+/// A constant is put down as another one from here on: what rounding and what an engine's own way
+/// with springs do is less.
+constexpr double leastConstant = 1e-5;  // of the constant
+
+struct AppliedChange {
+  MirrorChange change;
+  double by = 0.0;  ///< of a constant
+};
+
+class Search {
+ public:
+  Search(Engine& engine, const EngineEntry& entry, const Case& setup,
+         const std::vector<FlowState>& states, double dt)
+      : diameter_(flowDiameter(setup)), mirror_(engineRegistry().front().make()) {
+    for (const FlowState& state : states) {
+      throwIfInterrupted();
+      Scene scene = flowScene(setup, state.packing, dt);
+      const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
+      if (!engine_.empty()) requireSameStep(effective_, effective);
+      effective_ = effective;
+      step_ = effective_.dt;
+      until_.clear();
+      for (const double time : identifyTimes) until_.push_back(stepsUntil(time, step_));
+      engine_.push_back(follow(engine, step_, until_));
+      scene.precision = Precision::float64;
+      scene.dt = step_;
+      scenes_.push_back(std::move(scene));
+    }
+    lookAt(0);
+  }
+
+  /// Goes by what is seen at identifyTimes[when] from here on.
+  void lookAt(std::size_t when) {
+    when_ = when;
+    best_ = *distanceWith({});
+  }
+
+  const EffectiveParameters& effective() const { return effective_; }
+
+  double distance() const { return best_; }
+  double time() const { return static_cast<double>(until_[when_]) * step_; }
+  const std::vector<AppliedChange>& applied() const { return applied_; }
+
+  /// The closest mirror's scene from the first state.
+  Scene closest() const { return changed(scenes_.front(), applied_); }
+
+  std::vector<MirrorChange> candidates() const {
+    return changesOf(closest(), mirror_->capabilities());
+  }
+
+  /// Root of the summed squares of all components [d]; absent where it cannot run like that.
+  std::optional<double> distanceWith(const std::vector<AppliedChange>& further) {
+    const auto apart = separationWith(further);
+    if (!apart) return std::nullopt;
+    return std::sqrt(std::inner_product(apart->begin(), apart->end(), apart->begin(), 0.0));
+  }
+
+  /// The largest separation of a disk from the closest mirror [d].
+  double largest() {
+    double most = 0.0;
+    const auto frames = *framesWith({});
+    for (std::size_t s = 0; s < frames.size(); ++s)
+      most = std::max(most, farthest(engine_[s][when_], frames[s], diameter_).distance);
+    return most;
+  }
+
+  /// Takes the convention or the missing effect that brings the mirror nearest. @returns whether
+  /// one brought it nearer
+  bool takeBestConvention() {
+    std::optional<MirrorChange> best;
+    double distance = best_ * (1.0 - alike);
+    for (const MirrorChange& change : candidates()) {
+      if (change.isConstant) continue;
+      const auto with = distanceWith({{change}});
+      if (!with || !(*with < distance)) continue;
+      distance = *with;
+      best = change;
+    }
+    if (best) take({*best}, distance);
+    return best.has_value();
+  }
+
+  /// Two at once, where neither alone brings the mirror nearer: arms of f_t and of v_t are such,
+  /// which agree with each other in most laws. @returns whether two brought it nearer
+  bool takeBestPair() {
+    std::vector<MirrorChange> changes = candidates();
+    std::erase_if(changes, &MirrorChange::isConstant);
+    const MirrorChange *first = nullptr, *second = nullptr;
+    double distance = best_ * (1.0 - alike);
+    for (std::size_t b = 1; b < changes.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) {
+        if (optionNamed(changes[a]) == optionNamed(changes[b])) continue;
+        const auto with = distanceWith({{changes[a]}, {changes[b]}});
+        if (!with || !(*with < distance)) continue;
+        distance = *with;
+        first = &changes[a];
+        second = &changes[b];
+      }
+    if (!first) return false;
+    take({*first}, distance);
+    take({*second}, distance);
+    return true;
+  }
+
+  /// Undoes every convention and missing effect without which the mirror is as near: it was taken
+  /// while something else was still amiss.
+  void undoNeedless() {
+    for (std::size_t k = applied_.size(); k-- > 0;) {
+      if (applied_[k].change.isConstant) continue;
+      const AppliedChange one = applied_[k];
+      const auto place = applied_.begin() + static_cast<std::ptrdiff_t>(k);
+      applied_.erase(place);
+      const auto without = distanceWith({});
+      if (without && *without <= best_ * (1.0 + alike) + lockstepRounding)
+        best_ = *without;
+      else
+        applied_.insert(applied_.begin() + static_cast<std::ptrdiff_t>(k), one);
+    }
+  }
+
+  /// Takes that constant, and as much of it, as leaves least, if that is half or less of what there
+  /// is. @returns whether there is one
+  bool takeBestConstant() {
+    const auto now = *framesWith({});
+    const auto separation = *separationWith({});
+    std::optional<AppliedChange> best;
+    double unexplained = termWorthTrying;
+    for (const MirrorChange& change : candidates()) {
+      if (!change.isConstant) continue;
+      const auto moved = framesWith({{change, termChange}});
+      if (!moved) continue;
+      std::vector<double> response;
+      for (std::size_t s = 0; s < moved->size(); ++s)
+        append(response, separationVector((*moved)[s], now[s], diameter_));
+      const NamedTerm term = asTerm(change, separation, response);
+      if (!(term.unexplained < unexplained)) continue;
+      unexplained = term.unexplained;
+      best = {change, *term.amount};
+    }
+    const auto with = best ? distanceWith({*best}) : std::nullopt;
+    if (!with || !(*with < best_)) return false;
+    take(*best, *with);
+    return true;
+  }
+
+ private:
+  /// What stands before " = " of a convention; all of an effect's name.
+  static std::string optionNamed(const MirrorChange& change) {
+    return change.name.substr(0, change.name.find(" = "));
+  }
+
+  void take(const AppliedChange& change, double distance) {
+    applied_.push_back(change);
+    best_ = distance;
+  }
+
+  static void append(std::vector<double>& all, const std::vector<double>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+
+  static Scene changed(Scene scene, const std::vector<AppliedChange>& changes) {
+    for (const AppliedChange& one : changes) one.change.apply(scene, one.by);
+    return scene;
+  }
+
+  std::optional<std::vector<LockstepFrame>> framesWith(const std::vector<AppliedChange>& further) {
+    std::vector<LockstepFrame> frames;
+    for (const Scene& scene : scenes_) {
+      throwIfInterrupted();
+      try {
+        mirror_->load(changed(changed(scene, applied_), further), {});
+        frames.push_back(follow(*mirror_, step_, {until_[when_]}).front());
+      } catch (const Interrupted&) {
+        throw;
+      } catch (const std::exception&) {
+        return std::nullopt;
+      }
+    }
+    return frames;
+  }
+
+  std::optional<std::vector<double>> separationWith(const std::vector<AppliedChange>& further) {
+    const auto frames = framesWith(further);
+    if (!frames) return std::nullopt;
+    std::vector<double> separation;
+    for (std::size_t s = 0; s < frames->size(); ++s)
+      append(separation, separationVector(engine_[s][when_], (*frames)[s], diameter_));
+    return separation;
+  }
+
+  double diameter_;
+  std::unique_ptr<Engine> mirror_;
+  double step_ = 0.0;
+  std::vector<std::uint64_t> until_;
+  std::size_t when_ = 0;                            ///< index into identifyTimes
+  std::vector<std::vector<LockstepFrame>> engine_;  ///< by state and identifyTimes
+  EffectiveParameters effective_;
+  std::vector<Scene> scenes_;
+  std::vector<AppliedChange> applied_;
+  double best_ = std::numeric_limits<double>::infinity();
+};
+
+/// Values of an option that bring the mirror as near as the one it has.
+FoundOption optionOf(Search& search, const LawOption& option, const Capabilities& can) {
+  const std::string name(option.name);
+  FoundOption found{name, {lawOptionValue(search.closest().law, name)}, {}};
+  const double limit = (1.0 + alike) * search.distance() + lockstepRounding;
+  for (const MirrorChange& change : search.candidates()) {
+    const std::string prefix = name + " = ";
+    if (change.isConstant || !change.name.starts_with(prefix)) continue;
+    const auto with = search.distanceWith({{change}});
+    if (with && *with <= limit) found.values.push_back(change.name.substr(prefix.size()));
+  }
+  const auto declared = can.lawOptions.find(name);
+  if (declared != can.lawOptions.end()) found.declared = declared->second;
+  return found;
+}
+
+std::vector<std::string> missingFrom(const Effects& all, const Effects& there) {
+  std::vector<std::string> missing;
+  for (const Effect effect : all)
+    if (!there.contains(effect)) missing.push_back(toString(effect));
+  return missing;
+}
+
+}  // namespace
+
+Identification identify(Engine& engine, const EngineEntry& entry, const Case& setup,
+                        const std::vector<FlowState>& states, double dt,
+                        const std::function<void(double)>& progress) {
+  Search search(engine, entry, setup, states, dt);
+  Identification found;
+  found.starts = states.size();
+  const Scene whole = flowScene(setup, states.front().packing, dt);
+  search.lookAt(identifyTimes.size() - 1);
+  found.time = search.time();
+  found.before = search.largest();
+  // One change hides behind another, and a constant behind a convention: until nothing helps.
+  for (std::size_t when = 0; when < identifyTimes.size(); ++when) {
+    search.lookAt(when);
+    const double enough = std::max(lockstepRounding, leftOfNoMirror * search.largest());
+    for (bool nearer = true; nearer && search.largest() > lockstepRounding;) {
+      nearer = search.takeBestConvention() || search.takeBestConstant() ||
+               (search.largest() > enough && search.takeBestPair());
+      progress(1.0 - 1.0 / static_cast<double>(search.applied().size() + 2));
+    }
+  }
+  search.undoNeedless();
+  found.left = search.largest();
+
+  std::map<std::string, double> constants;
+  for (const AppliedChange& one : search.applied())
+    if (one.change.isConstant) {
+      double& by = constants[one.change.name];
+      by = (1.0 + by) * (1.0 + one.by) - 1.0;
+    }
+  for (const auto& [name, change] : constants)
+    if (std::abs(change) >= leastConstant) found.constants.push_back({name, change});
+
+  const Capabilities can = engine.capabilities();
+  const Scene closest = search.closest();
+  for (const LawOption& option : lawOptions())
+    if (mattersTo(closest.law, option.name) && option.name != "normal" && option.name != "damper")
+      found.options.push_back(optionOf(search, option, can));
+  found.missing = missingFrom(effectsOf(whole), effectsOf(closest));
+  found.declaredMissing = missingFrom(effectsOf(whole), search.effective().effects);
+  return found;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,200 @@
+#include "studies/lockstep/separation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace crossgrain::inline studies {
+namespace {
+
+using Pair = std::pair<std::int32_t, std::int32_t>;
+
+std::map<Pair, std::size_t> byPair(const std::optional<Contacts>& contacts) {
+  std::map<Pair, std::size_t> found;
+  if (contacts)
+    for (std::size_t k = 0; k < contacts->size(); ++k) found[{contacts->i[k], contacts->j[k]}] = k;
+  return found;
+}
+
+bool slides(const Contacts& contacts, std::size_t k) {
+  return k < contacts.sliding.size() && contacts.sliding[k] != 0;
+}
+
+/// Forces of a contact of the two, 0 where one of them does not have it [N].
+struct PairForces {
+  double normal[2] = {0.0, 0.0}, tangential[2] = {0.0, 0.0};
+  double difference() const {
+    return std::hypot(normal[0] - normal[1], tangential[0] - tangential[1]);
+  }
+};
+
+std::map<Pair, PairForces> forcesOfBoth(const LockstepFrame& engine, const LockstepFrame& mirror) {
+  std::map<Pair, PairForces> forces;
+  const LockstepFrame* const frames[2] = {&engine, &mirror};
+  for (int side = 0; side < 2; ++side)
+    if (const auto& contacts = frames[side]->contacts)
+      for (std::size_t k = 0; k < contacts->size(); ++k) {
+        PairForces& both = forces[{contacts->i[k], contacts->j[k]}];
+        both.normal[side] = contacts->normalForce[k];
+        both.tangential[side] = contacts->tangentialForce[k];
+      }
+  return forces;
+}
+
+/// A contact of that disk in the mirror or the engine: the one whose forces differ most.
+std::optional<Pair> contactOf(std::size_t disk, const LockstepFrame& engine,
+                              const LockstepFrame& mirror) {
+  std::optional<Pair> worst;
+  double most = -1.0;
+  for (const auto& [pair, forces] : forcesOfBoth(engine, mirror)) {
+    const auto id = static_cast<std::int32_t>(disk);
+    if (pair.first != id && pair.second != id) continue;
+    if (forces.difference() <= most) continue;
+    most = forces.difference();
+    worst = pair;
+  }
+  return worst;
+}
+
+/// How many contacts the busier of the two disks has.
+std::size_t touching(const Pair& of, const LockstepFrame& frame, std::size_t wallFrom,
+                     std::size_t most) {
+  for (const std::int32_t id : {of.first, of.second}) {
+    if (static_cast<std::size_t>(id) >= wallFrom) continue;
+    std::size_t count = 0;
+    for (const auto& [pair, index] : byPair(frame.contacts))
+      count += pair.first == id || pair.second == id;
+    most = std::max(most, count);
+  }
+  return most;
+}
+
+/// "new, sliding, wall"
+std::string kindInWords(const Pair& pair, const LockstepFrame* before, const LockstepFrame& now,
+                        std::size_t wallFrom) {
+  std::vector<std::string> words;
+  const auto nowThere = byPair(now.contacts);
+  const auto found = nowThere.find(pair);
+  if (before) {
+    const bool was = byPair(before->contacts).contains(pair);
+    if (!was && found != nowThere.end()) words.emplace_back("new");
+    if (was && found == nowThere.end()) words.emplace_back("opening");
+  }
+  if (found != nowThere.end())
+    words.emplace_back(slides(*now.contacts, found->second) ? "sliding" : "sticking");
+  if (static_cast<std::size_t>(std::max(pair.first, pair.second)) >= wallFrom)
+    words.emplace_back("wall");
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::vector<double> distances(const LockstepFrame& one, const LockstepFrame& other,
+                              double diameter) {
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i)
+    apart.push_back((one.position[i] - other.position[i]).norm() / diameter);
+  return apart;
+}
+
+Farthest farthest(const LockstepFrame& one, const LockstepFrame& other, double diameter) {
+  const std::vector<double> apart = distances(one, other, diameter);
+  if (apart.empty()) return {};
+  const auto worst = std::ranges::max_element(apart);
+  return {static_cast<std::size_t>(worst - apart.begin()), *worst};
+}
+
+std::vector<double> separationVector(const LockstepFrame& one, const LockstepFrame& other,
+                                     double diameter) {
+  std::vector<double> separation;
+  for (std::size_t i = 0; i < std::min(one.position.size(), other.position.size()); ++i) {
+    const Vec2 apart = (one.position[i] - other.position[i]) / diameter;
+    separation.push_back(apart.x());
+    separation.push_back(apart.y());
+  }
+  const bool spins = one.spin.size() == other.spin.size() && one.velocityTime == other.velocityTime;
+  for (std::size_t i = 0; i < one.spin.size(); ++i)
+    separation.push_back(spins ? 0.5 * (one.spin[i] - other.spin[i]) * one.time : 0.0);
+  return separation;
+}
+
+ContactKinds kindsVisited(const std::vector<LockstepFrame>& mirror, std::size_t wallFrom) {
+  std::set<Pair> sticking, sliding, made, opened, wall;
+  for (std::size_t k = 0; k < mirror.size(); ++k) {
+    const auto now = byPair(mirror[k].contacts);
+    for (const auto& [pair, index] : now) {
+      (slides(*mirror[k].contacts, index) ? sliding : sticking).insert(pair);
+      if (static_cast<std::size_t>(std::max(pair.first, pair.second)) >= wallFrom)
+        wall.insert(pair);
+    }
+    if (k == 0) continue;
+    const auto before = byPair(mirror[k - 1].contacts);
+    for (const auto& [pair, index] : now)
+      if (!before.contains(pair)) made.insert(pair);
+    for (const auto& [pair, index] : before)
+      if (!now.contains(pair)) opened.insert(pair);
+  }
+  return {sticking.size(), sliding.size(), made.size(), opened.size(), wall.size()};
+}
+
+std::optional<LockstepForces> forcesOfFirstStep(const LockstepWindow& window) {
+  if (window.engine.empty() || !window.engine.front().contacts || !window.mirror.front().contacts)
+    return std::nullopt;
+  const auto theirs = byPair(window.engine.front().contacts);
+  const auto ours = byPair(window.mirror.front().contacts);
+  LockstepForces found;
+  found.contacts = ours.size();
+  for (const auto& [pair, index] : ours) found.missing += !theirs.contains(pair);
+  for (const auto& [pair, index] : theirs) found.extra += !ours.contains(pair);
+  double unit = 0.0;
+  const auto forces = forcesOfBoth(window.engine.front(), window.mirror.front());
+  for (const auto& [pair, both] : forces) unit = std::max(unit, std::abs(both.normal[1]));
+  if (unit > 0.0)
+    for (const auto& [pair, both] : forces) {
+      found.normal = std::max(found.normal, std::abs(both.normal[0] - both.normal[1]) / unit);
+      found.tangential =
+          std::max(found.tangential, std::abs(both.tangential[0] - both.tangential[1]) / unit);
+    }
+  return found;
+}
+
+LockstepForces together(const LockstepForces& one, const LockstepForces& other) {
+  return {one.contacts + other.contacts, one.missing + other.missing, one.extra + other.extra,
+          std::max(one.normal, other.normal), std::max(one.tangential, other.tangential)};
+}
+
+std::optional<FirstExceedance> firstExceedance(const LockstepWindow& window, double diameter,
+                                               const std::vector<double>& limits,
+                                               std::size_t wallFrom) {
+  for (std::size_t k = 0; k < window.engine.size(); ++k) {
+    const LockstepFrame &engine = window.engine[k], &mirror = window.mirror[k];
+    const Farthest worst = farthest(engine, mirror, diameter);
+    if (worst.distance <= limits[k]) continue;
+    FirstExceedance first;
+    first.after = k == 0 ? 0.0 : window.mirror[k - 1].time;
+    first.until = mirror.time;
+    first.disk = worst.disk;
+    const LockstepFrame* const before = k == 0 ? nullptr : &window.mirror[k - 1];
+    auto contact = contactOf(worst.disk, engine, mirror);
+    if (!contact && before) contact = contactOf(worst.disk, window.engine[k - 1], *before);
+    if (contact) {
+      const auto id = static_cast<std::int32_t>(worst.disk);
+      first.partner =
+          static_cast<std::size_t>(contact->first == id ? contact->second : contact->first);
+      first.contact = kindInWords(*contact, before, mirror, wallFrom);
+      // Impulses of a step show in the positions of the next, when the disks may have parted.
+      for (const auto* frames : {&window.engine, &window.mirror})
+        for (std::size_t back = 0; back <= std::min<std::size_t>(k, 1); ++back)
+          first.touching = touching(*contact, (*frames)[k - back], wallFrom, first.touching);
+    }
+    return first;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,175 @@
+#include "studies/lockstep/terms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "adapters/law_options.hpp"
+#include "adapters/suitability.hpp"
+#include "studies/lockstep/rules.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+void addConstants(std::vector<MirrorChange>& changes, const Scene& scene) {
+  const auto add = [&](std::string name, std::function<void(Scene&, double)> apply) {
+    changes.push_back({std::move(name), true, std::move(apply)});
+  };
+  for (const LawConstant& constant : lawConstants())
+    if (scene.law.*constant.value != 0.0)
+      add(std::string(constant.name),
+          [value = constant.value](Scene& changed, double by) { changed.law.*value *= 1.0 + by; });
+  const std::pair<const char*, double BottomPlate::*> plate[] = {
+      {"plate mu", &BottomPlate::mu},
+      {"plate kb", &BottomPlate::kb},
+      {"plate gb", &BottomPlate::gb},
+      {"plate tau_m", &BottomPlate::tauM}};
+  if (scene.bottom)
+    for (const auto& [name, value] : plate)
+      if ((*scene.bottom).*value != 0.0)
+        add(name,
+            [value = value](Scene& changed, double by) { (*changed.bottom).*value *= 1.0 + by; });
+  add("mass", [](Scene& changed, double by) {
+    for (double& mass : changed.disks.mass) mass *= 1.0 + by;
+  });
+  if (scene.rotation)
+    add("inertia", [](Scene& changed, double by) {
+      for (double& inertia : changed.disks.inertia) inertia *= 1.0 + by;
+    });
+  add("velocity of walls", [](Scene& changed, double by) {
+    for (WallBody& body : changed.bodies) {
+      body.motion.angularVelocity *= 1.0 + by;
+      body.motion.velocity *= 1.0 + by;
+      body.motion.frequency *= 1.0 + by;
+    }
+  });
+}
+
+void addConventions(std::vector<MirrorChange>& changes, const Scene& scene,
+                    const Capabilities& can) {
+  for (const LawOption& option : lawOptions()) {
+    const std::string name(option.name);
+    // With these the constants would mean something else.
+    if (name == "normal" || name == "damper") continue;
+    // An arm of v_t that is that of f_t can become another one wherever there are arms.
+    if (!mattersTo(scene.law, name == "velocity_arm" ? "lever_arm" : name)) continue;
+    const auto values = can.lawOptions.find(name);
+    if (values == can.lawOptions.end()) continue;
+    for (const std::string& value : values->second)
+      if (value != lawOptionValue(scene.law, name))
+        changes.push_back(
+            {fmt::format("{} = {}", name, value), false,
+             [name, value](Scene& changed, double) { setLawOption(changed.law, name, value); }});
+  }
+}
+
+void addMissingEffects(std::vector<MirrorChange>& changes, const Scene& scene, Capabilities can) {
+  for (const Effect effect : effectsOf(scene)) {
+    const std::string name = toString(effect);
+    can.effects[effect] = Support::never;
+    changes.push_back({"without " + name, false, [can, name](Scene& changed, double) {
+                         changed = adaptScene(can, changed, {name}).scene;
+                       }});
+    can.effects[effect] = Support::optional;
+  }
+}
+
+double dot(const std::vector<double>& one, const std::vector<double>& other) {
+  return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
+}
+
+}  // namespace
+
+std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can) {
+  std::vector<MirrorChange> changes;
+  addConstants(changes, scene);
+  addConventions(changes, scene, can);
+  addMissingEffects(changes, scene, can);
+  return changes;
+}
+
+std::string referencePerturbationOf(const ContactLaw& law) {
+  return law.soft() ? "kn" : "en";
+}
+
+LockstepRules lockstepRules(const ContactLaw& law) {
+  return {lockstepRounding, lockstepSameLaw, std::ranges::max(referencePerturbations),
+          referencePerturbationOf(law), strayShare};
+}
+
+void changeReference(ContactLaw& law, double by) {
+  (law.soft() ? law.kn : law.en) *= 1.0 + by;
+}
+
+std::vector<double> proportionalRates(const std::vector<double>& responses) {
+  const std::size_t disks = responses.size() / referencePerturbations.size();
+  std::vector<double> rates(disks, 0.0);
+  std::size_t moved = 0, alike = 0;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < disks; ++i) {
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0, sum = 0.0, most = 0.0;
+    for (std::size_t c = 0; c < referencePerturbations.size(); ++c) {
+      const double response = responses[c * disks + i];
+      const double rate = response / std::abs(referencePerturbations[c]);
+      slowest = std::min(slowest, rate);
+      fastest = std::max(fastest, rate);
+      most = std::max(most, response);
+      sum += rate;
+    }
+    if (!(most > lockstepRounding)) continue;
+    ++moved;
+    if (!(fastest <= responsesAlike * slowest)) continue;
+    ++alike;
+    largest = std::max(largest, most);
+    rates[i] = sum / static_cast<double>(referencePerturbations.size());
+  }
+  if (moved == 0 || 2 * alike < moved || !(largest < largestResponse)) return {};
+  return rates;
+}
+
+std::optional<double> equivalentChange(const std::vector<double>& apart,
+                                       const std::vector<double>& responses) {
+  const std::vector<double> rates = proportionalRates(responses);
+  if (rates.empty() || rates.size() != apart.size()) return std::nullopt;
+  const std::size_t disks = rates.size();
+  double own = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < disks; ++i) {
+    double distance = apart[i];
+    if (rates[i] == 0.0) {
+      double event = 0.0;
+      for (std::size_t c = 0; c < referencePerturbations.size(); ++c)
+        event = std::max(event, responses[c * disks + i]);
+      distance = std::max(0.0, distance - event);
+    }
+    own += distance * distance;
+    moved += rates[i] * rates[i];
+  }
+  return std::sqrt(own / moved);
+}
+
+NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,
+                 const std::vector<double>& response) {
+  NamedTerm term{change.name, std::nullopt, 1.0};
+  const double whole = dot(separation, separation), ofResponse = dot(response, response);
+  if (!(whole > 0.0) || !(ofResponse > 0.0)) return term;
+  const double times = change.isConstant ? dot(separation, response) / ofResponse : 1.0;
+  double left = 0.0;
+  for (std::size_t k = 0; k < separation.size(); ++k) {
+    const double rest = separation[k] - times * response[k];
+    left += rest * rest;
+  }
+  term.unexplained = std::sqrt(left / whole);
+  if (change.isConstant) term.amount = times * termChange;
+  return term;
+}
+
+std::optional<NamedTerm> bestTerm(const std::vector<NamedTerm>& terms) {
+  const auto best = std::ranges::min_element(terms, {}, &NamedTerm::unexplained);
+  if (best == terms.end() || !(best->unexplained < termUnexplained)) return std::nullopt;
+  return *best;
+}
+
+}  // namespace crossgrain::inline studies

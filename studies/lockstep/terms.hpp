@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "results/lockstep.hpp"
+
+namespace crossgrain::inline studies {
+
+/// One thing in which a mirror could be otherwise: a constant a little larger, another convention,
+/// an effect less.
+struct MirrorChange {
+  std::string name;         ///< "kn", "tension = cut", "without gravity"
+  bool isConstant = false;  ///< the response is linear in it: any amount can be told
+  /// `by`: of a constant the relative change; no matter to others.
+  std::function<void(Scene&, double by)> apply;
+};
+
+/// All that could be otherwise in this scene.
+/// @param can  of the in-house engine
+std::vector<MirrorChange> changesOf(const Scene& scene, const Capabilities& can);
+
+/// The constant that deviations are expressed in: k_n, of rigid disks e_n.
+std::string referencePerturbationOf(const ContactLaw& law);
+
+/// What verdicts in a scene of that law rest on.
+LockstepRules lockstepRules(const ContactLaw& law);
+
+/// Changes it by that part of itself.
+void changeReference(ContactLaw& law, double by);
+
+/// By disk, how far a unit of change of the yardstick moves it; 0 of a disk whose responses are not
+/// in proportion (responsesAlike), or that does not move.
+/// @param responses  how far each of referencePerturbations moves each disk, change by change [d]
+/// @returns empty where they cannot be read: nothing moves, fewer than half of the disks that do
+/// are in proportion, or one of these moves by largestResponse
+std::vector<double> proportionalRates(const std::vector<double>& responses);
+
+/// ε_eq: the change of the yardstick that parts the mirror from itself as far as the engine is from
+/// it, root mean squares over the disks in proportion. A disk that is not counts with what is
+/// beyond the largest of its responses: so far an event may have taken it.
+/// @param apart  by disk [d]
+/// @returns nothing where it cannot be read, likewise
+std::optional<double> equivalentChange(const std::vector<double>& apart,
+                                       const std::vector<double>& responses);
+
+/// How much of a separation a change accounts for: for a constant the amount that fits best, in
+/// least squares; another convention or a missing effect as it is.
+/// @param separation, response  of all starts, one after the other; a constant's to termChange
+NamedTerm asTerm(const MirrorChange& change, const std::vector<double>& separation,
+                 const std::vector<double>& response);
+
+/// The term that leaves least, if that is less than termUnexplained.
+std::optional<NamedTerm> bestTerm(const std::vector<NamedTerm>& terms);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,118 @@
+#include "studies/lockstep/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "studies/lockstep/rules.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+LockstepFrame frameOf(Snapshot&& seen, double since = 0.0) {
+  LockstepFrame frame;
+  frame.time = seen.positionTime - since;
+  frame.velocityTime = seen.velocityTime - since;
+  frame.position = std::move(seen.position);
+  if (seen.spin) frame.spin = std::move(*seen.spin);
+  frame.contacts = std::move(seen.contacts);
+  frame.contactTime = seen.contactTime - since;
+  frame.bodies = std::move(seen.bodies);
+  return frame;
+}
+
+double timeOf(std::uint64_t steps, double dt) {
+  return static_cast<double>(steps) * dt;
+}
+
+/// @throws EngineFailure also for what an engine in this process throws, a mirror for one
+void takeTo(Engine& engine, std::uint64_t steps, double dt, double since = 0.0) {
+  const double wanted = since + timeOf(steps, dt);
+  double reached = 0.0;
+  try {
+    reached = engine.advance(wanted);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw EngineFailure(error.what());
+  }
+  if (std::abs(reached - wanted) > 0.5 * dt)
+    throw EngineFailure("stopped at another time than it was asked for");
+}
+
+void requireFinite(const LockstepFrame& frame) {
+  for (const Vec2& place : frame.position)
+    if (!place.allFinite()) throw EngineFailure("a disk is at no finite place");
+}
+
+}  // namespace
+
+std::uint64_t stepsUntil(double time, double dt) {
+  return static_cast<std::uint64_t>(std::max(1ll, std::llround(time / dt)));
+}
+
+std::vector<std::uint64_t> lockstepSteps(double dt) {
+  constexpr double perDecade = 12.0;
+  const std::uint64_t last = stepsUntil(lockstepTimes.back(), dt);
+  std::set<std::uint64_t> steps;
+  for (const double time : lockstepTimes) steps.insert(stepsUntil(time, dt));
+  for (double step = 1.0; step < static_cast<double>(last); step *= std::pow(10.0, 1.0 / perDecade))
+    steps.insert(static_cast<std::uint64_t>(std::llround(step)));
+  return {steps.begin(), steps.end()};
+}
+
+std::vector<double> timesOf(const std::vector<std::uint64_t>& steps, double dt) {
+  std::vector<double> times;
+  for (const std::uint64_t step : steps) times.push_back(timeOf(step, dt));
+  return times;
+}
+
+std::size_t frameAt(const std::vector<std::uint64_t>& steps, double dt, double time) {
+  const auto distance = [&](std::uint64_t step) { return std::abs(timeOf(step, dt) - time); };
+  const auto found = std::ranges::min_element(steps, {}, distance);
+  return static_cast<std::size_t>(found - steps.begin());
+}
+
+LockstepWindow followBoth(Engine& engine, Engine& mirror, double dt,
+                          const std::vector<std::uint64_t>& steps, bool contacts, double since) {
+  LockstepWindow window;
+  for (const std::uint64_t step : steps) {
+    throwIfInterrupted();
+    takeTo(engine, step, dt, since);
+    Snapshot theirs = engine.snapshot(contacts ? ContactReport::instant : ContactReport::none);
+    window.engine.push_back(frameOf(std::move(theirs), since));
+    const auto stepOfForces =
+        static_cast<std::uint64_t>(std::llround(window.engine.back().contactTime / dt));
+    requireFinite(window.engine.back());
+
+    // Forces of a step before are held against those that the mirror had then.
+    std::optional<Contacts> before;
+    if (contacts && stepOfForces < step) {
+      takeTo(mirror, stepOfForces, dt);
+      before = mirror.snapshot(ContactReport::instant).contacts;
+    }
+    takeTo(mirror, step, dt);
+    window.mirror.push_back(frameOf(mirror.snapshot(ContactReport::instant)));
+    if (before) window.mirror.back().contacts = std::move(before);
+  }
+  return window;
+}
+
+std::vector<LockstepFrame> follow(Engine& engine, double dt,
+                                  const std::vector<std::uint64_t>& steps, ContactReport contacts,
+                                  const std::function<void(std::uint64_t, std::uint64_t)>& before) {
+  std::vector<LockstepFrame> frames;
+  std::uint64_t done = 0;
+  for (const std::uint64_t step : steps) {
+    throwIfInterrupted();
+    if (before) before(std::exchange(done, step), step);
+    takeTo(engine, step, dt);
+    frames.push_back(frameOf(engine.snapshot(contacts)));
+    requireFinite(frames.back());
+  }
+  return frames;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,246 @@
+#include "studies/regression/baseline.hpp"
+
+#include <fmt/format.h>
+
+#include "adapters/worker/arrays.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/loader.hpp"
+#include "results/head_fields.hpp"
+#include "results/lockstep_fields.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/regression/record_file.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline studies {
+
+void fields(auto& io, KeptCollisions& kept) {
+  io("name", kept.name);
+  io("variant", kept.variant);
+  io("refusal", kept.refusal);
+  io("dt_s", kept.dt);
+  io("psi", kept.psi);
+  io("vn", kept.vn);
+  io("values", kept.values);
+}
+
+/// Without windows, which are records of their own.
+void fields(auto& io, BaselineEngine& engine) {
+  io("name", engine.name);
+  io("version", engine.version);
+  io("capabilities", engine.can);
+  io("realised", engine.effective);
+  io("sweeps", engine.collisions);
+  io("endpoints", engine.endpoints);
+}
+
+namespace {
+
+struct BaselineHead {
+  std::string version;
+  CaseHead setup;
+  std::size_t starts = 0, engines = 0;
+};
+
+void fields(auto& io, BaselineHead& head) {
+  io("version", head.version);
+  io("case", head.setup);
+  io("starts", head.starts);
+  io("engines", head.engines);
+}
+
+/// Of a frame, what is no array.
+struct FrameHead {
+  double time = 0.0, velocityTime = 0.0, contactTime = 0.0;
+  std::vector<std::optional<Vec2>> forces;  ///< on each wall body [N]
+  std::vector<std::optional<double>> torques;
+};
+
+void fields(auto& io, FrameHead& head) {
+  io("time", head.time);
+  io("velocity_time", head.velocityTime);
+  io("contact_time", head.contactTime);
+  io("forces", head.forces);
+  io("torques", head.torques);
+}
+
+Record recordOf(Json line, const ArrayWriter& arrays) {
+  line["arrays"] = arrays.list();
+  return {std::move(line),
+          {reinterpret_cast<const char*>(arrays.bytes().data()), arrays.bytes().size()}};
+}
+
+Record recordOf(const FlowState& state) {
+  const Disks& disks = state.packing.disks;
+  ArrayWriter arrays;
+  arrays.add("radius", disks.radius);
+  arrays.add("mass", disks.mass);
+  arrays.add("inertia", disks.inertia);
+  arrays.add("position", disks.position);
+  arrays.add("velocity", disks.velocity);
+  arrays.add("spin", disks.spin);
+  return recordOf({{"start", jsonOf(state.start)}}, arrays);
+}
+
+FlowState stateOf(const Record& record) {
+  const ArrayReader arrays(record.bytes, "a start", record.line.at("arrays"));
+  FlowState state;
+  readFrom(record.line.at("start"), state.start);
+  Disks& disks = state.packing.disks;
+  const std::size_t count = arrays.count("radius");
+  disks.radius = arrays.f64("radius", count);
+  disks.mass = arrays.f64("mass", count);
+  disks.inertia = arrays.f64("inertia", count);
+  disks.position = arrays.vec2("position", count);
+  disks.velocity = arrays.vec2("velocity", count);
+  disks.spin = arrays.f64("spin", count);
+  state.packing.wheelAngle = state.start.wheelAngle;
+  state.packing.hash = contentHash(state.packing);
+  return state;
+}
+
+Record recordOf(const BaselineWindow& window) {
+  ArrayWriter arrays;
+  std::vector<FrameHead> heads;
+  for (const LockstepFrame& frame : window.frames) {
+    FrameHead head{frame.time, frame.velocityTime, frame.contactTime, {}, {}};
+    for (const BodySnapshot& body : frame.bodies) {
+      head.forces.push_back(body.force);
+      head.torques.push_back(body.torque);
+    }
+    const std::string at = fmt::format("{}.", heads.size());
+    arrays.add(at + "position", frame.position);
+    if (!frame.spin.empty()) arrays.add(at + "spin", frame.spin);
+    if (const auto& contacts = frame.contacts) {
+      arrays.add(at + "i", contacts->i);
+      arrays.add(at + "j", contacts->j);
+      arrays.add(at + "normal_force", contacts->normalForce);
+      arrays.add(at + "tangential_force", contacts->tangentialForce);
+      if (!contacts->sliding.empty()) arrays.add(at + "sliding", contacts->sliding);
+    }
+    heads.push_back(std::move(head));
+  }
+  for (std::size_t k = 0; k < window.responses.size(); ++k)
+    arrays.add(fmt::format("response.{}", k), window.responses[k]);
+  return recordOf({{"frames", jsonOf(heads)}}, arrays);
+}
+
+LockstepFrame frameOf(const FrameHead& head, const ArrayReader& arrays, const std::string& at,
+                      std::size_t disks) {
+  LockstepFrame frame;
+  frame.time = head.time;
+  frame.velocityTime = head.velocityTime;
+  frame.contactTime = head.contactTime;
+  frame.position = arrays.vec2(at + "position", disks);
+  if (arrays.has(at + "spin")) frame.spin = arrays.f64(at + "spin", disks);
+  for (std::size_t b = 0; b < head.forces.size(); ++b) {
+    BodySnapshot& body = frame.bodies.emplace_back();
+    body.force = head.forces[b];
+    body.torque = head.torques.at(b);
+  }
+  if (!arrays.has(at + "i")) return frame;
+  Contacts& contacts = frame.contacts.emplace();
+  const std::size_t count = arrays.count(at + "i");
+  contacts.i = arrays.i32(at + "i", count);
+  contacts.j = arrays.i32(at + "j", count);
+  for (const auto* ids : {&contacts.i, &contacts.j})
+    for (const std::int32_t id : *ids)
+      if (id < 0) throw FieldError(fmt::format("{}contacts have the id {}", at, id));
+  contacts.normalForce = arrays.f64(at + "normal_force", count);
+  contacts.tangentialForce = arrays.f64(at + "tangential_force", count);
+  contacts.sliding.assign(count, 0);
+  if (arrays.has(at + "sliding")) contacts.sliding = arrays.u8(at + "sliding", count);
+  return frame;
+}
+
+BaselineWindow windowOf(const Record& record, std::size_t disks) {
+  const ArrayReader arrays(record.bytes, "a window", record.line.at("arrays"));
+  const auto heads = readAs<std::vector<FrameHead>>(record.line.at("frames"));
+  if (heads.empty()) throw FieldError("a window has no frames");
+  BaselineWindow window;
+  double before = 0.0;
+  for (const FrameHead& head : heads) {
+    if (!(head.time > before && std::isfinite(head.velocityTime + head.contactTime)))
+      throw FieldError("the times of a window do not increase");
+    before = head.time;
+    const std::string at = fmt::format("{}.", window.frames.size());
+    window.frames.push_back(frameOf(head, arrays, at, disks));
+  }
+  for (std::size_t k = 0; k < lockstepTimes.size(); ++k)
+    window.responses.push_back(
+        arrays.f64(fmt::format("response.{}", k), referencePerturbations.size() * disks));
+  return window;
+}
+
+Baseline readRecords(RecordReader& in) {
+  const auto head = readAs<BaselineHead>(in.head());
+  if (head.engines == 0) throw FieldError("it has no engine");
+  Baseline baseline{head.version, head.setup, {}, {}};
+  for (std::size_t s = 0; s < head.starts; ++s) baseline.starts.push_back(stateOf(in.require()));
+  for (std::size_t e = 0; e < head.engines; ++e) {
+    baseline.engines.push_back(readAs<BaselineEngine>(in.require().line));
+    for (const KeptCollisions& kept : baseline.engines.back().collisions)
+      for (const auto& [quantity, values] : kept.values)
+        if (kept.vn.size() != kept.psi.size() || values.size() != kept.psi.size())
+          throw FieldError(fmt::format("{} of {} has {} values, not {}", quantity, kept.name,
+                                       values.size(), kept.psi.size()));
+    for (const FlowState& state : baseline.starts)
+      baseline.engines.back().windows.push_back(windowOf(in.require(), state.packing.disks.size()));
+  }
+  return baseline;
+}
+
+}  // namespace
+
+void writeBaseline(const Baseline& baseline, const std::filesystem::path& file) {
+  std::string text = headText(
+      baselineFormat, jsonOf(BaselineHead{baseline.version, baseline.setup, baseline.starts.size(),
+                                          baseline.engines.size()}));
+  for (const FlowState& state : baseline.starts) text += textOf(recordOf(state));
+  for (const BaselineEngine& engine : baseline.engines) {
+    text += textOf({jsonOf(engine), {}});
+    for (const BaselineWindow& window : engine.windows) text += textOf(recordOf(window));
+  }
+  writeFile(file, text);
+}
+
+Baseline readBaseline(const std::filesystem::path& file) {
+  RecordReader in(file, baselineFormat);
+  try {
+    return readRecords(in);
+  } catch (const BadInput&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw BadInput(fmt::format("{}: is damaged: record {}: {}", file.string(), in.count(),
+                               asOneLine(withoutPrefix(error.what()), 200)));
+  }
+}
+
+std::vector<Case> casesOf(const Baseline& baseline, const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides) {
+  const ScratchFolder scratch;
+  const std::filesystem::path document = scratch.path / "case.toml";
+  writeFile(document, baseline.setup.toml);
+  std::vector<std::string> all;
+  // The packing that the flow began with need not be there any more: starts are kept.
+  if (!baseline.starts.empty() && caseKeys(baseline.setup.toml).contains("particles.file")) {
+    const std::filesystem::path packing = scratch.path / "packing.h5";
+    writePacking(baseline.starts.front().packing, packing);
+    all.push_back("particles.file=" + packing.string());
+  }
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  std::vector<Case> cases;
+  try {
+    cases = loadCase(document, all);
+  } catch (const BadInput& error) {
+    throw BadInput(fmt::format("{}: its case: {}", file.string(), error.what()));
+  }
+  for (Case& setup : cases) {
+    setup.name = baseline.setup.name;
+    setup.file = baseline.setup.file;
+  }
+  return cases;
+}
+
+}  // namespace crossgrain::inline studies

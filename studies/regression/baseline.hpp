@@ -1,0 +1,76 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "cases/case.hpp"
+#include "results/flow_numbers.hpp"
+#include "results/head.hpp"
+#include "studies/lockstep/account.hpp"
+#include "studies/lockstep/starts.hpp"
+#include "studies/lockstep/window.hpp"
+
+namespace crossgrain::inline studies {
+
+inline constexpr const char* baselineFormat = "baseline-3";
+
+/// What an engine did from one start.
+struct BaselineWindow {
+  std::vector<LockstepFrame> frames;  ///< at lockstepSteps() of its own step
+  /// What changes of the reference constant did to it, at the frames nearest to lockstepTimes:
+  /// measured in the engine itself, so that no mirror is needed, and when it was kept, so that
+  /// nothing that a later version does bends the measure.
+  Responses responses;
+};
+
+/// What an engine made of a sweep of collisions, to the bit.
+struct KeptCollisions {
+  std::string name, variant;    ///< of the case
+  std::string refusal;          ///< why it was not run; empty if it was
+  double dt = 0.0;              ///< of the scene [s]
+  std::vector<double> psi, vn;  ///< of each collision: Ψ_i, speed of approach [m/s]
+  /// Quantities by name, as scoredValue() has them; NaN of a pair that did not part.
+  std::map<std::string, std::vector<double>> values;
+};
+
+/// Endpoints of whole runs by name, an entry for each start.
+using KeptEndpoints = std::map<std::string, Numbers>;
+
+/// What one engine did, and as what it presented itself.
+struct BaselineEngine {
+  std::string name, version;
+  Capabilities can;
+  std::optional<EffectiveParameters>
+      effective;                        ///< of the first start; absent of cases of collisions
+  std::vector<BaselineWindow> windows;  ///< by start
+  std::vector<KeptCollisions> collisions;
+  KeptEndpoints endpoints;  ///< by start; empty: not asked for
+};
+
+/// What some engines did on one case, with all that is needed to do the same again: nothing outside
+/// of it is read.
+struct Baseline {
+  std::string version;            ///< of the crossgrain that kept it
+  CaseHead setup;                 ///< its text is the merged case, with all variants
+  std::vector<FlowState> starts;  ///< springs relaxed; none of cases of collisions
+  std::vector<BaselineEngine> engines;
+};
+
+/// A file of records (record_file.hpp; runs/README.md lists them). The same baseline gives the same
+/// bytes. @throws OutputError
+void writeBaseline(const Baseline& baseline, const std::filesystem::path& file);
+
+/// @throws BadInput naming the file: not a baseline, one of another format, damaged
+Baseline readBaseline(const std::filesystem::path& file);
+
+/// The cases that a baseline was made of, with changes, as after `--set`.
+/// @param file  of the baseline, for messages
+/// @throws BadInput
+std::vector<Case> casesOf(const Baseline& baseline, const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,374 @@
+#include "studies/regression/diff.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "adapters/registry.hpp"
+#include "adapters/suitability.hpp"
+#include "cases/case_keys.hpp"
+#include "cases/couette.hpp"
+#include "cases/time_step.hpp"
+#include "results/schema.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study.hpp"
+#include "studies/lockstep/closest_term.hpp"
+#include "studies/lockstep/comparison.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/separation.hpp"
+#include "studies/regression/differences.hpp"
+#include "studies/regression/observe.hpp"
+#include "support/bad_input.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+/// Frames of a window whose times are whole steps of that size, and the steps.
+struct CommonFrames {
+  std::vector<std::size_t> frames;
+  std::vector<std::uint64_t> steps;
+  std::vector<std::size_t> reported;  ///< of `frames`, those nearest to lockstepTimes
+  std::vector<std::size_t> which;     ///< of lockstepTimes, those that are reported
+};
+
+CommonFrames commonFrames(const std::vector<LockstepFrame>& kept, double step) {
+  constexpr double rounding = 1e-12;
+  CommonFrames common;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::uint64_t steps = stepsUntil(kept[k].time, step);
+    if (std::abs(static_cast<double>(steps) * step - kept[k].time) > rounding * kept[k].time)
+      continue;
+    common.frames.push_back(k);
+    common.steps.push_back(steps);
+  }
+  for (std::size_t which = 0; which < lockstepTimes.size(); ++which) {
+    const auto nearest = std::ranges::min_element(kept, {}, [&](const LockstepFrame& frame) {
+      return std::abs(frame.time - lockstepTimes[which]);
+    });
+    const auto found =
+        std::ranges::find(common.frames, static_cast<std::size_t>(nearest - kept.begin()));
+    if (found == common.frames.end()) continue;
+    common.reported.push_back(static_cast<std::size_t>(found - common.frames.begin()));
+    common.which.push_back(which);
+  }
+  return common;
+}
+
+bool sameMotion(const LockstepFrame& one, const LockstepFrame& other) {
+  return one.position == other.position && one.spin == other.spin &&
+         one.velocityTime == other.velocityTime;
+}
+
+bool sameForces(const LockstepFrame& one, const LockstepFrame& other) {
+  const auto& a = one.contacts;
+  const auto& b = other.contacts;
+  if (a.has_value() != b.has_value() || one.contactTime != other.contactTime) return false;
+  const auto alike = [](const BodySnapshot& before, const BodySnapshot& now) {
+    return before.force == now.force && before.torque == now.torque;
+  };
+  return (!a || (a->i == b->i && a->j == b->j && a->normalForce == b->normalForce &&
+                 a->tangentialForce == b->tangentialForce)) &&
+         std::ranges::equal(one.bodies, other.bodies, alike);
+}
+
+/// Forces and torques on walls: the largest change, in the largest of before [-].
+double wallChange(const LockstepFrame& now, const LockstepFrame& before) {
+  double force = 0.0, torque = 0.0, forceUnit = 0.0, torqueUnit = 0.0;
+  for (std::size_t b = 0; b < std::min(now.bodies.size(), before.bodies.size()); ++b) {
+    const BodySnapshot &one = now.bodies[b], &other = before.bodies[b];
+    if (one.force && other.force) {
+      force = std::max(force, (*one.force - *other.force).norm());
+      forceUnit = std::max(forceUnit, other.force->norm());
+    }
+    if (one.torque && other.torque) {
+      torque = std::max(torque, std::abs(*one.torque - *other.torque));
+      torqueUnit = std::max(torqueUnit, std::abs(*other.torque));
+    }
+  }
+  return std::max(forceUnit > 0.0 ? force / forceUnit : 0.0,
+                  torqueUnit > 0.0 ? torque / torqueUnit : 0.0);
+}
+
+/// An engine compared with what was kept, from one start after the other.
+class WindowsDiff {
+ public:
+  WindowsDiff(const Observed& now, const Case& caseBefore, const Baseline& baseline,
+              const BaselineEngine& before)
+      : now_(now),
+        caseBefore_(caseBefore),
+        baseline_(baseline),
+        before_(before),
+        instant_(now.engine.capabilities().instantContacts),
+        diameter_(2.0 * caseBefore.particles.smallRadius) {}
+
+  /// @throws EngineFailure, UnsupportedScene, BadInput
+  void follow(std::size_t s) {
+    const FlowState& state = baseline_.starts[s];
+    const BaselineWindow& kept = before_.windows[s];
+    EffectiveParameters effective = loadStart(now_, state);
+    if (effective_) requireSameStep(*effective_, effective);
+    step_ = effective.dt;
+    if (!effective_) effective_ = std::move(effective);
+    common_ = commonFrames(kept.frames, step_);
+    if (common_.reported.empty()) return;
+    LockstepWindow window;
+    window.engine = studies::follow(now_.engine, step_, common_.steps,
+                                    instant_ ? ContactReport::instant : ContactReport::none);
+    Responses responses;
+    for (const std::size_t frame : common_.frames) window.mirror.push_back(kept.frames[frame]);
+    for (const std::size_t which : common_.which) responses.push_back(kept.responses[which]);
+    sameBits_ &= common_.frames.size() == kept.frames.size() &&
+                 std::ranges::equal(window.engine, window.mirror, sameMotion) &&
+                 (!instant_ || std::ranges::equal(window.engine, window.mirror, sameForces));
+    // Forces of another instant are no forces to compare.
+    for (std::size_t k = 0; k < window.engine.size(); ++k)
+      if (window.engine[k].contactTime != window.mirror[k].contactTime)
+        window.engine[k].contacts.reset();
+    compareForces(window);
+    if (!account_) account_.emplace(diameter_, timesOf(common_.steps, step_), common_.reported);
+    account_->add(s, window, responses, state.packing.disks.size());
+    engineFrames_.push_back(chosen(window.engine, framesForTerms(common_.reported)));
+    keptFrames_.push_back(chosen(window.mirror, framesForTerms(common_.reported)));
+  }
+
+  const std::optional<EffectiveParameters>& effective() const { return effective_; }
+
+  void addTo(DiffRow& row) {
+    if (!account_) {
+      row.reason = fmt::format(
+          "no step of {} s meets the times that were kept: give [run] dt or [engines.{}] dt", step_,
+          now_.entry.name);
+      return;
+    }
+    LockstepRow found = account_->row();
+    found.engine = row.engine;
+    found.effective = effective_;
+    row.mirrored = hasNormalLaw(before_.can, caseBefore_.law);
+    if (row.mirrored && hasTerm(found)) found.term = termOf(found);
+    row.reason = found.reason;
+    row.windowsVerdict = sameBits_ ? DiffVerdict::sameBits : verdictOf(found.verdict);
+    row.forces = forces_;
+    if (forces_ &&
+        std::max({forces_->normal, forces_->tangential, forces_->walls}) >= lockstepSameLaw)
+      row.forcesVerdict = DiffVerdict::differs;
+    row.windows = std::move(found);
+  }
+
+ private:
+  /// Forces that are reported of one and the same state: of soft disks also where it is the same
+  /// but for rounding, 1e-10 d, which moves a force by 1e-7 of that of an overlap of 1e-3 d;
+  /// impulses of rigid ones follow from no position alone.
+  void compareForces(const LockstepWindow& window) {
+    if (!instant_) return;
+    const double near = caseBefore_.law.soft() ? lockstepRounding : 0.0;
+    for (std::size_t k = 0; k < window.engine.size(); ++k) {
+      const LockstepFrame &now = window.engine[k], &before = window.mirror[k];
+      const bool alike =
+          near > 0.0 ? farthest(now, before, diameter_).distance <= near : sameMotion(now, before);
+      if (!alike || now.contactTime != before.contactTime) continue;
+      if (!forces_) forces_.emplace();
+      ++forces_->frames;
+      if (const auto contacts = forcesOfFirstStep({{now}, {before}})) {
+        forces_->normal = std::max(forces_->normal, contacts->normal);
+        forces_->tangential = std::max(forces_->tangential, contacts->tangential);
+      }
+      forces_->walls = std::max(forces_->walls, wallChange(now, before));
+    }
+  }
+
+  /// No limits of a precision are given, as what was kept is no mirror.
+  static DiffVerdict verdictOf(LockstepVerdict verdict) {
+    switch (verdict) {
+      case LockstepVerdict::sameToRounding:
+        return DiffVerdict::sameToRounding;
+      case LockstepVerdict::sameToPrecision:
+      case LockstepVerdict::sameLaw:
+        return DiffVerdict::sameLaw;
+      case LockstepVerdict::differs:
+        return DiffVerdict::differs;
+      case LockstepVerdict::undecided:
+        return DiffVerdict::undecided;
+      default:
+        return DiffVerdict::notMeasured;
+    }
+  }
+
+  /// Which change of the mirror of what was kept does what the engine now does; none where no
+  /// mirror has its time stepping.
+  std::optional<NamedTerm> termOf(const LockstepRow& row) {
+    const EngineEntry* const known = findEngine(before_.name);
+    const EngineEntry entry = known ? *known : EngineEntry{before_.name, "", {}, {}, {}, ""};
+    const std::vector<std::size_t> frames = framesForTerms(common_.reported);
+    std::unique_ptr<Engine> mirror;
+    const double dt = before_.effective->dt;
+    TermSearch search;
+    search.diameter = diameter_;
+    std::vector<std::uint64_t> steps;
+    for (const std::size_t when : looksForTerms(common_.reported, row.trackTime, row.first)) {
+      TermLook& look = search.looks.emplace_back();
+      look.time = row.trackTime[frames[when]];
+      look.separation = separationOfAll(engineFrames_, keptFrames_, when, diameter_);
+      steps.push_back(stepsUntil(look.time, dt));
+    }
+    for (std::size_t s = 0; s < row.starts; ++s) {
+      const Scene scene =
+          couetteScene(caseBefore_, baseline_.starts[s].packing, timeStep(caseBefore_));
+      try {
+        search.scenes.push_back(
+            sceneOfMirror(before_.can, entry, caseBefore_, scene, *before_.effective));
+        if (!mirror) mirror = mirrorOf(before_.can, entry, caseBefore_, scene, *before_.effective);
+      } catch (const UnsupportedScene&) {
+        return std::nullopt;
+      }
+      mirror->load(search.scenes.back(), {});
+      const auto unchanged = studies::follow(*mirror, dt, steps);
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        search.looks[k].unchanged.push_back(unchanged[k]);
+    }
+    if (step_ != dt)
+      search.more.push_back({fmt::format("dt = {} s", step_), false,
+                             [step = step_](Scene& scene, double) { scene.dt = step; }});
+    if (effective_->precision != before_.effective->precision)
+      search.more.push_back({"precision = " + effective_->precision, false,
+                             [](Scene& scene, double) { scene.precision = Precision::float32; }});
+    return closestTerm(*mirror, search);
+  }
+
+  Observed now_;
+  const Case& caseBefore_;
+  const Baseline& baseline_;
+  const BaselineEngine& before_;
+  bool instant_;
+  double diameter_;
+  double step_ = 0.0;  ///< the engine's, now [s]
+  CommonFrames common_;
+  bool sameBits_ = true;
+  std::optional<ForcesChange> forces_;
+  std::optional<EffectiveParameters> effective_;
+  std::optional<SeparationAccount> account_;
+  std::vector<std::vector<LockstepFrame>> engineFrames_,
+      keptFrames_;  ///< by start and framesForTerms()
+};
+
+/// Whole runs again, where they were kept and the windows do not make them needless: a difference
+/// beyond a margin is one even where windows and collisions are the same.
+void diffEndpoints(DiffRow& row, const EngineEntry& entry, const Case& setup,
+                   const Baseline& baseline, const BaselineEngine& before,
+                   const std::function<void(double)>& progress) {
+  if (before.endpoints.empty() || row.windowsVerdict == DiffVerdict::sameBits) return;
+  const KeptEndpoints now = endpointsFrom(entry, setup, baseline.starts, timeStep(setup), progress);
+  row.endpoints = endpointChanges(setup, before.endpoints, now, {before.name, row.engine});
+  if (std::ranges::count(row.endpoints, Answer::disagree, &EndpointRow::answer) > 0)
+    row.verdict = DiffVerdict::differs;
+}
+
+/// Keys that differ now, "law.mu: 0.44 → 0.5", over all variants.
+std::vector<std::string> changedKeys(const std::vector<Case>& before,
+                                     const std::vector<Case>& now) {
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < now.size() && k < before.size(); ++k) {
+    CaseKeys was = caseKeys(before[k].resolvedToml), is = caseKeys(now[k].resolvedToml);
+    for (CaseKeys* keys : {&was, &is}) keys->erase("particles.file");
+    for (const std::string& change : changes(was, is))
+      if (std::ranges::find(all, change) == all.end()) all.push_back(change);
+  }
+  return all;
+}
+
+const BaselineEngine& keptOf(const Baseline& baseline, const std::string& name) {
+  const auto own = std::ranges::find(baseline.engines, name, &BaselineEngine::name);
+  return own == baseline.engines.end() ? baseline.engines.front() : *own;
+}
+
+}  // namespace
+
+DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+                   const Baseline& baseline, const BaselineEngine& before,
+                   const std::function<void(double)>& progress) {
+  const Case& setup = cases.front();
+  const bool flows = setup.kind == CaseKind::couette;
+  const Case caseBefore = casesOf(baseline, baseline.setup.file, {}).front();
+  const Capabilities can = engine.capabilities();
+  DiffRow row;
+  row.engine = entry.name;
+  row.version = can.version;
+  row.before = before.name;
+  row.versionBefore = before.version;
+  WindowsDiff windows({engine, entry, setup, flows ? timeStep(setup) : 0.0}, caseBefore, baseline,
+                      before);
+  try {
+    for (std::size_t s = 0; s < baseline.starts.size(); ++s) {
+      windows.follow(s);
+      progress(static_cast<double>(s + 1) / static_cast<double>(baseline.starts.size() + 1));
+    }
+    auto collisions = collisionChanges(before.collisions, collisionsOf(engine, entry, cases));
+    row.sweeps = collisions.sweeps;
+    row.collisions = std::move(collisions.changes);
+    if (row.sweeps > 0) row.collisionsVerdict = verdictOf(row.collisions);
+  } catch (const EngineFailure& failure) {
+    row.failure = failure.what();
+  }
+  if (flows) windows.addTo(row);
+  row.declared = declaredChanges({before.name, before.can, before.effective},
+                                 {entry.name, can, windows.effective()});
+  row.verdict = std::max({row.windowsVerdict, row.collisionsVerdict, row.forcesVerdict});
+  // Collisions alone do not make a flow the same.
+  const bool partly = flows && row.windowsVerdict == DiffVerdict::notMeasured;
+  if (partly && row.verdict != DiffVerdict::differs) row.verdict = DiffVerdict::notMeasured;
+  return row;
+}
+
+DiffResults diffAgainst(const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides, const RunCommand& command) {
+  const Baseline baseline = readBaseline(file);
+  const std::vector<Case> cases = casesOf(baseline, file, overrides);
+  for (const Case& setup : cases) checkEngineSections(setup);
+  const std::vector<EngineEntry> engines = selectEngines(command.engines);
+  DiffResults results;
+  results.head = headOf(kindDiff, cases.front(), command.commandLine);
+  results.head.setup.variant.clear();
+  results.baseline = file.string();
+  results.baselineVersion = baseline.version;
+  results.changedKeys = changedKeys(casesOf(baseline, file, {}), cases);
+  results.rules = lockstepRules(cases.front().law);
+  for (const FlowState& state : baseline.starts) results.starts.push_back(state.start);
+  Progress progress(command.quiet);
+  progress.begin("running engines", std::vector<double>(engines.size(), 1.0));
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const ScratchFolder scratch;
+    const auto engine = startEngine(engines[e], scratch.path, cases.front().run.timeout);
+    const auto report = [&](double fraction) { progress.update(e, engines[e].name, fraction); };
+    const BaselineEngine& before = keptOf(baseline, engines[e].name);
+    results.rows.push_back(diffEngine(*engine, engines[e], cases, baseline, before, report));
+    try {
+      diffEndpoints(results.rows.back(), engines[e], cases.front(), baseline, before, report);
+    } catch (const EngineFailure& failure) {
+      if (results.rows.back().failure.empty()) results.rows.back().failure = failure.what();
+    }
+    progress.finish(e, engines[e].name + ": compared");
+  }
+  return results;
+}
+
+Outcome outcomeOf(const DiffResults& results) {
+  bool judged = false, differs = false;
+  Outcome outcome;
+  for (const DiffRow& row : results.rows) {
+    judged |= row.verdict != DiffVerdict::notMeasured;
+    differs |= row.verdict == DiffVerdict::differs;
+    if (!row.failure.empty()) outcome.failures.push_back(row.failure);
+  }
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (!judged)
+    return notJudged(results.rows.front().reason);
+  else if (differs)
+    outcome.status = exitFailed;
+  return outcome;
+}
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,192 @@
+#include "studies/regression/observe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/registry.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "studies/collide/sweep.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/run_store.hpp"
+#include "studies/cost/collision.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/run.hpp"
+#include "studies/lockstep/responses.hpp"
+#include "studies/lockstep/rules.hpp"
+#include "studies/lockstep/terms.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+BaselineWindow windowOf(const Observed& of, const FlowState& state,
+                        std::optional<EffectiveParameters>& effective) {
+  EffectiveParameters now = loadStart(of, state);
+  const double step = now.dt;
+  if (effective) requireSameStep(*effective, now);
+  if (!effective) effective = std::move(now);
+  const std::vector<std::uint64_t> steps = lockstepSteps(step);
+  BaselineWindow window;
+  const bool instant = of.engine.capabilities().instantContacts;
+  window.frames =
+      follow(of.engine, step, steps, instant ? ContactReport::instant : ContactReport::none);
+  std::vector<LockstepFrame> reported;
+  for (const double time : lockstepTimes)
+    reported.push_back(window.frames[frameAt(steps, step, time)]);
+  window.responses =
+      referenceResponses(of.engine, reported, 2.0 * of.setup.particles.smallRadius,
+                         [&](double change) { return loadStart(of, state, change).dt; });
+  return window;
+}
+
+KeptCollisions collisionsOf(Engine& engine, const EngineEntry& entry, const Case& setup,
+                            double dt) {
+  KeptCollisions kept;
+  kept.name = setup.name;
+  kept.variant = setup.variant;
+  kept.dt = dt;
+  const std::vector<CollisionStart> starts = collisionStarts(setup);
+  for (const CollisionStart& start : starts) {
+    kept.psi.push_back(start.psi);
+    kept.vn.push_back(start.vn);
+  }
+  const Scene scene = collisionScene(setup, starts, dt);
+  Outcomes outcomes;
+  try {
+    const EffectiveParameters effective = loadScene(engine, entry, setup, scene);
+    outcomes = sweepOutcomes(engine, entry, setup, scene, effective, starts, /*watch=*/true);
+  } catch (const UnsupportedScene& refusal) {
+    kept.refusal = refusal.what();
+    return kept;
+  }
+  const CollidingPair pair = collidingPair(setup);
+  for (const CollisionQuantity& quantity : scoredQuantities()) {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const auto value =
+          outcomes[k] ? quantity.scoredValue(*outcomes[k], pair, starts[k].vn) : std::nullopt;
+      values.push_back(value && std::isfinite(*value) ? *value : NAN);
+    }
+    if (!std::ranges::all_of(values, [](double value) { return std::isnan(value); }))
+      kept.values[std::string(quantity.name)] = std::move(values);
+  }
+  return kept;
+}
+
+std::vector<FlowState> startsOf(const Case& setup, double dt, std::size_t count,
+                                Progress& progress) {
+  const auto packings = std::min<std::size_t>(
+      count, setup.particles.file ? 1 : static_cast<std::size_t>(setup.preparation.packings));
+  progress.begin("preparing packings", std::vector<double>(packings + 1, 1.0));
+  const auto engine = engineRegistry().front().make();
+  std::vector<Packing> prepared;
+  for (std::size_t p = 0; p < packings; ++p)
+    prepared.push_back(packingOf(setup, static_cast<int>(p), dt, *engine, [&](double fraction) {
+      throwIfInterrupted();
+      progress.update(p, "packings", fraction);
+    }));
+  return statesAlongTheFlow(setup, prepared, dt, count, [&](double fraction) {
+    progress.update(packings, "states", fraction);
+  });
+}
+
+}  // namespace
+
+EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change) {
+  Scene scene = couetteScene(of.setup, state.packing, of.dt);
+  if (change != 0.0) changeReference(scene.law, change);
+  return loadScene(of.engine, of.entry, of.setup, scene);
+}
+
+std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entry,
+                                         const std::vector<Case>& cases) {
+  std::vector<KeptCollisions> kept;
+  for (const Case& setup : cases) {
+    const bool flows = setup.kind == CaseKind::couette;
+    for (const double dt : flows ? std::vector{timeStep(setup)} : collisionTimeSteps(setup)) {
+      throwIfInterrupted();
+      kept.push_back(collisionsOf(engine, entry, flows ? collisionOf(setup) : setup, dt));
+    }
+  }
+  return kept;
+}
+
+KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
+                            const std::vector<FlowState>& starts, double dt,
+                            const std::function<void(double)>& progress) {
+  Case quiet = setup;
+  quiet.run.keepSnapshots = 0;
+  const ScratchFolder scratch;
+  KeptEndpoints kept;
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const CouetteTask task{&quiet,
+                           entry,
+                           static_cast<int>(s),
+                           &starts[s].packing,
+                           dt,
+                           scratch.path / "worker",
+                           scratch.path / "snapshots.h5",
+                           scratch.path / "unfinished",
+                           starts[s].packing.hash};
+    const FlowRun run = runCouette(task, [&](double fraction) {
+      progress((static_cast<double>(s) + fraction) / static_cast<double>(starts.size()));
+    });
+    for (const auto& [name, margin] : setup.averaging.endpoints)
+      kept[name].push_back(endpointOf(endpointSpec(name), setup, run));
+  }
+  return kept;
+}
+
+BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+                          const std::vector<FlowState>& starts, double dt,
+                          const std::function<void(double)>& progress) {
+  BaselineEngine kept;
+  kept.name = entry.name;
+  kept.can = engine.capabilities();
+  kept.version = kept.can.version;
+  for (const FlowState& state : starts) {
+    throwIfInterrupted();
+    progress(static_cast<double>(kept.windows.size()) / static_cast<double>(starts.size() + 1));
+    kept.windows.push_back(windowOf({engine, entry, cases.front(), dt}, state, kept.effective));
+  }
+  kept.collisions = collisionsOf(engine, entry, cases);
+  return kept;
+}
+
+Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
+                      bool endpoints, std::vector<std::string>& refusals) {
+  const Case& setup = cases.front();
+  for (const Case& each : cases) checkEngineSections(each);
+  const std::vector<EngineEntry> engines = selectEngines(command.engines);
+  Progress progress(command.quiet);
+  Baseline baseline;
+  baseline.version = programVersion;
+  baseline.setup = {setup.name, setup.variant, setup.file.string(), resolvedFile(cases)};
+  const double dt = setup.kind == CaseKind::couette ? timeStep(setup) : 0.0;
+  if (setup.kind == CaseKind::couette) baseline.starts = startsOf(setup, dt, starts, progress);
+  progress.begin("running engines", std::vector<double>(engines.size(), 1.0));
+  for (std::size_t e = 0; e < engines.size(); ++e) {
+    const ScratchFolder scratch;
+    const auto engine = startEngine(engines[e], scratch.path, setup.run.timeout);
+    const auto report = [&](double fraction) { progress.update(e, engines[e].name, fraction); };
+    try {
+      BaselineEngine kept = keepEngine(*engine, engines[e], cases, baseline.starts, dt, report);
+      if (endpoints) kept.endpoints = endpointsFrom(engines[e], setup, baseline.starts, dt, report);
+      baseline.engines.push_back(std::move(kept));
+      progress.finish(e, engines[e].name + ": kept");
+    } catch (const UnsupportedScene& refusal) {
+      if (baseline.engines.empty() && e + 1 == engines.size()) throw;
+      if (isNamed(command.engines, engines[e])) refusals.emplace_back(refusal.what());
+      progress.finish(e, refusal.what());
+    }
+  }
+  return baseline;
+}
+
+}  // namespace crossgrain::inline studies

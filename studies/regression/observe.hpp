@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "adapters/engine_entry.hpp"
+#include "studies/core/run_store.hpp"
+#include "studies/regression/baseline.hpp"
+
+/// What is observed of an engine, in the same way when it is kept and when it is compared.
+namespace crossgrain::inline studies {
+
+/// One engine on one case.
+struct Observed {
+  Engine& engine;  ///< started
+  const EngineEntry& entry;
+  const Case& setup;
+  double dt = 0.0;  ///< the case's [s]
+};
+
+/// Has the engine load the scene of a start, the reference constant changed by a part of itself.
+/// @throws UnsupportedScene, EngineFailure, BadInput
+EffectiveParameters loadStart(const Observed& of, const FlowState& state, double change = 0.0);
+
+/// Runs all sweeps of cases of collisions; of a Couette case the one of two small disks under its
+/// law. Where the engine refuses one the refusal is kept.
+/// @throws EngineFailure, BadInput, Interrupted
+std::vector<KeptCollisions> collisionsOf(Engine& engine, const EngineEntry& entry,
+                                         const std::vector<Case>& cases);
+
+/// Settles and averages from every start as compare does from a packing: endpoints with a margin.
+/// @param dt  the case's [s]
+/// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
+KeptEndpoints endpointsFrom(const EngineEntry& entry, const Case& setup,
+                            const std::vector<FlowState>& starts, double dt,
+                            const std::function<void(double)>& progress);
+
+/// What one engine does from each start and in each collision.
+/// @param engine  started; that of `entry`
+/// @param cases   one Couette case, or the variants of a case of collisions
+/// @param dt      of the Couette case [s]
+/// @throws UnsupportedScene, EngineFailure, BadInput, Interrupted
+BaselineEngine keepEngine(Engine& engine, const EngineEntry& entry, const std::vector<Case>& cases,
+                          const std::vector<FlowState>& starts, double dt,
+                          const std::function<void(double)>& progress);
+
+/// What all engines named do, but for those that refuse the case.
+/// @param starts     along the flow of a Couette case
+/// @param endpoints  whether each start is also run and averaged
+/// @param refusals   becomes why engines refuse it that were asked for by name
+/// @throws as keepEngine(), UnsupportedScene where all refuse
+Baseline keepBaseline(const std::vector<Case>& cases, const RunCommand& command, std::size_t starts,
+                      bool endpoints, std::vector<std::string>& refusals);
+
+}  // namespace crossgrain::inline studies

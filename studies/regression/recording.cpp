@@ -1,0 +1,244 @@
+#include "studies/regression/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "adapters/registry.hpp"
+#include "adapters/worker/arrays.hpp"
+#include "adapters/worker/json.hpp"
+#include "cases/assembly_scene.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "studies/collide/sweep.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/engine_running.hpp"
+#include "studies/core/run_store.hpp"
+#include "studies/regression/differences.hpp"
+#include "support/bad_input.hpp"
+#include "support/files.hpp"
+#include "support/interrupt.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::inline studies {
+namespace {
+
+using nlohmann::json;
+
+/// As long as a window of lockstep [s].
+constexpr double timeOfCell = 0.1;
+
+/// Where the recording does not say [s].
+constexpr double usualTimeout = 120.0;
+
+Scene sceneOf(const Case& setup) {
+  if (setup.kind == CaseKind::collision)
+    return collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+  if (setup.kind == CaseKind::assembly) return assemblyScene(setup);
+  const double dt = timeStep(setup);
+  const auto engine = engineRegistry().front().make();
+  return couetteScene(setup, packingOf(setup, 0, dt, *engine, [](double) { throwIfInterrupted(); }),
+                      dt);
+}
+
+double timeOf(const Case& setup, const Scene& scene, const EffectiveParameters& effective) {
+  if (setup.kind == CaseKind::collision) return sweepEnd(setup, scene.dt, effective.dt);
+  return setup.kind == CaseKind::assembly ? assemblyDuration(setup) : timeOfCell;
+}
+
+ContactReport contactsOf(const Capabilities& can) {
+  if (can.instantContacts) return ContactReport::instant;
+  return can.accumulatedContacts ? ContactReport::accumulated : ContactReport::none;
+}
+
+/// "advance to t = 0.1 s", "snapshot"
+std::string describe(const json& request) {
+  const auto what = request.at("request").get<std::string>();
+  if (what == "advance") return "advance to t = " + request.value("time", json()).dump() + " s";
+  return what;
+}
+
+/// Puts a request again; the listener gets the answer.
+void ask(Engine& engine, const Exchange& before) {
+  const json& request = before.request;
+  const auto what = request.at("request").get<std::string>();
+  if (what == "load")
+    engine.load(sceneFromJson(request.at("scene"),
+                              ArrayReader(before.sent, "its array file", request.at("arrays"))),
+                readAs<Settings>(request.at("settings")));
+  else if (what == "advance")
+    engine.advance(request.at("time"));
+  else if (what == "snapshot")
+    engine.snapshot(readAs<ContactReport>(request.at("contacts")));
+  else if (what == "stats")
+    engine.stats();
+  else
+    throw std::runtime_error("it cannot be asked again");
+}
+
+/// The value of a key as text, whatever it is.
+std::string textAt(const json& in, const char* key) {
+  const json text = in.is_object() ? in.value(key, json("")) : json("");
+  return text.is_string() ? text.get<std::string>() : text.dump();
+}
+
+/// Whether both answers say what the engine is, and not what it does.
+bool areDeclarations(const Exchange& before, const Exchange& now) {
+  const auto accepted = [](const json& answer) {
+    return answer.is_object() && answer.value("ok", json()) == json(true);
+  };
+  const json& what = before.request.at("request");
+  return (what == "hello" || what == "load") && accepted(before.answer) && accepted(now.answer);
+}
+
+}  // namespace
+
+Record recordOf(const Exchange& exchange) {
+  Record record{{{"request", exchange.request},
+                 {"sent", exchange.sent.size()},
+                 {"received", exchange.received.size()}},
+                exchange.sent + exchange.received};
+  // Where the arrays were is nobody's business but that run's.
+  record.line["request"].erase("file");
+  if (exchange.answer.is_null())
+    record.line["failure"] = exchange.failure;
+  else
+    record.line["answer"] = exchange.answer;
+  return record;
+}
+
+Exchange exchangeOf(Record record) {
+  const json& line = record.line;
+  Exchange exchange{
+      line.at("request"), {}, line.value("answer", json()), {}, line.value("failure", "")};
+  exchange.request.at("request").get<std::string>();
+  const auto sent = line.at("sent").get<std::size_t>();
+  if (sent > record.bytes.size()) throw std::runtime_error("it has fewer bytes than were sent");
+  exchange.sent = record.bytes.substr(0, sent);
+  exchange.received = record.bytes.substr(sent);
+  return exchange;
+}
+
+Recorded recordRun(const EngineEntry& entry, const Case& setup, const std::filesystem::path& file,
+                   const RecordOptions& options) {
+  checkEngineSections(setup);
+  const Scene scene = sceneOf(setup);
+  const ScratchFolder scratch;
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  const auto write = [&](const std::string& text) {
+    errno = 0;
+    out << text << std::flush;
+    if (!out) throw OutputError(file, errno);
+  };
+  write(headText(recordingFormat, {{"engine", entry.name},
+                                   {"stamp", entry.command ? entry.command().stamp : ""},
+                                   {"case", setup.name},
+                                   {"harness", programVersion},
+                                   {"timeout", setup.run.timeout}}));
+  // Of what did not run no file is to stand in the way of the next try.
+  const auto forget = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  };
+  Recorded recorded;
+  try {
+    const auto engine =
+        startNew(entry, scratch.path, setup.run.timeout, [&](const Exchange& exchange) {
+          write(textOf(recordOf(exchange)));
+          ++recorded.exchanges;
+        });
+    const Capabilities can = engine->capabilities();
+    recorded.version = can.version;
+    const EffectiveParameters effective = loadScene(*engine, entry, setup, scene);
+    const double end = options.time.value_or(timeOf(setup, scene, effective));
+    engine->snapshot(contactsOf(can));
+    for (std::size_t k = 1; k <= options.snapshots; ++k) {
+      const double next = end * static_cast<double>(k) / static_cast<double>(options.snapshots);
+      advanceInPieces(*engine, effective, recorded.time, next);
+      engine->snapshot(contactsOf(can));
+      recorded.time = next;
+    }
+    engine->stats();
+  } catch (const EngineFailure& failure) {
+    recorded.failure = failure.what();
+  } catch (const UnsupportedScene&) {
+    forget();
+    throw;
+  } catch (const BadInput&) {
+    forget();
+    throw;
+  }
+  return recorded;
+}
+
+ReplayResults replayRun(const std::filesystem::path& recording, const EngineEntry& entry,
+                        double tolerance) {
+  RecordReader reader(recording, recordingFormat);
+  ReplayResults results;
+  results.engine = entry.name;
+  results.recordedEngine = textAt(reader.head(), "engine");
+  results.recordedStamp = textAt(reader.head(), "stamp");
+  results.caseName = textAt(reader.head(), "case");
+  const json timeout = reader.head().value("timeout", json(usualTimeout));
+  const ScratchFolder scratch;
+  std::optional<Exchange> now;
+  std::unique_ptr<Engine> engine;
+  const auto refuse = [&](const std::string& what) {
+    throw BadInput(fmt::format("{}: request {}{}", recording.string(), reader.count(), what));
+  };
+  while (auto record = reader.next()) {
+    throwIfInterrupted();
+    Exchange before;
+    try {
+      before = exchangeOf(*std::move(record));
+    } catch (const std::exception& error) {
+      refuse(fmt::format(" is no request: {}", withoutPrefix(error.what())));
+    }
+    ++results.asked;
+    now.reset();
+    try {
+      if (!engine != (before.request.at("request") == "hello"))
+        throw std::runtime_error("hello is the first request, and only that");
+      if (!engine) {
+        if (before.answer.is_object())
+          results.recordedVersion = textAt(before.answer.value("capabilities", json()), "version");
+        engine = startNew(entry, scratch.path,
+                          timeout.is_number() ? timeout.get<double>() : usualTimeout,
+                          [&](const Exchange& exchange) { now = exchange; });
+        results.version = engine->capabilities().version;
+      } else {
+        ask(*engine, before);
+      }
+    } catch (const UnsupportedScene&) {
+      // An answer as any other.
+    } catch (const EngineFailure& failure) {
+      results.failure = failure.what();
+    } catch (const OutputError&) {
+      throw;
+    } catch (const BadInput&) {
+      throw;
+    } catch (const std::exception& error) {
+      refuse(fmt::format(", {}: {}", describe(before.request), error.what()));
+    }
+    if (!now) break;  // it did not come to be asked
+    auto differences = answerDifferences(before, *now, tolerance);
+    if (areDeclarations(before, *now)) {
+      std::ranges::move(differences, std::back_inserter(results.declared));
+    } else if (!differences.empty()) {
+      results.request = describe(before.request);
+      results.differences = std::move(differences);
+      break;
+    }
+    if (!engine || now->answer.is_null()) break;  // it has gone
+  }
+  if (results.asked == 0) throw BadInput(fmt::format("{}: holds no requests", recording.string()));
+  return results;
+}
+
+}  // namespace crossgrain::inline studies

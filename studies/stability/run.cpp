@@ -1,0 +1,257 @@
+#include "studies/stability/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/stability_fields.hpp"
+#include "stability/measures.hpp"
+#include "stability/verdict.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/engine_running.hpp"
+#include "studies/core/study.hpp"
+#include "studies/stability/recorder.hpp"
+#include "support/bad_input.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace {
+
+StabilityRun rowOf(const StabilityTask& task) {
+  const Stability& hard = *task.setup->stability;
+  StabilityRun row;
+  row.engine = task.entry.name;
+  row.name = task.setup->name;
+  row.variant = task.setup->variant;
+  row.measure = hard.measure;
+  row.limit = hard.limit;
+  row.degradedLimit = hard.degraded;
+  row.unit = stabilityMeasure(hard.measure).unit;
+  return row;
+}
+
+void refuse(StabilityRun& row, const std::string& reason) {
+  row.status = HardRunStatus::refused;
+  row.verdict = StabilityVerdict::refused;
+  row.reason = reason;
+}
+
+void fail(StabilityRun& row, const std::string& reason) {
+  row.status = HardRunStatus::failed;
+  row.verdict = StabilityVerdict::unstable;
+  row.reason = "failed: " + reason;
+}
+
+/// A figure that is one number.
+void judgeNumber(StabilityRun& row, const Stability& hard, double value) {
+  const StabilityJudgement judged = judgeStability(hard, {value});
+  row.verdict = judged.verdict;
+  row.value = judged.value;
+}
+
+void placeInTime(StabilityRun& row, const Recording& run, std::size_t sample) {
+  row.time = run.snapshots[sample].positionTime;
+  row.step = std::llround(*row.time / run.effective.dt);
+}
+
+/// Every few samples are enough for a plot.
+void keepCurve(StabilityRun& row, const Recording& run, const std::vector<double>& curve) {
+  constexpr std::size_t most = 200;
+  const std::size_t stride = std::max<std::size_t>(1, (curve.size() + most - 1) / most);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (k % stride != 0 && k + 1 != curve.size()) continue;
+    row.curve.time.push_back(run.snapshots[k].positionTime);
+    row.curve.value.push_back(curve[k]);
+  }
+}
+
+ScenePicture pictureAt(const Recording& run, std::size_t sample) {
+  const Snapshot& now = run.snapshots[sample];
+  ScenePicture picture = scenePicture(run.scene, now, 0.0);
+  picture.planes.emplace();
+  for (const Plane& plane : planesAt(run.scene, now.positionTime))
+    picture.planes->push_back(
+        {plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
+  return picture;
+}
+
+/// The engine did not get to the end.
+void judgeFailure(StabilityRun& row, const Recording& run) {
+  fail(row, run.failure);
+  if (run.snapshots.empty()) return;
+  placeInTime(row, run, run.snapshots.size() - 1);
+  row.picture = pictureAt(run, run.snapshots.size() - 1);
+}
+
+void judgeCurve(StabilityRun& row, const Stability& hard, const Recording& run,
+                const std::vector<double>& curve) {
+  if (curve.empty()) return refuse(row, "does not show what the measure takes");
+  const StabilityJudgement judged = judgeStability(hard, curve);
+  row.verdict = judged.verdict;
+  row.value = judged.value;
+  keepCurve(row, run, curve);
+  if (!judged.passed) return;
+  placeInTime(row, run, *judged.passed);
+  row.worstTime = run.snapshots[judged.worst].positionTime;
+  row.picture = pictureAt(run, judged.worst);
+}
+
+/// What is common to all measures of a run.
+void describe(StabilityRun& row, const Recording& run, const Engine& engine) {
+  if (!run.effective.engine.empty()) row.effective = run.effective;
+  if (run.failure.empty()) row.stats = engine.stats();
+}
+
+/// A run, and where it is compared with the original, that one's before it.
+void judgeRun(StabilityRun& row, const StabilityTask& task, const HardScene& hard, Engine& engine,
+              const std::function<void(double)>& progress) {
+  const StabilityMeasure& measure = stabilityMeasure(task.setup->stability->measure);
+  std::optional<Recording> original;
+  HardScene originalScene;
+  if (measure.protocol == StabilityProtocol::againstOriginal) {
+    originalScene = hardScene(*task.original, *task.packing);
+    original = record(engine, task.entry, originalScene, [&](double f) { progress(0.5 * f); });
+    if (!original->failure.empty()) return judgeFailure(row, *original);
+  }
+  const Recording run =
+      record(engine, task.entry, hard, [&](double f) { progress(original ? 0.5 + 0.5 * f : f); });
+  describe(row, run, engine);
+  if (!run.failure.empty()) return judgeFailure(row, run);
+  judgeCurve(row, *task.setup->stability, run,
+             original ? copiesDiffer(*original, run) : measure.curve(run));
+}
+
+/// Twice the same run, the second time in a new worker from a checkpoint at the middle.
+void judgeRestart(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
+                  Engine& engine) {
+  if (!engine.capabilities().checkpoints) return refuse(row, "has no checkpoints");
+  const std::filesystem::path file = std::filesystem::absolute(task.scratch) / "middle";
+  const EffectiveParameters effective = loadScene(engine, task.entry, *task.setup, hard.scene);
+  row.effective = effective;
+  const double middle = 0.5 * hard.duration;
+  advanceInPieces(engine, effective, 0.0, middle);
+  engine.checkpoint(file);
+  advanceInPieces(engine, effective, middle, hard.duration);
+  const Snapshot whole = engine.snapshot(ContactReport::none);
+
+  const auto second = audited(
+      task.entry.name, startNew(task.entry, task.scratch / "second", task.setup->run.timeout));
+  const EffectiveParameters again = loadScene(*second, task.entry, *task.setup, hard.scene);
+  second->restore(file);
+  advanceInPieces(*second, again, middle, hard.duration);
+  const Snapshot resumed = second->snapshot(ContactReport::none);
+  judgeNumber(row, *task.setup->stability, largestDistance(hard.scene, whole, resumed));
+}
+
+/// The largest time step with which a scene that barely moves goes on barely moving [s].
+struct StepLimit {
+  double measured = 0.0;
+  double theory = 0.0;        ///< theoreticalStepLimit()
+  double coordination = 0.0;  ///< coordinationStepLimit()
+};
+
+bool staysCalm(Engine& engine, const EngineEntry& entry, const HardScene& hard, double dt) {
+  constexpr double growth = 100.0;
+  HardScene run = hard;
+  run.duration *= dt / hard.scene.dt;
+  run.scene.dt = dt;
+  const Recording seen = record(engine, entry, run, [](double) {});
+  if (!seen.snapshots.empty() && seen.effective.dt != dt)
+    throw UnsupportedScene(fmt::format("takes time steps of its own, {:g} s", seen.effective.dt));
+  if (!seen.failure.empty()) return false;  // a step far too long ends in no numbers at all
+  const double start = energyOf(seen, seen.snapshots.front()).kinetic;
+  for (const Snapshot& now : seen.snapshots)
+    if (!(energyOf(seen, now).kinetic <= growth * start)) return false;
+  return true;
+}
+
+/// Halves the interval between a step that is stable and one that is not, from 0.1 to 1.6 of
+/// theory's, until it is known to 0.5 % of that. Stable: over the scene's number of steps no sample
+/// finds more than 100 times the kinetic energy of the start.
+/// @throws UnsupportedScene for an engine that takes steps of its own, EngineFailure
+StepLimit measureStepLimit(Engine& engine, const EngineEntry& entry, const HardScene& hard,
+                           const std::function<void(double)>& progress) {
+  StepLimit limit;
+  limit.theory = theoreticalStepLimit(hard.scene);
+  limit.coordination = coordinationStepLimit(hard.scene);
+  double stable = 0.1, unstable = 1.6;
+  constexpr double precision = 0.005;
+  if (!staysCalm(engine, entry, hard, stable * limit.theory)) return limit;
+  while (unstable - stable > precision) {
+    const double middle = 0.5 * (stable + unstable);
+    (staysCalm(engine, entry, hard, middle * limit.theory) ? stable : unstable) = middle;
+    progress(1.0 - (unstable - stable) / 1.5);
+  }
+  limit.measured = stable * limit.theory;
+  return limit;
+}
+
+void judgeStepLimit(StabilityRun& row, const StabilityTask& task, const HardScene& hard,
+                    Engine& engine, const std::function<void(double)>& progress) {
+  const StepLimit found = measureStepLimit(engine, task.entry, hard, progress);
+  judgeNumber(row, *task.setup->stability, std::max(0.0, 1.0 - found.measured / found.theory));
+  row.reason = fmt::format(
+      "steps up to {:.4g} s were stable, {:.3f} of the 2/ω = {:.4g} s of all contacts together; "
+      "the "
+      "estimate from the coordination number is {:.4g} s",
+      found.measured, found.measured / found.theory, found.theory, found.coordination);
+}
+
+/// The start is one that must be refused, by the harness or by the engine.
+void judgeAcceptance(StabilityRun& row, const StabilityTask& task, Engine& engine,
+                     const std::function<void(double)>& progress) {
+  try {
+    const HardScene hard = hardScene(*task.setup, *task.packing);
+    const Recording run = record(engine, task.entry, hard, progress);
+    if (!run.failure.empty()) return judgeFailure(row, run);
+    judgeNumber(row, *task.setup->stability, 1.0);
+    row.reason = "was not refused";
+  } catch (const UnsupportedScene& refusal) {
+    judgeNumber(row, *task.setup->stability, 0.0);
+    row.reason = fmt::format("refused: {}", refusal.what());
+  } catch (const BadInput& refusal) {
+    judgeNumber(row, *task.setup->stability, 0.0);
+    row.reason = fmt::format("refused: {}", refusal.what());
+  }
+}
+
+void judge(StabilityRun& row, const StabilityTask& task, Engine& engine,
+           const std::function<void(double)>& progress) {
+  const StabilityProtocol protocol = stabilityMeasure(task.setup->stability->measure).protocol;
+  if (protocol == StabilityProtocol::acceptance)
+    return judgeAcceptance(row, task, engine, progress);
+  const HardScene hard = hardScene(*task.setup, *task.packing);
+  switch (protocol) {
+    case StabilityProtocol::restart:
+      return judgeRestart(row, task, hard, engine);
+    case StabilityProtocol::stepLimit:
+      return judgeStepLimit(row, task, hard, engine, progress);
+    default:
+      return judgeRun(row, task, hard, engine, progress);
+  }
+}
+
+}  // namespace
+
+StabilityRun runStability(const StabilityTask& task, const std::function<void(double)>& progress) {
+  StabilityRun row = rowOf(task);
+  try {
+    if (!task.unprepared.empty())
+      throw BadInput(task.unprepared);  // nobody's failure: it never ran
+    const auto engine = startAudited(task.entry, task.scratch, task.setup->run.timeout);
+    judge(row, task, *engine, progress);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const UnsupportedScene& refusal) {
+    refuse(row, refusal.what());
+  } catch (const BadInput& refusal) {
+    refuse(row, refusal.what());
+  } catch (const std::exception& failure) {
+    fail(row, failure.what());
+  }
+  return row;
+}
+
+}  // namespace crossgrain::inline studies

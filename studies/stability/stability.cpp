@@ -1,0 +1,328 @@
+#include "studies/stability/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "cases/case_files.hpp"
+#include "cases/loader.hpp"
+#include "cases/preparation.hpp"
+#include "cases/time_step.hpp"
+#include "results/schema.hpp"
+#include "results/stability_fields.hpp"
+#include "stability/measures.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/executor.hpp"
+#include "studies/core/study_cases.hpp"
+#include "studies/stability/run.hpp"
+#include "studies/stability/transforms.hpp"
+#include "support/bad_input.hpp"
+#include "support/data_folder.hpp"
+#include "support/interrupt.hpp"
+
+namespace crossgrain::inline studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// All cases of files and folders. @throws BadInput
+std::vector<Case> casesOf(const std::vector<fs::path>& inputs,
+                          const std::vector<std::string>& overrides) {
+  std::vector<Case> cases;
+  for (const fs::path& input : inputs)
+    for (const fs::path& file : fs::is_directory(input) ? caseFilesIn(input) : std::vector{input})
+      std::ranges::move(loadCase(file, overrides), std::back_inserter(cases));
+  return cases;
+}
+
+bool belongsTo(SuitePart part, const Stability& hard) {
+  if (part == SuitePart::quick) return hard.quick;
+  return part == SuitePart::withLong || !hard.longRun;
+}
+
+}  // namespace
+
+std::vector<Case> hardCases(const std::vector<fs::path>& inputs,
+                            const std::vector<std::string>& overrides, SuitePart part) {
+  std::vector<Case> cases = casesOf(inputs, overrides);
+  for (const Case& setup : cases)
+    if (!setup.stability)
+      throw BadInput(
+          fmt::format("{}: has no [stability]: it is no hard case", setup.file.string()));
+  requireOwnNames(cases);
+  std::erase_if(cases, [&](const Case& c) { return !belongsTo(part, *c.stability); });
+  if (cases.empty())
+    throw BadInput(part == SuitePart::quick ? "none of these cases has stability.quick = true"
+                                            : "all of these cases are long: --long runs them");
+  return cases;
+}
+
+namespace {
+
+/// The rows of one engine and case: one, or those of all transforms, which share the run that they
+/// are compared with.
+using Rows = std::vector<StabilityRun>;
+
+/// What tasks need of cases and engines; it outlives them.
+struct Suite {
+  const std::vector<Case>& cases;
+  const std::vector<EngineEntry>& engines;
+  const RunCommand& command;
+  RunStore& store;
+  SuiteAsks asks;
+  Progress progress{command.quiet};
+  std::vector<std::string> versions = {};    ///< of engines; empty: it did not answer
+  std::vector<Packing> packings = {};        ///< of cases that are Couette cells
+  std::vector<std::string> unprepared = {};  ///< why they have none
+  TimeBudget* budget = nullptr;              ///< of transforms
+};
+
+void askEngines(Suite& suite) {
+  for (const Case& setup : suite.cases) checkEngineSections(setup);
+  requireInstalled(suite.engines);
+  suite.versions.resize(suite.engines.size());
+  std::vector<std::string> failures(suite.engines.size());
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < suite.engines.size(); ++e)
+    tasks.push_back(
+        {1.0, [&suite, e, &failures] {
+           const EngineEntry& entry = suite.engines[e];
+           try {
+             const Capabilities can =
+                 startEngine(entry, suite.store.scratch("ask-" + entry.name), 60.0)->capabilities();
+             suite.versions[e] = can.version;
+             for (const Case& setup : suite.cases)
+               settingsFor(setup, entry.name, can);  // throws for one that is wrong
+           } catch (const EngineFailure& failure) {
+             failures[e] = failure.what();  // its runs will tell, one by one
+           }
+         }});
+  runTasks(tasks, suite.command.jobs);
+  for (const std::string& failure : failures)
+    if (!failure.empty()) suite.progress.say(failure);
+  suite.store.begin();
+}
+
+void preparePackings(Suite& suite) {
+  for (std::size_t c = 0; c < suite.cases.size(); ++c) {
+    const Case& setup = suite.cases[c];
+    if (setup.kind != CaseKind::couette) continue;
+    const auto engine = engineRegistry().front().make();
+    suite.progress.begin("preparing packings", {1.0});
+    try {
+      suite.packings[c] = packingOf(setup, 0, timeStep(setup), *engine, [&](double fraction) {
+        throwIfInterrupted();
+        suite.progress.update(0, setup.name, fraction);
+      });
+      suite.progress.finish(0, setup.name + ": packing ready");
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const BadInput&) {
+      throw;
+    } catch (const std::exception& failure) {  // the other cases go on
+      suite.unprepared[c] = fmt::format("no packing was prepared: {}", failure.what());
+      suite.progress.finish(0, fmt::format("{}: {}", setup.name, suite.unprepared[c]));
+    }
+  }
+}
+
+/// Roughly, in seconds: the longest start first.
+double predicted(const Case& setup, const EngineEntry& entry) {
+  const double perStep = entry.command ? 3e-5 : 2e-6;
+  double steps = 1e4;
+  if (setup.kind == CaseKind::assembly && setup.assembly.steps) steps = *setup.assembly.steps;
+  if (setup.kind == CaseKind::assembly && setup.assembly.duration)
+    steps = *setup.assembly.duration / timeStep(setup);
+  std::size_t disks = 1;
+  for (const DiskGroup& group : setup.assembly.disks) disks += group.places.size();
+  return (entry.command ? 2.0 : 0.1) + steps * perStep * static_cast<double>(disks + 3);
+}
+
+CachedTask<Rows>::Outcome limitsOf(const StabilityTask& task,
+                                   const std::function<void(double)>& progress) {
+  StabilityRun run = runStability(task, progress);
+  const std::string verdict(nameOf(run.verdict));
+  const bool finished = run.status != HardRunStatus::failed;
+  return {{std::move(run)}, finished, verdict};
+}
+
+CachedTask<Rows>::Outcome transformsOf(const StabilityTask& task, TimeBudget& budget,
+                                       const std::function<void(double)>& progress) {
+  Rows rows = runTransforms(task, budget.next(), progress);
+  const auto count = [&](auto member, auto value) {
+    return std::ranges::count(rows, value, member);
+  };
+  const auto broken = count(&StabilityRun::verdict, StabilityVerdict::unstable);
+  const auto late = count(&StabilityRun::status, HardRunStatus::notRun);
+  const bool finished = late + count(&StabilityRun::status, HardRunStatus::failed) == 0;
+  return {std::move(rows), finished,
+          fmt::format("{}{}", broken == 0 ? "nothing breaks" : fmt::format("{} break", broken),
+                      late == 0 ? "" : fmt::format(", {} not run", late))};
+}
+
+CachedTask<Rows> taskOf(const Suite& suite, std::size_t c, std::size_t e) {
+  const Case& setup = suite.cases[c];
+  const EngineEntry& entry = suite.engines[e];
+  const Case& original = *std::ranges::find(suite.cases, setup.name, &Case::name);
+  const bool transforms = suite.asks == SuiteAsks::transforms;
+  CachedTask<Rows> task;
+  task.of = {entry.name, fullName(setup)};
+  task.label = entry.name + " " + fullName(setup);
+  task.name = task.label;
+  std::ranges::replace(task.name, ' ', '-');
+  task.key = runKey(setup, entry.name, suite.versions[e]);
+  if (const std::string& hash = suite.packings[c].hash; !hash.empty()) task.key["packing"] = hash;
+  if (!setup.assembly.starts.files.empty())  // the case has their paths only
+    task.key["packing"] = expectedPacking(setup, 0, timeStep(setup)).hash;
+  task.weight = predicted(setup, entry);
+  if (transforms) {
+    task.name += "-transforms";
+    task.priority = -task.weight;  // what is over soon leaves its part of the budget to the others
+  } else if (stabilityMeasure(setup.stability->measure).protocol != StabilityProtocol::oneRun) {
+    task.key["compared with"] = original.variant;
+  }
+  task.work = [&suite, &setup, &original, &entry, c, transforms,
+               scratch = suite.store.scratch(task.name)](const auto& progress) {
+    const StabilityTask own{&setup,  &original,          entry, &suite.packings[c],
+                            scratch, suite.unprepared[c]};
+    return transforms ? transformsOf(own, *suite.budget, progress) : limitsOf(own, progress);
+  };
+  return task;
+}
+
+/// Case by case, engine by engine.
+std::vector<CachedTask<Rows>> tasksOf(const Suite& suite) {
+  std::vector<CachedTask<Rows>> tasks;
+  for (std::size_t c = 0; c < suite.cases.size(); ++c)
+    for (std::size_t e = 0; e < suite.engines.size(); ++e) tasks.push_back(taskOf(suite, c, e));
+  return tasks;
+}
+
+std::vector<HardCase> describe(const Case& setup, SuiteAsks asks) {
+  if (asks == SuiteAsks::transforms) return transformRows(setup);
+  const Stability& hard = *setup.stability;
+  const StabilityMeasure& measure = stabilityMeasure(hard.measure);
+  return {{setup.name, setup.variant, setup.file.string(), hard.tests, hard.measure,
+           std::string(measure.what), std::string(measure.unit), hard.limit, hard.degraded,
+           hard.why, setup.resolvedToml}};
+}
+
+std::vector<Case> casesToTest(const CommandLine& line, StabilityOptions& own) {
+  if (own.budget && !own.transforms) throw BadInput("--budget: goes with --transforms only");
+  if (own.budget) secondsOf(*own.budget);  // throws for what is none
+  std::vector<fs::path> inputs = line.inputs;
+  if (inputs.empty()) inputs.push_back(hereOrInstalled("cases/hard"));
+  std::vector<Case> cases;
+  if (own.transforms) {  // of any cases
+    cases = casesOf(inputs, line.overrides);
+    requireOwnNames(cases);
+  } else {
+    cases = hardCases(inputs, line.overrides,
+                      line.quick      ? SuitePart::quick
+                      : own.longCases ? SuitePart::withLong
+                                      : SuitePart::usual);
+  }
+  if (line.only) cases = selectedCases(cases, *line.only);
+  reportKeysWithoutUse(cases, "stability", line.json ? stderr : stdout);
+  return cases;
+}
+
+std::string stabilityPlan(const StudyWork& work, const StabilityOptions& own) {
+  const std::vector<EngineEntry> engines = selectEngines(work.line.run.engines);
+  Suite suite{work.cases, engines, work.line.run, work.store, own.asks()};
+  suite.packings.resize(work.cases.size());
+  suite.unprepared.resize(work.cases.size());
+  askEngines(suite);
+  std::string head;
+  for (std::size_t c = 0; c < work.cases.size(); ++c) {
+    const Case& setup = work.cases[c];
+    if (setup.kind == CaseKind::couette)
+      suite.packings[c].hash = packingHash(setup, 0, timeStep(setup));
+    head += (head.empty() ? "" : ", ") + fullName(setup);
+  }
+  return describeDryRun(head + "\n", plannedWork(tasksOf(suite), "hard cases", work.store),
+                        work.store, work.line.run);
+}
+
+StabilityResults stability(const StudyWork& work, const StabilityOptions& own) {
+  return testStability(
+      work.cases, selectEngines(work.line.run.engines), work.line.run, work.store, own.asks(),
+      own.budget ? secondsOf(*own.budget) : std::numeric_limits<double>::infinity());
+}
+
+Outcome outcomeOfStability(const StabilityResults& results, const CommandLine&,
+                           const StabilityOptions&) {
+  const auto count = [&](StabilityVerdict verdict) {
+    return std::ranges::count(results.runs, verdict, &StabilityRun::verdict);
+  };
+  const auto all = std::ssize(results.runs), refused = count(StabilityVerdict::refused);
+  if (refused == all)
+    return notJudged(
+        fmt::format("all runs were refused, the first because it {}", results.runs.front().reason));
+  if (refused + count(StabilityVerdict::notRun) == all)
+    return notJudged("the budget ended before any run could be judged");
+  return {count(StabilityVerdict::unstable) > 0 ? exitFailed : exitPassed};
+}
+
+}  // namespace
+
+StabilityResults testStability(const std::vector<Case>& cases,
+                               const std::vector<EngineEntry>& engines, const RunCommand& command,
+                               RunStore& store, SuiteAsks asks, double seconds) {
+  const auto started = std::chrono::steady_clock::now();
+  TimeBudget budget(seconds, cases.size() * engines.size(), command.jobs);
+  Suite suite{cases, engines, command, store, asks};
+  suite.budget = &budget;
+  suite.packings.resize(cases.size());
+  suite.unprepared.resize(cases.size());
+  askEngines(suite);
+  preparePackings(suite);
+  StabilityResults results;
+  for (Rows& rows :
+       runOrLoad(tasksOf(suite), store, suite.progress,
+                 asks == SuiteAsks::limits ? "hard cases" : "transforms", command.jobs))
+    std::ranges::move(rows, std::back_inserter(results.runs));
+  reportNonReusableWorkers(engines, suite.progress);
+  results.head = headOf(kindStability, cases.front(), command.commandLine);
+  const bool one =
+      std::ranges::all_of(cases, [&](const Case& c) { return c.name == cases.front().name; });
+  const char* const many = asks == SuiteAsks::transforms ? "transformed cases" : "hard cases";
+  results.head.setup = {one ? cases.front().name : many, "",
+                        cases.front().file.parent_path().string(), ""};
+  for (const Case& setup : cases)
+    std::ranges::move(describe(setup, asks), std::back_inserter(results.cases));
+  for (std::size_t e = 0; e < engines.size(); ++e)
+    results.engines.push_back(engineRow(engines[e], suite.versions[e]));
+  results.elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return results;
+}
+
+const Study<StabilityOptions, StabilityResults> stabilityStudy = {
+    "stability",
+    {.input = SharedOptions::Input::anyCases,
+     .inputIs = "case files or folders of them (default: cases/hard)",
+     .selection = true},
+    Keeps::eachCase,
+    [](StabilityOptions& own, CommandLine& line) {
+      return std::vector<StudyOption>{
+          {"--quick", "only cases marked as quick", &line.quick},
+          {"--long", "also cases marked as long", &own.longCases},
+          {"--transforms",
+           "whether any case, turned, mirrored, in other units, renumbered, restarted and in "
+           "one go, does the same",
+           &own.transforms},
+          {"--budget",
+           "of --transforms: no run begins that would end later, e.g. 90s, 10m, 1h (default: none)",
+           &own.budget, "TIME"}};
+    },
+    casesToTest,
+    stabilityPlan,
+    stability,
+    outcomeOfStability,
+    {{"--quick", "--long"}, {"--transforms", "--quick"}, {"--transforms", "--long"}}};
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "adapters/engine.hpp"
+#include "results/stability.hpp"
+#include "stability/transform.hpp"
+#include "studies/stability/run.hpp"
+
+/// Changes of a case after which everything must go as it went: how a scene is told is nobody's
+/// physics. No second engine and no theory is needed for that.
+namespace crossgrain::inline studies {
+
+/// The part of a budget that one piece of work has, from its making on.
+class TimeShare {
+ public:
+  /// @param seconds  infinite: as long as it takes
+  explicit TimeShare(double seconds = std::numeric_limits<double>::infinity()) : all_(seconds) {}
+
+  /// To be called before what is likely to take `seconds`. @throws OutOfTime where it would end
+  /// later
+  void require(double seconds) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double all_;  ///< [s]
+  Clock::time_point began_ = Clock::now();
+};
+
+/// What was not run for want of time: no verdict on anybody.
+class OutOfTime : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A budget that several pieces of work have together. Each has an equal part of what is left when
+/// it begins, so that a slow engine takes no other's time, and what quick ones leave is used.
+class TimeBudget {
+ public:
+  /// @param seconds  for all, from now on; infinite: as long as it takes
+  /// @param pieces   of work, of which `jobs` are done at a time
+  TimeBudget(double seconds, std::size_t pieces, int jobs)
+      : all_(seconds), pieces_(pieces), jobs_(static_cast<std::size_t>(jobs)) {}
+
+  /// Of the next piece; any thread may ask.
+  TimeShare next();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double all_;  ///< [s]
+  Clock::time_point began_ = Clock::now();
+  std::mutex mutex_;
+  std::size_t pieces_;  ///< not begun
+  std::size_t jobs_;
+};
+
+/// What a setting of that unit ("m", "m/s") is multiplied by in other units; absent: of a unit that
+/// is not known here.
+std::optional<double> factorOf(const std::string& unit, const Units& units);
+
+/// An engine's settings for a scene in other units: those with a unit are multiplied, defaults
+/// said. What is 0 stays, whatever its unit.
+/// @throws UnsupportedScene naming a setting whose unit is not known
+Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const Units& units);
+
+// What verdicts go by, fixed before any engine was looked at, each with its reason.
+
+/// A fault shows in its first contacts; much later chaos has had its part.
+inline constexpr std::uint64_t transformSteps = 2000;
+
+/// Told otherwise, a scene is rounded otherwise, at its start and in every step. As much harm as a
+/// rounding of the start does, each further step may do again: the n-th may show 1 + n times the
+/// farthest that the engine's own run goes apart when its start is nudged (precision.hpp has the
+/// same rule). Nudges are drawn at random; of several one is likely to lie along what grows most.
+inline constexpr int transformNudges = 4;
+
+/// Beyond this nothing is told: runs that far apart do not share their contacts, whose overlaps are
+/// as deep [d].
+inline constexpr double transformBlind = 1e-2;
+
+/// Powers of two, whose products are not rounded; of a length a power of four, as Hertz' law takes
+/// its root. Towards small numbers all, since that is where a tolerance without a unit bites:
+/// lengths, forces and speeds of a thousandth.
+inline constexpr double transformSmaller = 0x1p-10, transformSlower = 0x1p10;
+
+/// Of the order without a system and of nudges.
+inline constexpr std::uint64_t transformSeed = 22;
+
+/// How the other run comes about.
+enum class TransformRun {
+  another,  ///< of the transformed scene
+  restart,  ///< taken up from a checkpoint in the middle, by another worker
+  oneGo     ///< of one advance, where the run itself is looked at some forty times
+};
+
+/// One of them, as reports have it: a measure is a column, a name one of its rows.
+struct CaseTransform {
+  std::string measure, name;
+  std::string must;  ///< what must hold, one sentence
+  Transform change = {};
+  TransformRun run = TransformRun::another;
+};
+
+/// All of them, in the order of reports.
+/// @param disks  of the scene
+std::vector<CaseTransform> caseTransforms(std::size_t disks);
+
+/// The name of a row: that of the transform, behind the case's variant where there is one.
+std::string variantOf(const Case& setup, const CaseTransform& transform);
+
+/// What they are, for reports of a case.
+std::vector<HardCase> transformRows(const Case& setup);
+
+/// One row for each of caseTransforms(): the value is how far the farthest disk is off [d] where
+/// that is most by what rounding may do, the limit is what it may do there. Unstable: beyond that,
+/// or the engine failed; refused: the engine cannot do what the transform takes, with the reason;
+/// not run: what would have ended after its time.
+/// @param task  its case needs no [stability]; `original` is not used
+/// @throws Interrupted
+std::vector<StabilityRun> runTransforms(const StabilityTask& task, const TimeShare& time,
+                                        const std::function<void(double)>& progress);
+
+}  // namespace crossgrain::inline studies

@@ -1,0 +1,313 @@
+// Fronts, advice and cells of made-up points.
+#include "studies/cost/analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace crossgrain;
+
+using Points = std::vector<CostPoint>;
+using Places = std::vector<std::size_t>;
+
+CostPoint at(double error, std::optional<double> time, const std::string& setting = "t_c/50",
+             const std::string& measure = "psi_f") {
+  CostPoint point;
+  point.engine = "a";
+  point.knob = "time_step";
+  point.setting = setting;
+  point.fragment = "[run]\n# " + setting + "\n";
+  point.measure = measure;
+  point.dt = time ? 1.0 / *time : 1.0;
+  point.error = error;
+  point.wallSeconds = time;
+  return point;
+}
+
+/// Of averages, ± standard error.
+CostPoint average(CostPoint point, double error, std::optional<double> statistical) {
+  point.kind = CostKind::averages;
+  point.measure = "stress_rr";
+  point.error = error;
+  point.statistical = statistical;
+  *point.wallSeconds *= 100.0;
+  return point;
+}
+
+CostPoint without(CostPoint point, CostStatus status, const std::string& reason) {
+  point.status = status;
+  point.reason = reason;
+  point.error.reset();
+  return point;
+}
+
+CostPoint of(const std::string& engine, CostPoint point) {
+  point.engine = engine;
+  return point;
+}
+
+/// Error 4⁻ᵏ at t_c/2ᵏ in 2ᵏ s, k = 1 … 4; averages the same + `bias` ± `statistical`.
+Points ladder(double bias, std::optional<double> statistical) {
+  Points points;
+  for (int k = 1; k <= 4; ++k)
+    points.push_back(at(std::pow(4.0, -k), std::pow(2.0, k), "t_c/" + std::to_string(1 << k)));
+  for (int k = 0; k < 4; ++k)
+    points.push_back(average(points[static_cast<std::size_t>(k)],
+                             *points[static_cast<std::size_t>(k)].error + bias, statistical));
+  return points;
+}
+
+TEST(CostPoint, Interval_OfStatisticalAndReferenceError_IsTheirSum) {
+  CostPoint point = at(0.1, 1.0);
+  point.statistical = 0.02;
+  point.referenceError = 0.01;
+  EXPECT_EQ(*point.counted(), 0.1);
+  EXPECT_NEAR(point.low(), 0.07, 1e-15);
+  EXPECT_NEAR(point.high(), 0.13, 1e-15);
+  point.error = 0.015;  // below its standard error: counts with its upper end
+  EXPECT_TRUE(point.mayBeChance());
+  EXPECT_NEAR(*point.counted(), 0.045, 1e-15);
+  EXPECT_EQ(point.low(), 0.0);
+  point.intervalLow = 0.001;
+  point.intervalHigh = 0.05;
+  EXPECT_EQ(point.low(), 0.001);
+  EXPECT_EQ(point.high(), 0.05);
+}
+
+TEST(CostPoint, AverageOfOnePacking_HasNoStatisticalError_CountsNowhere) {
+  const CostPoint one = average(at(0.0, 1.0), 0.001, {});
+  EXPECT_FALSE(one.counted());
+  EXPECT_TRUE(paretoFront({one}).empty());
+  EXPECT_EQ(one.low(), 0.0);
+  EXPECT_TRUE(std::isinf(one.high()));
+  const CostCell cell = costCells({one}, {}, {0.01}).front();
+  EXPECT_EQ(cell.verdict, CostVerdict::undecided);
+  EXPECT_EQ(cell.decides, "more packings: one shows no statistical error");
+  EXPECT_EQ(average(at(0.0, 1.0), 0.001, 1e-4).counted(), 0.001);
+}
+
+TEST(CostFront, Points_NoneOtherBeatsInBoth_AreOnIt) {
+  const Points points = {
+      at(0.1, 1.0),  at(0.2, 2.0), at(0.05, 2.0), at(0.05, 3.0),
+      at(0.01, 4.0), at(0.5, 0.5), at(1e-6, {}),  without(at(0.0, 0.1), CostStatus::failed, "NaN")};
+  EXPECT_EQ(paretoFront(points), (Places{5, 0, 2, 4}));
+  EXPECT_EQ(paretoFront({at(0.1, 1.0), at(0.1, 1.0)}), (Places{0, 1}));  // equal in both
+  EXPECT_EQ(paretoFront({at(0.3, 1.0), at(0.1, 1.0), at(0.2, 1.0)}), (Places{1}));
+  CostPoint chance = at(0.01, 1.0);
+  chance.statistical = 0.2;
+  EXPECT_EQ(paretoFront({chance, at(0.1, 1.0)}), (Places{1}));
+}
+
+TEST(CostFront, SeveralEnginesAndMeasures_HaveOneEachAndOneOverAll) {
+  const Points points = {of("slow", at(0.1, 2.0)), of("slow", at(0.01, 4.0)),
+                         of("fast", at(0.1, 1.0)), of("slow", at(0.1, 2.0, "t_c/2", "e_n"))};
+  const auto fronts = paretoFronts(points);
+  ASSERT_EQ(fronts.size(), 5u);
+  EXPECT_EQ(fronts[0].engine, "");
+  EXPECT_EQ(fronts[0].points, (Places{2, 1}));
+  EXPECT_EQ(fronts[0].errors, (std::vector<double>{0.1, 0.01}));
+  EXPECT_EQ(fronts[1].engine, "slow");
+  EXPECT_EQ(fronts[1].points, (Places{0, 1}));
+  EXPECT_EQ(fronts[2].engine, "fast");
+  EXPECT_EQ(fronts[3].measure, "e_n");
+  EXPECT_EQ(fronts[4].points, (Places{3}));
+}
+
+/// Of the basis of the case's law, unless said.
+CostCell cellOf(const Points& points, double target, const std::vector<CostModel>& models = {},
+                CostBasis basis = CostBasis::scene) {
+  for (const CostCell& cell : costCells(points, models, {target}))
+    if (cell.basis == basis) return cell;
+  throw std::runtime_error("no such cell");
+}
+
+Points collisions() {
+  Points points = ladder(0.0, 0.0);
+  points.resize(4);
+  return points;
+}
+
+TEST(CostCells, SeveralSettingsMeetTheTarget_CheapestIsNamed) {
+  const CostCell cell = cellOf(collisions(), 0.02);  // 4⁻³ = 0.0156
+  EXPECT_EQ(cell.verdict, CostVerdict::reached);
+  EXPECT_EQ(cell.setting, "t_c/8");
+  EXPECT_EQ(cell.wallSeconds, 8.0);
+  EXPECT_EQ(cell.point, 2u);
+  EXPECT_TRUE(costCells({}, {}).empty());
+}
+
+TEST(CostCells, LowerEndsAboveTheTarget_OfAllSettings_NotReached) {
+  const CostCell cell = cellOf(collisions(), 0.001);
+  EXPECT_EQ(cell.verdict, CostVerdict::notReached);
+  EXPECT_EQ(cell.setting, "t_c/16");
+  EXPECT_EQ(cell.decides, "");
+  EXPECT_EQ(cellOf({at(0.01, {}), at(0.01, 5.0)}, 0.1).wallSeconds, 5.0);  // a time that is known
+}
+
+TEST(CostCells, IntervalHoldsTheTarget_UndecidedAndSaysWhatWouldDecide) {
+  CostPoint point = at(0.008, 1.0);
+  point.statistical = 0.004;
+  EXPECT_EQ(cellOf({point}, 0.01).verdict, CostVerdict::undecided);
+  // Its statistical part must fall from 0.004 to 0.002: 4 times as long.
+  EXPECT_EQ(cellOf({point}, 0.01).decides, "4.0 times as much simulated time");
+  point.statistical.reset();
+  point.referenceError = 0.005;
+  EXPECT_EQ(cellOf({point}, 0.01).decides, "a reference known to 2.0e-03");
+  point.statistical = 0.005;
+  EXPECT_EQ(cellOf({point}, 0.01).decides,
+            "a reference known to better than 2.0e-03 and more simulated time");
+  point.referenceError.reset();
+  point.error = 0.01;
+  EXPECT_EQ(cellOf({point}, 0.01).decides, "nothing: the error is the target");
+}
+
+TEST(CostCells, SettingNotRunThatMayDoBetter_NotMeasured) {
+  Points points = collisions();
+  points[3] = without(points[3], CostStatus::notMeasured, "would take about 90 s");
+  CostCell cell = cellOf(points, 0.005);
+  EXPECT_EQ(cell.verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(cell.decides, "t_c/16, which was not run: would take about 90 s");
+  points[3].dt = 10.0;  // a larger step would not help
+  EXPECT_EQ(cellOf(points, 0.005).verdict, CostVerdict::notReached);
+  points[3].knob = "precision";  // another setting may
+  EXPECT_EQ(cellOf(points, 0.005).verdict, CostVerdict::notMeasured);
+  for (CostPoint& point : points)
+    point = without(point, CostStatus::notMeasured, "would take about 90 s");
+  EXPECT_EQ(cellOf(points, 0.5).decides,
+            "t_c/2 and 3 more, which were not run: would take about 90 s");
+  EXPECT_EQ(cellOf({without(at(0.0, 1.0), CostStatus::failed, "NaN")}, 0.1).verdict,
+            CostVerdict::notMeasured);
+  EXPECT_EQ(cellOf({without(at(0.0, 1.0), CostStatus::refused, "it has no limit")}, 0.1).decides,
+            "it has no limit");
+}
+
+TEST(CostCells, SettingWithoutAMeasure_IsNotRecommended) {
+  Points points = {at(0.005, 1.0, "t_c/10"), at(0.05, 1.0, "t_c/10", "e_n"),
+                   at(0.001, 4.0, "t_c/40")};
+  EXPECT_EQ(cellOf(points, 0.01).verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(cellOf(points, 0.01).decides, "a setting that was measured in every measure");
+  points.push_back(at(0.02, 4.0, "t_c/40", "e_n"));
+  EXPECT_EQ(cellOf(points, 0.01).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.01).point, 3u);  // the best setting's largest error
+  EXPECT_EQ(cellOf(points, 0.03).setting, "t_c/40");
+}
+
+/// Discretisation falls as 4⁻ᵏ; a law that is 25 % off stays there.
+Points ofAnotherLaw() {
+  return {at(0.28, 1.0, "t_c/10"), at(0.252, 4.0, "t_c/40"), at(0.05, 1.0, "t_c/10", "psi_f_own"),
+          at(0.004, 4.0, "t_c/40", "psi_f_own")};
+}
+
+TEST(CostCells, ModelErrorAboveTheTarget_NotReachedButOwnLimitIs) {
+  CostModel model{"a", CostKind::collision, "psi_f", 0.25, 0.249, 0.251};
+  Points points = ofAnotherLaw();
+  const CostCell own = cellOf(points, 0.01, {model}, CostBasis::own);
+  EXPECT_EQ(own.verdict, CostVerdict::reached);
+  EXPECT_EQ(own.setting, "t_c/40");
+  EXPECT_FALSE(own.model);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::notReached);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).model, 0u);
+  EXPECT_EQ(cellOf(points, 0.3, {model}).verdict, CostVerdict::reached);
+  for (CostPoint& point : points) point.referenceError = 0.3;  // nothing is decided by settings
+  EXPECT_EQ(cellOf(points, 0.1).verdict, CostVerdict::undecided);
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::notReached);
+  model.low = 0.1;  // it may be below
+  EXPECT_EQ(cellOf(points, 0.1, {model}).verdict, CostVerdict::undecided);
+}
+
+/// A limit that is 25 % off, a coarse step that is 12 to 18 % off, and one not run.
+TEST(CostCells, CoarseStepMakesUpForTheModel_ModelDecidesNothing) {
+  const CostModel model{"a", CostKind::collision, "psi_f", 0.25, 0.249, 0.251};
+  CostPoint coarse = at(0.15, 1.0, "t_c/10");
+  coarse.referenceError = 0.03;
+  CostPoint left = without(at(0.0, 2.0, "t_c/5"), CostStatus::notMeasured, "too slow");
+  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, CostVerdict::notMeasured);
+  coarse.error = 0.26;
+  EXPECT_EQ(cellOf({coarse, left}, 0.1, {model}).verdict, CostVerdict::notReached);
+}
+
+TEST(CostAdvice, CollisionsAndAveragesMeetTheTarget_CheapestIsNamedWithTimeOfAverages) {
+  const Advice one = advice(ladder(0.05, 0.002), {0.1}).front();
+  EXPECT_EQ(one.verdict, CostVerdict::reached);
+  EXPECT_EQ(one.setting, "t_c/8");  // 1/64 + 0.052; 1/16 + 0.052 is above 0.1
+  EXPECT_EQ(one.fragment, "[run]\n# t_c/8\n");
+  EXPECT_EQ(one.kinds, (std::vector{CostKind::collision, CostKind::averages}));
+  EXPECT_EQ(one.costKind(), CostKind::averages);
+  EXPECT_NEAR(*one.wallSeconds, 800.0, 1e-9);
+  EXPECT_NEAR(*one.length, 4e-4, 1e-12);  // (0.002/0.1)²
+  EXPECT_FALSE(one.obstacle);
+  EXPECT_TRUE(one.cheapest);
+  EXPECT_TRUE(advice({}, {0.5}).empty());
+}
+
+TEST(CostAdvice, AveragesContradict_NotReached) {
+  const Points points = ladder(0.05, 0.002);
+  const Advice one = advice(points, {0.01}).front();
+  EXPECT_EQ(one.verdict, CostVerdict::notReached);
+  EXPECT_EQ(one.setting, "t_c/16");
+  EXPECT_EQ(one.obstacle, 7u);  // averages at that step: 0.052 to 0.056
+  EXPECT_FALSE(one.cheapest);
+}
+
+TEST(CostAdvice, SettingThatOneKindDoesNotMeasure_DoesNotKeepItOpen) {
+  Points points = ladder(0.05, 0.002);
+  CostPoint integrator = at(1e-4, 1.0, "velocity_verlet, t_c/8");
+  integrator.knob = "integrator";
+  points.push_back(integrator);
+  EXPECT_EQ(advice(points, {0.01}).front().verdict, CostVerdict::notReached);
+}
+
+TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
+  const Points points = ladder(0.0, 0.02);
+  const Advice one = advice(points, {0.01}).front();
+  EXPECT_EQ(one.verdict, CostVerdict::reached);
+  EXPECT_EQ(one.setting, "t_c/16");
+  EXPECT_EQ(one.obstacle, 7u);
+  // 4⁻⁴ = 0.0039 ± 0.02: the scatter must fall to 0.0061, (0.02/0.0061)² = 10.8
+  EXPECT_EQ(one.decides, "10.8 times as much simulated time");
+}
+
+TEST(CostAdvice, OnlyAveragesMeasured_TheyHaveToShowIt) {
+  Points points = ladder(0.0, 0.02);
+  points.erase(points.begin(), points.begin() + 4);
+  EXPECT_EQ(advice(points, {0.01}).front().verdict, CostVerdict::undecided);
+  EXPECT_EQ(advice(points, {0.1}).front().verdict, CostVerdict::reached);
+}
+
+TEST(CostAdvice, SmallerStepNotRun_NotMeasured) {
+  Points points = ladder(0.05, 0.002);
+  CostPoint left = points.back();
+  *left.dt *= 0.5;
+  left.setting = "half of it";
+  points.push_back(without(left, CostStatus::notMeasured, "would take about 90 s"));
+  const Advice one = advice(points, {0.01}).front();
+  EXPECT_EQ(one.verdict, CostVerdict::notMeasured);
+  EXPECT_EQ(one.decides, "half of it, which was not run: would take about 90 s");
+  EXPECT_EQ(advice(points, {0.1}).front().verdict, CostVerdict::reached);
+}
+
+TEST(CostAdvice, SettingMeasuredInOneKindOnly_IsNotRecommended) {
+  Points points = ladder(0.0, 0.001);
+  points.erase(points.begin() + 4, points.end() - 1);  // averages at the smallest step only
+  EXPECT_EQ(advice(points, {0.5}).front().setting, "t_c/16");
+  points.back().setting = "another";
+  EXPECT_EQ(advice(points, {0.5}).front().verdict, CostVerdict::notMeasured);
+}
+
+TEST(CostAdvice, SeveralEngines_CheapestIsOfThoseMeasuredInMostKinds) {
+  Points points;
+  for (CostPoint point : ladder(0.0, 0.001)) {
+    points.push_back(of("fast", point));
+    *point.wallSeconds *= 2.0;
+    points.push_back(of("slow", point));
+    *point.wallSeconds *= 1e-3;
+    if (point.kind == CostKind::collision) points.push_back(of("collisions only", point));
+  }
+  const auto all = advice(points, {0.1});
+  ASSERT_EQ(all.size(), 3u);
+  for (const Advice& one : all) EXPECT_EQ(one.cheapest, one.engine == "fast") << one.engine;
+}
+
+}  // namespace

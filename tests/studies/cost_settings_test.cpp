@@ -1,0 +1,217 @@
+// What a study of cost measures, and what of it fits into a budget.
+#include "studies/cost/settings.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "adapters/grain.hpp"
+#include "adapters/law_options.hpp"
+#include "cases/effect_switch.hpp"
+#include "cases/time_step.hpp"
+#include "oracle/impact.hpp"
+#include "studies/cost/plan.hpp"
+#include "support/bad_input.hpp"
+#include "tests/studies/cost_cases.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Capabilities grainCan() {
+  return makeGrain()->capabilities();
+}
+
+std::vector<CostSetting> settingsOf(CostKind kind, const Case& setup,
+                                    const Capabilities& can = grainCan()) {
+  return costSettings(setup, kind, "grain", can);
+}
+
+const CostSetting& find(const std::vector<CostSetting>& settings, const std::string& knob,
+                        const std::string& setting) {
+  for (const CostSetting& one : settings)
+    if (one.knob == knob && one.setting == setting) return one;
+  throw std::runtime_error("no " + knob + " " + setting);
+}
+
+TEST(CostSettings, First_IsTheCaseAsItIs) {
+  for (const CostKind kind : costKinds) {
+    const auto settings = settingsOf(kind, test::costCase());
+    EXPECT_EQ(settings.front().fragment, "");
+    EXPECT_EQ(settings.front().setup.resolvedToml, test::costCase().resolvedToml);
+  }
+}
+
+TEST(CostSettings, EveryKnob_HasSettingsInSomeKindOfError) {
+  Case setup = test::costCase();
+  for (const std::string_view knob : costKnobs) {
+    setup.cost.knobs = {std::string(knob)};
+    EXPECT_TRUE(std::ranges::any_of(costKinds, [&](CostKind kind) {
+      return settingsOf(kind, setup).size() > 1;
+    })) << knob;
+  }
+}
+
+TEST(CostSettings, FragmentReadByTheLoader_GivesTheSetting) {
+  const Case setup = test::costCase();
+  const double contact = contactTime(setup.law, lightestReducedMass(setup));
+  const auto pairs = settingsOf(CostKind::collision, setup);
+  for (const double steps : {200.0, 100.0, 50.0, 1.2}) {
+    const CostSetting& one = find(pairs, "time_step", fmt::format("t_c/{:g}", steps));
+    EXPECT_DOUBLE_EQ(timeStep(test::costCase(one.fragment)), contact / steps);
+    EXPECT_EQ(one.refusal, "");
+  }
+  const CostSetting& euler = find(pairs, "integrator", "semi_implicit_euler, t_c/50");
+  const Case read = test::costCase(euler.fragment);
+  EXPECT_EQ(lawOptionValue(read.law, "integrator"), "semi_implicit_euler");
+  EXPECT_DOUBLE_EQ(timeStep(read), contact / 50.0);
+  EXPECT_EQ(test::costCase(find(pairs, "precision", "float").fragment).run.precision,
+            Precision::float32);
+  EXPECT_EQ(lawOptionValue(test::costCase(find(pairs, "tangential", "viscous").fragment).law,
+                           "tangential"),
+            "viscous");
+}
+
+TEST(CostSettings, EffectFragment_SwitchesTheEffectOff) {
+  const Case setup = test::costCase();
+  const auto switches = effectSwitches(setup);
+  ASSERT_GE(switches.size(), 9u);
+  for (const EffectSwitch& off : switches) {
+    SCOPED_TRACE(off.name);
+    ASSERT_NE(off.fragment, "");
+    const Case read = test::costCase(off.fragment);
+    EXPECT_EQ(effectsOf(read), effectsOf(off.without));
+    for (const LawOption& option : lawOptions())
+      EXPECT_EQ(option.get(read.law), option.get(off.without.law)) << option.name;
+    EXPECT_EQ(read.law.gn, off.without.law.gn);
+    EXPECT_EQ(read.law.mu, off.without.law.mu);
+    EXPECT_EQ(read.law.kt, off.without.law.kt);
+    EXPECT_EQ(read.law.gt, off.without.law.gt);
+    EXPECT_EQ(read.run.precision, off.without.run.precision);
+    EXPECT_EQ(read.particles.rotation, off.without.particles.rotation);
+  }
+}
+
+TEST(CostSettings, EngineWithAStepOfItsOwn_GetsItByItsSetting) {
+  Capabilities can = grainCan();
+  std::ranges::find(can.settings, "dt", &SettingSpec::name)->defaultValue = 5e-4;
+  const Case setup = test::costCase();
+  const Case read = test::costCase(stepFragment(setup, "grain", can, 10.0));
+  EXPECT_EQ(timeStep(read), timeStep(setup));
+  EXPECT_DOUBLE_EQ(std::get<double>(read.engines.at("grain").at("dt")),
+                   costContactTime(setup) / 10.0);
+}
+
+TEST(CostSettings, WhatAnEngineLacks_IsRefusedWithItsReason) {
+  Capabilities can = grainCan();
+  can.lawOptions["tension"] = {"cut"};
+  can.lawOptions["integrator"] = {"position_verlet"};
+  can.precisions = {Precision::float64};
+  const auto pairs = settingsOf(CostKind::collision, test::costCase(), can);
+  EXPECT_NE(find(pairs, "tension", "cut").refusal, "");
+  EXPECT_NE(find(pairs, "integrator", "velocity_verlet").refusal, "");
+  EXPECT_EQ(find(pairs, "precision", "float").refusal, "runs in double only");
+}
+
+/// Johnson (1985), Eq. 11.24: T = 2.9432 δ_max/v, and δ_max^(5/2) = 15 m₁₂ v²/(16 E₁₂ √R₁₂).
+TEST(CostSettings, HertzLaw_CountsStepsInAnImpactAtTheSpeedOfCollisions) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front();
+  setup.cost.speed = 0.02;
+  const Particles& disks = setup.particles;
+  const double mass = disks.smallMass / 2.0, radius = disks.smallRadius / 2.0;
+  const double modulus = 0.75 * setup.law.kn;  // k_n = 4/3 E₁₂
+  const double deepest =
+      std::pow(15.0 * mass * 0.02 * 0.02 / (16.0 * modulus * std::sqrt(radius)), 0.4);
+  EXPECT_NEAR(costContactTime(setup), 2.9432 * deepest / 0.02, 1e-4 * costContactTime(setup));
+  EXPECT_DOUBLE_EQ(timeStep(atSteps(setup, "grain", grainCan(), 100.0)),
+                   costContactTime(setup) / 100.0);
+}
+
+TEST(CostSettings, LawWithoutConstantsInTheCase_IsRefused) {
+  const auto settings =
+      settingsOf(CostKind::averages, loadCase(CROSSGRAIN_CASES "/cost/hertz.toml").front());
+  EXPECT_NE(find(settings, "tangential", "viscous").refusal.find("law.gt is missing"),
+            std::string::npos);
+  EXPECT_EQ(find(settings, "tangential", "coulomb").refusal, "");
+}
+
+TEST(CostSettings, EnginesOwnSetting_IsSetAndAMisspeltOneRefused) {
+  const auto settings = settingsOf(CostKind::trajectory, test::costCase());
+  const CostSetting& skin = find(settings, "skin", "skin = 0.001");
+  EXPECT_EQ(std::get<double>(test::costCase(skin.fragment).engines.at("grain").at("skin")), 1e-3);
+  Case wrong = test::costCase();
+  wrong.cost.settings["grain"]["skim"] = {1.0};
+  EXPECT_THROW(settingsOf(CostKind::trajectory, wrong), BadInput);
+}
+
+TEST(CostSettings, RigidDisks_HaveNoContactTime) {
+  Case setup = test::costCase();
+  setup.law.normal = NormalLaw::rigid;
+  EXPECT_THROW(costContactTime(setup), BadInput);
+}
+
+TEST(CostSettings, RemovedKey_IsRefusedAsSuch) {
+  for (const char* const key : {"omega", "stiffness", "methods", "bound_steps", "perturbation"}) {
+    try {
+      loadCase(CROSSGRAIN_CASES "/cost/quick.toml", {fmt::format("cost.{}=[1]", key)});
+      ADD_FAILURE() << key << " was read";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find("no more"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(CostPlan, Budget_IsSharedFairly) {
+  // 10 of 100 wanted by the first; the others share the 90 left in equal parts.
+  EXPECT_EQ(fairShares({10.0, 200.0, 60.0}, 100.0), (std::vector<double>{10.0, 45.0, 45.0}));
+  EXPECT_EQ(fairShares({10.0, 20.0}, 100.0), (std::vector<double>{10.0, 20.0}));
+  EXPECT_EQ(fairShares({10.0, 20.0}, -5.0), (std::vector<double>{0.0, 0.0}));
+}
+
+/// 30 and 5 s of averages, 10 s of collisions.
+CostPlan planned(double ofCollisions, double ofAverages, double budget) {
+  CostPlan plan{
+      .points = {{0, CostKind::averages, 0, 30.0},
+                 {0, CostKind::averages, 1, 5.0},
+                 {0, CostKind::collision, 0, 10.0}},
+      .references = {{{CostKind::collision, ofCollisions}, {CostKind::averages, ofAverages}}}};
+  fitIntoBudget(plan, budget);
+  return plan;
+}
+
+TEST(CostPlan, Order_IsCollisionsThenTheCaseAsItIsThenTheCheapest) {
+  const CostPlan plan = planned(0.0, 0.0, 1000.0);
+  EXPECT_EQ(plan.points[0].kind, CostKind::collision);
+  EXPECT_EQ(plan.points[1].setting, 0u);
+  for (const PlannedPoint& point : plan.points) EXPECT_EQ(point.notMeasured, "");
+  EXPECT_EQ(plan.budgetForTheRest, 0.0);
+}
+
+TEST(CostPlan, PointThatDoesNotFit_IsNotMeasuredAndSaysItsTime) {
+  const CostPlan plan = planned(2.0, 0.0, 20.0);
+  EXPECT_EQ(plan.shares, (std::vector<double>{20.0}));
+  EXPECT_EQ(plan.points[0].notMeasured, "");  // 2 + 10 of 20
+  EXPECT_EQ(plan.points[1].notMeasured,
+            "would take about 30 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.points[2].notMeasured, "");  // 5 of the 8 left
+  EXPECT_EQ(plan.budgetForTheRest, 30.0);
+}
+
+TEST(CostPlan, ReferencesThatDoNotFit_TakeTheirKindsPointsOnly) {
+  const CostPlan plan = planned(2.0, 8.0, 20.0);
+  EXPECT_EQ(plan.points[0].notMeasured, "");
+  EXPECT_EQ(plan.points[1].notMeasured,
+            "would take about 38 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.points[2].notMeasured,
+            "would take about 13 s, 8 s are left of the engine's share of 20 s");
+  EXPECT_EQ(plan.budgetForTheRest, 43.0);  // 30 + 5 of averages and their references
+}
+
+TEST(CostPlan, FinishedPoints_CostNothing) {
+  CostPlan plan{.points = {{0, CostKind::collision, 0, 0.0}}, .references = {{}}};
+  fitIntoBudget(plan, 0.0);
+  EXPECT_EQ(plan.points[0].notMeasured, "");
+}
+
+}  // namespace

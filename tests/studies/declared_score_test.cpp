@@ -1,0 +1,177 @@
+// Curves against the law that an engine declares: what is its model, and what is a fault.
+#include <gtest/gtest.h>
+
+#include "adapters/box2d.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "reports/collide/table.hpp"
+#include "studies/collide/sweep.hpp"
+#include "tests/studies/planted_engine.hpp"
+#include "tests/support/pairs.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Case variantOf(const std::string& file, const std::string& variant) {
+  for (const Case& setup : loadCase(CROSSGRAIN_CASES "/collision/" + file, {}))
+    if (setup.variant == variant) return setup;
+  ADD_FAILURE() << file << " has no " << variant;
+  return {};
+}
+
+/// The first sweep of a case.
+CollisionCurve firstSweep(Engine& engine, const Case& setup, const std::string& mirrors = "") {
+  const EngineEntry entry{"here", "", makeGrain, {}, {}, mirrors};
+  const auto starts = collisionStarts(setup);
+  DeclaredOracles declared;
+  return runSweep(engine, entry, setup, collisionTimeSteps(setup).front(), starts,
+                  oracleCurve(setup, starts), true, &declared);
+}
+
+/// The in-house engine that declares some conventions and really has those of `scene`.
+class Declares : public test::PlantedEngine {
+ public:
+  Declares(LawConventionSets conventions, std::function<void(Scene&)> fault)
+      : PlantedEngine(std::move(fault)), conventions_(std::move(conventions)) {}
+  Capabilities capabilities() const override {
+    Capabilities can = PlantedEngine::capabilities();
+    for (const auto& [name, values] : conventions_) can.lawOptions[name] = values;
+    return can;
+  }
+
+ private:
+  LawConventionSets conventions_;
+};
+
+const LawConventionSets cutsTension = {{"tension", {"cut"}}};
+
+TEST(DeclaredScore, AConventionThatTheCaseAllowsIsAModelDifference) {
+  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
+  Declares engine(cutsTension, [](Scene&) {});
+  const CollisionCurve curve = firstSweep(engine, setup);
+  EXPECT_EQ(curve.score.verdict, CurveVerdict::beyondLimits);
+  ASSERT_TRUE(curve.declared);
+  EXPECT_EQ(curve.declared->law, (LawDescription{{"tension", "cut"}}));
+  EXPECT_EQ(curve.declared->reference, DeclaredReference::oracle);
+  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
+}
+
+TEST(DeclaredScore, AFaultBehindAConventionIsNoModelDifference) {
+  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
+  Declares engine(cutsTension, [](Scene& scene) { scene.law.mu *= 1.2; });
+  const CollisionCurve curve = firstSweep(engine, setup);
+  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::beyondLimits);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+}
+
+/// Declared and not done is a fault as well.
+TEST(DeclaredScore, AConventionThatIsOnlyDeclaredFallsShort) {
+  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
+  Declares engine(cutsTension,
+                  [](Scene& scene) { scene.law.conventions.tension = Tension::allow; });
+  const CollisionCurve curve = firstSweep(engine, setup);
+  EXPECT_EQ(curve.score.verdict, CurveVerdict::held);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+}
+
+TEST(DeclaredScore, IsAbsentWhereTheLawIsTheScenes) {
+  const Case setup = variantOf("figure-4-3.toml", "coulomb-tension");
+  Declares engine({}, [](Scene& scene) { scene.law.mu *= 1.2; });
+  const CollisionCurve curve = firstSweep(engine, setup);
+  EXPECT_FALSE(curve.declared);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+}
+
+/// A dashpot outside the bound has no limit of small steps: the in-house engine decides.
+TEST(DeclaredScore, WithoutALimitOfSmallStepsTheMirrorDecides) {
+  const Case setup = variantOf("figure-4-3.toml", "spring_dashpot-cut");
+  const LawConventionSets outside = {{"dashpot", {"outside"}}};
+  Declares right(outside, [](Scene&) {});
+  const CollisionCurve curve = firstSweep(right, setup);
+  EXPECT_EQ(curve.declared->reference, DeclaredReference::mirror);
+  EXPECT_NE(curve.declared->oracleReason.find("dashpot"), std::string::npos);
+  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+  EXPECT_EQ(curve.declared->score.of[QuantityId::psiF]->max, 0.0);
+  Declares wrong(outside, [](Scene& scene) { scene.law.gt *= 1.5; });
+  EXPECT_EQ(outcomeOf(firstSweep(wrong, setup)), SweepOutcome::beyondLimits);
+  // A mirror is the in-house engine: it would be held against itself.
+  const CollisionCurve itself = firstSweep(right, setup, "somebody");
+  EXPECT_EQ(itself.declared->reference, DeclaredReference::itself);
+  EXPECT_EQ(itself.declared->score.verdict, CurveVerdict::notJudged);
+  EXPECT_NE(outcomeOf(itself), SweepOutcome::beyondLimits);
+}
+
+/// Nothing known of the declared law is no excuse.
+TEST(DeclaredScore, OfAnUnknownLawTheScenesDecides) {
+  CollisionCurve curve;
+  curve.score.verdict = CurveVerdict::beyondLimits;
+  curve.declared.emplace();
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::beyondLimits);
+  curve.score.verdict = CurveVerdict::held;
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::held);
+}
+
+/// Contacts that are stiffer by as much as the engine says, at the same restitution.
+TEST(DeclaredScore, AStiffnessThatIsDeclaredIsAModelDifference) {
+  const Case setup = variantOf("restitution-sweep.toml", "base");
+  const auto engine = makeStiffGrain(25.0);
+  const CollisionCurve curve = firstSweep(*engine, setup);
+  EXPECT_EQ(curve.score.of[QuantityId::duration]->held, false);
+  ASSERT_TRUE(curve.declared);
+  EXPECT_EQ(curve.declared->law.at("kn"), LawValue(25.0 * setup.law.kn));
+  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+  EXPECT_EQ(outcomeOf(curve), SweepOutcome::modelDifference);
+}
+
+/// Of another normal law the restitutions are those that the engine tells.
+TEST(DeclaredScore, RigidContactsInPlaceOfSoftOnesAreJudgedByTheirOwnLaw) {
+  const Case setup = variantOf("figure-4-3.toml", "coulomb-cut");
+  const auto engine = makeBox2dImpulse();
+  const CollisionCurve curve = firstSweep(*engine, setup);
+  ASSERT_TRUE(curve.declared);
+  EXPECT_EQ(curve.declared->law.at("normal"), LawValue("rigid"));
+  EXPECT_EQ(curve.declared->law.at("e_n"), LawValue(curve.effective->pairs.front().en));
+  EXPECT_EQ(curve.declared->score.verdict, CurveVerdict::held);
+}
+
+/// Too stiff by a twentieth: contacts are 2.4 % shorter (1.9 % of Hertz' law), in every case, and
+/// overlaps less deep by as much, which shows but where e_n is below a third.
+TEST(CollisionMargins, FindAContactThatIsTooStiff) {
+  struct Where {
+    const char *file, *variant;
+    bool byOverlap;
+  };
+  const Where places[] = {{"figure-4-3.toml", "spring_dashpot-cut", false},
+                          {"figure-4-3.toml", "coulomb-tension", false},
+                          {"speeds.toml", "1e-3", false},
+                          {"unequal.toml", "radii-1-3", false},
+                          {"wall-spin.toml", "fixed", true},
+                          {"restitution-sweep.toml", "base", true},
+                          {"becker-no-slip.toml", "kt-0.2", true},
+                          {"glass-foerster-soft.toml", "", true},
+                          {"measured-disk.toml", "", true},
+                          {"chung-ooi-1.toml", "glass", true},
+                          {"chung-ooi-5.toml", "steel", true},
+                          {"chung-ooi-6.toml", "nylon", true}};
+  for (const Where& where : places) {
+    const Case setup = variantOf(where.file, where.variant);
+    const auto heldWith = [&](double factor, QuantityId quantity) {
+      test::PlantedEngine engine([&](Scene& scene) {
+        scene.law.kn *= factor;
+        scene.law.kn3 *= factor;
+      });
+      const auto score = firstSweep(engine, setup).score.of[quantity];
+      EXPECT_TRUE(score && score->held) << where.file;
+      return score && score->held.value_or(false);
+    };
+    for (const QuantityId quantity : {QuantityId::duration, QuantityId::maxOverlap})
+      EXPECT_TRUE(heldWith(1.0, quantity)) << where.file << " " << where.variant;
+    EXPECT_FALSE(heldWith(1.05, QuantityId::duration)) << where.file << " " << where.variant;
+    EXPECT_EQ(heldWith(1.05, QuantityId::maxOverlap), !where.byOverlap)
+        << where.file << " " << where.variant;
+  }
+}
+
+}  // namespace

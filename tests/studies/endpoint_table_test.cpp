@@ -1,0 +1,351 @@
+// Endpoints of runs, and answers on them where a mirror carries the packings.
+#include "studies/flow/endpoint_table.hpp"
+#include "studies/flow/surrogates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/lockstep/changed_cases.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// A cell of two rings between 1 m and 3 m: areas 3π and 5π, so weights 3/8 and 5/8.
+Case twoRings() {
+  Case setup;
+  setup.cell.innerRadius = 1.0;
+  setup.cell.outerRadius = 3.0;
+  setup.cell.height = 1.0;
+  setup.particles.smallRadius = 0.1;
+  setup.averaging.rings = 2;
+  setup.preparation.packings = 4;
+  return setup;
+}
+
+Profile profile(const std::string& field, std::optional<double> one, std::optional<double> two) {
+  return {"slicing", field, "", {one, two}, {}, {}, {}};
+}
+
+FlowRun runOf(const std::string& engine, int packing, double pressure, double spin = -1.0) {
+  FlowRun run;
+  run.engine = engine;
+  run.packing = packing;
+  run.profiles = {profile("stress_rr", 2.0 * pressure, 2.0 * pressure),
+                  profile("stress_pp", 0.0, 0.0),
+                  profile("stress_rp", 0.4 * pressure, 0.8 * pressure),
+                  profile("azimuthal_velocity", 0.8, std::nullopt),
+                  profile("spin", spin, 0.6),
+                  profile("volume_fraction", 0.6, 0.8)};
+  run.head = {{"coordination", "-", 3.5, {}, {}}};
+  return run;
+}
+
+TEST(Endpoints, AreAreaMeansRatiosOfThemAndTheRingAtTheWheel) {
+  const Case setup = twoRings();
+  const FlowRun run = runOf("a", 0, 100.0);
+  const auto value = [&](const char* name) { return endpointOf(endpointSpec(name), setup, run); };
+  EXPECT_NEAR(*value("pressure"), 100.0, 1e-12);
+  // (3·0.4 + 5·0.8)/8 of the pressure over twice the pressure.
+  EXPECT_NEAR(*value("stress_ratio"), 0.325, 1e-12);
+  EXPECT_EQ(*value("stress_anisotropy"), 0.0);
+  EXPECT_EQ(*value("coordination"), 3.5);
+  EXPECT_EQ(*value("mean_velocity"), 0.8);  // a ring without disks has no velocity, and no weight
+  // Over disks: 3·0.6 and 5·0.8 of their area lie in the two rings.
+  EXPECT_NEAR(*value("mean_spin"), (1.8 * -1.0 + 4.0 * 0.6) / 5.8, 1e-12);
+  EXPECT_EQ(*value("velocity_at_wheel"), 0.8);
+  EXPECT_EQ(*value("volume_fraction_at_wheel"), 0.6);
+  EXPECT_EQ(*value("spin_at_wheel"), -1.0);
+}
+
+TEST(Endpoints, AreAbsentWhereThereIsNothing) {
+  const Case setup = twoRings();
+  FlowRun run = runOf("a", 0, 0.0);
+  EXPECT_FALSE(endpointOf(endpointSpec("pressure"), setup, run));
+  EXPECT_FALSE(endpointOf(endpointSpec("stress_ratio"), setup, run));
+  run.profiles.clear();
+  run.head.clear();
+  for (const EndpointSpec& endpoint : endpointTable())
+    EXPECT_FALSE(endpointOf(endpoint, setup, run)) << endpoint.name;
+}
+
+Case judging(const std::string& endpoint, const Margin& margin) {
+  Case setup = twoRings();
+  setup.averaging.endpoints[endpoint] = margin;
+  return setup;
+}
+
+const EndpointPair plain = {"a", "b", PairKind::peer, "a", "b"};
+
+/// By "mirror", from which it differs as so much of k_n would, and late as so much of each would.
+EndpointPair byMirror(double equivalent, const std::vector<EquivalentChange>& late) {
+  SurrogateEngine own;
+  own.engine = "b";
+  own.mirror = "mirror";
+  own.equivalent = equivalent;
+  own.late.equivalents = late;
+  return {"a", "b", PairKind::peer, "a", "mirror", {own}};
+}
+
+TEST(EndpointTable, ComparesPressuresByTheirRatio) {
+  // b is 10 % above a on packings that differ by a factor of eight: no scatter in the ratio.
+  std::vector<FlowRun> runs;
+  for (const int packing : {0, 1, 2, 3}) {
+    runs.push_back(runOf("a", packing, 100.0 * std::exp2(packing)));
+    runs.push_back(runOf("b", packing, 110.0 * std::exp2(packing)));
+  }
+  const Case setup = judging("pressure", {0.25, true, "because", ""});
+  const auto rows = endpointRows(setup, runs, {plain}, interimPlanOf(setup), 4, {});
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, std::log(1.1) / std::log(1.25), 1e-9);
+  EXPECT_NEAR(*rows[0].reference, 375.0, 1e-9);
+  EXPECT_NEAR(*rows[0].difference, 37.5, 1e-9);
+}
+
+std::vector<FlowRun> spins(const std::string& engine, const std::vector<double>& values) {
+  std::vector<FlowRun> runs;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    runs.push_back(runOf(engine, static_cast<int>(k), 100.0, values[k]));
+  return runs;
+}
+
+void append(std::vector<FlowRun>& to, const std::vector<FlowRun>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+TEST(EndpointTable, TakesTheBoundOfAMirrorOffTheMargin) {
+  auto runs = spins("a", {-1.0, -1.1, -0.9, -1.0});
+  append(runs, spins("mirror", {-1.1, -1.2, -1.0, -1.1}));
+  append(runs, spins("b", {-7.0}));  // the engine itself: one run, which carries no verdict
+  const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
+  const EndpointPair carried = byMirror(1e-3, {{"kn", 1e-4}, {"mu", 2e-3}});
+  // 10 % of k_n do at most two margins, of µ 0.4: B = 1e-3/0.1 · 2 + max(1e-4 · 2, 2e-3 · 0.4)/0.1.
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4},
+                                                   {"spin_at_wheel", "mu", 0.1, 0.1, 0.4, 1.0, 4}};
+  const auto rows = endpointRows(setup, runs, {carried}, interimPlanOf(setup), 4, responses);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].b, "b");
+  EXPECT_EQ(rows[0].surrogateB, "mirror");
+  EXPECT_EQ(rows[0].surrogateA, "");
+  EXPECT_NEAR(*rows[0].reach, 0.008, 1e-12);
+  EXPECT_NEAR(*rows[0].bound, 0.028, 1e-12);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, -0.5, 1e-9);
+  EXPECT_NEAR(*rows[0].distanceHigh, -0.5 + 0.028, 1e-9);
+  // Nobody knows how averages respond: no row stands on the mirror's runs.
+  EXPECT_TRUE(endpointRows(setup, runs, {carried}, interimPlanOf(setup), 4, {}).empty());
+  // Nor where nobody looked at what begins late.
+  EXPECT_TRUE(
+      endpointRows(setup, runs, {byMirror(1e-3, {})}, interimPlanOf(setup), 4, responses).empty());
+  // A bound beyond the margin leaves nothing to agree within, whichever windows it is from.
+  for (const EndpointPair& loose :
+       {byMirror(0.05, {{"kn", 1e-4}}), byMirror(1e-12, {{"kn", 1e-4}, {"mu", 0.25}})})
+    EXPECT_EQ(endpointRows(setup, runs, {loose}, interimPlanOf(setup), 4, responses)[0].answer,
+              Answer::undecided);
+}
+
+TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
+  const Case setup = judging("spin_at_wheel", {0.2, false, "because", ""});
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4}};
+  const auto judged = [&](const LateWindows& late) {
+    SurrogateEngine own;
+    own.carried = true;
+    judgeLateWindows(setup, responses, late, own);
+    return own;
+  };
+  // 10 % of k_n do two margins at most: 4.9 % of it 0.98, 5.1 % 1.02.
+  LateWindows late{1, {0.0}, 0.1, {{"kn", 0.049}}, ""};
+  EXPECT_TRUE(judged(late).carried);
+  EXPECT_EQ(judged(late).alarm, "");
+  late.equivalents[0].change = 0.051;
+  EXPECT_FALSE(judged(late).carried);
+  EXPECT_NE(judged(late).alarm.find("1 margins"), std::string::npos) << judged(late).alarm;
+  EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).carried);
+}
+
+TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
+  auto runs = spins("a", {0, 0, 0, 0, 0, 0, 0, 0});
+  append(runs, spins("b", {2, -2, 2, -2, 2, -2, 2, -2}));
+  Case setup = judging("spin_at_wheel", {1.0, false, "because", ""});
+  setup.preparation.packings = 8;
+  const auto rows = endpointRows(setup, runs, {plain}, interimPlanOf(setup), 8, {});
+  EXPECT_EQ(rows[0].answer, Answer::undecided);
+  ASSERT_TRUE(rows[0].needs && rows[0].needsAtMost);
+  const double sd = std::sqrt(32.0 / 7.0);
+  const auto range = packingsFor(0.0, sd, 7, 1.0, 0.05);
+  EXPECT_EQ(*rows[0].needs, range->low);
+  EXPECT_EQ(*rows[0].needsAtMost, *range->high);
+}
+
+TEST(EndpointTable, LooksBeginWithTheCasesPackings) {
+  Case setup = twoRings();
+  setup.looks.count = 4;
+  setup.preparation.packings = 8;
+  EXPECT_EQ(interimPlanOf(setup).packings, (std::vector{8, 16, 24, 32}));
+  setup.preparation.packings = 3;  // no verdict at any look
+  EXPECT_EQ(interimPlanOf(setup).packings, std::vector{3});
+  setup.particles.file = "packing.h5";
+  EXPECT_EQ(interimPlanOf(setup).packings, std::vector{1});
+}
+
+TEST(EndpointTable, FilesHaveOneLook) {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.average.emplace();
+  setup.looks.count = 2;
+  setup.assembly.starts.files = {"a.csv", "b.csv", "c.csv", "d.csv"};
+  EXPECT_EQ(interimPlanOf(setup).packings, std::vector{4});
+  setup.assembly.starts.velocityRms = 0.1;  // any number of packings
+  setup.preparation.packings = 6;
+  EXPECT_EQ(interimPlanOf(setup).packings, (std::vector{6, 12}));
+}
+
+TEST(EndpointTable, ANegativeRatioHidesNoDisagreement) {
+  Case setup = judging("pressure", {0.1, true, "because", ""});
+  setup.averaging.endpoints["spin_at_wheel"] = {0.1, false, "because", ""};
+  const Numbers spin = {-1.0, -1.1, -0.9, -1.0}, far = {1.0, 0.9, 1.1, 1.05};
+  const auto rowsWith = [&](const Numbers& pressure) {
+    return endpointRows(setup, {{"pressure", pressure, pressure}, {"spin_at_wheel", spin, far}},
+                        {"a", "b"}, interimPlanOf(setup));
+  };
+  const auto rows = rowsWith({-2.0, -2.0, -2.0, -2.0});
+  EXPECT_EQ(rows[0].answer, Answer::noDifference);  // a margin of |−2|
+  EXPECT_EQ(rows[0].reference, -2.0);
+  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  const auto some = rowsWith({2.0, 2.0, 4.0, 0.0});
+  EXPECT_EQ(some[0].packings, 3);
+  EXPECT_EQ(some[0].lost, 1);
+  EXPECT_NEAR(*some[0].reference, 8.0 / 3.0, 1e-14);  // of those that are tested
+  EXPECT_NE(some[0].reason.find("0 or of another sign"), std::string::npos);
+  EXPECT_EQ(some[1].answer, Answer::disagree);
+  for (const Numbers& none : {Numbers{2.0, -2.0, 4.0, 0.0}, Numbers{0.0, 0.0, 0.0, 0.0}}) {
+    const auto lost = rowsWith(none);
+    EXPECT_EQ(lost[0].answer, Answer::undecided);
+    EXPECT_EQ(lost[0].packings, 0);
+    EXPECT_EQ(lost[0].lost, 4);
+    EXPECT_NE(lost[0].reason.find("relative margin"), std::string::npos) << lost[0].reason;
+    EXPECT_EQ(lost[1].answer, Answer::disagree);
+  }
+}
+
+TEST(EndpointTable, ARelativeMarginIsOfTheSizeOfAReferenceBelowZero) {
+  Case setup = judging("pressure", {0.1, true, "because", ""});
+  const Numbers discharge = {-270.0, -260.0, -280.0, -275.0};
+  const auto rowOf = [&](double factor) {
+    Numbers other = discharge;
+    for (auto& value : other) *value *= factor;
+    return endpointRows(setup, {{"pressure", discharge, other}}, {"a", "b"}, interimPlanOf(setup))
+        .front();
+  };
+  const EndpointRow close = rowOf(1.05), far = rowOf(1.3), back = rowOf(0.7);
+  EXPECT_EQ(close.answer, Answer::smallDifference);
+  EXPECT_NEAR(*close.difference, 0.05 * -271.25, 1e-9);  // b − a, as of any other endpoint
+  EXPECT_NEAR(*close.distance, -std::log(1.05) / std::log(1.1), 1e-12);
+  EXPECT_LE(*close.low, *close.high);
+  EXPECT_EQ(far.answer, Answer::disagree);
+  EXPECT_LT(*far.distance, 0.0);
+  EXPECT_EQ(back.answer, Answer::disagree);
+  EXPECT_GT(*back.difference, 0.0);
+  EXPECT_EQ(rowOf(-1.0).packings, 0);  // of another sign: nothing to divide
+}
+
+/// One disk at that height in every snapshot of both runs of one start.
+std::vector<FlowRun> heights(const std::string& engine, double first, double second) {
+  std::vector<FlowRun> runs;
+  for (const double y : {first, second}) {
+    FlowRun run;
+    run.engine = engine;
+    run.packing = static_cast<int>(runs.size());
+    run.series = RunSeries{{"t_s", {1.0, 2.0}}, {"disk_0_y", {0.0, y}}};
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  OwnEndpoint apex;
+  apex.name = "apex";
+  apex.quantity = "y";
+  apex.disk = 0;
+  apex.reduction = Reduction::maximum;
+  apex.expected = 2.0;
+  apex.unit = "m";
+  setup.average.emplace().endpoints = {apex};
+  setup.averaging.endpoints["apex"] = {0.1, false, "because", ""};
+  EXPECT_EQ(flowPackings(setup), 2);
+  auto runs = heights("a", 2.05, 2.05);
+  append(runs, heights("b", 2.3, 2.3));
+  append(runs, heights("noisy", 2.0, 2.0 + 1e-15));
+  const EndpointPair pair = {"a", "b", PairKind::peer, "a", "b"};
+  const auto rows = closedFormRows(setup, runs, {"a", "b", "noisy"}, {pair});
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].kind, PairKind::closedForm);
+  EXPECT_EQ(rows[0].answer, Answer::smallDifference);
+  EXPECT_NEAR(*rows[0].distance, 0.5, 1e-12);
+  EXPECT_EQ(rows[0].reference, 2.0);
+  EXPECT_EQ(rows[1].answer, Answer::disagree);
+  EXPECT_NEAR(*rows[1].distance, 3.0, 1e-12);
+  EXPECT_EQ(rows[2].answer, Answer::undecided);  // never judged by a run that is another each time
+  EXPECT_NE(rows[2].reason.find("run twice"), std::string::npos);
+  EXPECT_FALSE(rows[2].difference);
+  EXPECT_EQ(rows[3].answer, Answer::disagree);  // a and b, 2.5 margins apart
+  EXPECT_NEAR(*rows[3].difference, 0.25, 1e-12);
+  // A run that failed is no second one.
+  runs[1].status = RunStatus::failed;
+  EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].answer, Answer::undecided);
+}
+
+TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
+  const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
+  // Two responses of the same 8 packings: 7 degrees of freedom, rms scatter 0.5 margins.
+  const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 3.0, 4.0, 0.7, 8},
+                                                   {"spin_at_wheel", "mu", 0.1, 2.0, 3.0, 0.1, 8},
+                                                   {"pressure", "mu", 0.1, 2.0, 3.0, 9.0, 8}};
+  const auto number = [&](double own) {
+    const auto spotCheck =
+        spotCheckOf(setup, runOf("b", 0, 100.0, own), runOf("m", 0, 100.0, 0.0), responses);
+    EXPECT_EQ(spotCheck.size(), 1u);
+    return spotCheck.front();
+  };
+  EXPECT_NEAR(*number(0.2).floor, 0.5, 1e-12);
+  EXPECT_NEAR(*number(0.2).difference, 0.4, 1e-12);
+  EXPECT_NEAR(*number(0.2).chance, chanceOfOneAsFar(0.4, 0.5, 7, 1), 1e-12);
+  EXPECT_LT(*number(2.0).chance, 1e-3);
+  // t(7, 2.5 %) = 2.365: half of it in units of the margin, and its chance is 5 %.
+  EXPECT_NEAR(*number(0.2).reach, 0.5 * 2.364624252, 1e-6);
+  EXPECT_NEAR(*number(0.5 * *number(0.2).reach).chance, 0.05, 1e-9);
+  EXPECT_FALSE(spotCheckOf(setup, runOf("b", 0, 1.0), runOf("m", 0, 1.0), {}).front().chance);
+}
+
+TEST(EndpointTable, OnlyConstantsThatAreThereAreChanged) {
+  Case setup = twoRings();
+  setup.law.kn = 350.0;
+  setup.law.mu = 0.4;
+  const auto both = changedCases(setup);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].name, "kn+10%");
+  EXPECT_NEAR(both[0].setup.law.kn, 385.0, 1e-9);
+  EXPECT_EQ(both[0].setup.law.mu, 0.4);
+  EXPECT_EQ(both[1].constant, "mu");
+  EXPECT_NEAR(both[1].setup.law.mu, 0.44, 1e-12);
+  setup.law.mu = 0.0;
+  EXPECT_EQ(changedCases(setup).size(), 1u);
+}
+
+TEST(EndpointTable, ARespondingAverageIsBoundedByItsInterval) {
+  const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
+  const auto own = spins("a", {-1.0, -1.0, -1.0, -1.0}),
+             changed = spins("a", {-0.9, -0.7, -0.9, -0.7});
+  const EndpointResponse found = responseTo(setup, own, changed, "spin_at_wheel", "kn", 0.1, 4);
+  EXPECT_NEAR(*found.difference, 0.4, 1e-12);
+  // t(3, 2.5 %) = 3.182, se = 0.1·√(4/3)/2.
+  EXPECT_NEAR(*found.scatter, 0.1 * std::sqrt(4.0 / 3.0) / 0.5, 1e-12);
+  EXPECT_NEAR(*found.bound, 0.4 + 3.182446305284263 * 0.1 * std::sqrt(4.0 / 3.0) / 2.0 / 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace crossgrain

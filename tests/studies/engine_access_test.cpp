@@ -1,0 +1,249 @@
+// Which engines run, with which settings and steps, what `check` says of them, and the scenes of
+// mirrors.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "adapters/law_options.hpp"
+#include "cases/collision_scene.hpp"
+#include "cases/couette.hpp"
+#include "cases/loader.hpp"
+#include "cases/time_step.hpp"
+#include "studies/core/engine_access.hpp"
+#include "studies/core/mirrors.hpp"
+#include "support/bad_input.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+TEST(SelectEngines, All_AddsEveryOtherInstalledEngineOnce) {
+  const auto engines = selectEngines({"box2d-penalty", "all"});
+  EXPECT_EQ(engines.front().name, "box2d-penalty");
+  for (std::size_t a = 0; a < engines.size(); ++a)
+    for (std::size_t b = a + 1; b < engines.size(); ++b)
+      EXPECT_NE(engines[a].name, engines[b].name);
+  for (const EngineEntry& engine : engines) EXPECT_TRUE(engine.mirrors.empty());
+}
+
+TEST(SelectEngines, UnknownOrRepeatedName_Throws) {
+  EXPECT_THROW(selectEngines({"grian"}), BadInput);
+  EXPECT_THROW(selectEngines({"grain", "grain"}), BadInput);
+}
+
+TEST(MirrorsOf, NamedPeer_ReturnsItsMirror) {
+  const auto mirrors = mirrorsOf(selectEngines({"grain", "box2d-penalty"}));
+  ASSERT_EQ(mirrors.size(), 1u);
+  EXPECT_EQ(mirrors[0].mirrors, "box2d-penalty");
+}
+
+TEST(SettingsFor, UnknownNameTypeRangeOrChoice_Throws) {
+  Capabilities can;
+  can.settings = {{"dt", 0.0, "s", "step", {}}, {"mode", std::string("a"), "", "", {"a", "b"}}};
+  const auto refused = [&](const std::string& name, const SettingValue& value) {
+    Case setup;
+    setup.file = "case.toml";
+    setup.engines["one"][name] = value;
+    try {
+      settingsFor(setup, "one", can);
+    } catch (const BadInput& bad) {
+      return std::string(bad.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused("dt", 1e-5), "");
+  EXPECT_EQ(refused("mode", std::string("b")), "");
+  EXPECT_EQ(refused("dt", -1e-5), "case.toml: [engines.one] dt = -1e-05 must be >= 0");
+  EXPECT_EQ(refused("dt", true), "case.toml: [engines.one] dt must be a number, not true or false");
+  EXPECT_NE(refused("mode", std::string("c")).find("cannot be 'c'"), std::string::npos);
+  EXPECT_NE(refused("td", 1.0).find("there is no setting 'td'"), std::string::npos);
+}
+
+/// What is said first counts: the engine's section, the case's explicit step, the engine's default.
+TEST(StepOfItsOwn, SectionThenCaseThenDefault_TakesTheFirst) {
+  Capabilities can;
+  can.settings = {{"dt", 5e-4, "s", "step", {}}};
+  Case setup;
+  EXPECT_EQ(stepOfItsOwn(setup, "one", can), 5e-4);  // t_c / 50 is nobody's wish
+  EXPECT_EQ(settingsFor(setup, "one", can), Settings{});
+  setup.run.dt = 1e-5;
+  EXPECT_EQ(stepOfItsOwn(setup, "one", can), std::nullopt);
+  EXPECT_EQ(settingsFor(setup, "one", can), (Settings{{"dt", 0.0}}));
+  setup.engines["one"]["dt"] = 2e-4;
+  EXPECT_EQ(stepOfItsOwn(setup, "one", can), 2e-4);
+  EXPECT_EQ(settingsFor(setup, "one", can), (Settings{{"dt", 2e-4}}));
+  setup.engines["one"]["dt"] = 0.0;
+  setup.run.dt.reset();
+  EXPECT_EQ(stepOfItsOwn(setup, "one", can), std::nullopt);
+  can.settings.clear();  // an engine whose step cannot be set
+  setup.run.dt = 1e-5;
+  EXPECT_EQ(settingsFor(setup, "two", can), Settings{});
+}
+
+TEST(StepDeviation, OtherStep_IsADeviation) {
+  EXPECT_FALSE(stepDeviation(4e-5, 4e-5));
+  const auto other = stepDeviation(5e-4, 4e-5);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->name, "dt");
+  EXPECT_EQ(other->value, 5e-4);
+  EXPECT_EQ(other->note, "takes steps of 0.0005 s, the case's are 4e-05 s");
+}
+
+/// Through the engines themselves: EffectiveParameters of box2d-impulse and of its mirrors.
+TEST(LoadScene, Mirror_TakesItsPeersStep) {
+  const auto stepOf = [](const std::string& engine, const Case& setup) {
+    const EngineEntry& entry = *findEngine(engine);
+    const auto started = entry.make();
+    const Scene scene =
+        collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front());
+    return loadScene(*started, entry, setup, scene);
+  };
+  const std::string file = CROSSGRAIN_CASES "/collision/hard-sphere.toml";
+  for (const double dt : {5e-4, 1e-4}) {
+    const Case setup = loadCase(file, {fmt::format("run.dt={}", dt)}).front();
+    for (const char* engine : {"box2d-impulse", "grain-as-box2d-impulse"}) {
+      const EffectiveParameters effective = stepOf(engine, setup);
+      EXPECT_EQ(effective.dt, dt) << engine;
+      for (const Deviation& deviation : effective.deviations) EXPECT_NE(deviation.name, "dt");
+    }
+  }
+  const Case setup = loadCase(file, {"engines.box2d-impulse.dt=2.5e-4"}).front();
+  for (const char* engine : {"box2d-impulse", "grain-as-box2d-impulse"}) {
+    const EffectiveParameters effective = stepOf(engine, setup);
+    EXPECT_EQ(effective.dt, 2.5e-4) << engine;
+    EXPECT_EQ(std::ranges::count(effective.deviations, "dt", &Deviation::name), 1) << engine;
+  }
+  const Case own =
+      loadCase(file, {"engines.box2d-impulse.dt=2.5e-4", "engines.grain-as-box2d-impulse.dt=1e-4"})
+          .front();
+  EXPECT_EQ(stepOf("grain-as-box2d-impulse", own).dt, 1e-4);
+}
+
+Suitability of(const char* name, bool placed = true) {
+  const Case setup = loadCase(CROSSGRAIN_CASES "/couette/quick.toml", {}).front();
+  Packing packing;
+  if (placed) packing.disks = spreadDisks(setup);
+  const EngineEntry& entry = *findEngine(name);
+  return suitabilityOf(*entry.make(), entry, setup, couetteScene(setup, packing, *setup.run.dt));
+}
+
+bool has(const std::vector<std::string>& notes, const std::string& note) {
+  return std::ranges::find(notes, note) != notes.end();
+}
+
+TEST(SuitabilityOf, EngineWithLimits_ListsStepDeviationsAndMissingEffects) {
+  const Suitability found = of("box2d-impulse");
+  EXPECT_EQ(found.dt, 1.5e-3);
+  EXPECT_TRUE(has(found.deviations, "takes steps of 0.0015 s, the case's are 4e-05 s"));
+  EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
+  EXPECT_EQ(found.notSimulated,
+            (std::vector<std::string>{"tangential_spring", "tangential_damping", "bottom_friction",
+                                      "bottom_spin_friction"}));
+}
+
+TEST(SuitabilityOf, EngineThatDoesAll_ListsNothing) {
+  const Suitability found = of("grain");
+  EXPECT_EQ(found.dt, 4e-5);
+  EXPECT_TRUE(found.deviations.empty());
+  EXPECT_TRUE(found.notSimulated.empty());
+}
+
+TEST(SuitabilityOf, SceneWithoutDisks_ListsCapabilitiesOnly) {
+  const Suitability found = of("box2d-impulse", false);
+  EXPECT_FALSE(found.dt);
+  EXPECT_TRUE(has(found.deviations, "has no bottom_friction"));
+}
+
+Case quickCell(const std::vector<std::string>& changes = {}) {
+  return loadCase(CROSSGRAIN_CASES "/couette/quick.toml", changes).front();
+}
+
+Scene sceneOf(const Case& setup) {
+  Packing packing;
+  packing.disks = spreadDisks(setup);
+  return couetteScene(setup, packing, 4e-5);
+}
+
+std::vector<EngineEntry> mirrors() {
+  std::vector<EngineEntry> found;
+  for (const EngineEntry& entry : engineRegistry()) {
+    const EngineEntry* peer = findEngine(entry.mirrors);
+    if (peer && (!peer->missing || peer->missing().empty())) found.push_back(entry);
+  }
+  return found;
+}
+
+/// Whatever the peer, and from nothing but its capabilities: what it lacks is gone.
+TEST(SceneOfPeer, EveryMirror_HasTheEffectsOfItsPeer) {
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  ASSERT_TRUE(effectsOf(scene).contains(Effect::bottomFriction));
+  for (const EngineEntry& mirror : mirrors()) {
+    const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
+    const Scene seen = sceneOfPeer(mirror, setup, scene).scene;
+    const Effects theirs =
+        simulatedEffects(peer, adaptScene(peer, scene, setup.run.mayDiffer).scene);
+    Effects ours = effectsOf(seen);
+    if (!hasNormalLaw(peer, scene.law)) {  // springs that stand for a rigid law
+      ours.erase(Effect::tangentialSpring);
+      ours.erase(Effect::tangentialDamping);
+    }
+    EXPECT_EQ(ours, theirs) << mirror.name;
+  }
+}
+
+/// The registry's conventions of a mirror are those that its peer declares.
+TEST(SceneOfPeer, EveryMirror_HasTheConventionsOfItsPeer) {
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  for (const EngineEntry& mirror : mirrors()) {
+    const Capabilities peer = *capabilitiesOf(*findEngine(mirror.mirrors), 60.0);
+    const Scene seen = sceneOfPeer(mirror, setup, scene).scene;
+    if (!hasNormalLaw(peer, scene.law)) {
+      for (const LawOption& option : lawOptions())
+        EXPECT_EQ(lawOptionValue(seen.law, option.name), lawOptionValue(scene.law, option.name));
+      continue;
+    }
+    const Capabilities own = mirror.make()->capabilities();
+    for (const auto& [option, values] : peer.lawOptions) {
+      if (option == "tangential" || option == "damper" || option == "normal") continue;
+      EXPECT_EQ(own.lawOptions.at(option), values) << mirror.name << ", " << option;
+      EXPECT_EQ(std::ranges::count(values, lawOptionValue(seen.law, option)), 1)
+          << mirror.name << ", " << option;
+    }
+  }
+}
+
+TEST(SceneOfPeer, MissingEffects_AreDeviationsOfThePeer) {
+  const Case setup = quickCell();
+  const Adapted seen = sceneOfPeer(*findEngine("grain-as-box2d-penalty"), setup, sceneOf(setup));
+  ASSERT_FALSE(seen.deviations.empty());
+  for (const Deviation& deviation : seen.deviations)
+    EXPECT_TRUE(deviation.note.starts_with("as its peer box2d-penalty: has ")) << deviation.note;
+}
+
+TEST(SceneOfPeer, PeerThatRefuses_Throws) {
+  const Case setup = quickCell({"run.may_differ=[\"integrator\"]"});
+  const EngineEntry& mirror = *findEngine("grain-stiff");
+  try {
+    sceneOfPeer(mirror, setup, sceneOf(setup));
+    FAIL() << "no refusal";
+  } catch (const UnsupportedScene& refusal) {
+    EXPECT_TRUE(std::string(refusal.what()).starts_with("its peer box2d-impulse has no bottom_"))
+        << refusal.what();
+  }
+}
+
+TEST(SceneOfPeer, UnknownPeer_LeavesTheSceneWithANote) {
+  EngineEntry mirror = *findEngine("grain-as-yade");
+  mirror.mirrors = "nobody";
+  const Case setup = quickCell();
+  const Scene scene = sceneOf(setup);
+  const Adapted seen = sceneOfPeer(mirror, setup, scene);
+  ASSERT_EQ(seen.deviations.size(), 1u);
+  EXPECT_EQ(seen.deviations[0].name, "peer");
+  EXPECT_EQ(effectsOf(seen.scene), effectsOf(scene));
+}
+
+}  // namespace

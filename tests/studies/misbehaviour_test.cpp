@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cases/collision_scene.hpp"
+#include "cases/loader.hpp"
+#include "results/schema.hpp"
+#include "studies/collide/sweep.hpp"
+#include "studies/flow/campaign.hpp"
+#include "support/bad_input.hpp"
+#include "tests/misbehaving/entries.hpp"
+#include "tests/support/pairs.hpp"
+
+// Engines that misbehave on purpose: each is one clear line that names engine, case, time and the
+// last good state, and the others go on.
+
+namespace {
+
+using namespace crossgrain;
+namespace fs = std::filesystem;
+
+constexpr double dt = 1e-5;
+constexpr std::uint64_t badStep = 25;
+
+class Misbehaviour : public testing::Test {
+ protected:
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  void SetUp() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static Case pairCase() {
+    Case setup = ::test::smallPairCase();
+    setup.file = "pair.toml";
+    setup.collision.psi = {1.0};
+    setup.collision.vn = {0.1};
+    setup.run.timeout = 1.0;
+    return setup;
+  }
+
+  /// What a run that looks every ten steps comes to, with what it saw last.
+  std::string endOf(const std::string& mischief, const Case& setup = pairCase(),
+                    std::vector<Snapshot>* seen = nullptr) {
+    const Scene scene = collisionScene(setup, collisionStarts(setup), dt);
+    const auto loaded =
+        loadEngine(crossgrain::test::misbehavingEntry(mischief, badStep), setup, scene, folder_);
+    try {
+      for (int k = 10; k <= 100; k += 10) {
+        loaded.engine->advance(k * dt);
+        const Snapshot now = loaded.engine->snapshot(ContactReport::none);
+        if (seen != nullptr) seen->push_back(now);
+      }
+    } catch (const EngineFailure& failure) {
+      return failure.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(Misbehaviour, IsOneLineOfEngineCaseTimeAndLastGoodState) {
+  const std::string good = " (last good snapshot: t = 0.0002 s)";
+  const auto begins = [](const std::string& text, const std::string& with) {
+    return text.rfind(with, 0) == 0;
+  };
+  for (const std::string& mischief : crossgrain::test::fatalMischiefs()) {
+    const std::string line = endOf(mischief);
+    const std::string at = mischief == "nan" || mischief == "short" ? "t = 0.0003" : "t = 0.0002";
+    EXPECT_TRUE(begins(line, mischief + ", pair at " + at)) << line;
+    EXPECT_TRUE(line.ends_with(good)) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+  EXPECT_NE(endOf("exit").find("ended (exit status 3) during advance(t = 0.0003"),
+            std::string::npos);
+  EXPECT_NE(endOf("crash").find("signal 6 (Aborted)"), std::string::npos);
+  EXPECT_NE(endOf("crash").find("the end of its log: step 25"), std::string::npos);
+  EXPECT_NE(endOf("hang").find("no answer within 1 s to advance(t = 0.0003"), std::string::npos);
+  EXPECT_NE(endOf("garbage").find("is not a JSON object: '%!PS-Adobe-3.0'"), std::string::npos);
+  EXPECT_NE(endOf("nan").find("position[0] is nan"), std::string::npos);
+  EXPECT_NE(endOf("short").find("position is 2 × f64, expected 4 × f64"), std::string::npos);
+}
+
+/// Nothing but its energy gives a pump away: no term accounts for what it brings in, here to two
+/// disks that lose nothing.
+TEST_F(Misbehaviour, OfAPumpShowsInTheEnergy) {
+  Case setup = pairCase();
+  setup.law.gn = 0.0;
+  setup.law.tangential = TangentialLaw::none;
+  setup.run.energyLedger = true;
+  std::vector<Snapshot> seen;
+  EXPECT_EQ(endOf("pump", setup, &seen), "");
+  ASSERT_EQ(seen.size(), 10u);
+  const double before = seen.front().ledger->initial;
+  double most = 0.0;
+  for (const Snapshot& now : seen) {
+    const double steps = std::round(now.positionTime / dt) - static_cast<double>(badStep);
+    const double factor = 1.0 + 0.01 * std::max(steps, 0.0);
+    const double kinetic = now.ledger->kinetic / (factor * factor);  // as it would be
+    most = std::max(most, residual(*now.ledger));
+    EXPECT_NEAR(residual(*now.ledger), now.ledger->kinetic - kinetic, 1e-4 * before);
+  }
+  EXPECT_GT(most, 0.1 * before);
+}
+
+TEST_F(Misbehaviour, EndsItsOwnCurveOnly) {
+  const Case setup = pairCase();
+  const auto starts = collisionStarts(setup);
+  const auto oracle = oracleCurve(setup, starts);
+  for (const std::string& mischief : crossgrain::test::fatalMischiefs()) {
+    const EngineEntry entry = crossgrain::test::misbehavingEntry(mischief, badStep);
+    const auto engine = startEngine(entry, folder_, setup.run.timeout);
+    EXPECT_THROW(runSweep(*engine, entry, setup, dt, starts, oracle, false), EngineFailure)
+        << mischief;
+  }
+}
+
+/// One campaign, a good engine among bad ones.
+TEST_F(Misbehaviour, LetsTheOthersOfACampaignFinish) {
+  const Case setup =
+      loadCase(fs::path(CROSSGRAIN_CASES) / "couette/quick.toml",
+               {"preparation.packings=1", "preparation.shrink_time=0.3",
+                "preparation.rotations=0.0", "averaging.settle_rotations=0.0",
+                "averaging.rotations=0.005", "run.timeout=2.0", "run.energy_ledger=true"})
+          .front();
+  std::vector<EngineEntry> engines = {*findEngine("grain")};
+  engines.front().command =
+      crossgrain::test::misbehavingEntry("none", 0).command;  // no program "__serve" here
+  for (const std::string& mischief : crossgrain::test::fatalMischiefs())
+    engines.push_back(crossgrain::test::misbehavingEntry(mischief, 60));
+  RunCommand command;
+  command.out = folder_;
+  command.quiet = true;
+  RunStore store(command, "compare", soleCase(setup));
+  Campaign campaign(setup, command, engines, store);
+  campaign.askEngines();
+  campaign.preparePackings();
+  campaign.timeEngines();
+  campaign.run(campaign.wholeCase());
+  const std::vector<FlowRun> runs = campaign.study(kindCompare).runs;
+  ASSERT_EQ(runs.size(), engines.size());
+  for (const FlowRun& run : runs) {
+    if (run.engine == "grain") {
+      EXPECT_EQ(run.status, RunStatus::finished) << run.reason;
+      EXPECT_TRUE(run.series.value().contains("energy_residual"));
+      continue;
+    }
+    EXPECT_EQ(run.status, RunStatus::failed) << run.engine;
+    EXPECT_EQ(run.reason.rfind("packing 0: " + run.engine + ", ", 0), 0u) << run.reason;
+  }
+}
+
+/// Every engine profits from the look that the harness takes at the scene.
+TEST_F(Misbehaviour, OfASceneIsRefusedBeforeAnyEngineSeesIt) {
+  const Case setup = pairCase();
+  Scene scene = collisionScene(setup, collisionStarts(setup), dt);
+  const auto refusal = [&] {
+    try {
+      loadEngine(crossgrain::test::misbehavingEntry("none", 0), setup, scene, folder_);
+    } catch (const BadInput& bad) {
+      return std::string(bad.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(refusal(), "none");
+  const Vec2 place = scene.disks.position[0];
+  scene.disks.position = {{0.5, -0.25}, {0.5, -0.25}};
+  EXPECT_EQ(refusal(), "pair.toml: disk 0 and disk 1 have the same centre, (0.5, -0.25) m");
+  scene.disks.position[1].x() += 0.9 * ::test::smallRadius;
+  EXPECT_EQ(refusal(),
+            "pair.toml: disk 0 and disk 1 overlap by 0.00407 m at the start, near (0.5, -0.25) m: "
+            "more than the smaller radius, so that a centre lies inside");
+  scene.disks.position[1].x() += 0.2 * ::test::smallRadius;
+  EXPECT_EQ(refusal(), "none");
+  scene.disks.position[0].y() = std::nan("");
+  EXPECT_EQ(refusal(), "pair.toml: the position of disk 0 is not finite");
+  scene.disks.position[0] = place;
+  WallBody floor;
+  floor.planes.push_back({place + Vec2(0.0, 1e-3), Vec2::UnitY()});
+  scene.bodies.push_back(floor);
+  EXPECT_EQ(refusal().rfind("pair.toml: disk 0 and plane 0 overlap by 0.0047 m", 0), 0u);
+}
+
+}  // namespace

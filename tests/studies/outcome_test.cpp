@@ -1,0 +1,225 @@
+// What results come to: the exit status of every study, from results made by hand.
+#include <gtest/gtest.h>
+
+#include "studies/collide/collide.hpp"
+#include "studies/conformance/conformance.hpp"
+#include "studies/effects/effects.hpp"
+#include "studies/flow/compare.hpp"
+#include "studies/flow/lockstep_job.hpp"
+#include "studies/regression/diff.hpp"
+#include "studies/scale/scale.hpp"
+#include "studies/stability/stability.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+Case judging() {
+  Case setup;
+  setup.averaging.endpoints["spin_at_wheel"] = {1.0, false, "because", ""};
+  return setup;
+}
+
+EndpointRow row(PairKind kind, int packings, Answer answer = Answer::undecided) {
+  EndpointRow result;
+  result.kind = kind;
+  result.answer = answer;
+  result.packings = packings;
+  return result;
+}
+
+using Rows = std::vector<EndpointRow>;
+
+TEST(NothingJudged, OneEngine_IsByRequest) {
+  const auto found = nothingJudged(judging(), {}, 1);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->byRequest);
+}
+
+TEST(NothingJudged, MissingMarginsPackingsOrRuns_SaysWhich) {
+  const auto reason = [](const Case& setup, const Rows& rows) {
+    const auto found = nothingJudged(setup, rows, 2);
+    EXPECT_FALSE(found && found->byRequest);
+    return found ? found->reason : "";
+  };
+  EXPECT_EQ(reason({}, Rows({row(PairKind::peer, 4)})), "the case has no [averaging.endpoints]");
+  EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 2), row(PairKind::peer, 1)})),
+            "2 packings of both engines, and a verdict needs at least 4");
+  EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 1)})),
+            "1 packing of both engines, and a verdict needs at least 4");
+  EXPECT_EQ(reason(judging(), Rows({row(PairKind::mirrorModel, 8)})),
+            "no two engines finished a run that shows an endpoint with a margin");
+  EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 0)})),
+            "no endpoint has a value on two engines");
+  // Tested and left open is judged.
+  EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 4)})), "");
+}
+
+ExitStatus compared(const CompareResults& results, bool strict = false, bool quick = false) {
+  CommandLine line;
+  line.run.engines = {"a", "b"};
+  line.quick = quick;
+  CompareOptions own;
+  own.strict = strict;
+  return compareStudy.outcome(results, line, own).status;
+}
+
+TEST(CompareOutcome, VerdictsOfNamedEngines_Decide) {
+  CompareResults results;
+  EXPECT_EQ(compared(results), exitPassed);
+  const auto with = [&](PairKind kind, Answer answer) {
+    results.endpoints.rows = {row(kind, 8, Answer::noDifference), row(kind, 8, answer)};
+    return std::pair(compared(results), compared(results, true));
+  };
+  EXPECT_EQ(with(PairKind::peer, Answer::smallDifference), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(with(PairKind::peer, Answer::undecided), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Answer::borderline), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Answer::disagree), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::closedForm, Answer::disagree), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::mirrorModel, Answer::disagree), std::pair(exitPassed, exitPassed));
+}
+
+TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
+  CompareResults results;
+  LockstepRow found;
+  found.verdict = LockstepVerdict::undecided;
+  results.lockstep.emplace().rows = {found};
+  EXPECT_EQ(compared(results), exitPassed);
+  EXPECT_EQ(compared(results, true), exitFailed);
+  results.lockstep->rows.front().verdict = LockstepVerdict::differs;
+  EXPECT_EQ(compared(results), exitFailed);
+  results.lockstep.reset();
+  results.engines = {{"b", "", "", "", EngineStatus::refused, "cannot"},
+                     {"c", "", "", "", EngineStatus::refused, "was not named"}};
+  EXPECT_EQ(compared(results), exitPassed);
+  EXPECT_EQ(compared(results, true), exitFailed);
+  AlarmRow alarm;
+  alarm.kind = PairKind::mirrorImplementation;
+  results.endpoints.alarms = {alarm};
+  EXPECT_EQ(compared(results), exitPassed);
+  results.endpoints.alarms.front().kind = PairKind::peer;
+  EXPECT_EQ(compared(results), exitFailed);
+  FlowRun run;
+  run.status = RunStatus::failed;
+  run.reason = "broke";
+  results.runs = {run};
+  EXPECT_EQ(compared(results), exitEngineFailed);
+  CommandLine line;
+  line.run.engines = {"a", "b"};
+  EXPECT_EQ(compareStudy.outcome(results, line, {}).failures,
+            (std::vector<std::string>{"broke", "cannot"}));
+}
+
+TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
+  CompareResults results;
+  results.nothingJudged = NothingJudged{"too few"};
+  EXPECT_EQ(compared(results), exitFailed);
+  EXPECT_EQ(compared(results, false, true), exitPassed);
+  EXPECT_EQ(compared(results, true, true), exitFailed);
+  results.nothingJudged->byRequest = true;
+  EXPECT_EQ(compared(results), exitPassed);
+  EXPECT_EQ(compared(results, true), exitFailed);
+}
+
+TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
+  const auto status = [](const std::vector<StabilityVerdict>& verdicts) {
+    StabilityResults results;
+    for (const StabilityVerdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
+    return stabilityStudy.outcome(results, {}, {}).status;
+  };
+  using enum StabilityVerdict;
+  EXPECT_EQ(status({stable, degraded, refused, notRun}), exitPassed);
+  EXPECT_EQ(status({stable, unstable}), exitFailed);
+  EXPECT_EQ(status({refused, refused}), exitFailed);
+  EXPECT_EQ(status({refused, notRun}), exitFailed);
+}
+
+CollisionCurve curve(const std::string& engine, CurveVerdict verdict,
+                     SweepStatus status = SweepStatus::finished) {
+  CollisionCurve one;
+  one.engine = engine;
+  one.status = status;
+  one.score.verdict = verdict;
+  one.reason = engine + " broke";
+  return one;
+}
+
+TEST(CollideOutcome, FailedAndFellShortSweeps_Decide) {
+  const auto outcome = [](const std::vector<CollisionCurve>& curves, bool strict = false) {
+    CollideResults results;
+    results.variants.emplace_back().curves = curves;
+    return collideStudy.outcome(results, {}, {strict});
+  };
+  const CollisionCurve good = curve("a", CurveVerdict::held);
+  EXPECT_EQ(outcome({good}).status, exitPassed);
+  EXPECT_EQ(outcome({good, curve("b", CurveVerdict::beyondLimits)}).status, exitFailed);
+  EXPECT_TRUE(outcome({curve("a", CurveVerdict::notJudged)}).nothingJudged);
+  EXPECT_EQ(outcome({curve("a", CurveVerdict::notJudged)}).status, exitFailed);
+  // True to the law that it declares, short of the scene's: only --strict asks for that.
+  CollisionCurve model = curve("b", CurveVerdict::beyondLimits);
+  model.declared.emplace().score.verdict = CurveVerdict::held;
+  EXPECT_EQ(outcome({good, model}).status, exitPassed);
+  EXPECT_EQ(outcome({good, model}, true).status, exitFailed);
+  const CollisionCurve broken = curve("b", CurveVerdict::notJudged, SweepStatus::failed);
+  EXPECT_EQ(outcome({good, broken, broken}).status, exitEngineFailed);
+  EXPECT_EQ(outcome({good, broken, broken}).failures, std::vector<std::string>{"b broke"});
+}
+
+TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
+  const auto status = [](LockstepVerdict verdict, const char* failure = "", bool strict = false) {
+    LockstepResults results;
+    LockstepRow& found = results.lockstep.rows.emplace_back();
+    found.verdict = verdict;
+    found.failure = failure;
+    LockstepOptions own;
+    own.strict = strict;
+    return lockstepStudy.outcome(results, {}, own).status;
+  };
+  EXPECT_EQ(status(LockstepVerdict::sameLaw), exitPassed);
+  EXPECT_EQ(status(LockstepVerdict::differs), exitFailed);
+  EXPECT_EQ(status(LockstepVerdict::undecided), exitPassed);
+  EXPECT_EQ(status(LockstepVerdict::undecided, "", true), exitFailed);
+  EXPECT_EQ(status(LockstepVerdict::notMeasured), exitFailed);
+  EXPECT_EQ(status(LockstepVerdict::notMeasured, "broke"), exitEngineFailed);
+}
+
+TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
+  ScaleResults scaled;
+  scaled.points.emplace_back().status = EngineStatus::ran;
+  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitPassed);
+  scaled.points.front().status = EngineStatus::refused;
+  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitFailed);
+  scaled.points.front().status = EngineStatus::failed;
+  EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitEngineFailed);
+  EffectsResults effects;
+  effects.variants.emplace_back().status = EngineStatus::refused;
+  EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitPassed);
+  effects.variants.front().status = EngineStatus::failed;
+  EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitEngineFailed);
+  ConformanceResults conformance;
+  for (const auto& [outcome, status] :
+       {std::pair(ConformanceOutcome::skipped, exitFailed),
+        std::pair(ConformanceOutcome::passed, exitPassed),
+        std::pair(ConformanceOutcome::failed, exitFailed),
+        std::pair(ConformanceOutcome::brokeDown, exitEngineFailed)}) {
+    conformance.rows.emplace_back().outcome = outcome;
+    EXPECT_EQ(outcomeOf(conformance).status, status);
+  }
+}
+
+TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
+  const auto status = [](DiffVerdict verdict, const char* failure = "") {
+    DiffResults results;
+    DiffRow& found = results.rows.emplace_back();
+    found.verdict = verdict;
+    found.failure = failure;
+    found.reason = "why";
+    return outcomeOf(results).status;
+  };
+  EXPECT_EQ(status(DiffVerdict::sameBits), exitPassed);
+  EXPECT_EQ(status(DiffVerdict::differs), exitFailed);
+  EXPECT_EQ(status(DiffVerdict::notMeasured), exitFailed);
+  EXPECT_EQ(status(DiffVerdict::differs, "broke"), exitEngineFailed);
+}
+
+}  // namespace

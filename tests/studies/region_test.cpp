@@ -1,0 +1,295 @@
+// Averages over a region of an assembly, and endpoints that a case makes up, against sums by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "averaging/fields.hpp"
+#include "cases/assembly_scene.hpp"
+#include "studies/flow/endpoint_values.hpp"
+#include "studies/flow/own_endpoints.hpp"
+#include "studies/flow/region_averages.hpp"
+
+namespace crossgrain {
+namespace {
+
+/// Three disks of radius 1 m and mass 2 kg in a box of 6 m × 4 m × ½ m = 12 m³: two touch side by
+/// side, the third stands on a plane.
+Case threeDisks() {
+  Case setup;
+  setup.kind = CaseKind::assembly;
+  setup.law.normal = NormalLaw::linear;
+  setup.law.kn = 100.0;
+  DiskGroup group;
+  group.radius = 1.0;
+  group.mass = 2.0;
+  group.position = {0.0, 2.0};
+  group.places = {{0.0, 0.0}, {0.95, 0.0}, {1.5, -0.5}};  // in diameters
+  setup.assembly.disks = {group};
+  WallGroup floor;
+  floor.planes = {{Vec2::Zero(), Vec2::UnitY()}};
+  setup.assembly.walls = {floor};
+  setup.assembly.duration = 1.0;
+  setup.run.dt = 1e-3;
+  Average& average = setup.average.emplace();
+  average.region.low = {-2.0, 0.0};
+  average.region.high = {4.0, 4.0};
+  average.region.height = 0.5;
+  return setup;
+}
+
+/// f_n = 3 N and f_t = 0.4 N between the pair, f_n = 2 N on the plane (id 3).
+Snapshot touching(const Scene& scene) {
+  Snapshot now;
+  now.positionTime = 0.1;
+  now.position = scene.disks.position;
+  now.velocity = {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 2.0}};
+  now.spin = std::vector<double>(3, 0.0);
+  Contacts contacts;
+  contacts.i = {0, 2};
+  contacts.j = {1, 3};
+  contacts.normal = {{-1.0, 0.0}, {0.0, 1.0}};
+  contacts.overlap = {0.1, 0.02};
+  contacts.normalForce = {3.0, 2.0};
+  contacts.tangentialForce = {0.4, 0.0};
+  now.contacts = contacts;
+  return now;
+}
+
+FlowRun averaged(const Case& setup) {
+  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
+  RegionAverages averages(setup, scene);
+  averages.add(touching(scene));
+  FlowRun run;
+  averages.describe(EffectiveParameters{}, run);
+  return run;
+}
+
+double valueOf(const FlowRun& run, const char* field, std::size_t bin = 0) {
+  const Profile* const profile = profileOf(run.profiles, "slicing", field);
+  return profile ? profile->mean.at(bin).value_or(NAN) : NAN;
+}
+
+TEST(Region, HasTheVirialStressOfAWholeBox) {
+  const FlowRun run = averaged(threeDisks());
+  // σ_αβ = −(1/V) Σ f_α l_β, f on the disk, l = 1 m from its centre to the contact: both disks of
+  // the pair have f_x l_x = −3 N m and, of f_t along z × n = (0, −1) on the first, f_y l_x = −0.4.
+  EXPECT_NEAR(valueOf(run, "stress_xx"), 2.0 * 3.0 / 12.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "stress_yx"), 2.0 * 0.4 / 12.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "stress_xy"), 0.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "stress_yy"), 2.0 / 12.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "dynamic_stress_yy"), 2.0 * 4.0 / 12.0, 1e-14);  // m v_y²/V
+  EXPECT_NEAR(valueOf(run, "velocity_y"), 2.0 / 3.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "coordination"), 1.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "volume_fraction"), 3.0 * std::acos(-1.0) * 0.5 / 12.0, 1e-14);
+  EXPECT_TRUE(std::isnan(valueOf(run, "stress_rr")));  // a name of rings
+}
+
+TEST(Region, HasNoLargestOverlapWherePairsShowNone) {
+  Case setup = threeDisks();
+  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
+  const auto largest = [&](const Snapshot& now) {
+    RegionAverages averages(setup, scene);
+    averages.add(now);
+    FlowRun run;
+    averages.describe(EffectiveParameters{}, run);
+    return std::ranges::find(run.head, "max_overlap_over_d", &HeadNumber::name)->value;
+  };
+  Snapshot now = touching(scene);
+  EXPECT_NEAR(largest(now).value(), 0.1 / 2.0, 1e-14);
+  now.contacts = Contacts{};
+  EXPECT_FALSE(largest(now));
+}
+
+TEST(Region, HasMomentsOfItsDisks) {
+  const FlowRun run = averaged(threeDisks());
+  const auto last = [&](const char* name) { return *valuesOf(*run.series, name).back(); };
+  // Centres (0, 2), (1.9, 2), (3, 1) m.
+  EXPECT_EQ(last("disks"), 3.0);
+  EXPECT_NEAR(last("top"), 3.0, 1e-14);
+  EXPECT_NEAR(last("mean_x"), 4.9 / 3.0, 1e-14);
+  EXPECT_NEAR(last("mean_y"), 5.0 / 3.0, 1e-14);
+  const double square = (1.9 * 1.9 + 9.0) / 3.0 - (4.9 / 3.0) * (4.9 / 3.0);
+  EXPECT_NEAR(last("rms_x"), std::sqrt(square), 1e-14);
+  EXPECT_NEAR(last("heap_slope"), 3.0 * (5.0 / 3.0) / std::sqrt(6.0 * square), 1e-14);
+  EXPECT_NEAR(last("kinetic_energy"), 0.5 * 2.0 * (1.0 + 1.0 + 4.0), 1e-14);
+}
+
+TEST(Region, IsCutIntoSlabsAlongTheAxis) {
+  Case setup = threeDisks();
+  setup.average->region.bins = BinKind::slabs;
+  setup.average->region.axis = 0;
+  setup.average->region.count = 3;  // 2 m each
+  const FlowRun run = averaged(setup);
+  // Half of the disk at x = 0 lies in the first slab; it carries half of −f_x l_x of that disk.
+  EXPECT_NEAR(valueOf(run, "stress_xx", 0), 0.5 * 3.0 / 4.0, 1e-14);
+  EXPECT_NEAR(valueOf(run, "velocity_x", 0), 1.0, 1e-14);
+  double whole = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) whole += 4.0 * valueOf(run, "stress_xx", k);
+  EXPECT_NEAR(whole, 6.0, 1e-13);
+}
+
+TEST(OwnEndpoints, AreMeansBinsSlopesAndRates) {
+  Case setup = threeDisks();
+  setup.average->region.bins = BinKind::slabs;
+  setup.average->region.axis = 1;
+  setup.average->region.count = 4;  // centres at 0.5, 1.5, 2.5, 3.5 m
+  FlowRun run;
+  run.profiles = {{"slicing", "velocity_x", "m/s", {1.0, 3.0, std::nullopt, 7.0}, {}, {}, {}},
+                  {"slicing", "stress_xy", "N/m²", {-1.0, -1.0, std::nullopt, -6.0}, {}, {}, {}},
+                  {"slicing", "stress_yy", "N/m²", {8.0, 8.0, 8.0, 8.0}, {}, {}, {}},
+                  {"slicing", "volume_fraction", "-", {0.2, 0.2, 0.0, 0.6}, {}, {}, {}}};
+  run.series = RunSeries{{"t_s", {1.0, 2.0, 3.0}}, {"disks", {9.0, 6.0, 3.0}}};
+  const auto value = [&](const char* quantity, Reduction reduction, int bin = 0,
+                         const char* per = "") {
+    OwnEndpoint endpoint;
+    endpoint.name = "one";
+    endpoint.quantity = quantity;
+    endpoint.per = per;
+    endpoint.reduction = reduction;
+    endpoint.bin = bin;
+    setup.average->endpoints = {endpoint};
+    return endpointOf(endpointSpec(setup, "one"), setup, run);
+  };
+  // Weighted with what the bins hold: 0.2, 0.2 and 0.6.
+  EXPECT_NEAR(*value("velocity_x", Reduction::mean), 5.0, 1e-14);
+  EXPECT_EQ(value("velocity_x", Reduction::bin, 3), 7.0);
+  EXPECT_FALSE(value("velocity_x", Reduction::bin, 2));
+  EXPECT_NEAR(*value("velocity_x", Reduction::slope), 2.0, 1e-14);
+  // Per volume: the empty bin has no stress, and its volume counts.
+  EXPECT_NEAR(*value("stress_xy", Reduction::mean, 0, "stress_yy"), -2.0 / 8.0, 1e-14);
+  EXPECT_EQ(value("disks", Reduction::mean), 6.0);
+  EXPECT_EQ(value("disks", Reduction::end), 3.0);
+  EXPECT_NEAR(*value("disks", Reduction::rate), -3.0, 1e-14);
+}
+
+/// A run of four slabs of 1 m, of which the third holds so much.
+FlowRun withThirdSlab(double held) {
+  FlowRun run;
+  const auto of = [&](double value) { return held > 0.0 ? std::optional(value) : std::nullopt; };
+  run.profiles = {{"slicing", "coordination", "-", {3.0, 2.0, of(9.0), 1.0}, {}, {}, {}},
+                  {"slicing", "stress_yy", "N/m²", {4.0, 2.0, of(held), 2.0}, {}, {}, {}},
+                  {"slicing", "spin", "rad/s", {1.0, 2.0, of(50.0), 4.0}, {}, {}, {}},
+                  {"slicing", "volume_fraction", "-", {0.8, 0.4, held, 0.2}, {}, {}, {}}};
+  return run;
+}
+
+TEST(OwnEndpoints, DoNotHangOnWhetherRoundingLeavesABinEmpty) {
+  Case setup = threeDisks();
+  setup.average->region.bins = BinKind::slabs;
+  setup.average->region.count = 4;
+  for (const char* field : {"coordination", "stress_yy", "spin"})
+    for (const Reduction reduction : {Reduction::mean, Reduction::slope}) {
+      OwnEndpoint endpoint;
+      endpoint.quantity = field;
+      endpoint.reduction = reduction;
+      const auto valueWith = [&](double held) {
+        return ownEndpointOf(endpoint, setup, withThirdSlab(held)).value.value();
+      };
+      EXPECT_NEAR(valueWith(1e-20), valueWith(0.0), 1e-12) << field;
+    }
+  OwnEndpoint contacts;
+  contacts.quantity = "coordination";  // Σ w V C / Σ w V of the whole
+  EXPECT_NEAR(*ownEndpointOf(contacts, setup, withThirdSlab(0.0)).value,
+              (0.8 * 3.0 + 0.4 * 2.0 + 0.2 * 1.0) / 1.4, 1e-14);
+}
+
+TEST(OwnEndpoints, LackWhatARunShowsOnlyAPartOf) {
+  Case setup = threeDisks();
+  const auto found = [&](const char* quantity, std::size_t there, Reduction reduction) {
+    OwnEndpoint endpoint;
+    endpoint.quantity = quantity;
+    endpoint.reduction = reduction;
+    FlowRun run;
+    Numbers times, values, disks;
+    for (std::size_t k = 0; k < 100; ++k) {
+      times.emplace_back(0.01 * static_cast<double>(k));
+      values.push_back(k < there ? std::optional(2.0) : std::nullopt);
+      disks.emplace_back(k < there ? 1.0 : 0.0);
+    }
+    run.series =
+        RunSeries{{"t_s", times}, {"mean_x", values}, {"max_overlap", values}, {"disks", disks}};
+    run.profiles = {{"slicing", "velocity_x", "m/s", {2.0}, {}, {}, {}},
+                    {"slicing", "volume_fraction", "-", {0.5}, {}, {}, {}}};
+    return ownEndpointOf(endpoint, setup, run);
+  };
+  for (const char* quantity : {"mean_x", "velocity_x"}) {
+    EXPECT_EQ(found(quantity, 95, Reduction::mean).value, 2.0) << quantity;
+    const OwnValue gone = found(quantity, 40, Reduction::mean);
+    EXPECT_FALSE(gone.value) << quantity;
+    EXPECT_NE(gone.why.find("60 of 100 snapshots"), std::string::npos) << gone.why;
+  }
+  EXPECT_FALSE(found("mean_x", 40, Reduction::end).value);
+  // Without a contact there is no overlap: nothing is missing of the largest.
+  EXPECT_EQ(found("max_overlap", 40, Reduction::maximum).value, 2.0);
+  EXPECT_FALSE(found("mean_x", 40, Reduction::maximum).value);
+}
+
+/// y = 3 + 2 t − 5 t² at ten instants, and the velocity of half a step later.
+FlowRun thrown() {
+  FlowRun run;
+  Numbers times, heights, later, speeds;
+  for (int k = 1; k <= 10; ++k) {
+    const double t = 0.07 * k;
+    times.emplace_back(t);
+    heights.emplace_back(3.0 + 2.0 * t - 5.0 * t * t);
+    later.emplace_back(t + 0.01);
+    speeds.emplace_back(2.0 - 10.0 * (t + 0.01));
+  }
+  run.series = RunSeries{{"t_s", times},
+                         {"disk_2_y", heights},
+                         {"velocity_t_s", later},
+                         {"disk_2_velocity_y", speeds}};
+  return run;
+}
+
+TEST(OwnEndpoints, OfOneDiskAreApexesTimesAndEvents) {
+  const Case setup = threeDisks();
+  OwnEndpoint endpoint;
+  endpoint.disk = 2;
+  endpoint.quantity = "y";
+  const auto value = [&](Reduction reduction, double level = 0.0) {
+    endpoint.reduction = reduction;
+    endpoint.level = level;
+    return ownEndpointOf(endpoint, setup, thrown()).value;
+  };
+  EXPECT_NEAR(*value(Reduction::maximum), 3.2, 1e-12);  // at 0.2 s, between two snapshots
+  EXPECT_NEAR(*value(Reduction::minimum), 3.0 + 1.4 - 5.0 * 0.49, 1e-12);  // the last one
+  EXPECT_NEAR(*value(Reduction::time, 0.5), 3.0 + 1.0 - 1.25, 1e-12);
+  // Between two snapshots a straight line: off by g τ²/8 over the speed.
+  EXPECT_NEAR(*value(Reduction::reaches, 2.75), 0.5, 10.0 * 0.07 * 0.07 / 8.0 / 3.0);
+  EXPECT_FALSE(value(Reduction::reaches, 4.0));
+  endpoint.between = {0.3, 0.7};
+  EXPECT_NEAR(*value(Reduction::maximum), 3.0 + 2.0 * 0.35 - 5.0 * 0.35 * 0.35, 1e-12);
+  EXPECT_NEAR(*value(Reduction::end), 3.0 + 1.4 - 5.0 * 0.49, 1e-12);
+  endpoint.between.reset();
+  endpoint.quantity = "velocity_y";
+  EXPECT_NEAR(*value(Reduction::time, 0.3), -1.0, 1e-12);  // at its own instants
+  EXPECT_NEAR(*value(Reduction::reaches, 0.0), 0.2, 1e-12);
+}
+
+TEST(Region, HasTheLedgerAndTheDisksThatEndpointsAskFor) {
+  Case setup = threeDisks();
+  OwnEndpoint height, fall;
+  height.disk = fall.disk = 2;
+  height.quantity = "y";
+  fall.quantity = "velocity_y";
+  setup.average->endpoints = {height, fall, height};
+  const Scene scene = assemblyScene(setup, assemblyDisks(setup, 0), 0.0, 1e-3);
+  RegionAverages averages(setup, scene);
+  Snapshot now = touching(scene);
+  now.velocityTime = 0.1;
+  now.ledger.emplace().kinetic = 6.0;
+  averages.add(now);
+  FlowRun run;
+  EffectiveParameters effective;
+  effective.velocityLag = 0.25;
+  averages.describe(effective, run);
+  EXPECT_EQ(valuesOf(*run.series, "energy_kinetic"), Numbers{6.0});
+  EXPECT_TRUE(run.series->contains("energy_residual"));
+  EXPECT_EQ(valuesOf(*run.series, "disk_2_y"), Numbers{1.0});
+  EXPECT_EQ(valuesOf(*run.series, "disk_2_velocity_y"), Numbers{2.0});
+  EXPECT_NEAR(*valuesOf(*run.series, "velocity_t_s").front(), -0.15, 1e-14);
+}
+
+}  // namespace
+}  // namespace crossgrain

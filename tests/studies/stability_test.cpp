@@ -1,0 +1,123 @@
+// The suite's verdicts: by the limits, and on engines that misbehave on purpose.
+#include "studies/stability/stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "results/stability_fields.hpp"
+#include "stability/verdict.hpp"
+#include "studies/core/engine_access.hpp"
+#include "support/bad_input.hpp"
+#include "tests/misbehaving/entries.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace crossgrain;
+
+TEST(JudgeStability, TwoLimits_GiveVerdictAndWorstSample) {
+  Stability limits;
+  limits.limit = 1.0;
+  limits.degraded = 2.0;
+  EXPECT_EQ(judgeStability(limits, {0.0, 1.0}).verdict, StabilityVerdict::stable);
+  EXPECT_FALSE(judgeStability(limits, {0.0, 1.0}).passed);
+  const StabilityJudgement degraded = judgeStability(limits, {0.0, 1.5, 2.0, 1.2});
+  EXPECT_EQ(degraded.verdict, StabilityVerdict::degraded);
+  EXPECT_EQ(degraded.passed, 1u);
+  EXPECT_EQ(degraded.worst, 2u);
+  const StabilityJudgement lost = judgeStability(limits, {0.0, std::nan("")});
+  EXPECT_EQ(lost.verdict, StabilityVerdict::unstable);
+  EXPECT_TRUE(std::isfinite(lost.value));
+}
+
+/// Two disks that meet after 100 steps of 1 ms; a worker has 2 s to answer.
+const char* const meeting = R"([case]
+name = "meeting"
+kind = "assembly"
+[law]
+kn = 1000.0
+gn = 0.0
+tangential = "none"
+[run]
+dt = 1e-3
+timeout = 2.0
+[assembly]
+steps = 300
+[[assembly.disks]]
+position = [-1.1, 0.0]
+velocity = [1.0, 0.0]
+radius = 1.0
+mass = 1.0
+[[assembly.disks]]
+position = [1.1, 0.0]
+velocity = [-1.0, 0.0]
+radius = 1.0
+mass = 1.0
+[stability]
+tests = "an elastic collision"
+measure = "energy_gain"
+limit = 0.01
+degraded = 0.1
+why = "a made-up case"
+samples = 30
+)";
+
+TEST(TestStability, MisbehavingEngine_EndsItsOwnRunOnly) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "meeting.toml") << meeting;
+  const std::vector<Case> cases = hardCases({folder.path() / "meeting.toml"}, {}, SuitePart::usual);
+  // Two engines that do as they should, one at each end.
+  std::vector<EngineEntry> engines = {*findEngine("grain")};
+  for (const std::string& mischief : test::fatalMischiefs())
+    engines.push_back(test::misbehavingEntry(mischief, 150));
+  engines.push_back(test::misbehavingEntry("pump", 150));
+  engines.push_back(test::misbehavingEntry("good", 150));
+  engines.front().command = engines.back().command;
+  RunCommand command;
+  command.out = folder.path() / "out";
+  command.jobs = 2;
+  command.quiet = true;
+  RunStore store(command, "stability", keysOfEach(cases));
+  const StabilityResults results = testStability(cases, engines, command, store);
+
+  ASSERT_EQ(results.runs.size(), engines.size());
+  for (const StabilityRun& run : results.runs) {
+    SCOPED_TRACE(jsonOf(run).dump());
+    if (run.engine == "grain" || run.engine == "good") {
+      EXPECT_EQ(run.verdict, StabilityVerdict::stable);
+      continue;
+    }
+    EXPECT_EQ(run.verdict, StabilityVerdict::unstable);
+    EXPECT_TRUE(run.picture);
+    if (run.engine == "pump") {  // 10 % faster after 10 steps, within a sample
+      EXPECT_GT(run.step, 150);
+      EXPECT_LE(run.step, 170);
+      EXPECT_GT(run.value, 0.1);
+      continue;
+    }
+    EXPECT_EQ(run.reason.rfind("failed: " + run.engine, 0), 0u);
+    EXPECT_NE(run.reason.find("meeting"), std::string::npos);
+    EXPECT_EQ(run.reason.find('\n'), std::string::npos);
+    EXPECT_EQ(run.step, 140);  // the last good sample; there is one every 10 steps
+  }
+}
+
+TEST(HardCases, NoStabilitySectionOrEmptyPart_Throws) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "meeting.toml";
+  std::ofstream(file) << std::string(meeting).substr(0, std::string(meeting).find("[stability]"));
+  EXPECT_THROW(hardCases({file}, {}, SuitePart::usual), BadInput);
+  std::ofstream(file) << meeting;
+  EXPECT_THROW(hardCases({file}, {}, SuitePart::quick), BadInput);
+  EXPECT_EQ(hardCases({folder.path()}, {"stability.quick=true"}, SuitePart::quick).size(), 1u);
+}
+
+TEST(HardCases, Repository_AllLoadWithReasons) {
+  const std::vector<Case> cases = hardCases({CROSSGRAIN_CASES "/hard"}, {}, SuitePart::withLong);
+  EXPECT_GE(cases.size(), 60u);
+  for (const Case& c : cases) EXPECT_GT(c.stability->why.size(), 20u) << c.name;
+}
+
+}  // namespace

@@ -1,0 +1,120 @@
+#include "studies/flow/unfinished_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "adapters/grain.hpp"
+#include "tests/support/laws.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace {
+
+using namespace crossgrain;
+namespace fs = std::filesystem;
+
+/// Two disks that bounce on a floor.
+Scene bouncing() {
+  Scene scene;
+  scene.name = "bouncing";
+  scene.law = test::thesisLaw();
+  scene.law.gn = 0.05;
+  scene.gravity = {0.3, -9.81};
+  scene.dt = 4e-5;
+  for (const double x : {0.0, 7.3e-3})
+    test::addDisk(scene, test::smallRadius, test::smallMass, {x, 5e-3 + x}, {0.02, 0.0}, 3.0);
+  WallBody floor;
+  floor.name = "floor";
+  floor.planes.emplace_back();
+  scene.bodies.push_back(floor);
+  return scene;
+}
+
+class UnfinishedRuns : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(folder_);
+    engine_->load(scene_, {});
+  }
+
+  /// Runs to 0.05 s with a snapshot on the way, and leaves the run there.
+  void leave() {
+    UnfinishedRun run(folder_, "key", scene_, true);
+    engine_->advance(0.02);
+    run.took(engine_->snapshot(ContactReport::instant));
+    run.keep(*engine_, 0.02);
+    engine_->advance(0.03);
+    run.took(engine_->snapshot(ContactReport::instant));
+    engine_->advance(0.05);
+    run.keep(*engine_, 0.05);
+  }
+
+  /// Of this test alone: others may run at the same time.
+  const fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("unfinished-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const Scene scene_ = bouncing();
+  std::unique_ptr<Engine> engine_ = makeGrain(), later_ = makeGrain();
+};
+
+TEST_F(UnfinishedRuns, TellHowFarTheyCame) {
+  EXPECT_EQ(timeReached(folder_, "key"), 0.0);
+  leave();
+  EXPECT_EQ(timeReached(folder_, "key"), 0.05);
+  EXPECT_EQ(timeReached(folder_, "another key"), 0.0);
+  std::ofstream(folder_ / "index.json") << "{";
+  EXPECT_EQ(timeReached(folder_, "key"), 0.0);
+}
+
+TEST_F(UnfinishedRuns, GoOnToTheBit) {
+  leave();
+  later_->load(scene_, {});
+  UnfinishedRun run(folder_, "key", scene_, true);
+  const auto before = run.resume(*later_);
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->time, 0.05);
+  ASSERT_EQ(before->snapshots, 2u);
+  EXPECT_EQ(run.snapshot(0).positionTime, 0.02);
+  EXPECT_NEAR(run.snapshot(1).positionTime, 0.03, 1e-15);
+  for (Engine* engine : {engine_.get(), later_.get()}) engine->advance(0.1);
+  const Snapshot a = engine_->snapshot(ContactReport::instant);
+  const Snapshot b = later_->snapshot(ContactReport::instant);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(*a.spin, *b.spin);
+  EXPECT_EQ(engine_->stats().contactEvaluations, later_->stats().contactEvaluations);
+}
+
+TEST_F(UnfinishedRuns, OfAnotherKeyOrDamagedAreForgotten) {
+  leave();
+  EXPECT_FALSE(UnfinishedRun(folder_, "another key", scene_, true).resume(*later_));
+  EXPECT_FALSE(fs::exists(folder_));
+  SetUp();
+  leave();
+  fs::resize_file(folder_ / "snapshot-00001.bin", 10);
+  EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(UnfinishedRuns, ACheckpointCutShortIsTheEnginesFailureOnce) {
+  leave();
+  fs::resize_file(folder_ / "engine-2", fs::file_size(folder_ / "engine-2") / 2);
+  later_->load(scene_, {});
+  try {
+    UnfinishedRun(folder_, "key", scene_, true).resume(*later_);
+    FAIL() << "no exception";
+  } catch (const EngineFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("cut short"), std::string::npos) << failure.what();
+  }
+  EXPECT_FALSE(UnfinishedRun(folder_, "key", scene_, true).resume(*later_));
+}
+
+TEST_F(UnfinishedRuns, OfEnginesWithoutCheckpointsKeepNothing) {
+  UnfinishedRun run(folder_, "key", scene_, false);
+  run.took(engine_->snapshot(ContactReport::none));
+  run.keep(*engine_, 0.0);
+  EXPECT_FALSE(fs::exists(folder_));
+  EXPECT_FALSE(run.resume(*engine_));
+}
+
+}  // namespace
