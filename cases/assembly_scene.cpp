@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 #include <gsl/gsl_randist.h>
-
 #include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cases/couette.hpp"
@@ -173,6 +174,24 @@ double assemblyDuration(const Case& setup) {
   if (assembly.duration) return *assembly.duration;
   if (assembly.steps) return *assembly.steps * timeStep(setup);
   return *assembly.contactTimes * contactTime(setup.law, lightestReducedMass(setup));
+}
+
+std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular) {
+  std::vector<Vec2> places;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const double shift = triangular && row % 2 == 1 ? 0.5 : 0.0;
+      places.emplace_back((column + shift) * spacing.x(), row * spacing.y());
+    }
+  return places;
+}
+
+std::vector<Vec2> heapPlaces(int base, double spacing) {
+  std::vector<Vec2> places;
+  for (int row = 0; row < base; ++row)
+    for (int column = 0; column < base - row; ++column)
+      places.emplace_back((column + 0.5 * row) * spacing, row * spacing * std::sqrt(0.75));
+  return places;
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "adapters/contact_law.hpp"
 #include "adapters/engine.hpp"
+#include "adapters/motion.hpp"
+#include "adapters/scene.hpp"
 #include "adapters/vec2.hpp"
-#include "cases/assembly.hpp"
-#include "cases/average.hpp"
 #include "cases/cost.hpp"
 #include "oracle/collision_end.hpp"
 #include "stability/limits.hpp"
+#include "stability/placement.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -39,7 +44,7 @@ struct Particles {
   bool rotation = true;     ///< false: friction acts, but no disk has a spin or gets one
   double maxOverlap = 0.2;  ///< largest overlap allowed at a start, in units of the small radius
   std::string maxOverlapKey = "particles.max_overlap";  ///< where the user says it
-  std::optional<std::filesystem::path> file;  ///< a packing of the user's own (see cases/README)
+  std::optional<std::filesystem::path> file;  ///< a packing of the user's own (docs/cases.md)
 };
 
 /// Dilute lattice, random velocities, turning wheel, shrinking ring, then rotations (thesis §3.3).
@@ -59,7 +64,7 @@ struct Margin {
   double value = 0.0;  ///< in the field's unit, or a fraction of the reference's mean
   bool relative = false;
   std::string why;    ///< not optional in a case file
-  std::string scale;  ///< of which the case file says a share (scales.hpp); empty: `value` is said
+  std::string scale;  ///< of which the case file says a share (couette.hpp); empty: `value` is said
 };
 
 struct Averaging {
@@ -108,6 +113,146 @@ struct Collision {
   std::vector<double> stepsPerContact = {50.0};  ///< one sweep for each
   double startPhase = 0.5;  ///< the disks touch this fraction of a step after a step, [0, 1)
   std::map<std::string, Margin> margins;  ///< "psi_f", "e_n": largest distance from the oracle
+};
+
+/// Disks of one kind, each at `position` plus one of `places`.
+struct DiskGroup {
+  Vec2 position = Vec2::Zero();               ///< [m]
+  std::vector<Vec2> places = {Vec2::Zero()};  ///< in diameters of the group
+  Vec2 velocity = Vec2::Zero();               ///< [m/s]
+  double spin = 0.0;                          ///< [rad/s]
+  double radius = 0.0;                        ///< [m]
+  double mass = 0.0;                          ///< of a disk of `radius`; others as a² [kg]
+  double jitter = 0.0;        ///< each coordinate is off by up to this, uniformly [diameters]
+  double radiusSpread = 0.0;  ///< radii are off by up to this share, uniformly [-]
+  double velocityRms = 0.0;   ///< of each component, normally distributed about `velocity` [m/s]
+};
+
+/// A body of planes and wall disks that moves as prescribed.
+struct WallGroup {
+  Vec2 centre = Vec2::Zero();  ///< about which it rotates [m]
+  std::vector<Plane> planes;
+  std::vector<Vec2> position;  ///< of wall disks [m]
+  double radius = 0.0;         ///< of wall disks [m]
+  std::vector<double> radii;   ///< of each, where they are not all alike [m]
+  Motion motion;
+};
+
+/// Starts of the user's own, in place of groups: each is a packing.
+struct StartFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<Disks> disks;  ///< of each
+  /// Of each component, added to all velocities, other ones in each packing: so one file makes
+  /// several packings [m/s].
+  double velocityRms = 0.0;
+  std::vector<Vec2> fixedPosition = {};      ///< of disks that stand still, alike in all files [m]
+  std::vector<double> fixedRadius = {};      ///< [m]
+  std::vector<std::vector<int>> lines = {};  ///< of each file, of its disks and then its fixed ones
+};
+
+/// Disks and walls put together as a case file says, and then placed as a whole; gravity and walls
+/// go along.
+struct Assembly {
+  std::vector<DiskGroup> disks;
+  StartFiles starts;  ///< either these or `disks`
+  std::vector<WallGroup> walls;
+  Vec2 gravity = Vec2::Zero();  ///< [m/s²]
+  double inertiaFactor = 0.5;   ///< q in J = q m a²
+  bool rotation = true;         ///< false: friction acts, but no disk has a spin or gets one
+  double maxOverlap = 0.2;      ///< largest overlap of a start, in units of the smallest radius
+  std::uint64_t seed = 1;       ///< of jitter, radii and velocities
+
+  Placement placement;
+
+  /// How long it is watched: one of the three. Contact times are those of the lightest pair.
+  std::optional<double> duration;      ///< [s]
+  std::optional<double> contactTimes;  ///< [-]
+  std::optional<double> steps;         ///< of the case's time step
+};
+
+/// Places on a lattice, in diameters: row by row, from the origin to the right and upward.
+/// @param spacing     between columns and between rows
+/// @param triangular  odd rows are shifted by half a column
+std::vector<Vec2> gridPlaces(int columns, int rows, const Vec2& spacing, bool triangular);
+
+/// A triangle of rows of base, base − 1, … 1 disks, each in the gaps of the one below.
+std::vector<Vec2> heapPlaces(int base, double spacing);
+
+/// How the averaged part of the plane is divided into bins.
+enum class BinKind { rings, slabs, grid, whole };
+inline constexpr std::array<std::string_view, 4> binKindNames = {"rings", "slabs", "grid", "whole"};
+
+/// The part of the plane that is averaged, and the time of it. Rings lie about the origin; all
+/// others divide the box between two corners. It stays where it is while walls move.
+struct Region {
+  BinKind bins = BinKind::whole;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< corners of the box [m]
+  double innerRadius = 0.0, outerRadius = 0.0;   ///< of rings [m]
+  int axis = 1;                                  ///< slabs lie one after the other along 0: x, 1: y
+  int count = 1;                                 ///< of rings or slabs
+  int columns = 1, rows = 1;                     ///< of a grid
+  double height = 1.0;  ///< h of the disks, normal to the plane: with 1 m a stress in N/m² is the
+                        ///< force per length in N/m [m]
+  double from = 0.0;    ///< what comes before is not averaged [s]
+  int snapshots = 100;  ///< evenly from there to the end
+
+  bool hasRings() const { return bins == BinKind::rings; }
+  int columnCount() const { return bins == BinKind::slabs && axis == 0 ? count : columns; }
+  int rowCount() const { return bins == BinKind::slabs && axis == 1 ? count : rows; }
+};
+
+/// What is made of a quantity to get one number of a run. A mean or slope over bins weighs them
+/// with their volumes where the field is per volume, else with what they hold.
+enum class Reduction {
+  mean,     ///< of a field over all bins; of a series over time
+  bin,      ///< a field in one bin
+  slope,    ///< of a field along its slabs or rings, by least squares [per m]
+  end,      ///< the last value of a series
+  rate,     ///< of a series over time, by least squares [per s]
+  maximum,  ///< of a series: the parabola through the largest value and its two neighbours
+  minimum,  ///< likewise
+  time,     ///< a series at one time
+  reaches   ///< when a series first is at a value [s]
+};
+
+/// An endpoint (endpoints.hpp) that the case file makes up itself.
+struct OwnEndpoint {
+  std::string name;
+  std::string words;        ///< the name with blanks
+  std::string quantity;     ///< a field of profiles.csv or a number of regionNumbers()
+  std::optional<int> disk;  ///< from 0: then a number of diskNumbers()
+  std::string per;          ///< divided by another one, reduced likewise; empty: not
+  Reduction reduction = Reduction::mean;
+  int bin = 0;         ///< of Reduction::bin, from 0
+  double level = 0.0;  ///< of Reduction::time [s], of Reduction::reaches [unit of the quantity]
+  std::optional<std::pair<double, double>> between;  ///< the part of a series that counts [s]
+  /// By a closed form: then engines are judged by it too, on one start that is run twice [unit].
+  std::optional<double> expected;
+  std::string unit;
+  std::string definition;  ///< in words
+  bool byRatio = false;    ///< EndpointSpec::byRatio: where the margin is relative
+
+  /// The quantity's column of series.csv: "disks", "disk_0_y".
+  std::string series() const;
+};
+
+/// A number of a run over time, besides its fields: a column of series.csv.
+struct RegionNumber {
+  std::string_view name, unit, definition;
+  bool ofContacts = false;  ///< absent without a contact, which is no gap in what was seen
+};
+
+/// Of disks with their centres in the averaged part, or, of contacts, of the whole scene.
+std::span<const RegionNumber> regionNumbers();
+
+/// Of one disk, wherever it is.
+std::span<const RegionNumber> diskNumbers();
+
+struct Average {
+  Region region;
+  std::vector<OwnEndpoint> endpoints;  ///< all of them have an expected value, or none
+
+  bool hasClosedForms() const { return !endpoints.empty() && endpoints.front().expected; }
 };
 
 enum class CaseKind { couette, collision, assembly };

@@ -70,7 +70,7 @@ bool fits(const Case& setup, const std::string& pattern) {
          ::fnmatch(pattern.c_str(), whole.c_str(), 0) == 0;
 }
 
-bool isHeldAgainstFirst(const Case& setup) {
+bool isComparedWithFirst(const Case& setup) {
   return setup.stability &&
          stabilityMeasure(setup.stability->measure).protocol == StabilityProtocol::againstOriginal;
 }
@@ -81,7 +81,7 @@ std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::strin
   std::set<std::string> originals;
   std::vector<std::string> names;
   for (const Case& setup : cases) {
-    if (fits(setup, pattern) && isHeldAgainstFirst(setup)) originals.insert(setup.name);
+    if (fits(setup, pattern) && isComparedWithFirst(setup)) originals.insert(setup.name);
     if (std::ranges::find(names, setup.name) == names.end()) names.push_back(setup.name);
   }
   for (const Case& setup : cases)

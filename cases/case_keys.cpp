@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cases/loader_print.hpp"
+#include "cases/loader_document.hpp"
 
 namespace crossgrain::inline cases {
 

@@ -8,8 +8,8 @@
 
 namespace crossgrain::inline cases {
 
-/// Every key of a case's merged document, "law.mu", with its value as TOML prints it: what two
-/// cases are told apart by. A key that is left to its default is missing.
+/// Every key of a case's merged document, "law.mu", with its value as TOML prints it: what
+/// distinguishes two cases. A key that is left to its default is missing.
 using CaseKeys = std::map<std::string, std::string>;
 
 /// @param toml  Case::resolvedToml

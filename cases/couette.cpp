@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "adapters/start_check.hpp"
@@ -146,6 +148,78 @@ void checkStart(const Scene& scene, const Particles& particles, const std::strin
       "({:.3g} m){}",
       place, who, deep->overlap, particles.maxOverlapKey, particles.maxOverlap, limit,
       unitHint(scene, *deep, limit)));
+}
+
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+/// Areas are in units of π.
+double cellArea(const Cell& cell) {
+  return square(cell.outerRadius) - square(cell.innerRadius);
+}
+
+}  // namespace
+
+double volumeFraction(const Case& c) {
+  const Particles& p = c.particles;
+  return (p.small * square(p.smallRadius) + p.large * square(p.largeRadius)) / cellArea(c.cell);
+}
+
+double diskNumber(const Cell& cell, const Particles& particles, double fraction,
+                  double largeFraction) {
+  const double each = (1.0 - largeFraction) * square(particles.smallRadius) +
+                      largeFraction * square(particles.largeRadius);
+  return fraction * cellArea(cell) / each;
+}
+
+void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeFraction) {
+  const double all = diskNumber(cell, particles, fraction, largeFraction);
+  particles.large = static_cast<int>(std::lround(largeFraction * all));
+  const double left = fraction * cellArea(cell) - particles.large * square(particles.largeRadius);
+  const double small = left / square(particles.smallRadius);
+  particles.small = largeFraction == 1.0 ? 0 : static_cast<int>(std::lround(std::max(0.0, small)));
+}
+
+namespace {
+
+double diameter(const Case& c) {
+  return 2.0 * c.particles.smallRadius;
+}
+
+double rimSpeed(const Case& c) {
+  return std::abs(c.cell.omega) * c.cell.innerRadius;
+}
+
+double diskDensity(const Case& c) {
+  const double area = std::numbers::pi * c.particles.smallRadius * c.particles.smallRadius;
+  return c.particles.smallMass / (area * c.cell.height);
+}
+
+// d: diameter of a small disk; D = 2 R_i, as the thesis scales spins (Lätzel 2003, section 6.3).
+constexpr std::array<Scale, 8> scaleTable = {{
+    {"rim_speed", "m/s", "Ω R_i", rimSpeed},
+    {"spin_scale", "rad/s", "Ω D/d, D = 2 R_i",
+     [](const Case& c) { return 2.0 * rimSpeed(c) / diameter(c); }},
+    {"wheel_rate", "rad/s", "Ω", [](const Case& c) { return std::abs(c.cell.omega); }},
+    {"shear_rate", "1/s", "Ω R_i/d", [](const Case& c) { return rimSpeed(c) / diameter(c); }},
+    {"diameter", "m", "d", diameter},
+    {"rim_pressure", "N/m²", "ρ (Ω R_i)²",
+     [](const Case& c) { return diskDensity(c) * rimSpeed(c) * rimSpeed(c); }},
+    {"contact_pressure", "N/m²", "k_n/h", [](const Case& c) { return c.law.kn / c.cell.height; }},
+    {"disk_density", "kg/m³", "ρ of a small disk", diskDensity},
+}};
+
+}  // namespace
+
+std::span<const Scale> scales() {
+  return scaleTable;
+}
+
+double fractionOf(const Scale& scale, double share, const Case& setup) {
+  return std::strtod(fmt::format("{:.1e}", share * scale.of(setup)).c_str(), nullptr);
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "cases/case.hpp"
 #include "cases/packing.hpp"
 
@@ -45,5 +48,33 @@ Disks spreadDisks(const Case& setup);
 /// @throws BadInput naming the disks
 void checkStart(const Scene& scene, const Particles& particles, const std::string& where,
                 const Cell* cell = nullptr, std::span<const int> lines = {});
+
+/// Global volume fraction ν̄ = Σ π a² / (π (R_o² − R_i²)): the whole area of the disks, without the
+/// wall disks, over the ring between the circles on which the wall disks' centres lie. So the
+/// numbers of the thesis' table 3.2 come out. @pre a couette case without particles.file
+double volumeFraction(const Case& c);
+
+/// How many disks have a volume fraction, before rounding. @param largeFraction  by number, 0 … 1
+double diskNumber(const Cell& cell, const Particles& particles, double fraction,
+                  double largeFraction);
+
+/// Numbers of large and small disks that come nearest to a volume fraction: the large ones by their
+/// share, then small ones for what is left. @param largeFraction  by number, 0 … 1
+void setNumbers(const Cell& cell, Particles& particles, double fraction, double largeFraction);
+
+/// A quantity of a Couette case itself. What a case file gives as a share of one still fits where
+/// the case is extended to another wheel, rate or disk.
+struct Scale {
+  std::string_view name;     ///< as in the case file
+  std::string_view unit;     ///< as fields of profiles.csv have it
+  std::string_view meaning;  ///< in symbols
+  double (*of)(const Case& setup);
+};
+
+std::span<const Scale> scales();
+
+/// A share of a scale, rounded to two digits: a margin is a choice, further digits would claim to
+/// know better.
+double fractionOf(const Scale& scale, double share, const Case& setup);
 
 }  // namespace crossgrain::inline cases

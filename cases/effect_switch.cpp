@@ -17,7 +17,7 @@ struct Change {
 /// One thing that can be switched off.
 struct Switchable {
   std::string_view name;
-  std::optional<Effect> effect;  ///< that the case has or not; else has() tells
+  std::optional<Effect> effect;  ///< that the case has or not; else has() decides
   bool (*has)(const Case&);
   Change (*change)(const Case&);
 };

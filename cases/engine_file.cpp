@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <sstream>
+#include <system_error>
 
 #include "adapters/registry.hpp"
 #include "cases/loader_document.hpp"
@@ -191,6 +192,18 @@ EngineEntry engineOfCommand(const std::string& text) {
   if (call.argv.empty()) throw BadInput(where + "names no program");
   call.stamp = stampOf(call, {});
   return entryOf(name, "of the command line", std::move(call));
+}
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> shelvedEngines() {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& folder : fs::directory_iterator(dataFolder() / "engines", none))
+    for (const auto& file : fs::directory_iterator(folder.path(), none))
+      if (file.path().extension() == ".toml") files.push_back(file.path());
+  std::ranges::sort(files);
+  return files;
 }
 
 }  // namespace crossgrain::inline cases

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "adapters/engine_entry.hpp"
 
@@ -31,5 +32,10 @@ EngineEntry loadEngineFile(const std::filesystem::path& file);
 /// The same from the command line: "NAME=program and its arguments", split at blanks, started where
 /// the caller is. @throws BadInput
 EngineEntry engineOfCommand(const std::string& text);
+
+/// Engines that come with the program as engine files (engine_file.hpp): engines/FOLDER/*.toml of
+/// the data folder, in the order of their paths. One whose program is missing is known all the
+/// same, and refused with what there is to install.
+std::vector<std::filesystem::path> shelvedEngines();
 
 }  // namespace crossgrain::inline cases

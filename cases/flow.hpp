@@ -53,7 +53,7 @@ Scene flowScene(const Case& setup, const Packing& packing, double dt);
 Scene unplacedScene(const Case& setup, double dt);
 
 /// A packing from the user's file, from what is kept of earlier times, or made anew.
-/// @param engine  the in-house one  @param progress  told the fraction done, 0 … 1
+/// @param engine  the in-house one  @param progress  called with the fraction done, 0 … 1
 /// @throws UnsupportedScene, EngineFailure, BadInput
 Packing flowPacking(const Case& setup, int index, double dt, Engine& engine,
                     const std::function<void(double)>& progress);

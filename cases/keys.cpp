@@ -1,95 +1,156 @@
 #include "cases/keys.hpp"
 
-#include <algorithm>
-#include <sstream>
-#include <string_view>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
-
-extern const char* const caseDocument;  // cases/README.md, see key_document.cpp.in
-
 namespace {
 
-/// Text of Markdown without its marks: `code` as it is, "\|" as "|".
-std::string plain(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    if (c != '`' && c != '\\') out += c;
-  const auto first = out.find_first_not_of(' ');
-  return first == std::string::npos ? "" : out.substr(first, out.find_last_not_of(' ') - first + 1);
+/// "m/s^2" as "m/s²".
+std::string withPowers(std::string unit) {
+  for (const auto& [plain, power] : {std::pair{"^2", "²"}, {"^3", "³"}})
+    if (const auto at = unit.find(plain); at != std::string::npos) unit.replace(at, 2, power);
+  return unit;
 }
 
-/// The cells of "| a | b |"; none for what is not a row of a table.
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> row;
-  if (!line.starts_with('|')) return row;
-  std::size_t from = 1;
-  for (std::size_t at = 1; at < line.size(); ++at)
-    if (line[at] == '|' && line[at - 1] != '\\') {
-      row.push_back(line.substr(from, at - from));
-      from = at + 1;
-    }
-  return row;
-}
-
-/// The names in "`stack`, `chain`".
-std::vector<std::string> names(const std::string& cell) {
-  std::vector<std::string> list;
-  for (auto open = cell.find('`'); open != std::string::npos; open = cell.find('`', open + 1)) {
-    const auto close = cell.find('`', open + 1);
-    list.push_back(cell.substr(open + 1, close - open - 1));
-    open = close;
-  }
-  return list;
-}
-
-/// "law" of "### `[law]`"; empty for another heading.
-std::string sectionOf(const std::string& heading) {
-  const auto open = heading.find("`["), close = heading.find("]", open);
-  if (open == std::string::npos || close == std::string::npos) return "";
-  const auto begin = heading.find_first_not_of('[', open + 1);
-  return heading.substr(begin, close - begin);
-}
-
-/// The name of a column: a table of conventions lists values, its default first.
-bool isColumn(const std::string& title, std::string_view name) {
-  return title == name || (name == "default" && title == "values, default first");
-}
-
-std::vector<CaseKey> readDocument() {
-  std::vector<CaseKey> keys;
-  std::istringstream document(caseDocument);
-  std::string section;
-  std::vector<std::string> titles;
-  for (std::string line; std::getline(document, line);) {
-    if (line.starts_with('#')) section = sectionOf(line);
-    const std::vector<std::string> row = cells(line);
-    if (row.empty()) titles.clear();
-    if (row.empty() || section.empty()) continue;
-    if (titles.empty()) {
-      for (const std::string& title : row) titles.push_back(plain(title));
-      continue;
-    }
-    if (titles.front() != "key" || row.front().starts_with("---")) continue;
-    CaseKey key{section, "", "", "–", ""};
-    for (std::size_t k = 1; k < std::min(row.size(), titles.size()); ++k) {
-      if (isColumn(titles[k], "unit")) key.unit = plain(row[k]);
-      if (isColumn(titles[k], "default")) key.usual = plain(row[k]);
-      if (isColumn(titles[k], "meaning")) key.meaning = plain(row[k]);
-    }
-    for (const std::string& name : names(row.front())) {
-      key.key = name;
-      keys.push_back(key);
-    }
-  }
-  return keys;
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
 }
 
 }  // namespace
 
-const std::vector<CaseKey>& caseKeys() {
-  static const std::vector<CaseKey> keys = readDocument();
-  return keys;
+bool Range::contains(double value) const {
+  if (std::isinf(value) && value > 0.0 && mayBeInfinite) return true;
+  return std::isfinite(value) && !(notZero && value == 0.0) &&
+         (lowOpen ? value > low : value >= low) && (highOpen ? value < high : value <= high);
+}
+
+std::string Range::interval() const {
+  if (notZero) return "> 0 or < 0";
+  if (std::isinf(low) && std::isinf(high)) return "";
+  if (std::isinf(high)) return fmt::format("{} {}", lowOpen ? ">" : ">=", low);
+  return fmt::format("{}{}, {}{}", lowOpen ? '(' : '[', low, high, highOpen ? ')' : ']');
+}
+
+std::string Range::text() const {
+  const std::string which = interval(), before = std::isinf(high) || notZero ? "" : "in ";
+  return (which.empty() ? "a finite number" : before + which) + (unit.empty() ? "" : " ") + unit +
+         reason;
+}
+
+Range anyNumber(std::string unit) {
+  return {.unit = std::move(unit)};
+}
+
+Range positive(std::string unit, std::string reason) {
+  return {.low = 0.0, .lowOpen = true, .unit = std::move(unit), .reason = std::move(reason)};
+}
+
+Range above(double low, std::string unit) {
+  return {.low = low, .lowOpen = true, .unit = std::move(unit)};
+}
+
+Range atLeast(double low, std::string unit) {
+  return {.low = low, .unit = std::move(unit)};
+}
+
+Range between(double low, double high, std::string unit) {
+  return {.low = low, .high = high, .unit = std::move(unit)};
+}
+
+Range inside(double low, double high, std::string unit) {
+  return {.low = low, .high = high, .lowOpen = true, .highOpen = true, .unit = std::move(unit)};
+}
+
+Range aboveZeroTo(double high) {
+  return {.low = 0.0, .high = high, .lowOpen = true};
+}
+
+std::string printed(double value) {
+  return fmt::format("{}", value);
+}
+
+std::string printed(const std::string& value) {
+  return value.empty() ? "–" : fmt::format("\"{}\"", value);
+}
+
+std::string printed(const Vec2& value) {
+  return fmt::format("[{}, {}]", value.x(), value.y());
+}
+
+std::string printed(const std::vector<double>& values) {
+  return values.empty() ? "–" : fmt::format("{}", fmt::join(values, ", "));
+}
+
+std::string printed(const Names& values) {
+  return values.empty() ? "[]" : fmt::format("\"{}\"", fmt::join(values, "\", \""));
+}
+
+std::string unitOf(const Range& range) {
+  return range.unit.empty() ? "–" : withPowers(range.unit);
+}
+
+std::string valuesOf(const Range& range) {
+  return range.interval();
+}
+
+std::string valuesOf(const Names& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+const std::vector<SectionInfo>& caseSections() {
+  static const std::vector<SectionInfo> all = [] {
+    std::vector<SectionInfo> sections;
+    for (const auto& part :
+         {headerSections(), lawSections(), cellSections(), costSections(), runSections(),
+          collisionSections(), assemblySections(), averageSections()})
+      sections.insert(sections.end(), part.begin(), part.end());
+    return sections;
+  }();
+  return all;
+}
+
+std::string keysInMarkdown() {
+  std::string page =
+      "## Keys\n\"required\" has no default. A key that is not listed does not exist. `crossgrain "
+      "list keys` prints these tables.\n\n";
+  for (const SectionInfo& section : caseSections()) {
+    page += fmt::format("### `{}{}{}`{}\n", section.isList ? "[[" : "[", section.name,
+                        section.isList ? "]]" : "]",
+                        section.kinds.empty() ? "" : " (" + section.kinds + ")");
+    if (!section.note.empty()) page += section.note + "\n";
+    page += "\n| key | unit | default | values | meaning |\n|---|---|---|---|---|\n";
+    for (const KeyInfo& key : section.keys)
+      page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.unit, cell(key.standard),
+                          cell(key.values), cell(key.meaning));
+    page += '\n';
+  }
+  page.pop_back();
+  return page;
+}
+
+bool KeyUse::by(std::string_view command) const {
+  return fmt::format(" {} ", commands).find(fmt::format(" {} ", command)) != std::string::npos;
+}
+
+const std::vector<KeyUse>& keyUses() {
+  static const std::vector<KeyUse> uses = [] {
+    std::vector<KeyUse> found;
+    for (const SectionInfo& section : caseSections()) {
+      const std::string name = section.name.substr(0, section.name.find(".NAME"));
+      if (!section.commands.empty()) found.push_back({name, section.commands});
+      for (const KeyInfo& key : section.keys)
+        if (!key.commands.empty()) found.push_back({section.name + "." + key.name, key.commands});
+    }
+    return found;
+  }();
+  return uses;
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,55 +1,55 @@
 #include "cases/loader.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader_document.hpp"
-#include "cases/loader_print.hpp"
 #include "cases/loader_sections.hpp"
-#include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
-#include "cases/volume_fraction.hpp"
 #include "oracle/impact.hpp"
 #include "support/input_file.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
 
-// In the order of CaseKind.
-const std::vector<std::string> kinds = {"couette", "collision", "assembly"};
-const std::vector<std::vector<std::string>> sectionsOfKinds = {
-    {"bottom", "cell", "particles", "preparation", "averaging", "looks", "cost"},
-    {"collision"},
-    {"bottom", "assembly", "preparation", "average", "endpoints", "looks"}};
+const Names caseKinds = {"couette", "collision", "assembly"};  // in the order of CaseKind
+
+const Section<Case>& headerKeys() {
+  static const Section<Case> section(
+      {.name = "case"},
+      {key("name", &Case::name, any, "in reports and file names: letters, digits and `. _ - +`")
+           .listed("the file's name"),
+       need("kind", &Case::kind, caseKinds, ""),
+       special<Case>({"extends", "", "–", "",
+                      "another case file, relative to this one; a name in `cases/` that does not "
+                      "exist there is that of a case that came with the program"},
+                     [](Reader&, const std::string&, Case&) {})});  // readCaseDocuments() takes it
+  return section;
+}
 
 void readHeader(Reader& in, Case& c) {
-  std::string kind;
-  in.read("name", c.name);
-  in.require("kind", kind, kinds);
-  in.finish();
-  if (!usableName(c.name)) {
-    if (in.has("name")) in.fail("name", usableNameRule);
-    in.failMissing("name", "the name of the file cannot stand in for it");
-  }
-  c.kind = static_cast<CaseKind>(std::ranges::find(kinds, kind) - kinds.begin());
+  headerKeys().read(in, c);
+  if (usableName(c.name)) return;
+  if (in.has("name")) in.fail("name", usableNameRule);
+  in.failMissing("name", "the name of the file cannot stand in for it");
+}
+
+/// The names of tables, of which a kind of case has some.
+bool isTable(const SectionInfo& section) {
+  return section.name.find('.') == std::string::npos && section.name != "variants";
 }
 
 /// Sections that only other kinds of cases have.
 void refuseSections(const Reader& root, CaseKind kind) {
-  const auto own = static_cast<std::size_t>(kind);
-  for (const auto& names : sectionsOfKinds)
-    for (const std::string& name : names)
-      if (root.has(name) &&
-          std::ranges::find(sectionsOfKinds[own], name) == sectionsOfKinds[own].end())
-        root.fail(name, fmt::format("has no part in {} {} case",
-                                    kind == CaseKind::assembly ? "an" : "a", kinds[own]));
+  const std::string& own = caseKinds[static_cast<std::size_t>(kind)];
+  for (const SectionInfo& section : caseSections())
+    if (isTable(section) && root.has(section.name) && !section.kinds.empty())
+      root.check(section.kinds.find(own) != std::string::npos, section.name,
+                 "has no part in {} {} case", kind == CaseKind::assembly ? "an" : "a", own);
 }
 
 /// Without [run] dt the law has to tell how long a contact lasts.
@@ -66,49 +66,43 @@ void checkDamping(const Reader& law, const Case& c) {
   const double mass = lightestReducedMass(c);
   const double critical = 2.0 * std::sqrt(c.law.kn * mass);
   const double used = withConstantDampers(c.law, mass).gn;
-  if (!(used < critical))
-    law.fail("gn", fmt::format("overdamps the lightest pair: must be < {:.4g}",
-                               c.law.gn * critical / used));
+  law.check(used < critical, "gn", "overdamps the lightest pair: must be < {:.4g}",
+            c.law.gn * critical / used);
 }
 
 /// No disk may slip through a wall, nor through the ring where a packing begins.
 void checkHoles(const Reader& cell, const Case& c) {
-  const auto check = [&](const char* wall, double radius, double dilation, const char* when) {
-    const double hole = wallHole(c.cell, radius, dilation);
-    if (hole >= 2.0 * c.particles.smallRadius)
-      cell.fail(
-          "wall_spacing",
-          fmt::format("a disk of radius {} m slips through holes of {:.4g} m between the {} "
-                      "disks of the {}{}",
-                      c.particles.smallRadius, hole, wallDiskCount(c.cell, radius), wall, when));
+  const double a = c.particles.smallRadius, dilation = c.preparation.dilation;
+  const auto check = [&](const char* wall, double radius, double dilated, std::string when) {
+    const double hole = wallHole(c.cell, radius, dilated);
+    cell.check(hole < 2.0 * a, "wall_spacing",
+               "a disk of radius {} m slips through holes of {:.4g} m between the {} disks of the "
+               "{}{}",
+               a, hole, wallDiskCount(c.cell, radius), wall, when);
   };
   check("wheel", c.cell.innerRadius, 1.0, "");
   check("ring", c.cell.outerRadius, 1.0, "");
-  if (c.particles.file) return;  // nothing is prepared
-  const double dilation = c.preparation.dilation;
-  check("ring", c.cell.outerRadius, dilation,
-        fmt::format(" before it shrinks from preparation.dilation = {:g} R_o", dilation).c_str());
+  if (!c.particles.file)  // else nothing is prepared
+    check("ring", c.cell.outerRadius, dilation,
+          fmt::format(" before it shrinks from preparation.dilation = {:g} R_o", dilation));
 }
 
 void checkFit(const Reader& cell, const Reader& particles, const Case& c) {
   const Particles& p = c.particles;
   const double gap = c.cell.outerRadius - c.cell.innerRadius - 2.0 * c.cell.wallRadius;
-  if (gap < 2.0 * p.largeRadius)
-    cell.fail("outer_radius", fmt::format("a disk of radius {} m does not fit between the walls, "
-                                          "{:.4g} m apart",
-                                          p.largeRadius, gap));
+  cell.check(gap >= 2.0 * p.largeRadius, "outer_radius",
+             "a disk of radius {} m does not fit between the walls, {:.4g} m apart", p.largeRadius,
+             gap);
   const double walls =
       2.0 * std::numbers::pi * (c.cell.innerRadius + c.cell.outerRadius) / c.cell.wallSpacing;
-  if (walls > mostDisks)
-    cell.fail("wall_spacing",
-              fmt::format("makes {:.3g} wall disks: a case may have at most {}", walls, mostDisks));
+  cell.check(walls <= mostDisks, "wall_spacing",
+             "makes {:.3g} wall disks: a case may have at most {}", walls, mostDisks);
   checkHoles(cell, c);
-  if (volumeFraction(c) >= 1.0)
-    particles.fail(
-        particles.has("small")             ? "small"
-        : particles.has("volume_fraction") ? "volume_fraction"
-                                           : "large",
-        fmt::format("the disks have {:.4g} times the area of the cell", volumeFraction(c)));
+  const char* const said = particles.has("small")             ? "small"
+                           : particles.has("volume_fraction") ? "volume_fraction"
+                                                              : "large";
+  particles.check(volumeFraction(c) < 1.0, said, "the disks have {:.4g} times the area of the cell",
+                  volumeFraction(c));
 }
 
 /// Runs that no machine ends are mistyped numbers.
@@ -117,17 +111,15 @@ void checkLength(const Reader& cell, const Case& c) {
   const double rotations = c.averaging.settleRotations + c.averaging.rotations;
   const double time = rotations * 2.0 * std::numbers::pi / std::abs(c.cell.omega);
   const double steps = preparationSteps(c) + time / timeStep(c);
-  if (!(steps <= mostSteps))
-    cell.fail("omega",
-              fmt::format("preparation, settling and averaging would take {:.3g} steps: at "
-                          "most {:g}",
-                          steps, mostSteps));
+  cell.check(steps <= mostSteps, "omega",
+             "preparation, settling and averaging would take {:.3g} steps: at most {:g}", steps,
+             mostSteps);
 }
 
 void checkPreparation(const Reader& preparation, const Case& c) {
   if (!c.preparation.dt) return;
   const std::string why = whyUnstableStep(c, *c.preparation.dt, "dt");
-  if (!why.empty()) preparation.fail("dt", why);
+  preparation.check(why.empty(), "dt", "{}", why);
 }
 
 /// A plate without friction is none.
@@ -169,16 +161,15 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   readPackings(preparation, c);
   readLooks(looks, c.looks);
   std::vector<Reader> endpoints;
-  if (root.has("average")) endpoints = root.sections("endpoints");
-  if (root.has("average"))
+  if (root.has("average")) {
+    endpoints = root.sections("endpoints");
     readAverage(average, endpoints, preparation, c);
-  else
-    for (const char* const section : {"endpoints", "preparation", "looks"})
-      if (root.has(section)) root.fail(section, "is of no use without [average]");
+  }
+  for (const char* const section : {"endpoints", "preparation", "looks"})
+    root.check(c.average || !root.has(section), section, "is of no use without [average]");
   requireStep(run, c);
-  const bool told = c.law.normal == NormalLaw::linear;
-  if (c.assembly.contactTimes && !told)
-    assembly.fail("contact_times", "this law has no contact time: give duration or steps");
+  assembly.check(!c.assembly.contactTimes || c.law.normal == NormalLaw::linear, "contact_times",
+                 "this law has no contact time: give duration or steps");
   // An overdamped contact has no t_c, but it is a scene.
   if (!c.run.dt || c.assembly.contactTimes) checkDamping(law, c);
   if (c.average) checkAveragedTime(average, endpoints, c);
@@ -188,14 +179,14 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
 void readCollisionCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader collision = root.section("collision");
   readCollision(collision, c.collision);
-  if (run.has("steps_per_contact"))
-    run.fail("steps_per_contact", "a collision takes collision.steps_per_contact");
-  if (c.law.normal == NormalLaw::rigid) {
-    if (collision.has("steps_per_contact"))
-      collision.fail("steps_per_contact", "a rigid law has no contact time, give run.dt");
+  run.check(!run.has("steps_per_contact"), "steps_per_contact",
+            "a collision takes collision.steps_per_contact");
+  if (c.law.soft()) {
+    run.check(!c.run.dt, "dt", "a collision of a soft law takes collision.steps_per_contact");
+  } else {
+    collision.check(!collision.has("steps_per_contact"), "steps_per_contact",
+                    "a rigid law has no contact time, give run.dt");
     if (!c.run.dt) run.failMissing("dt", "a rigid law has no contact time");
-  } else if (c.run.dt) {
-    run.fail("dt", "a collision of a soft law takes collision.steps_per_contact");
   }
   checkDamping(law, c);
 }
@@ -228,8 +219,8 @@ Case readCase(const std::filesystem::path& file, CaseDocument& document) {
   Reader run = root.section("run");
   Reader engines = root.section("engines");
   Reader stability = root.section("stability");
-  for (const auto& names : sectionsOfKinds)
-    for (const std::string& name : names) root.take(name);
+  for (const SectionInfo& section : caseSections())
+    if (isTable(section)) root.take(section.name);
   root.finish();
 
   readHeader(header, c);
@@ -270,10 +261,6 @@ void warnOfStep(Case& c, const std::filesystem::path& said) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<Case> loadAll(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides, const std::string& fragment) {
   std::vector<Case> cases;
@@ -288,6 +275,16 @@ std::vector<Case> loadAll(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+std::vector<SectionInfo> headerSections() {
+  return {headerKeys().info(),
+          {.name = "variants",
+           .note = "Each is run: the case with these changes. Sections and keys as below, and",
+           .isList = true,
+           .keys = {{"name", "", "required", "",
+                     "of the variant, as `case.name`; no two are "
+                     "alike"}}}};
+}
 
 std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides, const std::string& fragment) {

@@ -9,7 +9,7 @@
 
 namespace crossgrain::inline cases {
 
-/// Reads a case file (TOML, SI units; cases/README.md has every key): resolves what it extends,
+/// Reads a case file (TOML, SI units; docs/cases.md has every key): resolves what it extends,
 /// expands its variants, applies the command line's changes, and checks everything, so that nothing
 /// that uses a Case has to check it again.
 ///

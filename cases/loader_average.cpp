@@ -1,15 +1,12 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "averaging/fields.hpp"
 #include "averaging/weights.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/flow.hpp"
-#include "cases/loader_document.hpp"
 #include "cases/loader_sections.hpp"
 #include "cases/time_step.hpp"
 #include "support/input_file.hpp"
@@ -17,6 +14,124 @@
 
 namespace crossgrain::inline cases {
 namespace {
+
+/// The keys of [average].
+struct AverageInput : Region, Averaging {
+  std::string along;
+};
+
+const Section<AverageInput>& averageKeys() {
+  using A = AverageInput;
+  const Range bins = between(1, 10'000), columns = between(1, 1'000);
+  static const Section<A> section(
+      {.name = "average",
+       .kinds = "assembly",
+       .commands = "compare plan lockstep",
+       .note = "What `compare` averages: bins in a part of the plane that stays where it is while "
+               "walls move. With it an assembly runs as long as it says, from each of "
+               "`preparation.packings` packings."},
+      {need("bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
+            "fields of rings (about the origin) have directions r and φ, all others x and y"),
+       key("low", &A::low, anyNumber("m"), "[x, y] of the lower left corner")
+           .listed("required, not of rings"),
+       key("high", &A::high, anyNumber("m"), "[x, y] of the upper right corner")
+           .listed("required, not of rings"),
+       key("along", &A::along, Names{"x", "y"}, "the axis of slabs").listed("required of slabs"),
+       key("count", &A::count, bins, "number of slabs or rings")
+           .listed("required of slabs and rings"),
+       key("columns", &A::columns, columns, "along x; bin 1 is at the lower left corner")
+           .listed("required of a grid"),
+       key("rows", &A::rows, columns, "along y").listed("required of a grid"),
+       key("inner_radius", &A::innerRadius, atLeast(0.0, "m"), "").listed("required of rings"),
+       key("outer_radius", &A::outerRadius, positive("m"), "").listed("required of rings"),
+       key("height", &A::height, positive("m"), "h of the disks, normal to the plane"),
+       need("from", &A::from, atLeast(0.0, "s"), "what comes before is not averaged"),
+       key("snapshots", &A::snapshots, between(1, 1'000'000),
+           "evenly from there to the end, a time step or more apart"),
+       key("method", &A::methods, Names(weightNames.begin(), weightNames.end()),
+           "as in `[averaging]`"),
+       key("line_width", &A::lineWidth, positive("d"),
+           "as in `[averaging]`, of the smallest disks"),
+       key("confidence", &A::confidence, inside(0.0, 1.0), "as in `[averaging]`")});
+  return section;
+}
+
+/// Keys that only some kinds of bins have, and must have.
+constexpr std::pair<const char*, std::string_view> keysOfBins[] = {
+    {"low", "slabs grid whole"}, {"high", "slabs grid whole"}, {"along", "slabs"},
+    {"count", "rings slabs"},    {"columns", "grid"},          {"rows", "grid"},
+    {"inner_radius", "rings"},   {"outer_radius", "rings"}};
+
+void readRegion(Reader& in, Case& c) {
+  Region& region = c.average->region;
+  AverageInput input;
+  averageKeys().read(in, input);
+  region = input;
+  const std::string_view bins = binKindNames[static_cast<std::size_t>(region.bins)];
+  for (const auto& [key, kinds] : keysOfBins) {
+    const bool needed = kinds.find(bins) != std::string_view::npos;
+    if (needed && !in.has(key)) in.failMissing(key);
+    in.check(needed || !in.has(key), key, "has no meaning with bins = \"{}\"", bins);
+  }
+  if (region.bins == BinKind::slabs) region.axis = input.along == "x" ? 0 : 1;
+  c.averaging.methods = input.methods;
+  c.averaging.lineWidth = input.lineWidth;
+  c.averaging.confidence = input.confidence;
+  in.check(!input.methods.empty(), "method", "must not be empty");
+  if (region.hasRings())
+    in.check(region.outerRadius > region.innerRadius, "outer_radius",
+             "must be > inner_radius = {} m", region.innerRadius);
+  else
+    in.check((region.high - region.low).minCoeff() > 0.0, "high",
+             "must lie above and to the right of low");
+}
+
+/// The keys of [[endpoints]].
+struct EndpointInput : MarginInput {
+  std::string name, quantity, per, at = "mean";
+  std::optional<int> disk;
+  double time = 0.0, reaches = 0.0;
+  std::vector<double> between;
+  std::optional<double> expected;
+};
+
+const Section<EndpointInput>& endpointsKeys() {
+  using E = EndpointInput;
+  static const Section<E> section(
+      {.name = "endpoints",
+       .kinds = "assembly",
+       .commands = "compare plan",
+       .note = "The numbers of a run that carry verdicts, with `[average]`. One with a relative "
+               "margin is compared by its ratio to the reference, whose values need one sign; any "
+               "other by the difference.",
+       .isList = true},
+      {need("name", &E::name, any, "as `case.name`; no two are alike"),
+       need("quantity", &E::quantity, any,
+            "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
+       key("disk", &E::disk, between(0, mostDisks),
+           "of which `quantity` is `x`, `y`, `velocity_x`, `velocity_y` or `spin`; from 0"),
+       key("per", &E::per, any,
+           "another quantity of the same kind and unit, that it is divided by"),
+       special<E>(
+           {"at", "–", "\"mean\"", "", "what is made of the quantity: see Endpoints of assemblies"},
+           [](Reader& in, const std::string& key, E&) { in.take(key); }),
+       key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value at that time of a run")
+           .listed("–"),
+       special<E>(
+           {"reaches", "the quantity's", "–", "", "instead of `at`: when it first has this value"},
+           [](Reader& in, const std::string& key, E& e) { in.read(key, e.reaches, anyNumber()); }),
+       key("between", &E::between, atLeast(0.0, "s"),
+           "[from, to]: the part of a run that `at` or `reaches` sees")
+           .listed("all that is averaged"),
+       special<E>(
+           {"expected", "the endpoint's", "–", "", "its value by a closed form"},
+           [](Reader& in, const std::string& key, E& e) { in.read(key, e.expected, anyNumber()); }),
+       key("relative", &E::relative, positive(), "of the reference's value, or of `expected`")
+           .listed("one of the two"),
+       key("absolute", &E::absolute, positive(), "").listed("one of the two", "the endpoint's"),
+       need("why", &E::why, Sentence{"must give the reason"}, "the reason")});
+  return section;
+}
 
 std::span<const FieldSpec> fieldsOf(const Region& region) {
   return region.hasRings() ? fieldTable() : cartesianFieldTable();
@@ -40,7 +155,7 @@ Quantity quantityOf(const Reader& in, std::string_view key, const std::string& n
     if (number.name == name) return {false, std::string(number.unit)};
     known.emplace_back(number.name);
   }
-  in.fail(key, "there is no such field or series of these bins" + suggestion(name, known));
+  in.fail(key, "there is no such field or series of these bins{}", suggestion(name, known));
 }
 
 /// Of one disk.
@@ -50,8 +165,7 @@ Quantity quantityOfDisk(const Reader& in, const std::string& name) {
     if (number.name == name) return {false, std::string(number.unit)};
     known.emplace_back(number.name);
   }
-  in.fail("quantity",
-          "of a disk is " + fmt::format("{}", fmt::join(known, ", ")) + suggestion(name, known));
+  in.fail("quantity", "of a disk is {}{}", fmt::join(known, ", "), suggestion(name, known));
 }
 
 /// Disks of each start.
@@ -62,92 +176,86 @@ std::size_t disksOf(const Assembly& assembly) {
 }
 
 /// `at` in words or as the number of a bin, from 1; or `time`, or `reaches`; `between` of a series.
-void readReduction(Reader& in, const Region& region, bool isField, OwnEndpoint& endpoint) {
+void setReduction(Reader& in, const EndpointInput& input, const Region& region, bool isField,
+                  OwnEndpoint& endpoint) {
   const int bins =
       region.columnCount() * region.rowCount() * (region.hasRings() ? region.count : 1);
-  std::vector<double> part;
-  in.read("between", part, atLeast(0.0, "s"));
-  in.read("time", endpoint.level, atLeast(0.0, "s"));
-  in.read("reaches", endpoint.level, Range{});
-  const char* given = nullptr;
-  for (const char* const key : {"at", "time", "reaches"}) {
-    if (!in.has(key)) continue;
-    if (given) in.fail(key, fmt::format("and {}: give one of them", given));
-    given = key;
-  }
+  const std::string given = in.onlyOne({"at", "time", "reaches"});
   for (const char* const key : {"time", "reaches", "between"})
     if (isField && in.has(key)) in.fail(key, "is of a run over time, not of a field");
   if (in.has("between")) {
-    if (part.size() != 2 || !(part[0] < part[1])) in.fail("between", "must be [from, to] in s");
-    if (in.has("time")) in.fail("between", "and time: a time needs none");
+    const std::vector<double>& part = input.between;
+    in.check(part.size() == 2 && part[0] < part[1], "between", "must be [from, to] in s");
+    in.check(given != "time", "between", "and time: a time needs none");
     endpoint.between = {part[0], part[1]};
   }
-  if (in.has("time")) endpoint.reduction = Reduction::time;
-  if (in.has("reaches")) endpoint.reduction = Reduction::reaches;
-  int number = 0;
-  std::string word = "mean";
+  if (given == "time" || given == "reaches") {
+    endpoint.reduction = given == "time" ? Reduction::time : Reduction::reaches;
+    endpoint.level = given == "time" ? input.time : input.reaches;
+    return;
+  }
   if (in.isNumber("at")) {
+    int number = 0;
     in.read("at", number, between(1, bins));
-    if (!isField) in.fail("at", "only a field has bins");
+    in.check(isField, "at", "only a field has bins");
     endpoint.reduction = Reduction::bin;
     endpoint.bin = number - 1;
     return;
   }
-  std::vector<std::pair<std::string, Reduction>> words = {{"mean", Reduction::mean}};
   const bool inLine = region.hasRings() || region.bins == BinKind::slabs;
+  std::vector<std::pair<std::string, Reduction>> words = {{"mean", Reduction::mean}};
   if (isField && inLine && bins > 2) words.emplace_back("slope", Reduction::slope);
   if (!isField)
     words.insert(words.end(), {{"end", Reduction::end},
                                {"rate", Reduction::rate},
                                {"maximum", Reduction::maximum},
                                {"minimum", Reduction::minimum}});
-  std::vector<std::string> choices;
+  Names choices;
   for (const auto& [name, reduction] : words) choices.push_back(name);
+  std::string word = "mean";
   in.read("at", word, choices);
-  if (in.has("at"))
-    endpoint.reduction =
-        std::ranges::find(words, word, [](const auto& w) { return w.first; })->second;
+  for (const auto& [name, reduction] : words)
+    if (name == word) endpoint.reduction = reduction;
 }
 
 /// With `per` each of the two is reduced, and then divided: "ratio of the means of a and b over …".
 std::string definitionOf(const OwnEndpoint& endpoint, bool isField) {
   const bool ratio = !endpoint.per.empty();
-  const std::string own = endpoint.disk
-                              ? fmt::format("{} of disk {}", endpoint.quantity, *endpoint.disk)
-                              : endpoint.quantity;
-  const std::string both = ratio ? own + " and " + endpoint.per : own;
-  const auto of = [&](const char* one, const char* several) {
-    return fmt::format("{} of {}", ratio ? fmt::format("ratio of the {}", several) : one, both);
+  std::string what = endpoint.quantity;
+  if (endpoint.disk) what += fmt::format(" of disk {}", *endpoint.disk);
+  if (ratio) what += " and " + endpoint.per;
+  const std::string value = ratio ? "ratio of " + what : what;
+  std::string when = isField ? "averaged part" : "averaged time";
+  if (endpoint.between)
+    when =
+        fmt::format("time from {:g} to {:g} s", endpoint.between->first, endpoint.between->second);
+  const auto reduced = [&](const char* one, const char* several, const std::string& where) {
+    return ratio ? fmt::format("ratio of the {} of {} {}", several, what, where)
+                 : fmt::format("{} of {} {}", one, what, where);
   };
-  const std::string value = ratio ? "ratio of " + both : both;
-  const std::string when = isField ? "averaged part"
-                           : endpoint.between
-                               ? fmt::format("time from {:g} to {:g} s", endpoint.between->first,
-                                             endpoint.between->second)
-                               : "averaged time";
   switch (endpoint.reduction) {
     case Reduction::bin:
       return fmt::format("{} in bin {}", value, endpoint.bin + 1);
-    case Reduction::slope:
-      return of("slope", "slopes") + " over the bins";
     case Reduction::end:
-      return value + (endpoint.between ? fmt::format(" at {:g} s", endpoint.between->second)
-                                       : " at the end");
-    case Reduction::rate:
-      return of("rate of change", "rates of change") + " over the " + when;
-    case Reduction::maximum:
-      return of("maximum", "maxima") + " in the " + when;
-    case Reduction::minimum:
-      return of("minimum", "minima") + " in the " + when;
+      return endpoint.between ? fmt::format("{} at {:g} s", value, endpoint.between->second)
+                              : value + " at the end";
     case Reduction::time:
       return fmt::format("{} at {:g} s", value, endpoint.level);
     case Reduction::reaches:
       return fmt::format("when {} is first {:g}{}", value, endpoint.level,
                          endpoint.between ? " in the " + when : "");
+    case Reduction::slope:
+      return reduced("slope", "slopes", "over the bins");
+    case Reduction::rate:
+      return reduced("rate of change", "rates of change", "over the " + when);
+    case Reduction::maximum:
+      return reduced("maximum", "maxima", "in the " + when);
+    case Reduction::minimum:
+      return reduced("minimum", "minima", "in the " + when);
     case Reduction::mean:
       break;
   }
-  return of("mean", "means") + " over the " + when;
+  return reduced("mean", "means", "over the " + when);
 }
 
 std::string unitOf(const OwnEndpoint& endpoint, const Quantity& quantity) {
@@ -159,51 +267,42 @@ std::string unitOf(const OwnEndpoint& endpoint, const Quantity& quantity) {
   return quantity.unit;
 }
 
-/// A closed form's value makes the margin one in the unit.
-void readExpected(Reader& in, OwnEndpoint& endpoint, Margin& margin) {
-  if (!in.has("expected")) return;
-  const double expected = *endpoint.expected;
-  if (!margin.relative) return;
-  if (expected == 0.0) in.fail("relative", "of an expected value of 0 is nothing: give absolute");
-  margin.why = fmt::format("{:g} % of the expected value: {}", 100.0 * margin.value, margin.why);
-  margin.value *= std::abs(expected);
-  margin.relative = false;
-}
-
 OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   const Region& region = c.average->region;
+  EndpointInput input;
+  endpointsKeys().read(in, input);
   OwnEndpoint endpoint;
-  in.require("name", endpoint.name);
-  in.require("quantity", endpoint.quantity);
-  in.read("per", endpoint.per);
-  const double last = static_cast<double>(disksOf(c.assembly)) - 1.0;
-  int disk = 0;
-  in.read("disk", disk, between(0, last));
-  if (in.has("disk")) endpoint.disk = disk;
-  double expected = 0.0;
-  in.read("expected", expected, Range{});
-  if (in.has("expected")) endpoint.expected = expected;
-  for (const char* const key : {"at", "time", "reaches", "between"}) in.take(key);
-  const bool there = in.has("quantity");
-  Quantity quantity;
-  if (there) {
-    quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
-                             : quantityOf(in, "quantity", endpoint.quantity, region);
-    readReduction(in, region, quantity.isField, endpoint);
+  endpoint.name = input.name;
+  endpoint.quantity = input.quantity;
+  endpoint.per = input.per;
+  endpoint.disk = input.disk;
+  endpoint.expected = input.expected;
+  if (input.disk) {
+    const auto last = static_cast<int>(disksOf(c.assembly)) - 1;
+    in.check(*input.disk <= last, "disk", "must be in [0, {}]", last);
   }
-  margin = readOwnMargin(in, endpoint.name);
-  if (!usableName(endpoint.name)) in.fail("name", usableNameRule);
+  const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
+                                          : quantityOf(in, "quantity", endpoint.quantity, region);
+  setReduction(in, input, region, quantity.isField, endpoint);
+  margin = marginOf(in, input, {endpoint.name, ""}, nullptr);
+  in.check(usableName(endpoint.name), "name", "{}", usableNameRule);
   if (in.has("per")) {
-    if (endpoint.disk) in.fail("per", "is of the averaged part, and disk of one disk");
-    if (endpoint.reduction == Reduction::reaches) in.fail("per", "not where reaches is");
+    in.check(!endpoint.disk, "per", "is of the averaged part, and disk of one disk");
+    in.check(endpoint.reduction != Reduction::reaches, "per", "not where reaches is");
     const Quantity below = quantityOf(in, "per", endpoint.per, region);
-    if (below.isField != quantity.isField)
-      in.fail("per", "must be a field where quantity is one, and a series where that is one");
-    if (below.unit != quantity.unit)
-      in.fail("per", fmt::format("is in {}, and {} in {}: their ratio would have a unit",
-                                 below.unit, endpoint.quantity, quantity.unit));
+    in.check(below.isField == quantity.isField, "per",
+             "must be a field where quantity is one, and a series where that is one");
+    in.check(below.unit == quantity.unit, "per",
+             "is in {}, and {} in {}: their ratio would have a unit", below.unit, endpoint.quantity,
+             quantity.unit);
   }
-  readExpected(in, endpoint, margin);
+  if (endpoint.expected && margin.relative) {  // a closed form makes the margin one in the unit
+    in.check(*endpoint.expected != 0.0, "relative",
+             "of an expected value of 0 is nothing: give absolute");
+    margin.why = fmt::format("{:g} % of the expected value: {}", 100.0 * margin.value, margin.why);
+    margin.value *= std::abs(*endpoint.expected);
+    margin.relative = false;
+  }
   endpoint.words = endpoint.name;
   std::ranges::replace(endpoint.words, '_', ' ');
   endpoint.unit = unitOf(endpoint, quantity);
@@ -211,40 +310,6 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   endpoint.byRatio = margin.relative;
   margin.why = endpoint.definition + "; " + margin.why;
   return endpoint;
-}
-
-void readBox(Reader& in, Region& region) {
-  for (const auto& [key, corner] : {std::pair{"low", &region.low}, {"high", &region.high}}) {
-    std::vector<double> values;
-    in.require(key, values, Range{});
-    if (in.has(key) && values.size() != 2) in.fail(key, "must be [x, y] in m");
-    if (in.has(key)) *corner = {values[0], values[1]};
-  }
-}
-
-void readBins(Reader& in, Region& region) {
-  const std::vector<std::string> kinds(binKindNames.begin(), binKindNames.end());
-  std::string kind;
-  in.require("bins", kind, kinds);
-  if (const auto found = std::ranges::find(kinds, kind); found != kinds.end())
-    region.bins = static_cast<BinKind>(found - kinds.begin());
-  if (region.hasRings()) {
-    in.require("inner_radius", region.innerRadius, atLeast(0.0, "m"));
-    in.require("outer_radius", region.outerRadius, positive("m"));
-    in.require("count", region.count, between(1, 10'000));
-    return;
-  }
-  readBox(in, region);
-  if (region.bins == BinKind::slabs) {
-    std::string along;
-    in.require("along", along, std::vector<std::string>{"x", "y"});
-    region.axis = along == "x" ? 0 : 1;
-    in.require("count", region.count, between(1, 10'000));
-  }
-  if (region.bins == BinKind::grid) {
-    in.require("columns", region.columns, between(1, 1'000));
-    in.require("rows", region.rows, between(1, 1'000));
-  }
 }
 
 bool startsDiffer(const Assembly& assembly) {
@@ -270,14 +335,13 @@ void checkVariety(const Reader& in, const std::vector<Reader>& endpoints, const 
             "radius_spread or velocity_rms, or preparation.packings = 1");
   }
   const Reader& one = endpoints[static_cast<std::size_t>(first - own.begin())];
-  if (differ)
-    one.fail("expected",
-             "is of one start, and here packings differ: several files, or a jitter, radius_spread "
-             "or velocity_rms");
-  if (preparation.has("packings") && c.preparation.packings > closedFormRuns)
-    preparation.fail("packings",
-                     "no packing would differ from another, and endpoints with an "
-                     "expected value need one start: leave it out");
+  one.check(!differ, "expected",
+            "is of one start, and here packings differ: several files, or a jitter, radius_spread "
+            "or velocity_rms");
+  if (preparation.has("packings"))
+    preparation.check(c.preparation.packings <= closedFormRuns, "packings",
+                      "no packing would differ from another, and endpoints with an expected value "
+                      "need one start: leave it out");
   if (const auto without = std::ranges::find_if_not(own, hasExpected); without != own.end())
     endpoints[static_cast<std::size_t>(without - own.begin())].failMissing(
         "expected",
@@ -288,65 +352,57 @@ void checkSwings(const Reader& in, const Assembly& assembly) {
   std::set<double> frequencies;
   for (const WallGroup& wall : assembly.walls)
     if (wall.motion.kind == Motion::Kind::oscillating) frequencies.insert(wall.motion.frequency);
-  if (frequencies.size() > 1)
-    in.fail("bins",
-            "walls that swing must all have one frequency, as lockstep begins a run anew "
-            "only after whole periods");
+  in.check(frequencies.size() < 2, "bins",
+           "walls that swing must all have one frequency, as lockstep begins a run anew only after "
+           "whole periods");
 }
 
 }  // namespace
 
-void readAverage(Reader& in, std::vector<Reader>& endpoints, const Reader& preparation, Case& c) {
-  Average& average = c.average.emplace();
-  Region& region = average.region;
-  static const std::vector<std::string> methods(weightNames.begin(), weightNames.end());
-  readBins(in, region);
-  in.read("height", region.height, positive("m"));
-  in.require("from", region.from, atLeast(0.0, "s"));
-  in.read("snapshots", region.snapshots, between(1, 1'000'000));
-  in.read("method", c.averaging.methods, methods);
-  in.read("line_width", c.averaging.lineWidth, positive());
-  in.read("confidence", c.averaging.confidence, inside(0.0, 1.0));
-  c.averaging.margins = readBinMargins(in.section("margins"), fieldsOf(region));
-  in.finish();
-  if (c.averaging.methods.empty()) in.fail("method", "must not be empty");
-  if (region.hasRings() && !(region.outerRadius > region.innerRadius))
-    in.fail("outer_radius", fmt::format("must be > inner_radius = {} m", region.innerRadius));
-  if (!region.hasRings() && !((region.high - region.low).minCoeff() > 0.0))
-    in.fail("high", "must lie above and to the right of low");
+std::vector<SectionInfo> averageSections() {
+  return {averageKeys().info(),
+          marginSection({.name = "average.margins",
+                         .kinds = "assembly",
+                         .note = "How far apart two engines may be in a bin, for its colour; the "
+                                 "verdicts are the endpoints'."},
+                        "FIELD", "a field of `profiles.csv`", "of the reference's mean", false),
+          endpointsKeys().info()};
+}
+
+void readAverage(Reader& in, std::vector<Reader>& each, const Reader& preparation, Case& c) {
+  c.average.emplace();
+  const Reader margins = in.section("margins");
+  readRegion(in, c);
+  c.averaging.margins = readMargins(margins, judgedFields(fieldsOf(c.average->region)));
   checkSwings(in, c.assembly);
-  for (Reader& each : endpoints) {
+  for (Reader& one : each) {
     Margin margin;
-    OwnEndpoint endpoint = readEndpoint(each, c, margin);
-    if (!c.averaging.endpoints.emplace(endpoint.name, std::move(margin)).second)
-      each.fail("name", "two endpoints have this name");
-    average.endpoints.push_back(std::move(endpoint));
+    OwnEndpoint endpoint = readEndpoint(one, c, margin);
+    one.check(c.averaging.endpoints.emplace(endpoint.name, std::move(margin)).second, "name",
+              "two endpoints have this name");
+    c.average->endpoints.push_back(std::move(endpoint));
   }
-  checkVariety(in, endpoints, preparation, c);
+  checkVariety(in, each, preparation, c);
 }
 
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c) {
-  const double duration = assemblyDuration(c);
-  if (!(c.average->region.from < duration))
-    in.fail("from", fmt::format("must be < {:g} s, which the run takes", duration));
-  const double interval = (duration - c.average->region.from) / c.average->region.snapshots;
-  const double dt = timeStep(c);
+  const Region& region = c.average->region;
+  const double duration = assemblyDuration(c), dt = timeStep(c);
+  in.check(region.from < duration, "from", "must be < {:g} s, which the run takes", duration);
+  const double interval = (duration - region.from) / region.snapshots;
   constexpr double rounding = 1e-9;  // a snapshot at every step is no mistake
-  if (interval < dt * (1.0 - rounding))
-    in.fail(in.has("snapshots") ? "snapshots" : "from",
-            fmt::format("{} snapshots would be {:.3g} s apart, less than the time step of {:.3g} s",
-                        c.average->region.snapshots, interval, dt));
-  const double first = c.average->region.from + interval;
-  const auto seen = [&](double t) {
-    return t >= first * (1.0 - rounding) && t <= duration * (1.0 + rounding);
-  };
+  in.check(interval >= dt * (1.0 - rounding), in.has("snapshots") ? "snapshots" : "from",
+           "{} snapshots would be {:.3g} s apart, less than the time step of {:.3g} s",
+           region.snapshots, interval, dt);
+  const double first = region.from + interval;
   for (std::size_t k = 0; k < endpoints.size(); ++k) {
     const OwnEndpoint& own = c.average->endpoints[k];
-    if (own.reduction == Reduction::time && !seen(own.level))
-      endpoints[k].fail("time", fmt::format("snapshots are from {:g} to {:g} s", first, duration));
-    if (own.between && (own.between->second < first || own.between->first > duration))
-      endpoints[k].fail("between",
-                        fmt::format("snapshots are from {:g} to {:g} s", first, duration));
+    const auto seen = [&](double from, double to, const char* key) {
+      endpoints[k].check(to >= first * (1.0 - rounding) && from <= duration * (1.0 + rounding), key,
+                         "snapshots are from {:g} to {:g} s", first, duration);
+    };
+    if (own.reduction == Reduction::time) seen(own.level, own.level, "time");
+    if (own.between) seen(own.between->first, own.between->second, "between");
   }
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "cases/cost.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -10,21 +9,10 @@ void readSettings(Reader in, Cost& cost) {
   for (const std::string& engine : in.keys()) {
     Reader settings = in.section(engine);
     for (const std::string& name : settings.keys())
-      settings.read(name, cost.settings[engine][name], Range{});
+      settings.read(name, cost.settings[engine][name], anyNumber());
     settings.finish();
   }
   in.finish();
-}
-
-void readKinds(Reader& in, std::vector<CostKind>& wanted) {
-  std::vector<std::string> all, names;
-  for (const CostKind kind : costKinds) all.push_back(toString(kind));
-  for (const CostKind kind : wanted) names.push_back(toString(kind));
-  in.read("kinds", names, all);
-  wanted.clear();
-  for (const std::string& name : names)
-    wanted.push_back(
-        costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
 }
 
 /// Keys of earlier versions, which would otherwise be taken for misspelt ones.
@@ -37,31 +25,73 @@ void refuseRemoved(const Reader& in) {
               "bounds averages or measures chaos");
 }
 
+Names kindNames() {
+  Names names;
+  for (const CostKind kind : costKinds) names.push_back(toString(kind));
+  return names;
+}
+
+std::vector<Key<Cost>> costTable() {
+  const Range steps = above(0.5);
+  return {
+      special<Cost>(
+          {"kinds", "", "all three", valuesOf(kindNames()), "of error"},
+          [](Reader& in, const std::string& key, Cost& cost) {
+            const Names all = kindNames();
+            Names names = all;
+            in.read(key, names, all);
+            if (!in.has(key)) return;
+            cost.kinds.clear();
+            for (const std::string& name : names)
+              cost.kinds.push_back(
+                  costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
+          }),
+      key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
+          .listed("all"),
+      key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
+      key("repeats", &Cost::repeats, between(1, 1000), "the shortest of so many repeats counts"),
+      key("collision_steps", &Cost::collisionSteps, steps, "steps of two small disks that collide"),
+      key("speed", &Cost::speed, positive("m/s"), "their v_n"),
+      key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
+      key("psi_count", &Cost::psiCount, between(2, 10'000), "number of their Ψ_i"),
+      key("collision_reference", &Cost::collisionReference, steps,
+          "steps of an engine's own limit of small steps, where its law has no oracle"),
+      key("trajectory_steps", &Cost::trajectorySteps, steps, "steps of a packing's path"),
+      key("trajectory_reference", &Cost::trajectoryReference, steps, "steps of its reference"),
+      key("window_most", &Cost::windowMost, positive("t_c"), "longest window"),
+      key("average_steps", &Cost::averageSteps, steps,
+          "steps of averages over `[averaging] rotations` of all packings"),
+      key("average_reference", &Cost::averageReference, steps,
+          "steps of the ensemble that they are compared with"),
+      key("tangential", &Cost::tangential,
+          Names{"none", "coulomb", "viscous", "spring", "spring_dashpot"},
+          "laws in place of the case's")};
+}
+
+const Section<Cost>& costKeys() {
+  static const Section<Cost> section(
+      {.name = "cost",
+       .kinds = "couette",
+       .commands = "cost",
+       .note = "Steps are numbers of steps in the contact time t_c of two small disks; of a law "
+               "that stiffens, of an impact at `speed` (without its dashpot). Lists may be empty."},
+      costTable());
+  return section;
+}
+
 }  // namespace
 
-void readCost(Reader& in, Cost& cost) {
-  static const std::vector<std::string> knobs(costKnobs.begin(), costKnobs.end());
-  static const std::vector<std::string> laws = {"none", "coulomb", "viscous", "spring",
-                                                "spring_dashpot"};
-  const Range steps = above(0.5);
+std::vector<SectionInfo> costSections() {
+  SectionInfo info = costKeys().info();
+  info.keys.push_back({"settings.NAME.SETTING", "the setting's", "–", "",
+                       "values of one engine's own number, e.g. `skin = [1e-4, 1e-3]`"});
+  return {info};
+}
+
+void readCost(Reader& in, Cost& target) {
   refuseRemoved(in);
-  readKinds(in, cost.kinds);
-  in.read("knobs", cost.knobs, knobs);
-  in.read("timed", cost.timed, positive("s"));
-  in.read("repeats", cost.repeats, between(1, 1000));
-  in.read("collision_steps", cost.collisionSteps, steps);
-  in.read("speed", cost.speed, positive("m/s"));
-  in.read("psi_max", cost.psiMax, positive());
-  in.read("psi_count", cost.psiCount, between(2, 10'000));
-  in.read("collision_reference", cost.collisionReference, steps);
-  in.read("trajectory_steps", cost.trajectorySteps, steps);
-  in.read("trajectory_reference", cost.trajectoryReference, steps);
-  in.read("window_most", cost.windowMost, positive("t_c"));
-  in.read("average_steps", cost.averageSteps, steps);
-  in.read("average_reference", cost.averageReference, steps);
-  in.read("tangential", cost.tangential, laws);
-  readSettings(in.section("settings"), cost);
-  in.finish();
+  readSettings(in.section("settings"), target);
+  costKeys().read(in, target);
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,112 +1,97 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "averaging/fields.hpp"
-#include "cases/endpoints.hpp"
+#include "cases/couette.hpp"
 #include "cases/loader_sections.hpp"
-#include "cases/scales.hpp"
-#include "oracle/collision_quantities.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
 
-/// Something that a margin can be for.
-struct Judged {
-  std::string name;
-  std::string_view unit;
-  std::optional<bool> byRatio = {};  ///< absent: as the margin is, relative or not
-};
-
-/// A share of one of the case's own scales, in the unit of the field.
-void readFraction(Reader& in, const Judged& field, const Case& setup, Margin& margin) {
-  double share = 0.0;
-  in.read("share", share, positive());
-  std::vector<std::string> names;
-  for (const Scale& scale : scales()) names.emplace_back(scale.name);
-  in.read("of", margin.scale, names);
-  if (in.has("share") != in.has("of"))
-    in.failMissing(in.has("of") ? "share" : "of", "a margin of a share says of what");
-  if (!in.has("of")) return;
-  const Scale& scale = *std::ranges::find(scales(), margin.scale, &Scale::name);
-  if (scale.unit != field.unit)
-    in.fail("of", fmt::format("is in {}, and {} in {}", scale.unit, field.name, field.unit));
-  const double whole = scale.of(setup);
-  if (!(whole > 0.0)) in.fail("of", "is zero in this case");
-  margin.value = fractionOf(scale, share, setup);
-  margin.why = fmt::format("{:g} of {} ({} = {:.4g} {}): ", share, scale.name, scale.meaning, whole,
-                           scale.unit);
+const Section<MarginInput>& marginKeys(bool shares) {
+  const auto table = [](bool withShares) {
+    const char* const standard = withShares ? "one of the three" : "one of the two";
+    std::vector<Key<MarginInput>> keys = {
+        key("relative", &MarginInput::relative, positive(), "").listed(standard),
+        key("absolute", &MarginInput::absolute, positive(), "").listed(standard, "its own")};
+    if (withShares) {
+      Names names;
+      for (const Scale& scale : scales()) names.emplace_back(scale.name);
+      keys.push_back(key("share", &MarginInput::share, positive(),
+                         "of one of the case's own scales, which still fits where a case is "
+                         "extended; rounded to two digits")
+                         .listed(standard));
+      keys.push_back(key("of", &MarginInput::of, names, "the scale, in the unit of what is judged")
+                         .listed("with share"));
+    }
+    keys.push_back(need("why", &MarginInput::why, Sentence{"must give the reason"}, "the reason"));
+    return Section<MarginInput>({}, std::move(keys));
+  };
+  static const Section<MarginInput> plain = table(false), withShares = table(true);
+  return shares ? withShares : plain;
 }
 
-Margin readMargin(Reader& in, const Judged& field, const Case* setup) {
+/// A share of one of the case's own scales.
+void setShare(const Reader& in, const MarginInput& input, const Judged& judged, const Case& setup,
+              Margin& margin) {
+  const Scale& scale = *std::ranges::find(scales(), input.of, &Scale::name);
+  in.check(scale.unit == judged.unit, "of", "is in {}, and {} in {}", scale.unit, judged.name,
+           judged.unit);
+  const double whole = scale.of(setup);
+  in.check(whole > 0.0, "of", "is zero in this case");
+  margin.scale = input.of;
+  margin.value = fractionOf(scale, input.share, setup);
+  margin.why = fmt::format("{:g} of {} ({} = {:.4g} {}): ", input.share, scale.name, scale.meaning,
+                           whole, scale.unit);
+}
+
+}  // namespace
+
+Margin marginOf(Reader& in, const MarginInput& input, const Judged& judged, const Case* setup) {
   Margin margin;
-  margin.relative = in.has("relative");
-  in.read("relative", margin.value, positive());
-  in.read("absolute", margin.value, positive());
-  if (setup) readFraction(in, field, *setup, margin);
-  std::string why;
-  in.requireText("why", why, "must give the reason");
-  in.finish();
-  const char* given = nullptr;
-  for (const char* const way : {"relative", "absolute", "share"}) {
-    if (!in.has(way)) continue;
-    if (given) in.fail(way, fmt::format("{} is {} or {}, not both", field.name, given, way));
-    given = way;
-  }
-  if (!given)
+  if (in.has("share") != in.has("of"))
+    in.failMissing(in.has("of") ? "share" : "of", "a margin of a share says of what");
+  const std::string given = in.onlyOne({"relative", "absolute", "share"});
+  if (given.empty())
     in.failMissing("relative", setup ? "or absolute, or share and of: a margin has one of them"
                                      : "or absolute: a margin has one of them");
-  if (field.byRatio && *field.byRatio != margin.relative)
-    in.fail(given, fmt::format("{} is compared by its {}: give {}", field.name,
-                               *field.byRatio ? "ratio" : "difference",
-                               *field.byRatio ? "relative" : "absolute, or share and of"));
-  margin.why += why;
+  margin.relative = given == "relative";
+  margin.value = margin.relative ? input.relative : input.absolute;
+  if (given == "share") setShare(in, input, judged, *setup, margin);
+  if (judged.byRatio)
+    in.check(*judged.byRatio == margin.relative, given, "{} is compared by its {}: give {}",
+             judged.name, *judged.byRatio ? "ratio" : "difference",
+             *judged.byRatio ? "relative" : "absolute, or share and of");
+  margin.why += input.why;
   return margin;
 }
 
-/// Margins of what is listed; anything else is an unknown key.
-std::map<std::string, Margin> readAll(Reader in, const std::vector<Judged>& list,
-                                      const Case* setup) {
+std::map<std::string, Margin> readMargins(Reader in, const std::vector<Judged>& list,
+                                          const Case* setup) {
   std::map<std::string, Margin> margins;
-  for (const Judged& field : list) {
-    Reader margin = in.section(field.name);
-    if (in.has(field.name)) margins[field.name] = readMargin(margin, field, setup);
+  for (const Judged& judged : list) {
+    Reader one = in.section(judged.name);
+    if (!in.has(judged.name)) continue;
+    MarginInput input;
+    marginKeys(setup != nullptr).read(one, input);
+    margins[judged.name] = marginOf(one, input, judged, setup);
   }
   in.finish();
   return margins;
 }
 
-}  // namespace
-
-std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup) {
-  std::vector<Judged> fields;
-  for (const FieldSpec& field : fieldTable())
-    fields.push_back({std::string(field.name), field.unit});
-  return readAll(std::move(in), fields, &setup);
+SectionInfo marginSection(SectionInfo info, const std::string& name, std::string meaning,
+                          const std::string& relativeTo, bool shares) {
+  info.keys.push_back({name, "", "–", "", meaning + ": a table of the keys below"});
+  for (KeyInfo one : marginKeys(shares).info().keys) {
+    if (one.name == "relative") one.meaning = relativeTo;
+    one.name = name + "." + one.name;
+    info.keys.push_back(one);
+  }
+  return info;
 }
 
-std::map<std::string, Margin> readBinMargins(Reader in, std::span<const FieldSpec> fields) {
+std::vector<Judged> judgedFields(std::span<const FieldSpec> fields) {
   std::vector<Judged> judged;
-  for (const FieldSpec& field : fields) judged.push_back({std::string(field.name), field.unit});
-  return readAll(std::move(in), judged, nullptr);
-}
-
-Margin readOwnMargin(Reader& in, const std::string& endpoint) {
-  return readMargin(in, {endpoint, ""}, nullptr);
-}
-
-std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup) {
-  std::vector<Judged> endpoints;
-  for (const EndpointSpec& endpoint : endpointTable())
-    endpoints.push_back({std::string(endpoint.name), endpoint.unit, endpoint.byRatio});
-  return readAll(std::move(in), endpoints, &setup);
-}
-
-std::map<std::string, Margin> readCollisionMargins(Reader in) {
-  std::vector<Judged> quantities;
-  for (const CollisionQuantity& quantity : scoredQuantities())
-    quantities.push_back({std::string(quantity.name), ""});
-  return readAll(std::move(in), quantities, nullptr);
+  for (const FieldSpec& field : fields)
+    judged.push_back({std::string(field.name), std::string(field.unit)});
+  return judged;
 }
 
 }  // namespace crossgrain::inline cases

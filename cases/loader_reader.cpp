@@ -1,14 +1,11 @@
 #include "cases/loader_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "cases/loader_document.hpp"
-#include "cases/loader_print.hpp"
 #include "support/input_file.hpp"
 #include "support/nearest.hpp"
 
@@ -36,130 +33,138 @@ std::string typeName(const toml::node& node) {
   }
 }
 
-/// One value under its full path, e.g. "run.may_differ[2]".
-struct Value {
-  const toml::node& node;
-  std::string path;
-
-  [[noreturn]] void fail(std::string_view what) const {
-    const std::string where = location(node.source());
-    if (node.is_table()) throw BadInput(fmt::format("{}[{}]: {}", where, path, what));
-    // What a file outside the case's own folder holds is nobody's business but its owner's.
-    const bool quoted = !node.is_array() && !isForeign(node.source());
-    if (!quoted) throw BadInput(fmt::format("{}{}: {}", where, path, what));
-    throw BadInput(fmt::format("{}{} = {}: {}", where, path, printValue(node), what));
-  }
-  [[noreturn]] void failType(std::string_view wanted) const {
-    fail(fmt::format("must be {}, is {}", wanted, typeName(node)));
-  }
-  void check(const Range& range, double value) const {
-    if (std::isnan(value)) fail("is not a number");
-    if (std::isinf(value) && !range.mayBeInfinite) fail("is infinite: must be " + range.text());
-    if (!range.contains(value)) fail("must be " + range.text());
-  }
-};
-
-void convert(const Value& value, bool& target) {
-  const auto found = value.node.value_exact<bool>();
-  if (!found) value.failType("true or false");
-  target = *found;
+void checkRange(const Value& value, const Range& range, double number) {
+  if (std::isnan(number)) value.fail("is not a number");
+  if (std::isinf(number) && !range.mayBeInfinite)
+    value.fail("is infinite: must be " + range.text());
+  if (!range.contains(number)) value.fail("must be " + range.text());
 }
 
-void convert(const Value& value, double& target, const Range& range) {
-  if (!value.node.is_number()) value.failType("a number");
-  // Of a whole number that no double is toml++ gives none; it is rounded as a decimal one is.
-  const auto whole = value.node.value_exact<std::int64_t>();
-  const double found = whole ? static_cast<double>(*whole) : *value.node.value_exact<double>();
-  value.check(range, found);
-  target = found + 0.0;  // −0 is 0
+template <typename T>
+T exact(const Value& value, std::string_view wanted) {
+  const auto found = value.node.value_exact<T>();
+  if (!found) value.failType(wanted);
+  return *found;
 }
 
 template <typename Integer>
 void convertInteger(const Value& value, Integer& target, const Range& range) {
-  const auto found = value.node.value_exact<std::int64_t>();
-  if (!found) value.failType("a whole number");
-  value.check(range, static_cast<double>(*found));
-  if (!std::in_range<Integer>(*found))
+  const auto found = exact<std::int64_t>(value, "a whole number");
+  checkRange(value, range, static_cast<double>(found));
+  if (!std::in_range<Integer>(found))
     value.fail(fmt::format("must be at most {}", std::numeric_limits<Integer>::max()));
-  target = static_cast<Integer>(*found);
+  target = static_cast<Integer>(found);
 }
 
-void convert(const Value& value, std::string& target) {
-  const auto found = value.node.value_exact<std::string>();
-  if (!found) value.failType("a string");
-  target = *found;
-}
-
-void convert(const Value& value, std::string& target, std::span<const std::string> choices) {
-  convert(value, target);
-  if (std::ranges::find(choices, target) == choices.end())
-    value.fail("unknown name" +
-               (isForeign(value.node.source()) ? "" : suggestion(target, choices)));
-}
-
-/// Of a text that may be anything.
-struct AnyText {};
-void convert(const Value& value, std::string& target, AnyText) {
-  convert(value, target);
-}
-
-template <typename Element, typename Constraint>
-void convertList(const Value& value, std::vector<Element>& target, const Constraint& constraint) {
+template <typename Element, typename Allowed>
+void convertList(const Value& value, std::vector<Element>& target, const Allowed& allowed) {
   std::vector<Element> list;
   if (const toml::array* const array = value.node.as_array()) {
     if (array->size() > longestList)
       value.fail(fmt::format("must have at most {} entries", longestList));
     for (std::size_t k = 0; k < array->size(); ++k)
-      convert({*array->get(k), fmt::format("{}[{}]", value.path, k)}, list.emplace_back(),
-              constraint);
+      convert({*array->get(k), fmt::format("{}[{}]", value.path, k)}, list.emplace_back(), allowed);
   } else {
-    convert(value, list.emplace_back(), constraint);
+    convert(value, list.emplace_back(), allowed);
   }
   target = std::move(list);
 }
 
 }  // namespace
 
-bool Range::contains(double value) const {
-  if (std::isinf(value) && value > 0.0 && mayBeInfinite) return true;
-  return std::isfinite(value) && !(notZero && value == 0.0) &&
-         (lowOpen ? value > low : value >= low) && (highOpen ? value < high : value <= high);
+void Value::fail(std::string_view what) const {
+  const std::string where = location(node.source());
+  if (node.is_table()) throw BadInput(fmt::format("{}[{}]: {}", where, path, what));
+  if (node.is_array() || isForeign(node.source()))
+    throw BadInput(fmt::format("{}{}: {}", where, path, what));
+  throw BadInput(fmt::format("{}{} = {}: {}", where, path, printValue(node), what));
 }
 
-std::string Range::text() const {
-  const std::string tail = unit.empty() ? "" : " " + unit;
-  if (notZero) return "> 0 or < 0" + tail;
-  if (std::isinf(low) && std::isinf(high)) return "a finite number" + tail;
-  if (std::isinf(high)) return fmt::format("{} {}{}", lowOpen ? ">" : ">=", low, tail);
-  return fmt::format("in {}{}, {}{}{}", lowOpen ? '(' : '[', low, high, highOpen ? ')' : ']', tail);
+void Value::failType(std::string_view wanted) const {
+  fail(fmt::format("must be {}, is {}", wanted, typeName(node)));
 }
 
-Range positive(std::string unit) {
-  return above(0.0, std::move(unit));
+void convert(const Value& value, bool& target, Anything) {
+  target = exact<bool>(value, "true or false");
 }
 
-Range above(double low, std::string unit) {
-  return {.low = low, .lowOpen = true, .unit = std::move(unit)};
+void convert(const Value& value, double& target, const Range& range) {
+  if (!value.node.is_number()) value.failType("a number");
+  // toml++ converts no whole number that no double equals; it is rounded as a decimal one is.
+  const auto whole = value.node.value_exact<std::int64_t>();
+  const double found = whole ? static_cast<double>(*whole) : *value.node.value_exact<double>();
+  checkRange(value, range, found);
+  target = found + 0.0;  // −0 is 0
 }
 
-Range atLeast(double low, std::string unit) {
-  return {.low = low, .unit = std::move(unit)};
+void convert(const Value& value, int& target, const Range& range) {
+  convertInteger(value, target, range);
 }
 
-Range between(double low, double high, std::string unit) {
-  return {.low = low, .high = high, .unit = std::move(unit)};
+void convert(const Value& value, std::uint64_t& target, const Range& range) {
+  convertInteger(value, target, range);
 }
 
-Range inside(double low, double high, std::string unit) {
-  return {.low = low, .high = high, .lowOpen = true, .highOpen = true, .unit = std::move(unit)};
+void convert(const Value& value, std::string& target, Anything) {
+  target = exact<std::string>(value, "a string");
 }
 
-Range aboveZeroTo(double high) {
-  return {.low = 0.0, .high = high, .lowOpen = true, .unit = {}};
+void convert(const Value& value, std::string& target, const Sentence& sentence) {
+  convert(value, target);
+  if (target.find_first_not_of(" \t\r\n") == std::string::npos) value.fail(sentence.otherwise);
 }
 
-Range eitherSign(std::string unit) {
-  return {.unit = std::move(unit), .notZero = true};
+void convert(const Value& value, std::string& target, const Names& choices) {
+  convert(value, target);
+  if (std::ranges::find(choices, target) == choices.end())
+    value.fail("unknown name" +
+               (isForeign(value.node.source()) ? "" : suggestion(target, choices)));
+}
+
+void convert(const Value& value, std::filesystem::path& target, const ExistingFile& wanted) {
+  std::string name;
+  convert(value, name);
+  target = (folderOf(value.node.source()) / name).lexically_normal();
+  if (const std::string why = whyNoFile(target); !why.empty())
+    value.fail(fmt::format("{} (looked for {}){}", why, target.string(),
+                           nearestFile(target, wanted.extension)));
+}
+
+void convert(const Value& value, std::vector<double>& target, const Range& range) {
+  convertList(value, target, range);
+  if (target.empty()) value.fail("must not be empty");
+}
+
+void convert(const Value& value, Names& target, const Names& choices) {
+  convertList(value, target, choices);
+  std::set<std::string> seen;
+  for (const std::string& name : target)
+    if (!seen.insert(name).second) value.fail(fmt::format("\"{}\" is there twice", name));
+}
+
+void convert(const Value& value, Names& target, Anything all) {
+  convertList(value, target, all);
+}
+
+void convert(const Value& value, std::vector<std::filesystem::path>& target,
+             const ExistingFile& wanted) {
+  convertList(value, target, wanted);
+}
+
+void convert(const Value& value, Vec2& target, const Range& range) {
+  std::vector<double> values;
+  convert(value, values, range);
+  if (values.size() != 2)
+    value.fail(fmt::format("must be [x, y]{}{}", range.unit.empty() ? "" : " in ", range.unit));
+  target = {values[0], values[1]};
+}
+
+void convert(const Value& value, double (&target)[2], const Range& range) {
+  std::vector<double> values;
+  convert(value, values, range);
+  if (values.size() > 2) value.fail("must be one number or two");
+  target[0] = values.front();
+  target[1] = values.back();
 }
 
 Reader::Reader(const toml::table* table, std::string path, std::string file)
@@ -169,8 +174,16 @@ bool Reader::has(std::string_view key) const {
   return table_ && table_->contains(key);
 }
 
-std::vector<std::string> Reader::keys() const {
-  std::vector<std::string> names;
+bool Reader::isTable(std::string_view key) const {
+  return has(key) && table_->get(key)->is_table();
+}
+
+bool Reader::isNumber(std::string_view key) const {
+  return has(key) && table_->get(key)->is_number();
+}
+
+Names Reader::keys() const {
+  Names names;
   if (table_)
     for (const auto& [key, node] : *table_) names.emplace_back(key.str());
   return names;
@@ -185,91 +198,15 @@ const toml::node* Reader::take(std::string_view key) {
   return table_ ? table_->get(key) : nullptr;
 }
 
-void Reader::read(std::string_view key, bool& target) {
-  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target);
-}
-
-void Reader::read(std::string_view key, double& target, const Range& range) {
-  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target, range);
-}
-
-void Reader::read(std::string_view key, int& target, const Range& range) {
-  if (const toml::node* const node = take(key)) convertInteger({*node, pathOf(key)}, target, range);
-}
-
-void Reader::read(std::string_view key, std::uint64_t& target, const Range& range) {
-  if (const toml::node* const node = take(key)) convertInteger({*node, pathOf(key)}, target, range);
-}
-
-void Reader::read(std::string_view key, std::string& target) {
-  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target);
-}
-
-void Reader::read(std::string_view key, std::string& target, std::span<const std::string> choices) {
-  if (const toml::node* const node = take(key)) convert({*node, pathOf(key)}, target, choices);
-}
-
-void Reader::read(std::string_view key, std::vector<double>& target, const Range& range) {
-  const toml::node* const node = take(key);
-  if (!node) return;
-  convertList({*node, pathOf(key)}, target, range);
-  if (target.empty()) fail(key, "must not be empty");
-}
-
-void Reader::read(std::string_view key, std::vector<std::string>& target,
-                  std::span<const std::string> choices) {
-  const toml::node* const node = take(key);
-  if (!node) return;
-  convertList({*node, pathOf(key)}, target, choices);
-  std::set<std::string> seen;
-  for (const std::string& name : target)
-    if (!seen.insert(name).second) fail(key, fmt::format("\"{}\" is there twice", name));
-}
-
-void Reader::read(std::string_view key, std::vector<std::string>& target) {
-  if (const toml::node* const node = take(key))
-    convertList({*node, pathOf(key)}, target, AnyText{});
-}
-
-void Reader::requireText(std::string_view key, std::string& target, std::string_view otherwise) {
-  require(key, target);
-  if (has(key) && target.find_first_not_of(" \t\r\n") == std::string::npos) fail(key, otherwise);
-}
-
-std::optional<std::filesystem::path> Reader::readFile(std::string_view key,
-                                                      const std::string& extension) {
-  if (!has(key)) {
+std::string Reader::onlyOne(std::initializer_list<const char*> keys, std::string_view rule) {
+  std::string given;
+  for (const char* const key : keys) {
     take(key);
-    return std::nullopt;
+    if (!has(key)) continue;
+    check(given.empty(), key, "and {}: {}", given, rule);
+    given = key;
   }
-  std::string name;
-  read(key, name);
-  return fileNamed(key, name, extension);
-}
-
-void Reader::read(std::string_view key, std::vector<std::filesystem::path>& target,
-                  const std::string& extension) {
-  std::vector<std::string> names;
-  read(key, names);
-  for (const std::string& name : names) target.push_back(fileNamed(key, name, extension));
-}
-
-std::filesystem::path Reader::fileNamed(std::string_view key, const std::string& name,
-                                        const std::string& extension) const {
-  const toml::node& node = *table_->get(key);
-  const std::filesystem::path file = (folderOf(node.source()) / name).lexically_normal();
-  if (const std::string why = whyNoFile(file); !why.empty())
-    fail(key,
-         fmt::format("{} (looked for {}){}", why, file.string(), nearestFile(file, extension)));
-  return file;
-}
-
-bool Reader::isTable(std::string_view key) const {
-  return has(key) && table_->get(key)->is_table();
-}
-
-bool Reader::isNumber(std::string_view key) const {
-  return has(key) && table_->get(key)->is_number();
+  return given;
 }
 
 Reader Reader::section(std::string_view key) {
@@ -310,8 +247,8 @@ void Reader::failMissing(std::string_view key, std::string_view reason) const {
       fmt::format("{}{} is missing{}{}", where, pathOf(key), reason.empty() ? "" : ": ", reason));
 }
 
-void Reader::fail(std::string_view key, std::string_view what) const {
-  Value{*table_->get(key), pathOf(key)}.fail(what);
+void Reader::fail(std::string_view key, std::string_view message) const {
+  Value{*table_->get(key), pathOf(key)}.fail(message);
 }
 
 }  // namespace crossgrain::inline cases

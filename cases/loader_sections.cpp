@@ -1,10 +1,6 @@
 #include "cases/loader_sections.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "adapters/effects.hpp"
@@ -12,207 +8,346 @@
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
 #include "averaging/weights.hpp"
+#include "cases/couette.hpp"
+#include "cases/endpoints.hpp"
+#include "stability/measures.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
 
 constexpr int mostSnapshots = 10'000'000;  // averaged in one run
-constexpr int mostCollisions = 100'000;    // two disks each, all in one scene
+
+const Section<Cell>& cellKeys() {
+  static const Section<Cell> section(
+      {.name = "cell", .kinds = "couette"},
+      {need("inner_radius", &Cell::innerRadius, positive("m"),
+            "R_i, the wheel; wall disks' centres lie on it"),
+       need("outer_radius", &Cell::outerRadius, positive("m"), "R_o, the fixed ring; likewise"),
+       need("wall_radius", &Cell::wallRadius, positive("m"), "of a wall disk"),
+       need("wall_spacing", &Cell::wallSpacing, positive("m"),
+            "wanted: 2πR/wall_spacing wall disks, rounded, are spread evenly"),
+       need("height", &Cell::height, positive("m"), "h of the disks, normal to the plane"),
+       need("omega", &Cell::omega,
+            Range{.unit = "rad/s",
+                  .reason = ": all is timed in rotations of the wheel; < 0 is clockwise",
+                  .notZero = true},
+            "Ω of the wheel, counter-clockwise; its sign is that of v_φ, spin, σ_rφ and torque")});
+  return section;
+}
+
+/// The keys of [particles]: numbers and masses may be given by others.
+struct ParticlesInput : Particles {
+  double density = 0.0, volumeFraction = 0.0, largeNumberShare = 0.0, largeMassShare = 0.0;
+};
+
+const Section<ParticlesInput>& particlesKeys() {
+  using P = ParticlesInput;
+  static const Section<P> section(
+      {.name = "particles", .kinds = "couette"},
+      {key("small", &P::small, between(0, mostDisks), "number of small disks"),
+       key("large", &P::large, between(0, mostDisks), "number of large disks"),
+       need("small_radius", &P::smallRadius, positive("m"), "of a small disk"),
+       need("large_radius", &P::largeRadius, positive("m"), "of a large disk, ≥ `small_radius`"),
+       key("volume_fraction", &P::volumeFraction, inside(0.0, 1.0),
+           "instead of the numbers: ν̄, from which they are computed")
+           .listed("–"),
+       key("large_number_share", &P::largeNumberShare, between(0.0, 1.0),
+           "which part of the disks are large, by number; 0 for none")
+           .listed("with `volume_fraction`"),
+       key("large_mass_share", &P::largeMassShare, between(0.0, 1.0), "likewise, by mass")
+           .listed("or this"),
+       key("small_mass", &P::smallMass, positive("kg"), "of a small disk").listed("required"),
+       key("large_mass", &P::largeMass, positive("kg"), "of a large disk").listed("required"),
+       key("density", &P::density, positive("kg/m^3"),
+           "instead of the masses: m = ρ π a² h, of disks of the cell's height")
+           .listed("–"),
+       key("inertia_factor", &P::inertiaFactor, aboveZeroTo(1.0),
+           "q in J = q m a²: 0.5 disk, 0.4 sphere"),
+       key("rotation", &P::rotation, any,
+           "false: friction acts, but no disk has a spin or gets one"),
+       key("max_overlap", &P::maxOverlap, between(0.0, 1.0),
+           "largest overlap of a start, in units of `small_radius`"),
+       key("file", &P::file, ExistingFile{".h5"},
+           "a packing of your own, relative to this file; its numbers hold")});
+  return section;
+}
+
+void setMasses(const Reader& in, const Cell& cell, ParticlesInput& p) {
+  if (!in.has("density")) {
+    for (const char* const mass : {"small_mass", "large_mass"})
+      if (!in.has(mass)) in.failMissing(mass);
+    return;
+  }
+  for (const char* const mass : {"small_mass", "large_mass"})
+    in.check(!in.has(mass), "density", "and {}: give one of them", mass);
+  p.smallMass = massOf(in, p.density, p.smallRadius, cell.height);
+  p.largeMass = massOf(in, p.density, p.largeRadius, cell.height);
+}
+
+/// Numbers of disks from a volume fraction and the part of the disks that are large.
+void setNumbers(Reader& in, const Cell& cell, ParticlesInput& p) {
+  const std::string share = in.onlyOne({"large_number_share", "large_mass_share"});
+  if (!in.has("volume_fraction")) {
+    if (!share.empty())
+      in.failMissing("volume_fraction", "the share of large disks is for a case that gives it");
+    return;
+  }
+  for (const char* const number : {"small", "large"})
+    in.check(!in.has(number), "volume_fraction", "and {}, a number of disks: give one of the two",
+             number);
+  if (share.empty())
+    in.failMissing("large_number_share", "or large_mass_share: 0 if there are no large disks");
+  double largeFraction = p.largeNumberShare;
+  if (share == "large_mass_share") {
+    const double large = p.largeMassShare / p.largeMass;
+    largeFraction = large / (large + (1.0 - p.largeMassShare) / p.smallMass);
+  }
+  const double most = diskNumber(cell, p, p.volumeFraction, largeFraction);
+  in.check(most <= mostDisks, "volume_fraction",
+           "that would be {:.3g} disks: a case may have at most {}", most, mostDisks);
+  setNumbers(cell, p, p.volumeFraction, largeFraction);
+}
+
+const Section<Preparation>& preparationKeys() {
+  static const Section<Preparation> section(
+      {.name = "preparation",
+       .kinds = "couette, assembly",
+       .commands = "compare plan lockstep identify baseline record effects cost stability",
+       .note = "Of an assembly with `[average]` only `packings` and `seed`."},
+      {key("engine", &Preparation::engine, any,
+           "the engine that prepares packings, as `may_differ` and its settings let it")
+           .listed("the in-house one"),
+       key("packings", &Preparation::packings, between(1, 10'000),
+           "of `compare` at its first interim analysis; fewer than 4 give no general verdict")
+           .usedBy("compare plan lockstep baseline effects cost"),
+       key("seed", &Preparation::seed, between(0, mostSeed),
+           "of initial places and velocities; packing k draws from its stream k"),
+       key("dilation", &Preparation::dilation, above(1.0), "R_prepare/R_o"),
+       key("velocity", &Preparation::velocity, atLeast(0.0, "m/s"),
+           "rms of each component at the start"),
+       key("shrink_time", &Preparation::shrinkTime, positive("s"),
+           "in which the ring goes from R_prepare to R_o"),
+       key("rotations", &Preparation::rotations, atLeast(0.0), "of the wheel, after that"),
+       key("dt", &Preparation::dt, positive("s"),
+           "time step of preparing: packings are then the same for any `run.dt`")
+           .listed("that of the runs")});
+  return section;
+}
+
+const Section<Averaging>& averagingKeys() {
+  constexpr const char* averaged = "compare plan effects cost average baseline";
+  constexpr const char* run = "compare plan lockstep identify baseline effects cost stability";
+  static const Section<Averaging> section(
+      {.name = "averaging", .kinds = "couette"},
+      {key("rings", &Averaging::rings, between(1, 10'000), "of equal width from R_i to R_o")
+           .usedBy(averaged),
+       key("method", &Averaging::methods, Names(weightNames.begin(), weightNames.end()),
+           "one name or a list; reports show the first")
+           .usedBy(averaged),
+       key("line_width", &Averaging::lineWidth, positive("d"), "kernel width w of the line methods")
+           .usedBy("compare plan effects cost average rev baseline"),
+       key("settle_rotations", &Averaging::settleRotations, atLeast(0.0),
+           "after the hand-over, not averaged")
+           .usedBy(run),
+       key("rotations", &Averaging::rotations, positive(), "averaged").usedBy(run),
+       key("snapshots_per_rotation", &Averaging::snapshotsPerRotation, between(1, 1'000'000), "")
+           .usedBy("compare plan effects cost baseline"),
+       key("confidence", &Averaging::confidence, inside(0.0, 1.0), "of verdicts and error bars")
+           .usedBy(averaged)});
+  return section;
+}
+
+const Section<Looks>& looksKeys() {
+  static const Section<Looks> section(
+      {.name = "looks",
+       .kinds = "couette, assembly",
+       .commands = "compare plan",
+       .note = "`compare` adds packings until every endpoint is decided, with an interim analysis "
+               "after 1, 2, … times `preparation.packings` of them."},
+      {key("count", &Looks::count, between(1, 100),
+           "the most interim analyses; 1 where packings are files, or fewer than 4 at the first"),
+       key("budget", &Looks::budget, positive("s"),
+           "no further one begins that would end later than this; `--budget` takes precedence")});
+  return section;
+}
 
 /// Everything an engine may do otherwise than the scene says.
-std::vector<std::string> deviationNames() {
-  std::vector<std::string> names;
-  for (const Effect effect : allEffects) names.push_back(toString(effect));
+Names deviationNames() {
+  Names names;
   for (const LawOption& option : lawOptions()) names.emplace_back(option.name);
   names.emplace_back("rounding");
   names.emplace_back(tangentialRestitutionName);
+  for (const Effect effect : allEffects) names.push_back(toString(effect));
   return names;
 }
 
-/// A number, a list, or { from, to, count } for equal steps.
-void requireSweep(Reader& in, std::string_view key, std::vector<double>& values,
-                  const Range& allowed) {
-  if (!in.isTable(key)) return in.require(key, values, allowed);
-  double from = 0.0, to = 0.0;
-  int count = 0;
-  Reader range = in.section(key);
-  range.require("from", from, allowed);
-  range.require("to", to, allowed);
-  range.require("count", count, between(2, 10'000));
-  range.finish();
-  if (!(to > from)) range.fail("to", fmt::format("must be > {} (from)", from));
-  for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * k / (count - 1));
+const Section<RunOptions>& runKeys() {
+  constexpr const char* users =
+      "compare plan lockstep identify baseline record effects cost stability collide scale";
+  // Answers are waited for in whole milliseconds, and no clock holds more than some years.
+  const Range timeouts = between(1e-3, 1e9, "s");
+  static const Section<RunOptions> section(
+      {.name = "run", .commands = users},
+      {key("dt", &RunOptions::dt, positive("s"),
+           "time step of every engine without `[engines.NAME] dt`; required for a rigid law"),
+       key("steps_per_contact", &RunOptions::stepsPerContact, atLeast(2.0),
+           "else dt = t_c of the lightest pair / this (a collision has its own)"),
+       key("handover", &RunOptions::handover, Names{"cold", "warm"},
+           "`cold` drops tangential and bottom springs; `warm` is not supported yet"),
+       key("may_differ", &RunOptions::mayDiffer, deviationNames(),
+           "what an engine may do otherwise or lack; each is noted beside its figures"),
+       key("precision", &RunOptions::precision, Names(precisionNames.begin(), precisionNames.end()),
+           "`float`: of engines that have it"),
+       key("timeout", &RunOptions::timeout, timeouts, "longest wait for one answer of an engine"),
+       key("mirrors", &RunOptions::mirrors, any,
+           "also run the in-house engine under each peer's conventions")
+           .usedBy("compare plan collide"),
+       key("energy_ledger", &RunOptions::energyLedger, any,
+           "energy term by term of engines that can: columns `energy_…` of `series.csv`")
+           .usedBy("compare plan record stability effects cost scale"),
+       key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
+           .usedBy("compare plan effects cost")});
+  return section;
 }
 
-/// Ψ_i, or the angle between velocity and normal whose tangent it is.
-void requirePsi(Reader& in, std::vector<double>& psi) {
-  if (!in.has("angle")) return requireSweep(in, "psi", psi, Range{});
-  if (in.has("psi")) in.fail("angle", "and psi, its tangent: give one of them");
-  requireSweep(in, "angle", psi, inside(-90.0, 90.0, "degrees"));
-  for (double& value : psi) value = std::tan(value * std::numbers::pi / 180.0);
+const Section<Stability>& stabilityKeys() {
+  Names measures;
+  for (const StabilityMeasure& measure : stabilityMeasures()) measures.emplace_back(measure.name);
+  static const Section<Stability> section(
+      {.name = "stability",
+       .commands = "stability",
+       .note = "Makes a hard case of a case of any kind. `crossgrain list measures` has the "
+               "measures and their units."},
+      {need("tests", &Stability::tests, Sentence{"must say in a sentence what it tests"},
+            "what it tests, in a sentence"),
+       need("measure", &Stability::measure, measures, "what is measured"),
+       need("limit", &Stability::limit, atLeast(0.0), "up to this: stable")
+           .listed("required", "the measure's"),
+       need("degraded", &Stability::degraded, atLeast(0.0),
+            "up to this: degraded; beyond: unstable")
+           .listed("required", "the measure's"),
+       need("why", &Stability::why, Sentence{"must give the reason"}, "the reason for the limits"),
+       key("samples", &Stability::samples, between(1, 100'000),
+           "snapshots of the run, evenly spread"),
+       key("settle", &Stability::settle, Range{.low = 0.0, .high = 1.0, .highOpen = true},
+           "share of the run before rest is asked for"),
+       key("quick", &Stability::quick, any, "part of `--quick`"),
+       key("long", &Stability::longRun, any, "only under `--long`")});
+  return section;
 }
 
-/// v_n, or the whole speed that Ψ_i divides.
-void requireSpeeds(Reader& in, Collision& collision) {
-  if (!in.has("speed"))
-    return in.require("vn", collision.vn, positive("m/s, else the disks never meet"));
-  if (in.has("vn")) in.fail("speed", "and vn, its part along the normal: give one of them");
-  in.read("speed", collision.speed, positive("m/s, else the disks never meet"));
-}
-
-/// What the first disk meets: a second one, or a wall.
-void readWall(Reader& in, Collision& collision) {
-  static const std::vector<std::string> bodies = {"disk", "wall"};
-  std::string second = bodies.front();
-  in.read("second", second, bodies);
-  collision.wall = second == "wall";
-  std::vector<double> velocity;
-  in.read("wall_velocity", velocity, Range{});
-  if (in.has("wall_velocity")) {
-    if (!collision.wall) in.fail("wall_velocity", "only a wall has one (second = \"wall\")");
-    if (velocity.size() != 2)
-      in.fail("wall_velocity", "must be [along its normal, along it] in m/s");
-    collision.wallVelocity = {velocity[0], velocity[1]};
-  }
-  if (!collision.wall) return;
-  for (const char* const key : {"radius", "mass"})
-    if (const toml::node* node = in.take(key); node && node->is_array())
-      in.fail(key, "a wall has none: give the disk's alone");
-  if (collision.counterSpin != std::vector<double>{0.0})
-    in.fail("counter_spin", "a wall does not turn");
+std::vector<Judged> judgedEndpoints() {
+  std::vector<Judged> judged;
+  for (const EndpointSpec& endpoint : endpointTable())
+    judged.push_back({std::string(endpoint.name), std::string(endpoint.unit), endpoint.byRatio});
+  return judged;
 }
 
 }  // namespace
 
-void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range) {
-  std::vector<double> values;
-  in.require(key, values, range);
-  if (values.empty()) return;
-  if (values.size() > 2) in.fail(key, "must be one number or two");
-  pair[0] = values.front();
-  pair[1] = values.back();
+std::vector<SectionInfo> cellSections() {
+  return {
+      cellKeys().info(),
+      particlesKeys().info(),
+      preparationKeys().info(),
+      averagingKeys().info(),
+      marginSection(
+          {.name = "averaging.endpoints",
+           .kinds = "couette",
+           .commands = "compare plan baseline",
+           .note = "How far apart two engines may be in an endpoint and still agree. These carry "
+                   "the verdicts of `compare`; an endpoint without a margin is not judged. "
+                   "`pressure` is compared by its ratio and takes `relative`, all others by their "
+                   "difference."},
+          "ENDPOINT", "an endpoint (`crossgrain list endpoints`)", "of the reference's mean", true),
+      looksKeys().info(),
+      marginSection({.name = "averaging.margins",
+                     .kinds = "couette",
+                     .commands = "compare plan effects",
+                     .note = "How far apart two engines may be in a ring, for the colours of rings "
+                             "and for what `effects` reports."},
+                    "FIELD", "a field of `profiles.csv` (`crossgrain list fields`)",
+                    "of the reference's mean", true)};
 }
 
-void readBottom(Reader& in, BottomPlate& bottom) {
-  in.require("mu", bottom.mu, atLeast(0.0));
-  in.require("kb", bottom.kb, atLeast(0.0, "N/m"));
-  in.require("gb", bottom.gb, atLeast(0.0, "kg/s"));
-  in.require("tau_m", bottom.tauM, atLeast(0.0));
-  in.read("gravity", bottom.gravity, positive("m/s^2"));
-  in.read("spin", bottom.spin);
-  in.finish();
+std::vector<SectionInfo> runSections() {
+  return {runKeys().info(),
+          {.name = "engines.NAME",
+           .commands = runKeys().info().commands,
+           .keys = {{"SETTING", "the setting's", "the engine's", "",
+                     "of one engine: a boolean, a number or a string; `crossgrain engines` lists "
+                     "each engine's, the engine checks them"}}},
+          stabilityKeys().info()};
 }
 
-void readCell(Reader& in, Cell& cell) {
-  in.require("inner_radius", cell.innerRadius, positive("m"));
-  in.require("outer_radius", cell.outerRadius, positive("m"));
-  in.require("wall_radius", cell.wallRadius, positive("m"));
-  in.require("wall_spacing", cell.wallSpacing, positive("m"));
-  in.require("height", cell.height, positive("m"));
-  in.require("omega", cell.omega,
-             eitherSign("rad/s: all is timed in rotations of the wheel; < 0 is clockwise"));
-  in.finish();
-  if (!(cell.outerRadius > cell.innerRadius))
-    in.fail("outer_radius", fmt::format("must be > inner_radius = {} m", cell.innerRadius));
-  if (cell.wallSpacing > cell.innerRadius)
-    in.fail("wall_spacing", fmt::format("must be <= inner_radius = {} m", cell.innerRadius));
+double massOf(const Reader& in, double density, double radius, double height) {
+  const double mass = density * std::numbers::pi * radius * radius * height;
+  in.check(std::isnormal(mass), "density", "makes disks of radius {} m weigh {} kg", radius, mass);
+  return mass;
 }
 
-void readPreparation(Reader& in, Preparation& preparation) {
-  in.read("engine", preparation.engine);
-  if (in.has("engine") && !findEngine(preparation.engine)) {
-    std::vector<std::string> known;
-    for (const EngineEntry& entry : engineRegistry()) known.push_back(entry.name);
-    in.fail("engine", "there is no such engine" + suggestion(preparation.engine, known));
+void readCell(Reader& in, Cell& c) {
+  cellKeys().read(in, c);
+  in.check(c.outerRadius > c.innerRadius, "outer_radius", "must be > inner_radius = {} m",
+           c.innerRadius);
+  in.check(c.wallSpacing <= c.innerRadius, "wall_spacing", "must be <= inner_radius = {} m",
+           c.innerRadius);
+}
+
+void readParticles(Reader& in, const Cell& c, Particles& target) {
+  ParticlesInput p;
+  particlesKeys().read(in, p);
+  setMasses(in, c, p);
+  setNumbers(in, c, p);
+  in.check(p.largeRadius >= p.smallRadius, "large_radius", "must be >= small_radius = {} m",
+           p.smallRadius);
+  if (p.file) {
+    p.small = p.large = 0;  // how many there are is for the file to say
+  } else if (p.small + p.large == 0) {
+    if (in.has("small")) in.fail("small", "no small and no large disks: a cell without disks");
+    if (in.has("volume_fraction")) in.fail("volume_fraction", "is less than one disk has");
+    in.failMissing("small", "or large, or volume_fraction, or file: a cell without disks");
   }
-  in.read("packings", preparation.packings, between(1, 10'000));
-  in.read("seed", preparation.seed, between(0, mostSeed));
-  in.read("dilation", preparation.dilation, above(1.0));
-  in.read("velocity", preparation.velocity, atLeast(0.0, "m/s"));
-  in.read("shrink_time", preparation.shrinkTime, positive("s"));
-  in.read("rotations", preparation.rotations, atLeast(0.0));
-  if (in.has("dt")) in.read("dt", preparation.dt.emplace(), positive("s"));
-  in.take("dt");
-  in.finish();
+  in.check(p.small <= mostDisks - p.large, "small", "with large = {} that is more than {} disks",
+           p.large, mostDisks);
+  target = p;
 }
 
-void readAveraging(Reader& in, const Case& setup, Averaging& averaging) {
-  static const std::vector<std::string> methods(weightNames.begin(), weightNames.end());
-  in.read("rings", averaging.rings, between(1, 10'000));
-  in.read("method", averaging.methods, methods);
-  in.read("line_width", averaging.lineWidth, positive());
-  in.read("settle_rotations", averaging.settleRotations, atLeast(0.0));
-  in.read("rotations", averaging.rotations, positive());
-  in.read("snapshots_per_rotation", averaging.snapshotsPerRotation, between(1, 1'000'000));
-  in.read("confidence", averaging.confidence, inside(0.0, 1.0));
-  averaging.margins = readFieldMargins(in.section("margins"), setup);
-  averaging.endpoints = readEndpointMargins(in.section("endpoints"), setup);
-  in.finish();
-  if (averaging.methods.empty()) in.fail("method", "must not be empty");
-  if (averaging.snapshotsPerRotation * averaging.rotations > mostSnapshots)
-    in.fail("rotations", fmt::format("with {} snapshots_per_rotation: more than {} snapshots",
-                                     averaging.snapshotsPerRotation, mostSnapshots));
+void readPreparation(Reader& in, Preparation& how) {
+  preparationKeys().read(in, how);
+  if (!in.has("engine") || findEngine(how.engine)) return;
+  Names known;
+  for (const EngineEntry& entry : engineRegistry()) known.push_back(entry.name);
+  in.fail("engine", "there is no such engine{}", suggestion(how.engine, known));
 }
 
-void readLooks(Reader& in, Looks& looks) {
-  in.read("count", looks.count, between(1, 100));
-  in.read("budget", looks.budget, positive("s"));
-  in.finish();
+void readPackings(Reader& in, Case& c) {
+  c.preparation.seed = c.assembly.seed;
+  preparationKeys().read(in, c.preparation, {"packings", "seed"});
+  c.assembly.seed = c.preparation.seed;
 }
 
-/// Answers are waited for in whole milliseconds, and no clock holds what is longer than some years
-/// [s].
-constexpr double shortestTimeout = 1e-3, longestTimeout = 1e9;
-
-void readRun(Reader& in, RunOptions& run) {
-  static const std::vector<std::string> handovers = {"cold", "warm"};
-  if (in.has("dt")) in.read("dt", run.dt.emplace(), positive("s"));
-  in.take("dt");
-  in.read("steps_per_contact", run.stepsPerContact, atLeast(2.0));
-  in.read("handover", run.handover, handovers);
-  if (run.handover == "warm") in.fail("handover", "not yet supported; \"cold\" is");
-  in.read("may_differ", run.mayDiffer, deviationNames());
-  in.read("timeout", run.timeout, between(shortestTimeout, longestTimeout, "s"));
-  static const std::vector<std::string> precisions(precisionNames.begin(), precisionNames.end());
-  std::string precision = toString(run.precision);
-  in.read("precision", precision, precisions);
-  run.precision = precision == precisions.front() ? Precision::float64 : Precision::float32;
-  in.read("mirrors", run.mirrors);
-  in.read("energy_ledger", run.energyLedger);
-  in.read("keep_snapshots", run.keepSnapshots, between(0, 1'000'000));
-  in.finish();
-  if (run.dt && in.has("steps_per_contact"))
-    in.fail("steps_per_contact", "the step is given by run.dt, leave out one of them");
+void readAveraging(Reader& in, const Case& setup, Averaging& how) {
+  const Reader margins = in.section("margins"), endpoints = in.section("endpoints");
+  averagingKeys().read(in, how);
+  how.margins = readMargins(margins, judgedFields(fieldTable()), &setup);
+  how.endpoints = readMargins(endpoints, judgedEndpoints(), &setup);
+  in.check(!how.methods.empty(), "method", "must not be empty");
+  in.check(how.snapshotsPerRotation * how.rotations <= mostSnapshots, "rotations",
+           "with {} snapshots_per_rotation: more than {} snapshots", how.snapshotsPerRotation,
+           mostSnapshots);
 }
 
-void readCollision(Reader& in, Collision& collision) {
-  requirePsi(in, collision.psi);
-  requireSpeeds(in, collision);
-  static const std::vector<std::string> approaches = {"spin", "first_spin", "oblique"};
-  std::string approach = approaches.front();
-  in.read("approach", approach, approaches);
-  collision.approach =
-      static_cast<Approach>(std::ranges::find(approaches, approach) - approaches.begin());
-  in.read("counter_spin", collision.counterSpin, Range{});
-  requirePair(in, "radius", collision.radius, positive("m"));
-  requirePair(in, "mass", collision.mass, positive("kg"));
-  readWall(in, collision);
-  in.read("inertia_factor", collision.inertiaFactor, aboveZeroTo(1.0));
-  in.read("steps_per_contact", collision.stepsPerContact, atLeast(2.0));
-  in.read("start_phase", collision.startPhase, Range{});
-  if (collision.startPhase < 0.0)
-    in.fail("start_phase", "must be >= 0, else the disks overlap at the start");
-  if (!(collision.startPhase < 1.0)) in.fail("start_phase", "must be < 1");
-  const auto starts = static_cast<double>(collision.psi.size()) *
-                      static_cast<double>(std::max<std::size_t>(1, collision.vn.size())) *
-                      static_cast<double>(collision.counterSpin.size());
-  if (starts > mostCollisions)
-    in.fail(in.has("psi") ? "psi" : "angle",
-            fmt::format("with all vn and counter_spin {:.0f} collisions: at most {}", starts,
-                        mostCollisions));
-  collision.margins = readCollisionMargins(in.section("margins"));
-  in.finish();
+void readLooks(Reader& in, Looks& target) {
+  looksKeys().read(in, target);
+}
+
+void readRun(Reader& in, RunOptions& options) {
+  runKeys().read(in, options);
+  in.check(options.handover != "warm", "handover", "not yet supported; \"cold\" is");
+  in.check(!options.dt || !in.has("steps_per_contact"), "steps_per_contact",
+           "the step is given by run.dt, leave out one of them");
 }
 
 Settings readSettings(Reader engine) {
@@ -224,13 +359,18 @@ Settings readSettings(Reader engine) {
     else if (const auto text = node.value_exact<std::string>())
       settings[key] = *text;
     else
-      engine.read(key, std::get<double>(settings[key] = 0.0), Range{});
+      engine.read(key, std::get<double>(settings[key] = 0.0), anyNumber());
   }
   return settings;
 }
 
 void readEngines(Reader& in, std::map<std::string, Settings>& engines) {
   for (const std::string& name : in.keys()) engines[name] = readSettings(in.section(name));
+}
+
+void readStability(Reader& in, Stability& hard) {
+  stabilityKeys().read(in, hard);
+  in.check(hard.degraded >= hard.limit, "degraded", "must be >= limit = {}", hard.limit);
 }
 
 }  // namespace crossgrain::inline cases

@@ -3,58 +3,79 @@
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "averaging/fields.hpp"
 #include "cases/case.hpp"
 #include "cases/loader_reader.hpp"
+#include "cases/schema.hpp"
 
 namespace crossgrain::inline cases {
 
-// One function per section of a case file: reads every key, then checks what the section can tell
-// alone. All throw BadInput.
+// Tables of keys, for the list of them (loader.cpp, loader_law.cpp, …).
+std::vector<SectionInfo> headerSections();     ///< [case], [[variants]]
+std::vector<SectionInfo> lawSections();        ///< [law], [bottom]
+std::vector<SectionInfo> cellSections();       ///< [cell] … [looks], [averaging.margins]
+std::vector<SectionInfo> costSections();       ///< [cost]
+std::vector<SectionInfo> runSections();        ///< [run], [engines.NAME], [stability]
+std::vector<SectionInfo> collisionSections();  ///< [collision], [collision.margins]
+std::vector<SectionInfo> assemblySections();   ///< [assembly] …, [assembly.start]
+std::vector<SectionInfo> averageSections();    ///< [average] …, [[endpoints]]
 
-/// Of a disk that is made of the section's density: [kg/m³] and its height [m], or [kg/m²] and 1.
-/// @throws BadInput where that is nothing, or more than there are numbers
-double massOf(const Reader& in, double density, double radius, double height);
+// One function per section: reads every key, then checks what the section can tell alone. All throw
+// BadInput.
 
-/// One number for both bodies, or two.
-void requirePair(Reader& in, std::string_view key, double (&pair)[2], const Range& range);
-
+/// @param ofTwoBodies  in a collision, whose bodies may be of two materials
 void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies);
 void readBottom(Reader& in, BottomPlate& bottom);
 void readCell(Reader& in, Cell& cell);
 /// @param cell  read already: its area and height make numbers and masses
 void readParticles(Reader& in, const Cell& cell, Particles& particles);
 void readPreparation(Reader& in, Preparation& preparation);
+/// [preparation] of an assembly: how many packings, and their seed.
+void readPackings(Reader& in, Case& c);
 /// @param setup  whose cell, particles and law have been read: margins may be shares of its scales
 void readAveraging(Reader& in, const Case& setup, Averaging& averaging);
 void readLooks(Reader& in, Looks& looks);
-/// [averaging.margins] and [collision.margins].
-std::map<std::string, Margin> readFieldMargins(Reader in, const Case& setup);
-std::map<std::string, Margin> readEndpointMargins(Reader in, const Case& setup);
-std::map<std::string, Margin> readCollisionMargins(Reader in);
-/// [average.margins]. @param fields  of its bins
-std::map<std::string, Margin> readBinMargins(Reader in, std::span<const FieldSpec> fields);
-/// Of one of [[endpoints]], whose other keys have been read.
-Margin readOwnMargin(Reader& in, const std::string& endpoint);
 void readRun(Reader& in, RunOptions& run);
+void readEngines(Reader& in, std::map<std::string, Settings>& engines);
+/// Settings of one engine: booleans, numbers, texts.
+Settings readSettings(Reader engine);
+void readStability(Reader& in, Stability& stability);
+void readCost(Reader& in, Cost& cost);
 void readCollision(Reader& in, Collision& collision);
 void readAssembly(Reader& in, Assembly& assembly);
-/// [assembly.start]: starts from files. @param assembly  whose inertia factor has been read
-void readStart(Reader& in, Assembly& assembly);
-/// [preparation] of an assembly: how many packings, and their seed.
-void readPackings(Reader& in, Case& c);
 /// [average] and [[endpoints]].
 /// @param c  whose [assembly] and [preparation], which is `preparation`, have been read
 void readAverage(Reader& in, std::vector<Reader>& endpoints, const Reader& preparation, Case& c);
 /// @param c  whose step is known
 void checkAveragedTime(const Reader& in, const std::vector<Reader>& endpoints, const Case& c);
-void readStability(Reader& in, Stability& stability);
-void readCost(Reader& in, Cost& cost);
-/// Settings of one engine: booleans, numbers, texts.
-Settings readSettings(Reader engine);
-void readEngines(Reader& in, std::map<std::string, Settings>& engines);
+
+/// Mass of a disk of the section's density: [kg/m³] and its height [m], or [kg/m²] and 1.
+/// @throws BadInput where that is nothing, or more than there are numbers
+double massOf(const Reader& in, double density, double radius, double height);
+
+/// What a margin can be for.
+struct Judged {
+  std::string name;
+  std::string unit;
+  std::optional<bool> byRatio = {};  ///< absent: as the margin is, relative or not
+};
+/// The keys of one margin.
+struct MarginInput {
+  double relative = 0.0, absolute = 0.0, share = 0.0;
+  std::string of, why;
+};
+/// @param setup  whose scales a share is of; null: no shares
+Margin marginOf(Reader& in, const MarginInput& input, const Judged& judged, const Case* setup);
+/// A table of margins, one for each of some names: [averaging.margins] …
+std::map<std::string, Margin> readMargins(Reader in, const std::vector<Judged>& list,
+                                          const Case* setup = nullptr);
+/// Their list of keys. @param name  the word that stands for a name, "FIELD"
+SectionInfo marginSection(SectionInfo info, const std::string& name, std::string meaning,
+                          const std::string& relativeTo, bool shares);
+
+/// Margins of fields: of a cell with `setup`, else of an assembly's bins.
+std::vector<Judged> judgedFields(std::span<const FieldSpec> fields);
 
 }  // namespace crossgrain::inline cases

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
+#include "adapters/worker/json.hpp"
+#include "adapters/worker/worker_engine.hpp"
 #include "cases/couette.hpp"
-#include "cases/preparer.hpp"
 #include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -19,23 +22,8 @@
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::inline cases {
-namespace {
 
-/// Sites of a triangular lattice of the given constant with `inner` <= r <= `outer`.
-std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
-  std::vector<Vec2> sites;
-  const double line = constant * std::sqrt(3.0) / 2.0;
-  const auto lines = static_cast<int>(outer / line) + 1;
-  const auto columns = static_cast<int>(outer / constant) + 2;
-  for (int l = -lines; l <= lines; ++l) {
-    for (int c = -columns; c <= columns; ++c) {
-      const Vec2 site((c + (l % 2 == 0 ? 0.0 : 0.5)) * constant, l * line);
-      const double r = site.norm();
-      if (r >= inner && r <= outer) sites.push_back(site);
-    }
-  }
-  return sites;
-}
+namespace {
 
 /// The widest lattice that still has a site for every disk.
 std::vector<Vec2> diluteLattice(std::size_t disks, double inner, double outer) {
@@ -114,6 +102,21 @@ void load(Engine& engine, const Case& setup, const Scene& scene) {
 
 }  // namespace
 
+std::vector<Vec2> latticeSites(double constant, double inner, double outer) {
+  std::vector<Vec2> sites;
+  const double line = constant * std::sqrt(3.0) / 2.0;
+  const auto lines = static_cast<int>(outer / line) + 1;
+  const auto columns = static_cast<int>(outer / constant) + 2;
+  for (int l = -lines; l <= lines; ++l) {
+    for (int c = -columns; c <= columns; ++c) {
+      const Vec2 site((c + (l % 2 == 0 ? 0.0 : 0.5)) * constant, l * line);
+      const double r = site.norm();
+      if (r >= inner && r <= outer) sites.push_back(site);
+    }
+  }
+  return sites;
+}
+
 Packing preparePacking(const Case& setup, int index, double dt, Engine& engine,
                        const std::function<void(double)>& progress) {
   Packing packing;
@@ -191,6 +194,44 @@ Packing packingOf(const Case& setup, int index, double dt, Engine& engine,
     packing.notCached = error.what();  // costs time, not the run
   }
   return packing;
+}
+
+namespace {
+
+const std::string& versionOf(const EngineEntry& entry, const Case& setup) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> known;
+  const std::lock_guard lock(mutex);
+  const auto found = known.find(entry.name);
+  if (found != known.end()) return found->second;
+  const ScratchFolder scratch;
+  return known[entry.name] = startPreparer(entry, setup, scratch.path)->capabilities().version;
+}
+
+}  // namespace
+
+const EngineEntry* ownPreparer(const Case& setup) {
+  const std::string& name = setup.preparation.engine;
+  return name.empty() || name == engineRegistry().front().name ? nullptr : findEngine(name);
+}
+
+std::unique_ptr<Engine> startPreparer(const EngineEntry& entry, const Case& setup,
+                                      const std::filesystem::path& scratch) {
+  if (entry.missing)
+    if (const std::string why = entry.missing(); !why.empty())
+      throw BadInput(fmt::format("{}: preparation.engine = \"{}\": it is not available: {}",
+                                 setup.file.string(), entry.name, why));
+  if (!entry.command) return entry.make();
+  return std::make_unique<WorkerEngine>(entry.name, entry.command(), scratch, setup.run.timeout);
+}
+
+std::string preparerKey(const Case& setup) {
+  const EngineEntry* const entry = ownPreparer(setup);
+  if (!entry) return {};
+  const auto settings = setup.engines.find(entry->name);
+  const nlohmann::json own =
+      settings == setup.engines.end() ? nlohmann::json() : jsonOf(settings->second);
+  return fmt::format("{} {} {}", entry->name, versionOf(*entry, setup), own.dump());
 }
 
 }  // namespace crossgrain::inline cases

@@ -11,6 +11,7 @@
 #include "adapters/grain.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
+#include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "support/data_folder.hpp"
 #include "support/fingerprint.hpp"
@@ -45,18 +46,8 @@ std::vector<Vec2> jitteredSites(const Case& setup, std::size_t disks, Random& ra
   const double area = std::numbers::pi * (outer * outer - inner * inner);
   double constant = std::sqrt(area / static_cast<double>(disks) * 2.0 / std::sqrt(3.0));
   std::vector<Vec2> sites;
-  while (sites.size() < disks) {  // whole cells of a lattice never quite tile a ring
-    sites.clear();
-    const double line = constant * std::sqrt(3.0) / 2.0;
-    const auto lines = static_cast<int>(outer / line) + 1;
-    const auto columns = static_cast<int>(outer / constant) + 2;
-    for (int l = -lines; l <= lines; ++l)
-      for (int c = -columns; c <= columns; ++c) {
-        const Vec2 site((c + (l % 2 == 0 ? 0.0 : 0.5)) * constant, l * line);
-        if (site.norm() > inner && site.norm() < outer) sites.push_back(site);
-      }
-    constant *= 0.9995;
-  }
+  for (; sites.size() < disks; constant *= 0.9995)  // whole cells never quite tile a ring
+    sites = latticeSites(constant, inner, outer);
   // Spread what is too much over the cell.
   std::vector<Vec2> kept;
   for (std::size_t k = 0; k < disks; ++k) {
@@ -68,7 +59,7 @@ std::vector<Vec2> jitteredSites(const Case& setup, std::size_t disks, Random& ra
 
 constexpr std::uint64_t relaxing = 3000, shearing = 2000;  // steps
 
-/// Told the steps done so far, of all that making a packing takes.
+/// Called with the steps done so far, of all that making a packing takes.
 using StepsDone = std::function<void(std::uint64_t)>;
 
 /// As many threads as there are cores: the packing is the same to the bit on any number.
@@ -77,17 +68,17 @@ Settings onAllCores() {
       {"threads", static_cast<double>(std::clamp(std::thread::hardware_concurrency(), 1u, 64u))}};
 }
 
-void advanceTelling(Engine& engine, double dt, std::uint64_t steps, const StepsDone& tell) {
+void advanceReporting(Engine& engine, double dt, std::uint64_t steps, const StepsDone& report) {
   constexpr std::uint64_t atOnce = 10;
   for (std::uint64_t done = 0; done < steps;) {
-    tell(done);
+    report(done);
     done += std::min(atOnce, steps - done);
     engine.advance(static_cast<double>(done) * dt);
   }
 }
 
 /// Moves what overlaps apart: no friction, and a bath that takes the velocities.
-void relax(Scene scene, Disks& disks, const StepsDone& tell) {
+void relax(Scene scene, Disks& disks, const StepsDone& report) {
   scene.law.tangential = TangentialLaw::none;
   scene.law.gn = 0.4;  // kg/s, nearly critical
   // k_b = 0 and a bound that is never reached: the plate's force is −γ v.
@@ -96,15 +87,15 @@ void relax(Scene scene, Disks& disks, const StepsDone& tell) {
   settings["max_overlap"] = 0.0;  // sites next to a wall disk may begin deep in it
   const auto engine = makeGrain();
   const double dt = engine->load(scene, settings).dt;
-  advanceTelling(*engine, dt, relaxing, tell);
+  advanceReporting(*engine, dt, relaxing, report);
   disks.position = engine->snapshot(ContactReport::none).position;
   disks.velocity.assign(disks.size(), Vec2::Zero());
 }
 
-void shear(const Scene& scene, Packing& packing, const StepsDone& tell) {
+void shear(const Scene& scene, Packing& packing, const StepsDone& report) {
   const auto engine = makeGrain();
   const double dt = engine->load(scene, onAllCores()).dt;
-  advanceTelling(*engine, dt, shearing, tell);
+  advanceReporting(*engine, dt, shearing, report);
   Snapshot end = engine->snapshot(ContactReport::none);
   packing.disks.position = std::move(end.position);
   packing.disks.velocity = std::move(end.velocity);
@@ -143,12 +134,12 @@ Packing makePacking(const Case& setup, const std::function<void(double)>& progre
     packing.disks.inertia[k] = kinds.inertia[idAtSite[k]];
   }
   packing.disks.position = jitteredSites(setup, disks, random);
-  const auto tell = [&](std::uint64_t done) {
+  const auto report = [&](std::uint64_t done) {
     progress(static_cast<double>(done) / static_cast<double>(relaxing + shearing));
   };
   const auto scene = [&] { return couetteScene(setup, packing, timeStep(setup)); };
-  relax(scene(), packing.disks, tell);
-  shear(scene(), packing, [&](std::uint64_t done) { tell(relaxing + done); });
+  relax(scene(), packing.disks, report);
+  shear(scene(), packing, [&](std::uint64_t done) { report(relaxing + done); });
   packing.disks = reordered(packing.disks, idAtSite);
   return packing;
 }

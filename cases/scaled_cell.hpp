@@ -34,7 +34,7 @@ Case scaledCase(std::size_t disks, const std::vector<std::string>& overrides = {
 /// Unlike a real packing it has no shear band, no chains of force that shear built up and next to
 /// no motion in the bulk, so the list of neighbours is rebuilt for the disks at the wheel alone.
 /// tests/bench/README.md has the contacts per disk of both.
-/// @param progress  told the fraction done, 0 … 1, if it has to be made
+/// @param progress  called with the fraction done, 0 … 1, if it has to be made
 Packing scaledPacking(const Case& scaled, const std::filesystem::path& folder,
                       const std::function<void(double)>& progress);
 

@@ -1,10 +1,14 @@
 #include "cases/time_step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "cases/collision_scene.hpp"
+#include "cases/flow.hpp"
 #include "oracle/impact.hpp"
 
 namespace crossgrain::inline cases {
@@ -115,6 +119,142 @@ std::vector<double> collisionTimeSteps(const Case& c) {
   const double shortest = impactTimes(c).shortest;
   for (const double count : c.collision.stepsPerContact) steps.push_back(shortest / count);
   return steps;
+}
+
+namespace {
+
+/// Stiffness where an impact is deepest.
+struct Deepest {
+  double normal, tangential;  ///< f_el′ and k_t [N/m]
+};
+
+Deepest deepest(const ContactLaw& law, const Impact& impact) {
+  if (law.normal == NormalLaw::linear) return {law.kn, law.kt};
+  const double overlap = deepestOverlap(law, impact);
+  if (law.normal == NormalLaw::polynomial)
+    return {(2.0 * law.kn + 3.0 * law.kn3 * overlap) * overlap, law.kt};
+  const double width = std::sqrt(impact.reducedRadius * overlap);
+  return {1.5 * law.kn * width, law.kt * width};
+}
+
+/// γ that multiplies the velocity [kg/s].
+double dampingOf(const ContactLaw& law, double constant, double stiffness, double reducedMass) {
+  if (law.damper == Damper::viscoelastic) return constant * stiffness;
+  if (law.damper == Damper::critical)
+    return constant * std::sqrt(reducedMass * std::max(stiffness, 0.0));
+  return constant;
+}
+
+/// A term of the law as an oscillator.
+struct Oscillator {
+  double stiffness, damping, mass;  ///< [N/m, kg/s, kg]
+  double sign = 1.0;                ///< c σ of PairStepLimit
+};
+
+/// Derived at PairStepLimit; infinite for a contact that does not resist [s].
+double longestStep(const Oscillator& term, double s) {
+  const double decay = s * term.damping / (2.0 * term.mass);
+  const double square = std::max(term.stiffness, 0.0) / term.mass;
+  const double alternating = decay * decay + term.sign * square;
+  const bool implicit = s == 0.0 && term.damping > 0.0;
+  const double spring = implicit && term.sign < 1.0 ? INFINITY : 2.0 / std::sqrt(square);
+  return alternating < 0.0 ? spring : std::min(spring, 2.0 / (decay + std::sqrt(alternating)));
+}
+
+/// s of PairStepLimit. Semi-implicit Euler has no velocity to predict from.
+double laggingOf(const LawConventions& how) {
+  if (how.dampingVelocity == DampingVelocity::implicit) return 0.0;
+  const bool predicted = how.dampingVelocity == DampingVelocity::predicted &&
+                         how.integrator != Integrator::semiImplicitEuler;
+  return predicted ? 2.0 : 1.0;
+}
+
+/// c σ of PairStepLimit, of the tangential spring.
+double signOf(const LawConventions& how) {
+  const double share = std::max(laggingOf(how), 1.0);
+  if (how.springUpdate == SpringUpdate::midpoint) return 0.0;
+  return how.springUpdate == SpringUpdate::before ? share : -share;
+}
+
+/// Of an assembly's start, the two fastest against each other [m/s].
+double startingSpeed(const Assembly& assembly) {
+  double disk = 0.0, wall = 0.0, second = 0.0;
+  const auto look = [&](double speed) {
+    second = std::max(second, std::min(disk, speed));
+    disk = std::max(disk, speed);
+  };
+  for (const DiskGroup& group : assembly.disks) look(group.velocity.norm());
+  for (const Disks& disks : assembly.starts.disks)
+    for (const Vec2& velocity : disks.velocity) look(velocity.norm());
+  for (const WallGroup& walls : assembly.walls)
+    wall = std::max({wall, walls.motion.velocity.norm(),
+                     walls.motion.amplitude.norm() * std::abs(walls.motion.frequency)});
+  return disk + std::max(second, wall);
+}
+
+}  // namespace
+
+std::optional<double> pairContactTime(const Case& setup) {
+  if (setup.law.normal != NormalLaw::linear || setup.particles.file) return std::nullopt;
+  try {
+    return contactTime(setup.law, lightestReducedMass(setup));
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // overdamped
+  }
+}
+
+std::optional<PairStepLimit> pairStepLimit(const Case& setup,
+                                           std::optional<LightestPair> lightest) {
+  const ContactLaw& law = setup.law;
+  if (setup.kind == CaseKind::collision || !law.soft()) return std::nullopt;
+  const LightestPair pair = lightest ? *lightest : lightestPair(setup);
+  const double speed = setup.kind == CaseKind::couette
+                           ? std::abs(setup.cell.omega) * setup.cell.innerRadius
+                           : startingSpeed(setup.assembly);
+  Deepest stiffness{};
+  try {
+    stiffness = deepest(law, {pair.normal, flowDiameter(setup) / 4.0, speed});
+  } catch (const std::invalid_argument&) {  // a polynomial law that gives way so fast
+    return std::nullopt;
+  }
+  const auto limitOf = [&](const char* name, const Oscillator& term) {
+    return PairStepLimit{longestStep(term, laggingOf(law.conventions)), name, term.stiffness,
+                         term.damping, term.mass};
+  };
+  PairStepLimit least = limitOf(
+      "normal",
+      {stiffness.normal, dampingOf(law, law.gn, stiffness.normal, pair.normal), pair.normal});
+  const bool dashpot =
+      law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::springDashpot;
+  const double kt = law.springs() ? stiffness.tangential : 0.0;
+  const double gt = dashpot ? dampingOf(law, law.gt, stiffness.tangential, pair.normal) : 0.0;
+  const PairStepLimit tangential =
+      limitOf("tangential", {kt, gt, pair.tangential, signOf(law.conventions)});
+  if (tangential.dt < least.dt) least = tangential;
+  if (!std::isfinite(least.dt)) return std::nullopt;
+  return least;
+}
+
+std::string whyUnstableStep(const Case& setup, double dt, const std::string& key,
+                            std::optional<LightestPair> lightest) {
+  const auto limit = pairStepLimit(setup, lightest);
+  if (!limit || dt < limit->dt) return {};
+  const char* const parts = limit->damping == 0.0     ? "spring"
+                            : limit->stiffness == 0.0 ? "dashpot"
+                                                      : "spring and dashpot";
+  return fmt::format(
+      "{} = {:g} s is beyond {:.3g} s, the longest step at which the {} {} of the lightest contact "
+      "stays stable (k = {:.4g} N/m, γ = {:.4g} kg/s, mass = {:.4g} kg)",
+      key, dt, limit->dt, limit->term, parts, limit->stiffness, limit->damping, limit->mass);
+}
+
+std::string whyRiskyStep(const Case& setup, double dt) {
+  const auto limit = pairStepLimit(setup);
+  if (!limit || dt < limit->dt / std::sqrt(6.0)) return {};
+  return fmt::format(
+      "the time step of {:.3g} s is beyond what a disk with six contacts bears, 1/√6 of what one "
+      "does = {:.3g} s",
+      dt, limit->dt / std::sqrt(6.0));
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <memory>
 
 #include "cases/loader.hpp"
@@ -25,12 +24,10 @@ constexpr double mostStarts = 1000.0;
 
 int keep(const CommandLine& line, const std::string& out, const std::optional<double>& given,
          bool endpoints) {
-  if (given && !(*given == std::floor(*given) && *given >= 1.0 && *given <= mostStarts))
-    throw BadInput(
-        fmt::format("--starts: {:g} must be a whole number from 1 to {:g}", *given, mostStarts));
-  const std::size_t starts = given        ? static_cast<std::size_t>(*given)
-                             : line.quick ? quickLockstepStarts
-                                          : baselineStarts;
+  const std::size_t starts =
+      given        ? static_cast<std::size_t>(wholeNumberOf("--starts", *given, 1.0, mostStarts))
+      : line.quick ? quickLockstepStarts
+                   : baselineStarts;
   const fs::path file = out;
   // What an older version did cannot be made again.
   if (fs::exists(file))
@@ -70,17 +67,7 @@ int diff(const CommandLine& line, const std::string& file) {
     fmt::print("{}", reports::diffText(results));
     printOverview(overview);
   }
-  bool judged = false, differs = false, failed = false;
-  for (const DiffRow& row : results.rows) {
-    judged |= row.verdict != DiffVerdict::notMeasured;
-    differs |= row.verdict == DiffVerdict::differs;
-    if (row.failure.empty()) continue;
-    printFailure(row.failure);
-    failed = true;
-  }
-  if (failed) return exitEngineFailed;
-  if (!judged) return nothingWasJudged(line, results.rows.front().reason);
-  return differs ? exitFellShort : exitHeld;
+  return printOutcome(line, outcomeOf(results));
 }
 
 Action declareBaseline(CLI::App& app, CommandLine& line) {

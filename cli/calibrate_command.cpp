@@ -1,17 +1,22 @@
-#include "cli/calibrate.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "adapters/law_options.hpp"
 #include "cases/collision_scene.hpp"
+#include "cases/keys.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
+#include "oracle/calibration.hpp"
 #include "runs/common/study_cases.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
@@ -19,63 +24,278 @@
 namespace crossgrain::inline cli {
 namespace {
 
+constexpr double stepsPerContact = 50.0;
+constexpr double softOverlap = 0.01;  // of the smaller radius
+
+void printConstant(const char* key, double value, const char* unit) {
+  fmt::print("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
+}
+
+void note(const std::string& label, const std::string& value) {
+  fmt::print("#   {:<50} {}\n", label, value);
+}
+
+std::string number(std::optional<double> value, const char* unit = "") {
+  return value ? fmt::format("{:.6g}{}{}", *value, *unit ? " " : "", unit) : "-";
+}
+
+double smallerRadius(const CollidingPair& pair) {
+  return std::min(pair.radius[0], pair.radius[1]);
+}
+
+void warnIfSoft(double overlap) {
+  if (overlap > softOverlap)
+    fmt::print(
+        "# warning: soft: δ_max is {:.2g} of the radius; closed forms freeze the normal, and "
+        "contacts of disks are meant to be < {}\n",
+        overlap, softOverlap);
+}
+
+constexpr std::array<std::string_view, 6> alwaysPrinted = {
+    "normal", "tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"};
+
+/// Of Hertz' law E and ν of two equal bodies with these k_n and k_t, as the loader's setHertz() has
+/// them: k_t/k_n = 3 (1 − ν)/(2 − ν), k_n = 2/3 E/(1 − ν²). Any ν serves without a spring.
+void printStiffness(const ContactLaw& law) {
+  if (law.normal == NormalLaw::hertz) {
+    const double ratio = law.kt / law.kn;
+    const double poisson =
+        law.kt > 0.0 ? std::clamp((3.0 - 2.0 * ratio) / (3.0 - ratio), 0.0, 0.5) : 0.0;
+    printConstant("young", 1.5 * law.kn * (1.0 - poisson * poisson),
+                  "Pa, of each of two equal bodies");
+    printConstant("poisson", poisson, "-");
+  } else if (law.normal == NormalLaw::polynomial) {
+    printConstant("k2", law.kn, "N/m^2");
+    printConstant("k3", law.kn3, "N/m^3");
+  } else {
+    printConstant("kn", law.kn, "N/m");
+  }
+}
+
+/// Where e_t0 is not known, or not all there is to know.
+void printRemarks(const ContactLaw& law, const ImpliedImpact& is) {
+  if (law.tangential != TangentialLaw::none && !is.et0)
+    fmt::print(
+        "# e_t0 and what follows from it are known for coulomb_bound = \"compression\" only\n");
+  if (is.firstTouchSticksToPsi)
+    fmt::print("# e_t0 holds up to |Ψ_i| = µ γ_n/γ_t = {:.6g} only (spring_reset = \"total\")\n",
+               *is.firstTouchSticksToPsi);
+}
+
+/// The law as a [law] table that a case can take, every line that is not TOML a comment.
+/// @param asked  what it was made from, for the head
+void printLaw(const ContactLaw& law, const std::string& asked) {
+  fmt::print("# {}\n[law]\n", asked);
+  for (const LawOption& option : lawOptions()) {
+    const bool asLoaded = option.get(law) == option.get(ContactLaw{});
+    const bool always = std::ranges::find(alwaysPrinted, option.name) != alwaysPrinted.end();
+    if (mattersTo(law, option.name) && (always || !asLoaded))
+      fmt::print("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
+  }
+  printStiffness(law);
+  const char* const damping = law.damper == Damper::constant       ? "kg/s"
+                              : law.damper == Damper::viscoelastic ? "s"
+                                                                   : "-";
+  printConstant("gn", law.gn, damping);
+  if (law.tangential == TangentialLaw::none) return;
+  if (law.mu > 0.0)
+    printConstant("mu", law.mu, "-");
+  else
+    fmt::print("# mu = …   a case needs it; not given\n");
+  if (law.kt > 0.0 && law.normal != NormalLaw::hertz) printConstant("kt", law.kt, "N/m");
+  if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
+    printConstant("gt", law.gt, damping);
+}
+
+/// What the law means for one pair, as comments. @param vn  of an impact, for its overlap [m/s]
+void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn) {
+  const ImpliedImpact is = impliedImpact(law, pair);
+  const ReducedPair two = reduced(pair);
+  const bool cut = law.conventions.tension == Tension::cut;
+  fmt::print("\n# implied (normal frozen: slow impacts)\n");
+  note("reduced mass m12, K = 1 + m12 Σ a²/J",
+       fmt::format("{}, {}", number(two.mass, "kg"), number(two.K)));
+  note("e_n", fmt::format("{:.6g}, with tension {}: {:.6g}", cut ? is.enCut : is.enAllowed,
+                          cut ? "allowed" : "cut", cut ? is.enAllowed : is.enCut));
+  note("contact time t_c", number(is.contactTime, "s"));
+  note("suggested dt = t_c/50", number(is.contactTime / stepsPerContact, "s"));
+  if (cut) note("π/ω, which steps_per_contact counts from", number(is.halfPeriod, "s"));
+  note("ω, γ_n over critical",
+       fmt::format("{}, {}", number(is.omega, "rad/s"), number(is.dampingRatio)));
+  if (law.tangential != TangentialLaw::none) {
+    note("e_t0 without slip", number(is.et0));
+    if (law.kt > 0.0) {
+      note("ω_t, γ_t over critical",
+           fmt::format("{}, {}", number(is.omegaT, "rad/s"), number(is.dampingRatioT)));
+      note("kt/kn", number(law.kt / law.kn));
+    }
+    note("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
+    note("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
+  }
+  const double radius = smallerRadius(pair);
+  note("δ_max reaches 1 % of the smaller radius at v_n",
+       number(softOverlap * radius / is.overlapPerSpeed, "m/s"));
+  printRemarks(law, is);
+  if (!vn) return;
+  const double overlap = *vn * is.overlapPerSpeed;
+  note(fmt::format("δ_max, δ_max/a at v_n = {} m/s", *vn),
+       fmt::format("{}, {}", number(overlap, "m"), number(overlap / radius)));
+  warnIfSoft(overlap / radius);
+}
+
+struct NamedPair {
+  std::string name;
+  CollidingPair bodies;
+};
+
+/// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
+/// @throws std::invalid_argument where the pair does not part
+std::vector<CollisionEnd> headOnImpacts(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                                        double speed) {
+  ContactLaw normal = law;
+  normal.tangential = TangentialLaw::none;
+  std::vector<CollisionEnd> ends;
+  for (const auto& [name, bodies] : pairs)
+    ends.push_back(oracleOutcome(normal, bodies, {0.0, speed}));
+  return ends;
+}
+
+/// A table as comments: the first column to the left, the others to the right.
+void printTable(const std::vector<std::pair<const char*, int>>& columns,
+                const std::vector<std::vector<std::string>>& rows) {
+  const auto printRow = [&](const auto& textOf) {
+    std::string line = "#";
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      line += k == 0 ? fmt::format(" {:<{}}", textOf(k), columns[k].second)
+                     : fmt::format(" {:>{}}", textOf(k), columns[k].second);
+    fmt::print("{}\n", line);
+  };
+  printRow([&](std::size_t k) { return std::string(columns[k].first); });
+  for (const auto& row : rows) printRow([&](std::size_t k) { return row[k]; });
+}
+
+std::string digits4(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::string decimals4(std::optional<double> value) {
+  return value ? fmt::format("{:.4f}", *value) : "-";
+}
+
+/// Of the ends of head-on impacts one row for each pair.
+void printStiffeningPairs(const std::vector<NamedPair>& pairs,
+                          const std::vector<CollisionEnd>& ends, double speed) {
+  fmt::print("\n# implied, at v_n = {:.6g} m/s\n", speed);
+  double largest = 0.0;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ReducedPair two = reduced(pairs[k].bodies);
+    const double time = *ends[k].duration;
+    const double overlap = *ends[k].maxOverlap / smallerRadius(pairs[k].bodies);
+    largest = std::max(largest, overlap);
+    rows.push_back({pairs[k].name, digits4(two.mass), digits4(two.K), decimals4(ends[k].en),
+                    digits4(time), digits4(time / stepsPerContact),
+                    fmt::format("{:.2g}", overlap)});
+  }
+  printTable({{"pair", 12},
+              {"m12 [kg]", 11},
+              {"K", 8},
+              {"e_n", 9},
+              {"t_c [s]", 11},
+              {"t_c/50 [s]", 11},
+              {"δ_max/a", 9}},
+             rows);
+  warnIfSoft(largest);
+}
+
+/// One row for each pair, of the linear law.
+void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                std::optional<double> vn) {
+  fmt::print("\n# implied (normal frozen: slow impacts){}\n",
+             pairs.size() > 1 && law.gn > 0.0 && law.damper != Damper::critical
+                 ? "; the constants are the same for all pairs, so restitutions are not"
+                 : "");
+  std::vector<std::pair<const char*, int>> columns = {
+      {"pair", 12},    {"m12 [kg]", 11}, {"K", 8},       {"e_n allow", 9}, {"e_n cut", 9},
+      {"t_c [s]", 11}, {"e_t0", 9},      {"sliding", 9}, {"Ψ*", 9},        {"t_c/50 [s]", 11}};
+  if (vn) columns.emplace_back("δ_max/a", 9);
+  double largest = 0.0;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, bodies] : pairs) {
+    const ImpliedImpact is = impliedImpact(law, bodies);
+    const ReducedPair two = reduced(bodies);
+    const double overlap = vn.value_or(0.0) * is.overlapPerSpeed / smallerRadius(bodies);
+    largest = std::max(largest, overlap);
+    rows.push_back({name, digits4(two.mass), digits4(two.K), decimals4(is.enAllowed),
+                    decimals4(is.enCut), digits4(is.contactTime), decimals4(is.et0),
+                    decimals4(is.slidingConstant), decimals4(is.stickingEndsAtPsi),
+                    digits4(is.contactTime / stepsPerContact), fmt::format("{:.2g}", overlap)});
+  }
+  printTable(columns, rows);
+  printRemarks(law, impliedImpact(law, pairs.front().bodies));
+  warnIfSoft(largest);
+}
+
+/// What was asked: wanted values, or constants, or a case file (CommandLine::inputs), and the pair
+/// that they are for. SI units.
+struct Request {
+  std::optional<double> en, et0, contactTime;
+  std::optional<double> kn, gn, kt, gt;
+  std::optional<double> mass, mass2, radius, radius2, inertiaFactor;
+  std::optional<double> mu, vn;
+  std::optional<std::string> tension, tangential;
+};
+
+enum class Part { wanted, constant, body, further };
+
 /// An option of one number, and what it may be.
 struct Number {
+  Part part;
   const char* option;
-  std::optional<double> CalibrationRequest::*member;
+  std::optional<double> Request::*member;
   const char* what;
-  const char* range;
-  bool (*allowed)(double);
+  Range range;
 };
 
-bool isPositive(double x) {
-  return x > 0.0 && std::isfinite(x);
+const std::vector<Number>& numbers() {
+  using enum Part;
+  const Range massOrWall{.low = 0.0, .lowOpen = true, .unit = "kg", .mayBeInfinite = true};
+  static const std::vector<Number> all = {
+      {wanted, "--en", &Request::en, "wanted: normal restitution e_n", aboveZeroTo(1.0)},
+      {wanted, "--et", &Request::et0,
+       "wanted: tangential restitution e_t0 of a contact that never slips",
+       Range{.low = -1.0, .high = 1.0, .lowOpen = true}},
+      {wanted, "--tc", &Request::contactTime, "wanted: contact time [s]; or --kn", positive("s")},
+      {constant, "--kn", &Request::kn,
+       "normal stiffness [N/m]: wanted, with --en instead of --tc; or given", positive("N/m")},
+      {constant, "--gn", &Request::gn, "given: normal damping [kg/s]", atLeast(0.0, "kg/s")},
+      {constant, "--kt", &Request::kt, "given: tangential stiffness [N/m]", atLeast(0.0, "N/m")},
+      {constant, "--gt", &Request::gt, "given: tangential damping [kg/s]", atLeast(0.0, "kg/s")},
+      {body, "--mass", &Request::mass, "mass of the first body [kg]", positive("kg")},
+      {body, "--mass2", &Request::mass2, "of the second [kg]; inf: a wall (default: as the first)",
+       massOrWall},
+      {body, "--radius", &Request::radius, "radius of the first body [m]", positive("m")},
+      {body, "--radius2", &Request::radius2, "of the second [m] (default: as the first)",
+       positive("m")},
+      {body, "--inertia-factor", &Request::inertiaFactor, "q in J = q m a^2 (default: 0.5, a disk)",
+       aboveZeroTo(1.0)},
+      {further, "--mu", &Request::mu, "Coulomb's coefficient", positive()},
+      {further, "--vn", &Request::vn, "speed of an impact, for its overlap [m/s]", positive("m/s")},
+  };
+  return all;
 }
-bool isNotNegative(double x) {
-  return x >= 0.0 && std::isfinite(x);
-}
 
-using Request = CalibrationRequest;
-const std::vector<Number> wantedValues = {
-    {"--en", &Request::en, "wanted: normal restitution e_n", "> 0 and <= 1",
-     [](double x) { return x > 0.0 && x <= 1.0; }},
-    {"--et", &Request::et0, "wanted: tangential restitution e_t0 of a contact that never slips",
-     "> -1 and <= 1", [](double x) { return x > -1.0 && x <= 1.0; }},
-    {"--tc", &Request::contactTime, "wanted: contact time [s]; or --kn", "> 0 s", isPositive},
-};
-const std::vector<Number> constants = {
-    {"--kn", &Request::kn, "normal stiffness [N/m]: wanted, with --en instead of --tc; or given",
-     "> 0 N/m", isPositive},
-    {"--gn", &Request::gn, "given: normal damping [kg/s]", ">= 0 kg/s", isNotNegative},
-    {"--kt", &Request::kt, "given: tangential stiffness [N/m]", ">= 0 N/m", isNotNegative},
-    {"--gt", &Request::gt, "given: tangential damping [kg/s]", ">= 0 kg/s", isNotNegative},
-};
-const std::vector<Number> bodies = {
-    {"--mass", &Request::mass, "mass of the first body [kg]", "> 0 kg and finite", isPositive},
-    {"--mass2", &Request::mass2, "of the second [kg]; inf: a wall (default: as the first)",
-     "> 0 kg, or inf for a wall", [](double x) { return x > 0.0; }},
-    {"--radius", &Request::radius, "radius of the first body [m]", "> 0 m", isPositive},
-    {"--radius2", &Request::radius2, "of the second [m] (default: as the first)", "> 0 m",
-     isPositive},
-    {"--inertia-factor", &Request::inertiaFactor, "q in J = q m a^2 (default: 0.5, a disk)",
-     "> 0 and <= 1", [](double x) { return x > 0.0 && x <= 1.0; }},
-};
-const std::vector<Number> furtherNumbers = {
-    {"--mu", &Request::mu, "Coulomb's coefficient", "> 0", isPositive},
-    {"--vn", &Request::vn, "speed of an impact, for its overlap [m/s]", "> 0 m/s", isPositive},
-};
-
-const Number* firstGiven(const Request& request, const std::vector<Number>& numbers) {
-  const auto found = std::ranges::find_if(
-      numbers, [&](const Number& number) { return (request.*number.member).has_value(); });
-  return found == numbers.end() ? nullptr : &*found;
+const Number* firstGiven(const Request& request, Part part) {
+  for (const Number& number : numbers())
+    if (number.part == part && request.*number.member) return &number;
+  return nullptr;
 }
 
 void checkRanges(const Request& request) {
-  for (const auto* numbers : {&wantedValues, &constants, &bodies, &furtherNumbers})
-    for (const Number& number : *numbers)
-      if (const auto value = request.*number.member; value && !number.allowed(*value))
-        throw BadInput(fmt::format("{} = {}: must be {}", number.option, *value, number.range));
+  for (const Number& number : numbers())
+    if (const auto value = request.*number.member; value && !number.range.contains(*value))
+      throw BadInput(
+          fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
 }
 
 double need(std::optional<double> value, const char* option, const char* why) {
@@ -133,23 +353,17 @@ std::string setNormal(ContactLaw& law, const Request& request, double en, double
 
 /// Two options that say the same thing may say different things.
 void refuseContradictions(const Request& request) {
-  struct Pair {
-    const char* wanted;
-    bool isWanted;
-    const char* constant;
-    bool isGiven;
-    const char* why;
+  const auto refuse = [](const char* wanted, bool isWanted, const char* constant, bool isGiven,
+                         const char* why) {
+    if (isWanted && isGiven)
+      throw BadInput(fmt::format("{} and {}: {}; leave one of them out", wanted, constant, why));
   };
-  const Pair pairs[] = {
-      {"--tc", request.contactTime.has_value(), "--kn", request.kn.has_value(),
-       "with e_n each gives the other"},
-      {"--en", request.en.has_value(), "--gn", request.gn.has_value(), "e_n gives gn"},
-      {"--et", request.et0.has_value(), "--kt", request.kt.has_value(), "e_t0 gives kt and gt"},
-      {"--et", request.et0.has_value(), "--gt", request.gt.has_value(), "e_t0 gives kt and gt"}};
-  for (const Pair& pair : pairs)
-    if (pair.isWanted && pair.isGiven)
-      throw BadInput(fmt::format("{} and {}: {}; leave one of them out", pair.wanted, pair.constant,
-                                 pair.why));
+  const bool en = request.en.has_value(), et = request.et0.has_value();
+  refuse("--tc", request.contactTime.has_value(), "--kn", request.kn.has_value(),
+         "with e_n each gives the other");
+  refuse("--en", en, "--gn", request.gn.has_value(), "e_n gives gn");
+  refuse("--et", et, "--kt", request.kt.has_value(), "e_t0 gives kt and gt");
+  refuse("--et", et, "--gt", request.gt.has_value(), "e_t0 gives kt and gt");
 }
 
 int fromWanted(const Request& request) {
@@ -200,22 +414,13 @@ int fromConstants(const Request& request) {
   return exitHeld;
 }
 
-CollidingPair disksOf(const Case& setup, double radiusI, double massI, double radiusJ,
-                      double massJ) {
-  const double q = setup.particles.inertiaFactor;
-  return {{radiusI, radiusJ},
-          {massI, massJ},
-          {q * massI * radiusI * radiusI, q * massJ * radiusJ * radiusJ}};
-}
-
 std::vector<NamedPair> pairsOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision) {
-    return {{"i-j", collidingPair(setup)}};
-  }
+  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup)}};
   const Particles& p = setup.particles;
   struct Kind {
     const char* name;
     double radius, mass;
+    double inertia(double factor) const { return factor * mass * radius * radius; }
   };
   std::vector<Kind> kinds;
   if (p.small > 0 || p.file) kinds.push_back({"small", p.smallRadius, p.smallMass});
@@ -224,10 +429,13 @@ std::vector<NamedPair> pairsOf(const Case& setup) {
   kinds.push_back({"wall", setup.cell.wallRadius, std::numeric_limits<double>::infinity()});
   std::vector<NamedPair> pairs;
   for (std::size_t i = 0; i < disks; ++i)
-    for (std::size_t j = i; j < kinds.size(); ++j)
-      pairs.push_back(
-          {fmt::format("{}-{}", kinds[i].name, kinds[j].name),
-           disksOf(setup, kinds[i].radius, kinds[i].mass, kinds[j].radius, kinds[j].mass)});
+    for (std::size_t j = i; j < kinds.size(); ++j) {
+      const Kind &one = kinds[i], &two = kinds[j];
+      pairs.push_back({fmt::format("{}-{}", one.name, two.name),
+                       {{one.radius, two.radius},
+                        {one.mass, two.mass},
+                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}}});
+    }
   return pairs;
 }
 
@@ -239,9 +447,9 @@ double speedOf(const Case& setup, const Request& request) {
 }
 
 int fromCase(const CommandLine& line, const Request& request) {
-  for (const auto* numbers : {&bodies, &furtherNumbers})
-    if (const Number* given = firstGiven(request, *numbers); given && given->member != &Request::vn)
-      throw BadInput(fmt::format("{}: the case file says it", given->option));
+  for (const Number& number : numbers())
+    if (number.part >= Part::body && request.*number.member && number.member != &Request::vn)
+      throw BadInput(fmt::format("{}: the case file says it", number.option));
   if (request.tension || request.tangential)
     throw BadInput("--tension and --tangential: the case file says it; --set changes it");
   const auto& file = line.inputs.front();
@@ -277,22 +485,10 @@ int fromCase(const CommandLine& line, const Request& request) {
   return exitHeld;
 }
 
-void addOptions(CLI::App& command, CommandLine& line, Request& request) {
-  addInputs(command, line, "case", "case file: what its law means for each pair", 0, 1);
-  addOverrides(command, line);
-  for (const auto* numbers : {&wantedValues, &constants, &bodies, &furtherNumbers})
-    for (const Number& number : *numbers)
-      addNumber(command, number.option, request.*number.member, number.what);
-  addText(command, "--tension", request.tension, "whether contacts pull (default: allow)",
-          "allow|cut");
-  addText(command, "--tangential", request.tangential,
-          "tangential law wanted (default: spring_dashpot)", "spring|spring_dashpot");
-}
-
 int calibrate(const CommandLine& line, const Request& request) {
   checkRanges(request);
   refuseContradictions(request);
-  const Number* wanted = firstGiven(request, wantedValues);
+  const Number* wanted = firstGiven(request, Part::wanted);
   // A stiffness may be wanted, too.
   const bool constant = request.gn || request.kt || request.gt || (request.kn && !wanted);
   const bool ofCase = !line.inputs.empty();
@@ -307,7 +503,14 @@ int calibrate(const CommandLine& line, const Request& request) {
 
 Action declareCalibrate(CLI::App& app, CommandLine& line) {
   const auto request = std::make_shared<Request>();
-  addOptions(app, line, *request);
+  addInputs(app, line, "case", "case file: what its law means for each pair", 0, 1);
+  addOverrides(app, line);
+  for (const Number& number : numbers())
+    addNumber(app, number.option, (*request).*number.member, number.what);
+  addText(app, "--tension", request->tension, "whether contacts pull (default: allow)",
+          "allow|cut");
+  addText(app, "--tangential", request->tangential,
+          "tangential law wanted (default: spring_dashpot)", "spring|spring_dashpot");
   return [&line, request] { return calibrate(line, *request); };
 }
 

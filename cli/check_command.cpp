@@ -32,29 +32,32 @@ std::string lasting(double seconds) {
   return fmt::format("{:.3g} h", seconds / 3600.0);
 }
 
+double number(const json& at, const char* key) {
+  return at[key].get<double>();
+}
+
 void printCell(const json& checked) {
   const json& cell = checked["cell"];
   fmt::print(
       "  volume fraction {:.4f}, about {:.3f} between the walls' layers; wall disks: {} on the "
       "wheel, {} on the ring\n",
-      cell["volume_fraction"].get<double>(), cell["bulk_volume_fraction"].get<double>(),
-      cell["wheel_disks"].get<std::size_t>(), cell["ring_disks"].get<std::size_t>());
+      number(cell, "volume_fraction"), number(cell, "bulk_volume_fraction"),
+      number(cell, "wheel_disks"), number(cell, "ring_disks"));
   fmt::print("  per packing: {:.0f} steps of the case's dt, {:g} rotations; packings: {}\n",
-             cell["steps"].get<double>(), cell["rotations"].get<double>(),
+             number(cell, "steps"), number(cell, "rotations"),
              fmt::join(cell["looks"].get<std::vector<int>>(), ", then "));
   fmt::print("  expected: {:.0f} to {:.0f} contacts", cell["expected_contacts"][0].get<double>(),
              cell["expected_contacts"][1].get<double>());
   if (cell["expected_pressure"].is_number())
     fmt::print(", pressure {:.1g} N/m², inertial number {:.1g} at the wheel (to a factor of three)",
-               cell["expected_pressure"].get<double>(),
-               cell["expected_inertial_number"].get<double>());
+               number(cell, "expected_pressure"), number(cell, "expected_inertial_number"));
   fmt::print("\n");
   for (const auto& [list, what] : {std::pair("endpoints", "endpoint"), {"margins", "field"}})
     for (const json& margin : checked[list]) {
       const std::string unit = margin["relative"] == true ? "of the reference" : margin["unit"],
                         scale = margin["of"];
       fmt::print("  margin of {} {}: {:g}{}{}\n", what, margin[what].get<std::string>(),
-                 margin["value"].get<double>(), unit.empty() ? "" : " " + unit,
+                 number(margin, "value"), unit.empty() ? "" : " " + unit,
                  scale.empty() ? "" : ", a share of " + scale);
     }
 }
@@ -72,30 +75,28 @@ void printEngine(const json& row) {
     return;
   }
   fmt::print("  {:<16} can run it{}\n", name,
-             row.contains("dt_s") ? fmt::format(", dt {:.3g} s", row["dt_s"].get<double>()) : "");
+             row.contains("dt_s") ? fmt::format(", dt {:.3g} s", number(row, "dt_s")) : "");
   for (const json& note : row["deviations"])
     fmt::print("    differs: {}\n", note.get<std::string>());
   if (!row["not_simulated"].empty())
     fmt::print("    does not simulate: {}\n", listed(row["not_simulated"]));
   if (!row.contains("run_s")) return;
-  fmt::print("    {:.3g} µs a step: {} a packing", 1e6 * row["step_s"].get<double>(),
-             lasting(row["run_s"].get<double>()));
-  if (row["memory_bytes"].is_number())
-    fmt::print(", {:.0f} MB", row["memory_bytes"].get<double>() / 1e6);
-  fmt::print("\n");
+  fmt::print("    {:.3g} µs a step: {} a packing{}\n", 1e6 * number(row, "step_s"),
+             lasting(number(row, "run_s")),
+             row["memory_bytes"].is_number()
+                 ? fmt::format(", {:.0f} MB", number(row, "memory_bytes") / 1e6)
+                 : "");
 }
 
 void printChecked(const json& checked) {
-  const std::string variant = checked["variant"];
-  fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n",
-             variant.empty() ? checked["name"].get<std::string>() : variant,
-             checked["disks"].get<std::size_t>(), checked["wall_disks"].get<std::size_t>(),
-             checked["dt_s"].get<double>());
+  const std::string variant = checked["variant"], name = checked["name"];
+  fmt::print("{}: {} disks, {} wall disks, dt {:.3g} s\n", variant.empty() ? name : variant,
+             number(checked, "disks"), number(checked, "wall_disks"), number(checked, "dt_s"));
   fmt::print("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
              listed(checked["left_out"]));
   if (checked["steps_per_contact"].is_number())
     fmt::print("  {:.3g} steps in the shortest contact; dt may be at most {:.3g} s\n",
-               checked["steps_per_contact"].get<double>(), checked["step_limit_s"].get<double>());
+               number(checked, "steps_per_contact"), number(checked, "step_limit_s"));
   if (checked.contains("cell")) printCell(checked);
   for (const json& caution : checked["cautions"])
     fmt::print("  caution: {}\n", caution.get<std::string>());
@@ -105,8 +106,8 @@ void printChecked(const json& checked) {
   fmt::print(
       "  predicted for compare: {}, one after the other, {} of it preparing; steps were timed on "
       "{}\n",
-      lasting(prediction["total_s"].get<double>()),
-      lasting(prediction["preparing_s"].get<double>()), prediction["timed_on"].get<std::string>());
+      lasting(number(prediction, "total_s")), lasting(number(prediction, "preparing_s")),
+      prediction["timed_on"].get<std::string>());
 }
 
 /// Engines that "all" leaves out, since they are not installed.

@@ -7,7 +7,7 @@ _crossgrain() {
   elif [[ $previous == "=" ]]; then
     previous=${COMP_WORDS[COMP_CWORD - 2]}
   fi
-  if ((COMP_CWORD == 1)) || [[ ${COMP_WORDS[1]} == help ]]; then
+  if ((COMP_CWORD == 1)) || [[ ${COMP_WORDS[1]} == help && $current != -* ]]; then
     words=$(${COMP_WORDS[0]} --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p; s/^  -.,\(--[a-z-]\+\).*/\1/p')
   elif [[ $current == -* ]]; then
     words=$(${COMP_WORDS[0]} "${COMP_WORDS[1]}" --help | sed -n 's/^  \(-.,\)\?\(--[a-z0-9-]\+\).*/\2/p')

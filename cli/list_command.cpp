@@ -22,6 +22,10 @@ using nlohmann::json;
 
 namespace {
 
+json row(std::string_view name, std::string_view unit, std::string_view what) {
+  return {{"name", name}, {"unit", unit}, {"what", what}};
+}
+
 json listCases(const fs::path& folder) {
   json rows = json::array();
   for (const CaseSummary& each : casesBelow(folder))
@@ -38,56 +42,57 @@ json listFields(const fs::path&) {
   for (const auto& table : {fieldTable(), cartesianFieldTable()})
     for (const FieldSpec& field : table)
       if (listed.insert(field.name).second)
-        rows.push_back({{"name", field.name}, {"unit", field.unit}, {"what", field.definition}});
+        rows.push_back(row(field.name, field.unit, field.definition));
   return rows;
 }
 
 json listEndpoints(const fs::path&) {
   json rows = json::array();
   for (const EndpointSpec& endpoint : endpointTable())
-    rows.push_back(
-        {{"name", endpoint.name}, {"unit", endpoint.unit}, {"what", endpoint.definition}});
+    rows.push_back(row(endpoint.name, endpoint.unit, endpoint.definition));
   for (const RegionNumber& number : regionNumbers())
-    rows.push_back({{"name", number.name},
-                    {"unit", number.unit},
-                    {"what", std::string(number.definition) + "; a quantity for [[endpoints]]"}});
+    rows.push_back(row(number.name, number.unit,
+                       std::string(number.definition) + "; a quantity for [[endpoints]]"));
   return rows;
 }
 
 json listMeasures(const fs::path&) {
   json rows = json::array();
   for (const StabilityMeasure& measure : stabilityMeasures())
-    rows.push_back({{"name", measure.name}, {"unit", measure.unit}, {"what", measure.what}});
+    rows.push_back(row(measure.name, measure.unit, measure.what));
   return rows;
 }
 
 json listKeys(const fs::path&) {
+  const auto plain = [](std::string text) {
+    std::erase(text, '`');
+    return text;
+  };
   json rows = json::array();
-  for (const CaseKey& key : caseKeys())
-    rows.push_back({{"section", key.section},
-                    {"key", key.key},
-                    {"unit", key.unit},
-                    {"default", key.usual},
-                    {"what", key.meaning}});
+  for (const SectionInfo& section : caseSections())
+    for (const KeyInfo& key : section.keys)
+      rows.push_back({{"section", section.name},
+                      {"key", key.name},
+                      {"unit", key.unit},
+                      {"default", plain(key.standard)},
+                      {"values", key.values},
+                      {"what", plain(key.meaning)}});
   return rows;
 }
 
-/// What can be listed, and the columns that the text has.
+/// What can be listed, and the columns of the text.
 struct Subject {
   std::string name;
   json (*rows)(const fs::path& folder);
   std::vector<const char*> columns;
 };
 
-const std::vector<Subject>& subjects() {
-  static const std::vector<Subject> all = {
-      {"cases", listCases, {"name", "kind", "file", "what"}},
-      {"fields", listFields, {"name", "unit", "what"}},
-      {"endpoints", listEndpoints, {"name", "unit", "what"}},
-      {"measures", listMeasures, {"name", "unit", "what"}},
-      {"keys", listKeys, {"section", "key", "unit", "default", "what"}}};
-  return all;
-}
+const std::vector<Subject> subjects = {
+    {"cases", listCases, {"name", "kind", "file", "what"}},
+    {"fields", listFields, {"name", "unit", "what"}},
+    {"endpoints", listEndpoints, {"name", "unit", "what"}},
+    {"measures", listMeasures, {"name", "unit", "what"}},
+    {"keys", listKeys, {"section", "key", "unit", "default", "values", "what"}}};
 
 /// Characters, not bytes: names of units are not all ASCII.
 std::size_t width(const std::string& text) {
@@ -97,30 +102,40 @@ std::size_t width(const std::string& text) {
 
 /// Columns side by side, the last one open.
 void print(const json& rows, const std::vector<const char*>& columns) {
-  for (const json& row : rows) {
-    std::string line;
-    for (const char* column : columns) {
-      const std::string text = row[column];
-      line += text;
-      if (column == columns.back()) continue;
-      std::size_t widest = 0;
-      for (const json& each : rows)
-        widest = std::max(widest, width(each[column].get<std::string>()));
-      line.append(widest + 2 - width(text), ' ');
+  std::vector<std::string> lines(rows.size());
+  for (const char* const column : columns) {
+    std::size_t widest = 0;
+    for (const std::string& line : lines) widest = std::max(widest, width(line));
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (column != columns.front()) lines[k].append(widest + 2 - width(lines[k]), ' ');
+      lines[k] += rows[k][column].get<std::string>();
     }
+  }
+  for (std::string& line : lines) {
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::print("{}\n", line);
   }
 }
 
-int list(const CommandLine& line, const std::string& subject, const fs::path& folder) {
+struct ListOptions {
+  std::string subject;
+  bool markdown = false;
+};
+
+int list(const CommandLine& line, const ListOptions& options) {
+  const std::string& subject = options.subject;
   std::vector<std::string> names;
-  for (const Subject& each : subjects()) names.push_back(each.name);
-  const auto asked = std::ranges::find(subjects(), subject, &Subject::name);
-  if (asked == subjects().end())
+  for (const Subject& each : subjects) names.push_back(each.name);
+  const auto asked = std::ranges::find(subjects, subject, &Subject::name);
+  if (asked == subjects.end())
     throw BadInput(
         fmt::format("list: there is nothing called '{}'{}", subject, suggestion(subject, names)));
-  const json rows = asked->rows(folder);
+  if (options.markdown) {
+    if (subject != "keys") throw BadInput("list: --markdown is of keys only");
+    fmt::print("{}", keysInMarkdown());
+    return exitHeld;
+  }
+  const json rows = asked->rows(line.inputs.empty() ? hereOrInstalled("cases") : line.inputs[0]);
   if (line.json)
     fmt::print("{}\n", rows.dump(2));
   else
@@ -129,16 +144,14 @@ int list(const CommandLine& line, const std::string& subject, const fs::path& fo
 }
 
 Action declareList(CLI::App& app, CommandLine& line) {
-  const auto subject = std::make_shared<std::string>();
-  addArgument(app, "what", *subject, "what is to be listed",
+  const auto options = std::make_shared<ListOptions>();
+  addArgument(app, "what", options->subject, "what is to be listed",
               "cases|fields|endpoints|measures|keys");
   addInputs(app, line, "folder", "of the cases to be listed (default: cases, here or as installed)",
             0, 1);
   addFlag(app, "--json", line.json, "as JSON");
-  return [&line, subject] {
-    return list(line, *subject,
-                line.inputs.empty() ? hereOrInstalled("cases") : line.inputs.front());
-  };
+  addFlag(app, "--markdown", options->markdown, "keys as the tables of docs/cases.md");
+  return [&line, options] { return list(line, *options); };
 }
 
 }  // namespace

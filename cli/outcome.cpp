@@ -17,16 +17,19 @@ namespace {
 
 const std::chrono::steady_clock::time_point programBegan = std::chrono::steady_clock::now();
 
+void printTimeSpent() {
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - programBegan;
+  const double stepping = steppingTime().seconds(), drawing = drawingTime().seconds();
+  fmt::print(stderr, "{}: engines stepped for {} ({:.0f} %), plots took {} ({:.0f} %)\n",
+             reports::shortDuration(all.count()), reports::shortDuration(stepping),
+             100.0 * stepping / all.count(), reports::shortDuration(drawing),
+             100.0 * drawing / all.count());
+}
+
 }  // namespace
 
 void printFailure(const std::string& reason) {
   fmt::print(stderr, "crossgrain: {}\n", reason);
-}
-
-bool printRefusals(const CommandLine& line, const std::vector<EngineRow>& engines) {
-  const std::vector<std::string> refused = refusals(engines, line.run.engines);
-  for (const std::string& reason : refused) printFailure(reason);
-  return !refused.empty();
 }
 
 void printResults(const CommandLine& line, const std::string& text, const Overview& overview,
@@ -43,32 +46,10 @@ void printResults(const CommandLine& line, const std::string& text, const Overvi
 
 int printOutcome(const CommandLine& line, const Outcome& outcome) {
   for (const std::string& reason : outcome.failures) printFailure(reason);
-  if (outcome.nothingJudged) nothingWasJudged(line, *outcome.nothingJudged);
+  if (outcome.nothingJudged)
+    fmt::print(line.json ? stderr : stdout, "{}nothing was judged: {}\n",
+               line.json ? "crossgrain: " : "", *outcome.nothingJudged);
   return outcome.status;
-}
-
-int told(const std::string& plan) {
-  fmt::print("{}", plan);
-  return exitHeld;
-}
-
-int nothingWasJudged(const CommandLine& line, const std::string& reason, bool byRequest,
-                     bool strict) {
-  const std::string text = "nothing was judged: " + reason;
-  if (line.json)
-    fmt::print(stderr, "crossgrain: {}\n", text);
-  else
-    fmt::print("{}\n", text);
-  return byRequest && !strict ? exitHeld : exitFellShort;
-}
-
-void printTimeSpent() {
-  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - programBegan;
-  const double stepping = steppingTime().seconds(), drawing = drawingTime().seconds();
-  fmt::print(stderr, "{}: engines stepped for {} ({:.0f} %), plots took {} ({:.0f} %)\n",
-             reports::shortDuration(all.count()), reports::shortDuration(stepping),
-             100.0 * stepping / all.count(), reports::shortDuration(drawing),
-             100.0 * drawing / all.count());
 }
 
 void printOverview(const Overview& overview) {

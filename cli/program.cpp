@@ -13,7 +13,6 @@
 
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
-#include "cases/engine_shelf.hpp"
 #include "cli/command.hpp"
 #include "runs/common/run_store.hpp"
 #include "support/bad_input.hpp"

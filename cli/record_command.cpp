@@ -33,10 +33,9 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   options.time = time;
   if (time && !(*time > 0.0 && std::isfinite(*time)))
     throw BadInput(fmt::format("--time: {:g} must be > 0 s", *time));
-  if (looks && !(*looks >= 1.0 && *looks <= mostSnapshots && *looks == std::floor(*looks)))
-    throw BadInput(
-        fmt::format("--looks: {:g} must be a whole number from 1 to {:g}", *looks, mostSnapshots));
-  if (looks) options.snapshots = static_cast<std::size_t>(*looks);
+  if (looks)
+    options.snapshots =
+        static_cast<std::size_t>(wholeNumberOf("--looks", *looks, 1.0, mostSnapshots));
   const EngineEntry engine = onlyEngine(line, "record");
   const std::filesystem::path file = out;
   if (std::filesystem::exists(file))

@@ -14,7 +14,7 @@
 #include "results/engine_row.hpp"
 #include "results/json_fields.hpp"
 
-/// What `crossgrain cost` finds out: results of kind "cost" (reports/README.md). Targets are
+/// What `crossgrain cost` finds out: results of kind "cost" (docs/results.md). Targets are
 /// accuracies that are wanted: 0.01 is 1 %. Places are indices into CostResults::points.
 namespace crossgrain::inline results {
 

@@ -33,7 +33,7 @@ struct CouetteAveraging {
   std::optional<double> lineWidth;  ///< of a study of ring widths: the kernels' [d]
 };
 
-/// The averaged part of a case that is no Couette cell (cases/average.hpp).
+/// The averaged part of a case that is no Couette cell (cases/case.hpp).
 struct RegionRow {
   std::string bins;             ///< "rings", "slabs", "grid" or "whole"
   std::string along;            ///< of slabs: "x" or "y"

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,10 +38,10 @@ struct FormulaContext {
   std::function<std::optional<FormulaValue>(std::string_view name)> named = {};
 };
 
+// clang-format off
 /// A formula as one would write it: + − * / and parentheses of
 ///   numbers and names   pi; d, R_i, R_o, height, omega, kn, kt of the case; cpu_s, steps, dt of
-///   the
-///                       run; those that the context names
+///                       the run; those that the context names
 ///   rings               any field of profiles.csv; r [m], r_tilde
 ///   functions           abs ln lg exp sqrt cos positive (absent unless > 0)
 ///   of rings            mean median rms scatter (relative) max min axis (of angles up to π, by
@@ -53,7 +52,8 @@ struct FormulaContext {
 ///   of other averages   by(method, x); fine(x) on the finest rings that there are fewest_fine of
 ///   of the run          fit(name), head(name), averaged(number of its history)
 /// A number that is missing, not finite, or ÷ 0 makes what it is part of absent. An error within
-/// the run survives multiplication by exact numbers alone, and k/x.
+/// the run survives × and ÷ with exact numbers, abs, positive, and the choice of a ring.
+// clang-format on
 class Formula {
  public:
   using Evaluator = std::function<FormulaValue(const FormulaContext&)>;

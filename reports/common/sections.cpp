@@ -53,7 +53,7 @@ Table pairTable(const std::vector<RealisedScene>& realised) {
   for (const char* name : {"k_n", "γ_n", "k_t", "γ_t", "µ", "e_n", "e_t0"})
     table.columns.emplace_back(name, Kind::number);
   table.note =
-      "In the law's own units: of a linear one N/m and kg/s (cases/README.md has all). –: the "
+      "In the law's own units: of a linear one N/m and kg/s (docs/cases.md has all). –: the "
       "engine's contacts have no such constant.";
   for (const auto& [engine, scene, calledFor] : realised)
     for (const PairCoefficients& pair : scene->pairs) {

@@ -11,13 +11,11 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/cautions.hpp"
-#include "cases/cell_estimates.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "cases/preparation.hpp"
-#include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "runs/collide/sweep.hpp"
 #include "runs/common/engine_access.hpp"
@@ -34,35 +32,29 @@ using nlohmann::json;
 
 namespace {
 
-/// The scene that engines are asked about, and where its disks come from.
-struct Asked {
+/// The scene that engines are asked about.
+struct Probe {
   Scene scene;
-  std::string packing;  ///< in words, of a Couette case
+  std::string packing = {};  ///< where the disks of a Couette case come from
+  bool prepared = true;      ///< whether packings need no preparing any more
 };
 
-/// A Couette cell with the disks of its file, of its first packing if that is at hand, or made up.
-Asked couetteAsked(const Case& setup) {
+/// A Couette cell with the disks of its file, of its first packing if that is cached, or made up.
+Probe probeOf(const Case& setup) {
   const double dt = timeStep(setup);
+  if (setup.kind == CaseKind::collision) return {collisionScene(setup, collisionStarts(setup), dt)};
+  if (setup.kind == CaseKind::assembly) return {assemblyScene(setup)};
   if (setup.particles.file) {
     const auto none = engineRegistry().front().make();  // a file needs no preparing
     const Packing packing = packingOf(setup, 0, dt, *none, [](double) {});
     return {couetteScene(setup, packing, dt), "the packing of the file"};
   }
-  const std::filesystem::path kept = packingCacheFile(packingHash(setup, 0, dt));
-  if (std::filesystem::exists(kept)) try {
-      return {couetteScene(setup, readPacking(kept, setup), dt), "packing 0, from the cache"};
-    } catch (const BadInput&) {
-      // A damaged file in the cache is prepared anew, by those who need it.
-    }
+  const std::string hash = packingHash(setup, 0, dt);
+  std::string unusable;  // those who need the packing prepare it anew
+  if (const auto kept = keptPacking(packingCacheFile(hash), hash, setup, unusable))
+    return {couetteScene(setup, *kept, dt), "packing 0, from the cache"};
   return {couetteScene(setup, madeUpPacking(setup), dt),
-          "a made-up square lattice, four contacts a disk"};
-}
-
-Asked askedOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision)
-    return {collisionScene(setup, collisionStarts(setup), collisionTimeSteps(setup).front()), ""};
-  if (setup.kind == CaseKind::assembly) return {assemblyScene(setup), ""};
-  return couetteAsked(setup);
+          "a made-up square lattice, four contacts a disk", false};
 }
 
 /// Beyond what a contact bears, as the commands refuse it; hard cases may go there.
@@ -153,25 +145,25 @@ json marginsOf(const auto& list, const std::map<std::string, Margin>& margins, c
 }
 
 /// Preparing and running, engines one after the other [s].
-json predictionOf(const Case& setup, const Asked& asked, const json& engines,
+json predictionOf(const Case& setup, const Probe& probe, const json& engines,
                   const std::filesystem::path& scratch) {
   const double packings = packingsOf(setup);
+  const EngineEntry& inHouse = engineRegistry().front();
   double runs = 0.0;
-  for (const json& row : engines) runs += packings * row.value("run_s", 0.0);
-  double preparing = 0.0;
-  if (!setup.particles.file && asked.packing.find("cache") == std::string::npos) {
-    const EngineEntry& inHouse = engineRegistry().front();
-    const auto known = std::ranges::find_if(engines, [&](const json& row) {
-      return row["name"] == inHouse.name && row["can"] == true;
-    });
-    const double step = known != engines.end()
-                            ? (*known)["step_s"].get<double>()
-                            : briefTiming(*startNew(inHouse, scratch, setup.run.timeout), inHouse,
-                                          setup, asked.scene)
-                                  .secondsPerStep;
-    preparing = packings * step * preparationSteps(setup);
+  std::optional<double> step;  // of the engine that prepares [s]
+  for (const json& row : engines) {
+    runs += packings * row.value("run_s", 0.0);
+    if (row["name"] == inHouse.name && row["can"] == true) step = row["step_s"].get<double>();
   }
-  return {{"timed_on", asked.packing},
+  double preparing = 0.0;
+  if (!probe.prepared) {
+    if (!step)
+      step =
+          briefTiming(*startNew(inHouse, scratch, setup.run.timeout), inHouse, setup, probe.scene)
+              .secondsPerStep;
+    preparing = packings * *step * preparationSteps(setup);
+  }
+  return {{"timed_on", probe.packing},
           {"preparing_s", preparing},
           {"runs_s", runs},
           {"total_s", preparing + runs}};
@@ -192,8 +184,8 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   checkEngineSections(setup);
   if (setup.particles.file && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
-  const Asked asked = askedOf(setup);
-  const Scene& scene = asked.scene;
+  const Probe probe = probeOf(setup);
+  const Scene& scene = probe.scene;
   requireStableStep(setup, scene.disks);
   const bool couette = setup.kind == CaseKind::couette;
   const double fraction = couette ? volumeFractionOf(setup, scene, !setup.particles.file) : 0.0;
@@ -235,7 +227,7 @@ json checkedCase(const Case& setup, const std::vector<std::string>& names, bool 
   result["cell"] = cellFigures(setup, scene, fraction);
   result["endpoints"] = marginsOf(endpointTable(), setup.averaging.endpoints, "endpoint");
   result["margins"] = marginsOf(fieldTable(), setup.averaging.margins, "field");
-  if (timed) result["prediction"] = predictionOf(setup, asked, result["engines"], scratch);
+  if (timed) result["prediction"] = predictionOf(setup, probe, result["engines"], scratch);
   return result;
 }
 

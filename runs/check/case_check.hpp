@@ -10,9 +10,9 @@
 
 namespace crossgrain::inline runs {
 
-/// What `check` tells of one case, and of each engine on it. A packing file is read and checked. Of
+/// What `check` reports of one case, and of each engine on it. A packing file is read and checked. Of
 /// a Couette case some steps are timed on every engine, on its first packing where that is in the
-/// cache, else on a made-up one (cell_estimates.hpp): nothing of it is kept.
+/// cache, else on a made-up one (cautions.hpp): nothing of it is kept.
 /// @param names  of engines, "all" allowed; mirrors that would run along are asked too
 /// @param timed  whether to time steps
 /// @returns name, variant, kind, disks, wall_disks, dt_s, effects, cautions, engines; of a Couette

@@ -12,7 +12,7 @@
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "cases/case_keys.hpp"
-#include "cases/stable_step.hpp"
+#include "cases/time_step.hpp"
 #include "runs/common/mirrors.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"

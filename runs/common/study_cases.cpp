@@ -8,69 +8,13 @@
 #include "adapters/registry.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
+#include "cases/keys.hpp"
 #include "cases/loader.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::inline runs {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-/// Which commands a key, or all of a section, means something to. The longest name that fits says
-/// it; what no line has is the scene itself, and `check` reads everything.
-struct KeyUse {
-  std::string_view key, commands;
-};
-
-constexpr std::string_view allRuns =
-    "compare plan lockstep identify baseline record effects cost stability collide";
-
-constexpr std::string_view runsOrSteps =
-    "compare plan lockstep identify baseline record effects cost stability collide scale";
-
-constexpr KeyUse keyUses[] = {
-    {"preparation", "compare plan lockstep identify baseline record effects cost stability"},
-    {"preparation.packings", "compare plan lockstep baseline effects cost"},
-    {"averaging.rings", "compare plan effects cost average baseline"},
-    {"averaging.method", "compare plan effects cost average baseline"},
-    {"averaging.line_width", "compare plan effects cost average rev baseline"},
-    {"averaging.settle_rotations",
-     "compare plan lockstep identify baseline effects cost stability"},
-    {"averaging.rotations", "compare plan lockstep identify baseline effects cost stability"},
-    {"averaging.snapshots_per_rotation", "compare plan effects cost baseline"},
-    {"averaging.confidence", "compare plan effects cost average baseline"},
-    {"averaging.margins", "compare plan effects"},
-    {"averaging.endpoints", "compare plan baseline"},
-    {"average", "compare plan lockstep"},
-    {"endpoints", "compare plan"},
-    {"looks", "compare plan"},
-    {"cost", "cost"},
-    {"stability", "stability"},
-    {"bottom", runsOrSteps},
-    {"engines", runsOrSteps},
-    {"run", runsOrSteps},
-    {"run.mirrors", "compare plan collide"},
-    {"run.energy_ledger", "compare plan record stability effects cost scale"},
-    {"run.keep_snapshots", "compare plan effects cost"},
-    {"collision", allRuns},
-    {"collision.radius", "calibrate baseline collide record stability"},
-    {"collision.mass", "calibrate baseline collide record stability"},
-    {"collision.inertia_factor", "calibrate baseline collide record stability"},
-    {"collision.margins", "collide"},
-};
-
-bool isOneOf(std::string_view words, std::string_view word) {
-  for (std::size_t at = words.find(word); at != std::string_view::npos;
-       at = words.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || words[at - 1] == ' ') && (end == words.size() || words[end] == ' '))
-      return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
   std::vector<std::string> keys;
@@ -80,16 +24,15 @@ std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view comm
           "engines.{} (of no engine that is known here; --engines takes its file)", name));
   if (command == "check") return keys;
   for (const auto& [key, value] : caseKeys(setup.resolvedToml)) {
-    const KeyUse* use = nullptr;
-    for (const KeyUse& each : keyUses)
-      if (isIn(std::string(each.key), key) && (!use || each.key.size() > use->key.size()))
-        use = &each;
-    if (!use || isOneOf(use->commands, command)) continue;
+    const KeyUse* use = nullptr;  // the longest name that holds the key
+    for (const KeyUse& each : keyUses())
+      if (isIn(each.name, key) && (!use || each.name.size() > use->name.size())) use = &each;
+    if (!use || use->by(command)) continue;
     // A section of which some keys are used is named key by key.
-    const bool partly = std::ranges::any_of(keyUses, [&](const KeyUse& each) {
-      return isIn(std::string(use->key), std::string(each.key)) && isOneOf(each.commands, command);
+    const bool partly = std::ranges::any_of(keyUses(), [&](const KeyUse& each) {
+      return isIn(use->name, each.name) && each.by(command);
     });
-    const std::string name(partly ? std::string_view(key) : use->key);
+    const std::string& name = partly ? key : use->name;
     if (std::ranges::find(keys, name) == keys.end()) keys.push_back(name);
   }
   return keys;

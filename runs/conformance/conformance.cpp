@@ -18,7 +18,6 @@
 #include "runs/common/engine_access.hpp"
 #include "runs/common/executor.hpp"
 #include "runs/common/study.hpp"
-#include "runs/conformance/examination.hpp"
 #include "runs/lockstep/comparison.hpp"
 #include "runs/lockstep/identify.hpp"
 #include "runs/lockstep/lockstep.hpp"
@@ -29,22 +28,99 @@
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace crossgrain::inline runs {
-
+namespace crossgrain {
+namespace conformance {
 namespace {
 
-/// The cell that engines are held against their mirrors in.
-Case lockstepCase() {
-  return loadCase(dataFolder() / "cases/couette/quick.toml", {"preparation.rotations=0.1"}).front();
+constexpr double timeout = 60.0;  // for one answer [s]
+constexpr int mostBreakdowns = 3;
+
+void runOne(const Check& check, CheckContext context, ConformanceRow& row, CheckReport& result) {
+  try {
+    check.run(context);
+  } catch (const Skipped& skip) {
+    row.outcome = ConformanceOutcome::skipped;
+    row.detail = skip.reason;
+  } catch (const GivenUp&) {
+  } catch (const EngineFailure& failure) {
+    row.outcome = ConformanceOutcome::brokeDown;
+    row.detail = failure.what();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    context.fault(error.what());
+  }
+  row.faults = context.faults.size();
+  result.refused.merge(context.refused);
+  if (row.outcome == ConformanceOutcome::brokeDown) return;
+  result.examined.merge(context.examined);
+  if (context.faults.empty()) return;
+  row.outcome = ConformanceOutcome::failed;
+  row.detail = context.faults.front();
+  row.cause = context.cause.value_or("");
 }
+
+}  // namespace
+
+std::vector<Check> checksOf(bool isMirror) {
+  std::vector<Check> all;
+  for (const Checks& part :
+       {capabilityChecks(), lifecycleChecks(), freeMotionChecks(), collisionChecks(), lawChecks(),
+        symmetryChecks(), wallChecks(), contactChecks(), reachChecks(), refusalChecks(),
+        isMirror ? mirrorChecks() : Checks{}})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks,
+                      const std::filesystem::path& scratch,
+                      const std::function<void(const std::string&, double)>& progress) {
+  using Clock = std::chrono::steady_clock;
+  int workers = 0;
+  const CheckContext::Start start = [&](const EngineEntry& of) {
+    return startNew(of, scratch / fmt::format("{}-{}", of.name, ++workers), timeout);
+  };
+  std::unique_ptr<Engine> engine = start(entry);  // all checks share it
+  CheckReport result;
+  result.declared = declaredBy(engine->capabilities());
+  std::vector<ConformanceRow>& rows = result.rows;
+  int breakdowns = 0;
+  for (const Check& check : checks) {
+    throwIfInterrupted();
+    progress(check.name, static_cast<double>(rows.size()) / static_cast<double>(checks.size()));
+    ConformanceRow& row = rows.emplace_back();
+    row.part = "suite";
+    row.name = check.name;
+    row.what = check.what;
+    if (breakdowns >= mostBreakdowns) {
+      row.outcome = ConformanceOutcome::skipped;
+      row.detail = fmt::format("not tried: it broke down {} times before", breakdowns);
+      continue;
+    }
+    const auto began = Clock::now();
+    if (!engine) engine = start(entry);
+    runOne(check, CheckContext(*engine, entry, start), row, result);
+    row.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    breakdowns += row.outcome == ConformanceOutcome::brokeDown;
+    // It may have died of it; the next check needs a sound one.
+    if (row.outcome == ConformanceOutcome::brokeDown || row.outcome == ConformanceOutcome::failed)
+      engine.reset();
+  }
+  return result;
+}
+
+}  // namespace conformance
+
+inline namespace runs {
+
+namespace {
 
 /// Collisions of the laws of Lätzel's figure 4.3, or of rigid disks, at 50 steps a contact: whether
 /// they converge is the business of `collide`. Without the pure spring, which has two limits of
 /// small steps (README.md, known limits): no single oracle says which an engine is to reach.
 std::vector<Case> collisionCases(const Capabilities& can) {
-  const auto laws = can.lawOptions.find("normal");
   const bool rigid =
-      laws != can.lawOptions.end() && laws->second == std::vector<std::string>{"rigid"};
+      conformance::valuesOf(can, ContactLaw{}, "normal") == std::vector<std::string>{"rigid"};
   const auto file =
       dataFolder() / "cases/collision" / (rigid ? "hard-sphere.toml" : "figure-4-3.toml");
   std::vector<std::string> less = {"run.mirrors=false"};
@@ -63,26 +139,26 @@ std::vector<FlowState> flowOf(const Case& setup, std::size_t starts) {
   return statesAlongTheFlow(setup, {packing}, dt, starts, [](double) {});
 }
 
-std::string inWords(const Identification& found) {
+std::string contradictionsOf(const Identification& found) {
   if (!found.closeEnough()) return {};
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   for (const FoundOption& option : found.options)
     if (option.contradicts())
-      words.push_back(fmt::format(
+      parts.push_back(fmt::format(
           "it has {} = {}, and declares {}", option.name, fmt::join(option.values, " or "),
           option.declared.empty() ? "nothing"
                                   : fmt::format("{}", fmt::join(option.declared, " or "))));
   for (const FoundConstant& constant : found.constants)
-    words.push_back(fmt::format("its {} is {:+.3g} % off the case's",
+    parts.push_back(fmt::format("its {} is {:+.3g} % off the case's",
                                 reports::constantSymbol(constant.name), 100.0 * constant.change));
   for (const std::string& effect : found.missing)
     if (std::ranges::find(found.declaredMissing, effect) == found.declaredMissing.end())
-      words.push_back(fmt::format("it does not simulate {}, which it declares", effect));
-  return fmt::format("{}", fmt::join(words, "; "));
+      parts.push_back(fmt::format("it does not simulate {}, which it declares", effect));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// A term explains a separation where it leaves a tenth at most, which is more than anything else
-/// does by chance, and is small enough for responses to be in proportion: it was tried with 1e-4.
+/// A term explains a divergence where it leaves a tenth at most, which is more than anything else
+/// does by chance, and is small enough for responses to be linear: it was tried with 1e-4.
 constexpr double termLeavesAtMost = 0.1, termAmountAtMost = 0.25;
 
 bool explains(const NamedTerm& term) {
@@ -90,21 +166,22 @@ bool explains(const NamedTerm& term) {
          (!term.amount || std::abs(*term.amount) <= termAmountAtMost);
 }
 
-/// Lockstep's own term where it explains what was found, and what identify finds.
+/// Lockstep's own term where it explains the divergence, and the contradictions that identify
+/// finds.
 std::string causeOf(Engine& engine, const EngineEntry& entry, const Case& setup,
                     const LockstepRow& row) {
-  std::string cause;
+  std::vector<std::string> causes;
   if (row.term && explains(*row.term))
-    cause = "lockstep's closest term: " + reports::termInWords(row);
-  const auto states = flowOf(setup, 2);
-  const std::string found =
-      inWords(identify(engine, entry, setup, states, timeStep(setup), [](double) {}));
-  if (!found.empty()) cause += (cause.empty() ? "" : "; ") + ("found from outside: " + found);
-  return cause;
+    causes.push_back("lockstep's closest term: " + reports::termInWords(row));
+  const std::string found = contradictionsOf(
+      identify(engine, entry, setup, flowOf(setup, 2), timeStep(setup), [](double) {}));
+  if (!found.empty()) causes.push_back("found from outside: " + found);
+  return fmt::format("{}", fmt::join(causes, "; "));
 }
 
 ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path& scratch) {
-  const Case setup = lockstepCase();
+  const Case setup =
+      loadCase(dataFolder() / "cases/couette/quick.toml", {"preparation.rotations=0.1"}).front();
   ConformanceRow row;
   row.part = "lockstep";
   row.name = "FollowsItsMirror";
@@ -135,24 +212,24 @@ ConformanceRow lockstepRow(const EngineEntry& entry, const std::filesystem::path
 /// What explains the failures, each cause once: lockstep's first, which is the most exact.
 std::string causesOf(const std::vector<ConformanceRow>& rows) {
   std::vector<std::string> causes;
-  const auto add = [&](const ConformanceRow& row) {
-    const std::string what = row.cause.substr(0, row.cause.find(", "));  // without the place
-    if (!what.empty() && std::ranges::none_of(causes, [&](const std::string& known) {
-          return known.starts_with(what);
-        }))
-      causes.push_back(row.cause);
-  };
-  for (const ConformanceRow& row : rows)
-    if (row.part == "lockstep") add(row);
-  std::ranges::for_each(rows, add);
+  for (const bool lockstep : {true, false})
+    for (const ConformanceRow& row : rows) {
+      if ((row.part == "lockstep") != lockstep || row.cause.empty()) continue;
+      const std::string cause = row.cause.substr(0, row.cause.find(", "));  // without the place
+      if (std::ranges::none_of(causes,
+                               [&](const std::string& known) { return known.starts_with(cause); }))
+        causes.push_back(row.cause);
+    }
   return fmt::format("{}", fmt::join(causes, "; "));
 }
+
+constexpr const char* collisionsProperty = "collisions of two come to what the declared law says";
 
 ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curve) {
   ConformanceRow row;
   row.part = "collisions";
   row.name = variant.variant.empty() ? variant.name : variant.variant;
-  row.what = "collisions of two come to what the declared law says";
+  row.what = collisionsProperty;
   row.seconds = curve.stats ? curve.stats->wallSeconds : 0.0;
   switch (outcomeOf(curve)) {
     case SweepOutcome::held:
@@ -176,7 +253,7 @@ ConformanceRow rowOf(const CollisionVariant& variant, const CollisionCurve& curv
     case SweepOutcome::notJudged:
     case SweepOutcome::refused:
       row.outcome = ConformanceOutcome::skipped;
-      row.detail = curve.reason.empty() ? "nothing to hold it against" : curve.reason;
+      row.detail = curve.reason.empty() ? "no reference to compare it with" : curve.reason;
       break;
   }
   return row;
@@ -195,8 +272,7 @@ std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabi
     for (const CollisionVariant& variant : collideEngines(cases, command, store).variants)
       for (const CollisionCurve& curve : variant.curves) rows.push_back(rowOf(variant, curve));
   } catch (const UnsupportedScene& refusal) {
-    rows.push_back({"collisions", cases.front().name,
-                    "collisions of two come to what the declared law says",
+    rows.push_back({"collisions", cases.front().name, collisionsProperty,
                     ConformanceOutcome::skipped, refusal.what()});
   }
   return rows;
@@ -224,7 +300,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
 
   Progress progress(task.quiet);
   progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});
-  conformance::Examination suite = conformance::examine(
+  conformance::CheckReport suite = conformance::runChecks(
       entry, checks, scratch.path,
       [&](const std::string& check, double fraction) { progress.update(0, check, fraction); });
   results.rows = std::move(suite.rows);
@@ -266,4 +342,5 @@ Outcome outcomeOf(const ConformanceResults& results) {
   return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
-}  // namespace crossgrain::inline runs
+}  // namespace runs
+}  // namespace crossgrain

@@ -1,15 +1,47 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "adapters/engine_entry.hpp"
 #include "results/conformance.hpp"
 #include "runs/common/study.hpp"
+#include "runs/conformance/check_context.hpp"
 
-namespace crossgrain::inline runs {
+namespace crossgrain {
+namespace conformance {
 
-/// What is asked of an engine.
+/// What the checks found.
+struct CheckReport {
+  std::vector<ConformanceRow> rows;
+  std::vector<std::string> declared;           ///< declaredBy()
+  std::set<std::string> examined;              ///< of that
+  std::map<std::string, std::string> refused;  ///< of the rest, why it could not be examined
+};
+
+/// All checks, in the order in which they are run.
+/// @param isMirror  whether the engine is a mirror, which has to follow its peer as well
+std::vector<Check> checksOf(bool isMirror);
+
+/// Runs checks on one engine through its real worker, one row each. A worker that broke down is
+/// started again for the next check; after three of them the rest is not tried.
+/// @param scratch   folder for workers
+/// @param progress  gets the check that is run, and the fraction done
+/// @throws EngineFailure if it cannot be started at all; BadInput if it is not installed;
+///         Interrupted
+CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks,
+                      const std::filesystem::path& scratch,
+                      const std::function<void(const std::string&, double)>& progress);
+
+}  // namespace conformance
+
+inline namespace runs {
+
 struct ConformanceTask {
   EngineEntry entry;
   std::optional<std::string> only;  ///< checks with this in their name
@@ -17,12 +49,13 @@ struct ConformanceTask {
   std::string commandLine;  ///< for the report
 };
 
-/// The suite, lockstep against its mirror and collisions, one after the other, and what is most
-/// likely wrong with an engine that lockstep tells from its mirror. Nothing is kept.
+/// The checks, lockstep with the mirror and collisions, one after the other, and the most likely
+/// cause of a failure. Nothing is kept.
 /// @throws EngineFailure if it cannot be started; BadInput, Interrupted
 ConformanceResults runConformance(const ConformanceTask& task);
 
 /// An engine that broke down failed; a check that failed is a failure of what it declares.
 Outcome outcomeOf(const ConformanceResults& results);
 
-}  // namespace crossgrain::inline runs
+}  // namespace runs
+}  // namespace crossgrain

@@ -75,7 +75,7 @@ Scene landingScene(const ContactLaw& law, double steps) {
 }
 
 Scene busyScene(const ContactLaw& law) {
-  Scene scene = emptyScene(law, 50.0);
+  Scene scene = emptyScene(law, coarseSteps);
   scene.gravity = {0.0, -50.0};  // settles within a short run
   constexpr int count = 12;
   constexpr double wheelRadius = 0.02, column = 9.1e-3, row = 9.2e-3;
@@ -94,6 +94,16 @@ Scene busyScene(const ContactLaw& law) {
       addDisk(scene, large ? largeRadius : smallRadius, large ? largeMass : smallMass,
               {column * (c - 1.5), 0.0285 + row * r}, {0.02 * r, -0.1 * (r + 1)}, 5.0 - c);
     }
+  return scene;
+}
+
+Scene shifted(Scene scene, const Vec2& by) {
+  for (Vec2& position : scene.disks.position) position += by;
+  for (WallBody& body : scene.bodies) {
+    body.centre += by;
+    for (Vec2& position : body.diskPosition) position += by;
+    for (Plane& plane : body.planes) plane.point += by;
+  }
   return scene;
 }
 

@@ -3,10 +3,67 @@
 #include <string>
 #include <vector>
 
-#include "runs/conformance/scene_parts.hpp"
-#include "runs/conformance/thesis_laws.hpp"
+#include "adapters/contact_law.hpp"
+#include "adapters/scene.hpp"
+#include "runs/conformance/thesis_numbers.hpp"
 
+/// Contact laws, parts of scenes and scenes that checks and tests share.
 namespace crossgrain::conformance {
+
+// ---- laws ---------------------------------------------------------------------------------------
+
+/// Lätzel (2003), Table 4.1; every convention at its default, the thesis' own.
+inline ContactLaw thesisLaw(TangentialLaw tangential = TangentialLaw::springDashpot) {
+  ContactLaw law = withThesisConstants(ContactLaw{});
+  law.tangential = tangential;
+  return law;
+}
+
+/// Hertz' law between alike bodies, 1/E₁₂ = 2 (1 − ν²)/E, with critical dampers; as stiff as the
+/// thesis' law where small disks meet at 0.1 m/s.
+inline ContactLaw hertzLaw() {
+  ContactLaw law;
+  law.normal = NormalLaw::hertz;
+  law.damper = Damper::critical;
+  law.kn = 7e5;
+  law.kt = 1.2 * law.kn;  // ν = 1/3
+  law.gn = 0.3;
+  law.gt = 0.2;
+  law.mu = thesis.mu;
+  return law;
+}
+
+// ---- parts of scenes ----------------------------------------------------------------------------
+
+/// A solid disk, J = ½ m a² [m, kg, m, m/s, rad/s].
+inline void addDisk(Scene& scene, double radius, double mass, const Vec2& position,
+                    const Vec2& velocity, double spin = 0.0) {
+  Disks& disks = scene.disks;
+  disks.radius.push_back(radius);
+  disks.mass.push_back(mass);
+  disks.inertia.push_back(solidInertia(mass, radius));
+  disks.position.push_back(position);
+  disks.velocity.push_back(velocity);
+  disks.spin.push_back(spin);
+}
+
+/// A body of one plane.
+inline WallBody planeWall(const Vec2& point, const Vec2& normal) {
+  WallBody body;
+  body.name = "plane";
+  body.planes = {{point, normal}};
+  return body;
+}
+
+/// At a constant ω [rad/s].
+inline Motion rotating(double omega) {
+  Motion motion;
+  motion.kind = Motion::Kind::rotating;
+  motion.angularVelocity = omega;
+  return motion;
+}
+
+// ---- scenes -------------------------------------------------------------------------------------
 
 /// The thesis' law; its rigid side, for engines that have only that, restores e_n = 0.8 and
 /// e_t0 = 0.3.
@@ -14,6 +71,10 @@ ContactLaw fullLaw();
 
 /// The law without anything that could turn a disk.
 ContactLaw frictionless(ContactLaw law);
+
+/// Time steps in one contact of two small disks: where an outcome is compared with a theory, and
+/// where only properties are that hold at every step.
+inline constexpr double fineSteps = 400.0, coarseSteps = 50.0;
 
 /// A scene without disks; its time step resolves the contact of two small disks by `steps`, at
 /// Encounter::speed where that matters.
@@ -53,5 +114,8 @@ Scene landingScene(const ContactLaw& law, double steps);
 /// There are some at busyEnd.
 Scene busyScene(const ContactLaw& law);
 inline constexpr double busyEnd = 0.02;  ///< [s]
+
+/// Everything moved by that much [m].
+Scene shifted(Scene scene, const Vec2& by);
 
 }  // namespace crossgrain::conformance

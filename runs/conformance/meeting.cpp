@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "adapters/declared_law.hpp"
 #include "cases/collision_scene.hpp"
@@ -44,14 +45,12 @@ Case setupOf(const Meeting& meeting) {
 Scene withWallDisks(Scene scene) {
   WallBody wall;
   wall.name = "posts";
-  Disks disks;
-  for (std::size_t k = 0; k < scene.disks.size(); k += 2) {
-    addDisk(disks, scene.disks.radius[k], scene.disks.mass[k], scene.disks.position[k],
-            scene.disks.velocity[k], scene.disks.spin[k]);
-    wall.diskPosition.push_back(scene.disks.position[k + 1]);
-    wall.diskRadius.push_back(scene.disks.radius[k + 1]);
+  const Disks all = std::exchange(scene.disks, {});
+  for (std::size_t k = 0; k < all.size(); k += 2) {
+    addDisk(scene, all.radius[k], all.mass[k], all.position[k], all.velocity[k], all.spin[k]);
+    wall.diskPosition.push_back(all.position[k + 1]);
+    wall.diskRadius.push_back(all.radius[k + 1]);
   }
-  scene.disks = disks;
   scene.bodies = {wall};
   return scene;
 }
@@ -71,15 +70,6 @@ Snapshot withoutWallDisks(const Snapshot& now) {
 Scene wholeOf(const Meeting& meeting) {
   return collisionScene(setupOf(meeting), meeting.starts,
                         emptyScene(meeting.law, meeting.steps).dt);
-}
-
-void move(Scene& scene, const Vec2& by) {
-  for (Vec2& x : scene.disks.position) x += by;
-  for (WallBody& body : scene.bodies) {
-    body.centre += by;
-    for (Vec2& x : body.diskPosition) x += by;
-    for (Plane& plane : body.planes) plane.point += by;
-  }
 }
 
 /// The oracle's outcome; none for conventions that have no limit of small steps.
@@ -155,15 +145,14 @@ double misfit(const CollisionEnd& found, const std::optional<CollisionEnd>& want
   return most;
 }
 
-// ---- what is most likely wrong ------------------------------------------------------------------
+// ---- the most likely cause ----------------------------------------------------------------------
 
-/// A law, a pair or a start that is another one by a factor; of a constant 1 is right.
+/// A law, a pair or a start that is another one by a factor; 1 is right.
 struct Suspect {
   using End = std::function<std::optional<CollisionEnd>(const CollisionStart&, double factor)>;
   std::string name;
   End end;
-  bool fitted = true;  ///< the factor that fits is named; else there is one alone
-  double factor = 1.0;
+  std::optional<double> factor = {};  ///< the only one possible; absent: it is fitted and named
 };
 
 /// v_t + a ω in place of v_t − a ω on a plane. As s' = v_t − a ω', J' ω̇' = −a f_t with ω' = −ω and
@@ -192,7 +181,7 @@ std::optional<CollisionEnd> endWithoutBelt(const ContactLaw& law, const Collidin
   return end;
 }
 
-std::vector<Suspect> suspectsOf(const Meeting& meeting, const Outcome& outcome) {
+std::vector<Suspect> suspectsOf(const Meeting& meeting, const MeetingResult& outcome) {
   const ContactLaw law = outcome.law;
   const CollidingPair pair = outcome.pair;
   std::vector<Suspect> all;
@@ -205,31 +194,30 @@ std::vector<Suspect> suspectsOf(const Meeting& meeting, const Outcome& outcome) 
                      for (auto constant : constants) other.*constant *= by;
                      return oracle(other, pair, start);
                    },
-                   !factor, factor.value_or(1.0)});
+                   factor});
   };
   if (meeting.partner == Partner::plane) {
+    const double u = meeting.wallVelocity.y();
     all.push_back(
         {"the disk's spin enters the slip with the wrong sign",
          [=](const CollisionStart& start, double) { return endOfWrongSpin(law, pair, start); },
-         false});
-    if (const double u = meeting.wallVelocity.y(); u != 0.0)
+         1.0});
+    if (u != 0.0)
       all.push_back(
           {"the plane's motion along itself is not in the slip",
            [=](const CollisionStart& start, double) { return endWithoutBelt(law, pair, start, u); },
-           false});
+           1.0});
   }
   if (law.normal == NormalLaw::hertz)
     ofLaw("a Hertz law without √R₁₂", {&ContactLaw::kn, &ContactLaw::kt},
           1.0 / std::sqrt(pair.reducedRadius()));
   if (law.soft()) {
     const bool cut = law.conventions.tension == Tension::cut;
+    ContactLaw other = law;
+    other.conventions.tension = cut ? Tension::allow : Tension::cut;
     all.push_back({cut ? "tension is not cut" : "tension is cut",
-                   [=](const CollisionStart& start, double) {
-                     ContactLaw other = law;
-                     other.conventions.tension = cut ? Tension::allow : Tension::cut;
-                     return oracle(other, pair, start);
-                   },
-                   false});
+                   [=](const CollisionStart& start, double) { return oracle(other, pair, start); },
+                   1.0});
   }
   ofLaw("µ", {&ContactLaw::mu});
   // Half the torque and twice the moment of inertia are one motion.
@@ -253,7 +241,7 @@ std::vector<Suspect> suspectsOf(const Meeting& meeting, const Outcome& outcome) 
 
 /// The one that explains every number, sign and size, to within what a scheme may be off; of
 /// several, the one that leaves least. Empty: none does, or nothing is to be explained.
-std::string explain(const Meeting& meeting, const Outcome& outcome) {
+std::string explain(const Meeting& meeting, const MeetingResult& outcome) {
   const std::vector<Quantity> all = quantities(friction, firstOrder);
   // @param most  what is beyond it need not be known
   const auto left = [&](const Suspect::End& end, double factor, double most) {
@@ -270,9 +258,11 @@ std::string explain(const Meeting& meeting, const Outcome& outcome) {
   std::string best;
   double least = 1.0;
   for (const Suspect& suspect : suspectsOf(meeting, outcome)) {
-    double factor = suspect.factor, rest = left(suspect.end, factor, least);
-    if (suspect.fitted) {
-      rest = std::numeric_limits<double>::infinity();
+    double factor = suspect.factor.value_or(1.0);
+    double rest = std::numeric_limits<double>::infinity();
+    if (suspect.factor) {
+      rest = left(suspect.end, factor, least);
+    } else {
       const auto attempt = [&](double by) {
         const double now = left(suspect.end, by, rest);
         if (!(now < rest)) return false;
@@ -286,7 +276,7 @@ std::string explain(const Meeting& meeting, const Outcome& outcome) {
     }
     if (!(rest <= least)) continue;
     least = rest;
-    best = suspect.fitted ? said(suspect.name, percentOf(factor - 1.0)) : suspect.name;
+    best = suspect.factor ? suspect.name : text(suspect.name, percentOf(factor - 1.0));
   }
   return best;
 }
@@ -305,49 +295,49 @@ std::string placeOf(const Meeting& meeting) {
 
 /// @param when    follows a cause, where there is more to say of it than the place
 /// @param leftOf  the outcome as it would be if the engine's right collisions were the oracle's
-bool expectEnds(Exam& it, const Meeting& meeting, const Outcome& outcome, const Ends& wanted,
-                const std::vector<Quantity>& all, const std::string& name,
+bool expectEnds(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
+                const Ends& wanted, const std::vector<Quantity>& all, const std::string& name,
                 const std::string& when = {},
-                const std::function<Outcome(Outcome)>& leftOf = std::identity()) {
-  const std::size_t before = it.faults().size();
+                const std::function<MeetingResult(MeetingResult)>& leftOf = std::identity()) {
+  const std::size_t before = context.faults.size();
   bool any = false;
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     if (!wanted[k]) continue;
     any = true;
     const CollisionStart& start = meeting.starts[k];
     const std::string where =
-        said(name, ", ", placeOf(meeting), ", psi_i = ", start.psi,
+        text(name, ", ", placeOf(meeting), ", psi_i = ", start.psi,
              start.approach == Approach::oblique ? " obliquely: " : " by spin: ");
-    it.expect(outcome.ends[k].has_value(), where + "they do not meet, or do not part");
+    context.expect(outcome.ends[k].has_value(), where + "they do not meet, or do not part");
     if (!outcome.ends[k]) continue;
     for (const Quantity& quantity : all) {
       const auto is = quantity.of(*outcome.ends[k]), should = quantity.of(*wanted[k]);
-      if (is && should) it.expect(close(*is, *should, quantity.allowed), where + quantity.name);
+      if (is && should) context.near(*is, *should, quantity.allowed, where + quantity.name);
     }
   }
-  if (it.faults().size() == before || it.soughtCause()) return any;
-  Outcome left = outcome;  // what is to be explained
+  if (context.faults.size() == before || context.cause) return any;
+  MeetingResult left = outcome;  // what is to be explained
   for (std::size_t k = 0; k < wanted.size(); ++k)
     if (!wanted[k]) left.ends[k].reset();
   const std::string cause = explain(meeting, leftOf(left));
-  it.suspect(cause.empty() ? "" : said(cause, ", ", placeOf(meeting), when));
+  context.suspect(cause.empty() ? "" : text(cause, ", ", placeOf(meeting), when));
   return any;
 }
 
 }  // namespace
 
-std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why) {
+std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting, std::string* why) {
   const CollidingPair pair = collidingPair(setupOf(meeting));
   const Scene whole = wholeOf(meeting);
-  Scene scene = meeting.partner == Partner::wallDisk ? withWallDisks(whole) : whole;
-  move(scene, meeting.place);
-  if (const auto refusal = it.refused(scene)) {
+  const Scene scene =
+      shifted(meeting.partner == Partner::wallDisk ? withWallDisks(whole) : whole, meeting.place);
+  if (const auto refusal = context.refusal(scene)) {
     if (why) *why = *refusal;
     return std::nullopt;
   }
-  const auto law = declaredLaw(it.can, it.scene, it.realised, pair.reducedMass());
+  const auto law = declaredLaw(context.can, context.scene, context.realised, pair.reducedMass());
   if (!law) {
-    if (why) *why = "declares no law whose constants anybody knows";
+    if (why) *why = "declares no law with known constants";
     return std::nullopt;
   }
   ContactLaw soft = *law;
@@ -356,37 +346,35 @@ std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why) 
   for (const CollisionStart& start : meeting.starts)
     longest =
         std::max(longest, impactTime(soft, {pair.reducedMass(), pair.reducedRadius(), start.vn}));
-  Outcome outcome{
-      *law, pair, {}, meeting.flight * whole.dt + 2.5 * longest + 20.0 * it.realised.dt};
-  outcome.ends = endsOf(it.engine(), meeting, whole, outcome.time);
+  MeetingResult outcome{
+      *law, pair, {}, meeting.flight * whole.dt + 2.5 * longest + 20.0 * context.realised.dt};
+  outcome.ends = endsOf(context.engine, meeting, whole, outcome.time);
   return outcome;
 }
 
-bool expectTheOracle(Exam& it, const Meeting& meeting, const Outcome& outcome,
+bool expectTheOracle(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
                      const std::string& name) {
   Ends wanted = oracleEnds(outcome.law, outcome.pair, meeting.starts);
   // Conventions without a limit of small steps are compared with the in-house engine that has
   // them; that one with nothing.
-  const EngineEntry& own = engineRegistry().front();
-  const bool inHouse = it.entry.name == own.name || !it.entry.mirrors.empty();
-  if (!inHouse && outcome.law.soft() &&
+  if (!context.inHouse() && outcome.law.soft() &&
       !std::ranges::all_of(wanted, [](const auto& end) { return end.has_value(); })) {
-    Scene mirrored = it.scene;
+    Scene mirrored = context.scene;
     mirrored.law = outcome.law;
-    mirrored.dt = it.realised.dt;
+    mirrored.dt = context.realised.dt;
     mirrored.precision = Precision::float64;
-    const auto mirror = own.make();
+    const auto mirror = engineRegistry().front().make();
     mirror->load(mirrored, {});
     const Ends theirs = endsOf(*mirror, meeting, wholeOf(meeting), outcome.time);
     for (std::size_t k = 0; k < wanted.size(); ++k)
       if (!wanted[k]) wanted[k] = theirs[k];
   }
-  return expectEnds(it, meeting, outcome, wanted, quantities(friction, firstOrder), name);
+  return expectEnds(context, meeting, outcome, wanted, quantities(friction, firstOrder), name);
 }
 
-void expectTheSame(Exam& it, const Meeting& meeting, const Outcome& outcome, const Outcome& wanted,
-                   const Tolerance& psi, const std::string& when) {
-  const auto withoutTruncation = [&](Outcome found) {
+void expectTheSame(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
+                   const MeetingResult& wanted, const Tolerance& psi, const std::string& when) {
+  const auto withoutTruncation = [&](MeetingResult found) {
     const Ends right = oracleEnds(found.law, found.pair, meeting.starts);
     for (std::size_t k = 0; k < right.size(); ++k) {
       auto& end = found.ends[k];
@@ -403,7 +391,7 @@ void expectTheSame(Exam& it, const Meeting& meeting, const Outcome& outcome, con
     }
     return found;
   };
-  expectEnds(it, meeting, outcome, wanted.ends, quantities(psi, {0.0, psi.absolute, psi.why}),
+  expectEnds(context, meeting, outcome, wanted.ends, quantities(psi, {0.0, psi.absolute, psi.why}),
              when.substr(when.find_first_not_of(", ")), when, withoutTruncation);
 }
 

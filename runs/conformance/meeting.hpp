@@ -5,47 +5,48 @@
 #include <vector>
 
 #include "oracle/collision_end.hpp"
-#include "runs/conformance/exam.hpp"
+#include "runs/conformance/check_context.hpp"
 
-/// Two bodies that meet once, in several ways side by side, and what the theory says of it.
+/// Two bodies that meet once, in several ways side by side, and what the theory says of context.
 namespace crossgrain::conformance {
 
 /// What a small disk meets.
 enum class Partner { disk, wallDisk, plane };
 
 struct Meeting {
-  ContactLaw law;
+  ContactLaw law = {};
   Partner partner = Partner::disk;
   double radius = smallRadius, mass = smallMass;  ///< of the partner, of a disk [m, kg]
-  std::vector<CollisionStart> starts;
+  std::vector<CollisionStart> starts = {};
   Vec2 wallVelocity = Vec2::Zero();  ///< of a plane, (along its normal, along it) [m/s]
-  double steps = 400.0;              ///< in a contact of two small disks
+  double steps = fineSteps;          ///< in a contact of two small disks
   double flight = 0.5;               ///< steps until they touch
   Vec2 place = Vec2::Zero();         ///< that it happens at [m]
 };
 
-/// What became of them, start by start.
-struct Outcome {
+/// Start by start.
+struct MeetingResult {
   ContactLaw law;  ///< that the engine declares, its constants included
   CollidingPair pair;
   std::vector<std::optional<CollisionEnd>> ends;  ///< absent: they did not part
-  double time;                                    ///< when they were looked at [s]
+  double time;                                    ///< of the snapshot [s]
 };
 
-/// Has the engine run it. @returns nothing where the engine refuses it, or declares no law whose
-/// constants anybody knows; @param why  says it then
-std::optional<Outcome> meet(Exam& it, const Meeting& meeting, std::string* why = nullptr);
+/// Has the engine run context. @returns nothing where the engine refuses context, or declares no
+/// law with known constants; @param why  gets the reason
+std::optional<MeetingResult> meet(CheckContext& context, const Meeting& meeting,
+                                  std::string* why = nullptr);
 
-/// A fault for each number that is not the oracle's, and what is most likely wrong then. Where the
+/// A fault for each number that is not the oracle's, and the most likely cause. Where the
 /// law has no limit of small steps the in-house engine with its conventions stands for the oracle.
 /// @returns whether there was any reference
-bool expectTheOracle(Exam& it, const Meeting& meeting, const Outcome& outcome,
+bool expectTheOracle(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
                      const std::string& name);
 
 /// The same against what the same engine did elsewhere: Ψ_f to within `psi`, e_n and duration to
 /// that part.
 /// @param when  ", 2 s after load"
-void expectTheSame(Exam& it, const Meeting& meeting, const Outcome& outcome, const Outcome& wanted,
-                   const Tolerance& psi, const std::string& when);
+void expectTheSame(CheckContext& context, const Meeting& meeting, const MeetingResult& outcome,
+                   const MeetingResult& wanted, const Tolerance& psi, const std::string& when);
 
 }  // namespace crossgrain::conformance

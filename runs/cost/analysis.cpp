@@ -159,7 +159,7 @@ struct Question {
 };
 
 /// A setting of an engine with its points in every measure that decides.
-struct Candidate {
+struct RatedSetting {
   std::string knob, setting;
   Places points;
   Standing standing = Standing::meets;
@@ -175,10 +175,10 @@ struct Candidate {
 };
 
 /// Every setting with its points.
-std::vector<Candidate> candidates(const Points& points, const Places& among) {
-  std::vector<Candidate> settings;
+std::vector<RatedSetting> ratedSettings(const Points& points, const Places& among) {
+  std::vector<RatedSetting> settings;
   for (const std::size_t k : among) {
-    auto found = std::ranges::find_if(settings, [&](const Candidate& one) {
+    auto found = std::ranges::find_if(settings, [&](const RatedSetting& one) {
       return one.knob == points[k].knob && one.setting == points[k].setting;
     });
     if (found == settings.end())
@@ -188,7 +188,8 @@ std::vector<Candidate> candidates(const Points& points, const Places& among) {
   return settings;
 }
 
-bool isComplete(const Candidate& one, const Points& points, const std::vector<Measure>& measures) {
+bool isComplete(const RatedSetting& one, const Points& points,
+                const std::vector<Measure>& measures) {
   return std::ranges::all_of(measures, [&](const Measure& measure) {
     return std::ranges::any_of(one.points, [&](std::size_t k) {
       return Measure(points[k].kind, points[k].measure) == measure;
@@ -196,23 +197,23 @@ bool isComplete(const Candidate& one, const Points& points, const std::vector<Me
   });
 }
 
-void judge(Candidate& candidate, const Points& points, const Question& question) {
-  candidate.worst = candidate.obstacle = candidate.points.front();
-  for (const std::size_t k : candidate.points) {
+void judge(RatedSetting& rated, const Points& points, const Question& question) {
+  rated.worst = rated.obstacle = rated.points.front();
+  for (const std::size_t k : rated.points) {
     const CostPoint& point = points[k];
     if (point.kind == question.costKind)
-      candidate.time = std::min(
-          candidate.time, point.wallSeconds.value_or(std::numeric_limits<double>::infinity()));
+      rated.time =
+          std::min(rated.time, point.wallSeconds.value_or(std::numeric_limits<double>::infinity()));
     const Standing standing = standingOf(point, question.target);
     if (standing == Standing::may && point.kind == question.onlyContradicts) {
-      if (!candidate.open || point.high() > points[*candidate.open].high()) candidate.open = k;
+      if (!rated.open || point.high() > points[*rated.open].high()) rated.open = k;
       continue;
     }
-    candidate.standing = std::max(candidate.standing, standing);
-    if (point.high() > points[candidate.worst].high()) candidate.worst = k;
-    if (point.low() > points[candidate.obstacle].low()) candidate.obstacle = k;
+    rated.standing = std::max(rated.standing, standing);
+    if (point.high() > points[rated.worst].high()) rated.worst = k;
+    if (point.low() > points[rated.obstacle].low()) rated.obstacle = k;
   }
-  if (candidate.standing != Standing::cannot) candidate.obstacle = candidate.worst;
+  if (rated.standing != Standing::cannot) rated.obstacle = rated.worst;
 }
 
 /// Whether some setting meets a target in every measure.
@@ -220,7 +221,7 @@ struct Settled {
   CostVerdict verdict = CostVerdict::notMeasured;
   /// Reached: the cheapest; else the one whose largest upper end is smallest. Absent where no
   /// setting was measured in every measure.
-  std::optional<Candidate> best = {};
+  std::optional<RatedSetting> best = {};
   /// As of Advice.
   std::optional<std::size_t> obstacle = {};
   std::string decides = {};
@@ -240,12 +241,18 @@ Settled settle(const Points& points, const Question& question) {
     addOnce(measures, Measure(points[k].kind, points[k].measure));
   }
   Settled found;
-  std::vector<Candidate> settings = candidates(points, among);
-  for (Candidate& one : settings) judge(one, points, question);
+  std::vector<RatedSetting> settings = ratedSettings(points, among);
+  for (RatedSetting& one : settings) judge(one, points, question);
   const auto rest = std::ranges::stable_partition(
-      settings, [&](const Candidate& one) { return isComplete(one, points, measures); });
-  const bool open = std::ranges::any_of(
-      rest, [](const Candidate& one) { return one.standing != Standing::cannot; });
+      settings, [&](const RatedSetting& one) { return isComplete(one, points, measures); });
+  // Some settings are not measured in every kind of error; others lack a measure of a kind.
+  const bool open = std::ranges::any_of(rest, [&](const RatedSetting& one) {
+    return one.standing != Standing::cannot &&
+           std::ranges::all_of(measures, [&](const Measure& measure) {
+             return std::ranges::any_of(
+                 one.points, [&](std::size_t k) { return points[k].kind == measure.first; });
+           });
+  });
   settings.erase(rest.begin(), rest.end());
   if (settings.empty()) {
     if (!among.empty())
@@ -257,12 +264,13 @@ Settled settle(const Points& points, const Question& question) {
     return found;
   }
   // Better: a better standing, then less time where it meets the target, a smaller end elsewhere.
-  found.best = *std::ranges::min_element(settings, [&](const Candidate& a, const Candidate& b) {
-    if (a.standing != b.standing) return a.standing < b.standing;
-    if (a.standing == Standing::meets && a.time != b.time) return a.time < b.time;
-    return points[a.worst].high() < points[b.worst].high();
-  });
-  const Candidate& best = *found.best;
+  found.best =
+      *std::ranges::min_element(settings, [&](const RatedSetting& a, const RatedSetting& b) {
+        if (a.standing != b.standing) return a.standing < b.standing;
+        if (a.standing == Standing::meets && a.time != b.time) return a.time < b.time;
+        return points[a.worst].high() < points[b.worst].high();
+      });
+  const RatedSetting& best = *found.best;
   found.obstacle = best.standing == Standing::meets ? best.open : best.obstacle;
   if (best.standing != Standing::cannot) {
     found.verdict =

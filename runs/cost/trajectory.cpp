@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cases/couette.hpp"
@@ -10,20 +11,6 @@
 #include "cases/time_step.hpp"
 #include "runs/common/engine_access.hpp"
 #include "runs/common/engine_running.hpp"
-
-namespace crossgrain::inline results {
-
-template <>
-inline Json jsonOf(const Vec2& at) {
-  return jsonOf(std::array{at.x(), at.y()});
-}
-template <>
-inline void readFrom(const Json& json, Vec2& at) {
-  const auto pair = readAs<std::array<double, 2>>(json);
-  at = {pair[0], pair[1]};
-}
-
-}  // namespace crossgrain::inline results
 
 namespace crossgrain::inline runs {
 
@@ -58,8 +45,12 @@ struct TrajectoryReference {
 };
 
 void fields(auto& io, TrajectoryReference& reference) {
+  std::vector<std::array<double, 2>> pairs;
+  for (const Vec2& at : reference.positions) pairs.push_back({at.x(), at.y()});
   io("error", reference.error);
-  io("positions", reference.positions);
+  io("positions", pairs);
+  if (reference.positions.empty())  // to be read
+    for (const auto& [x, y] : pairs) reference.positions.emplace_back(x, y);
 }
 
 class TrajectoryErrors final : public ErrorKind {

@@ -11,7 +11,6 @@
 
 #include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
-#include "cases/stable_step.hpp"
 #include "cases/time_step.hpp"
 #include "results/couette_fields.hpp"
 #include "runs/common/engine_running.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cases/flow.hpp"
-#include "cases/stable_step.hpp"
+#include "cases/time_step.hpp"
 #include "runs/couette/run.hpp"
 #include "runs/couette/series.hpp"
 #include "runs/couette/summary.hpp"

@@ -7,7 +7,7 @@
 namespace crossgrain::inline runs {
 
 /// The numbers of a region at each snapshot, of the whole scene, and of those disks that endpoints
-/// ask for (cases/average.hpp).
+/// ask for (cases/case.hpp).
 class RegionSeries {
  public:
   /// Both outlive it.

@@ -102,12 +102,11 @@ class LateComparison {
     const LockstepWindow window =
         followBoth(engine_, *mirror_, realised_.dt, steps_, can_.instantContacts, now.positionTime);
     reached_ = now.positionTime + length();
-    bool alike = true;
+    bool same = true;
     for (std::size_t k = 0; k < steps_.size(); ++k)
-      alike =
-          alike && farthest(window.engine[k], window.mirror[k], flowDiameter(setup_)).distance <=
-                       lockstepRounding;
-    if (alike && !measured) {
+      same = same && farthest(window.engine[k], window.mirror[k], flowDiameter(setup_)).distance <=
+                         lockstepRounding;
+    if (same && !measured) {
       ++unmeasured_;
       return now.positionTime;
     }
@@ -120,7 +119,7 @@ class LateComparison {
                                             return begin(changed);
                                           }),
                        mirrored.disks.size());
-    alike_.push_back(alike);
+    alike_.push_back(same);
     return now.positionTime;
   }
 

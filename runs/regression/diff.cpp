@@ -354,4 +354,21 @@ DiffResults diffAgainst(const std::filesystem::path& file,
   return results;
 }
 
+Outcome outcomeOf(const DiffResults& results) {
+  bool judged = false, differs = false;
+  Outcome outcome;
+  for (const DiffRow& row : results.rows) {
+    judged |= row.verdict != DiffVerdict::notMeasured;
+    differs |= row.verdict == DiffVerdict::differs;
+    if (!row.failure.empty()) outcome.failures.push_back(row.failure);
+  }
+  if (!outcome.failures.empty())
+    outcome.status = exitEngineFailed;
+  else if (!judged)
+    return notJudged(results.rows.front().reason);
+  else if (differs)
+    outcome.status = exitFellShort;
+  return outcome;
+}
+
 }  // namespace crossgrain::inline runs

@@ -7,7 +7,7 @@
 
 #include "adapters/engine_entry.hpp"
 #include "results/regression.hpp"
-#include "runs/common/run_store.hpp"
+#include "runs/common/study.hpp"
 #include "runs/regression/baseline.hpp"
 
 namespace crossgrain::inline runs {
@@ -25,5 +25,8 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
 /// @throws UnsupportedScene, BadInput, Interrupted
 DiffResults diffAgainst(const std::filesystem::path& file,
                         const std::vector<std::string>& overrides, const RunCommand& command);
+
+/// An engine that failed, then one that differs; nothing measured is no success.
+Outcome outcomeOf(const DiffResults& results);
 
 }  // namespace crossgrain::inline runs

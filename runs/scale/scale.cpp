@@ -13,7 +13,6 @@
 #include "cases/preparation.hpp"
 #include "cases/scaled_cell.hpp"
 #include "cases/time_step.hpp"
-#include "cases/volume_fraction.hpp"
 #include "results/scale_fields.hpp"
 #include "results/schema.hpp"
 #include "runs/common/engine_access.hpp"

@@ -42,7 +42,7 @@ TEST(Places, GridsAndHeaps) {
     EXPECT_NEAR((heap[3] - heap[static_cast<std::size_t>(below)]).norm(), 1.0, 1e-15);
 }
 
-TEST(AssemblyScene, IsWhatTheCaseSays) {
+TEST(AssemblyScene, DisksWallsStep) {
   const Scene scene = assemblyScene(twoDisks());
   ASSERT_EQ(scene.disks.size(), 2u);
   EXPECT_EQ(scene.disks.position[1], Vec2(1.0, 0.0));
@@ -51,7 +51,7 @@ TEST(AssemblyScene, IsWhatTheCaseSays) {
   EXPECT_EQ(scene.dt, 1e-3);
 }
 
-TEST(AssemblyScene, MirrorThenTurnThenShiftThenBoost) {
+TEST(AssemblyScene, Placement_MirrorTurnShiftBoost) {
   Case setup = twoDisks();
   setup.assembly.placement.mirror = true;
   setup.assembly.placement.turn = std::numbers::pi / 2.0;
@@ -71,7 +71,7 @@ TEST(AssemblyScene, MirrorThenTurnThenShiftThenBoost) {
   EXPECT_NEAR((setup.assembly.placement.undoneAt(later, 2.0) - Vec2(1.0, 0.0)).norm(), 0.0, 1e-14);
 }
 
-TEST(AssemblyScene, RandomnessIsTheSeeds) {
+TEST(AssemblyScene, Randomness_BySeed) {
   Case setup = twoDisks();
   setup.assembly.disks[0].places = gridPlaces(10, 10, {1.5, 1.5}, false);
   setup.assembly.disks[0].jitter = 0.1;
@@ -90,7 +90,7 @@ TEST(AssemblyScene, RandomnessIsTheSeeds) {
   }
 }
 
-TEST(AssemblyScene, StartsThatMeanNothingAreBadInput) {
+TEST(AssemblyScene, CoincidentCentres_AreBadInput) {
   Case setup = twoDisks();
   setup.assembly.disks[0].places = {Vec2::Zero(), Vec2::Zero()};
   setup.assembly.maxOverlap = 2.0;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace crossgrain;
 
-TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
+TEST(CollisionScene, Pairs_HeadOn_WithPsi) {
   Case setup = test::smallPairCase();
   setup.collision.radius[1] = 2.0 * test::smallRadius;
   setup.collision.mass[1] = 8.0 * test::smallMass;
@@ -34,7 +34,7 @@ TEST(CollisionScene, PairsApproachHeadOnWithTheWantedTangentialVelocity) {
   }
 }
 
-TEST(CollisionScene, AnObliqueApproachHasNoSpinAndTouchesOnTheAxis) {
+TEST(CollisionScene, Oblique_NoSpin_TouchesOnTheAxis) {
   Case setup = test::smallPairCase();
   setup.collision.mass[1] = 8.0 * test::smallMass;
   const double dt = 1e-4;
@@ -48,7 +48,7 @@ TEST(CollisionScene, AnObliqueApproachHasNoSpinAndTouchesOnTheAxis) {
   EXPECT_NEAR(touch.y(), 0.0, 1e-16);
 }
 
-TEST(CollisionScene, TheEndIsTakenAtSeparationWithThatInstantsNormal) {
+TEST(CollisionScene, End_AtSeparation_WithItsNormal) {
   // Disks of radius 1 that parted at (2, 0) with velocity (0.3, 0.4) and spin −0.5 each, 10 s ago.
   Case setup = test::smallPairCase();
   setup.collision.radius[0] = setup.collision.radius[1] = 1.0;
@@ -74,7 +74,7 @@ TEST(CollisionScene, TheEndIsTakenAtSeparationWithThatInstantsNormal) {
   EXPECT_FALSE(end->lost);
 }
 
-TEST(CollisionScene, APairThatStillTouchesHasNoEnd) {
+TEST(CollisionScene, End_OfATouchingPair_IsAbsent) {
   const CollisionStart start{1.0, 0.5};
   const Scene scene = collisionScene(test::smallPairCase(), {start}, 1e-4);
   Snapshot after;

@@ -6,7 +6,6 @@
 
 #include "adapters/grain.hpp"
 #include "cases/preparation.hpp"
-#include "cases/preparer.hpp"
 #include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "tests/support/laws.hpp"
@@ -32,7 +31,7 @@ Case quickCell() {
   return setup;
 }
 
-TEST(Couette, WallsHaveTheNumberOfDisksNearestToTheSpacing) {
+TEST(Couette, Walls_NumberOfDisks_NearestToTheSpacing) {
   Cell cell = quickCell().cell;
   cell.innerRadius = 0.1032;
   cell.outerRadius = 0.2524;
@@ -46,7 +45,7 @@ TEST(Couette, WallsHaveTheNumberOfDisksNearestToTheSpacing) {
   EXPECT_EQ(counts(), std::pair(93ul, 227ul));  // 92.6, 226.6
 }
 
-TEST(Couette, HolesAreTheGapsBetweenNeighbouringWallDisks) {
+TEST(Couette, Holes_AreGapsBetweenWallDisks) {
   Cell cell = quickCell().cell;
   cell.wallSpacing = 7e-3;
   for (const double radius : {cell.innerRadius, cell.outerRadius}) {
@@ -57,7 +56,7 @@ TEST(Couette, HolesAreTheGapsBetweenNeighbouringWallDisks) {
   }
 }
 
-TEST(Couette, PreparationFillsTheCell) {
+TEST(Couette, Preparation_FillsTheCell) {
   const Case setup = quickCell();
   const auto engine = makeGrain();
   double last = 0.0;
@@ -74,7 +73,7 @@ TEST(Couette, PreparationFillsTheCell) {
   EXPECT_NO_THROW(checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "here"));
 }
 
-TEST(Couette, PackingsOfAStepOfTheirOwnAreTheSameForAnyRun) {
+TEST(Couette, PreparationDt_MakesPackingsIndependentOfTheRun) {
   Case setup = quickCell();
   const std::string byTheRuns = packingHash(setup, 0, 8e-5);
   setup.preparation.dt = 8e-5;
@@ -91,7 +90,7 @@ TEST(Couette, PackingsOfAStepOfTheirOwnAreTheSameForAnyRun) {
   EXPECT_NE(prepared(4e-5), withOwn);
 }
 
-TEST(Couette, PreparingTakesTheRingsTimeAndTheWheels) {
+TEST(Couette, PreparationTime) {
   Case setup = quickCell();  // 0.1 s and 2π/100 s
   EXPECT_NEAR(preparationTime(setup), 0.1 + 0.0628319, 1e-7);
   setup.run.dt = 4e-5;
@@ -100,7 +99,7 @@ TEST(Couette, PreparingTakesTheRingsTimeAndTheWheels) {
   EXPECT_NEAR(preparationSteps(setup), 2035.4, 0.1);
 }
 
-TEST(Couette, PackingsDifferBySeedAndRepeatByIt) {
+TEST(Couette, Packings_DifferByIndex_AndRepeat) {
   const Case setup = quickCell();
   const auto engine = makeGrain();
   const auto nothing = [](double) {};
@@ -115,7 +114,7 @@ TEST(Couette, PackingsDifferBySeedAndRepeatByIt) {
 }
 
 /// Another engine prepares what the case lets it, and a setting of it makes another packing.
-TEST(Couette, AnotherEngineMayPreparePackings) {
+TEST(Couette, PreparationEngine_IsPartOfTheHash) {
   Case setup = quickCell();
   setup.preparation.engine = "box2d-penalty";
   EXPECT_EQ(ownPreparer(setup)->name, "box2d-penalty");
@@ -125,7 +124,7 @@ TEST(Couette, AnotherEngineMayPreparePackings) {
   EXPECT_NE(packingHash(setup, 0, 4e-5), hash);
 }
 
-TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
+TEST(Couette, PackingHash_ChangesWithEveryInput) {
   const Case setup = quickCell();
   const std::string hash = packingHash(setup, 0, 4e-5);
   const auto changed = [&](auto change) {
@@ -151,14 +150,14 @@ TEST(Couette, EveryInputOfThePreparationChangesItsHash) {
   EXPECT_EQ(hash, changed([](Case& c) { c.averaging.rings = 40; }));
 }
 
-TEST(Couette, ALatticeThatDoesNotFitIsBadInput) {
+TEST(Couette, Lattice_WithoutRoom_IsBadInput) {
   Case setup = quickCell();
   setup.preparation.dilation = 1.0;
   const auto engine = makeGrain();
   EXPECT_THROW(preparePacking(setup, 0, 4e-5, *engine, [](double) {}), BadInput);
 }
 
-TEST(Couette, ABadStartNamesTheDisks) {
+TEST(Couette, BadStart_NamesTheDisks) {
   const Case setup = quickCell();
   Packing packing;
   packing.disks = diskKinds(setup.particles);

@@ -38,7 +38,7 @@ std::optional<EffectSwitch> without(const Case& setup, Effect effect) {
   return std::nullopt;
 }
 
-TEST(EffectSwitch, AreThoseOfTheCaseAndNeverItsMovingWalls) {
+TEST(EffectSwitch, Switches_OfTheCase_NotMovingWalls) {
   EXPECT_EQ(namesOf(thesisCase()),
             (std::vector<std::string>{"normal_damping", "friction", "tangential_spring",
                                       "tangential_damping", "rotation", "bottom_friction",
@@ -52,7 +52,7 @@ TEST(EffectSwitch, AreThoseOfTheCaseAndNeverItsMovingWalls) {
   EXPECT_FALSE(without(bare, Effect::rotation));
 }
 
-TEST(EffectSwitch, TakeTheirEffectAndWhatCannotBeWithoutIt) {
+TEST(EffectSwitch, Without_LacksTheEffectAndItsDependents) {
   const Case base = thesisCase();
   const Effects all = effectsOf(base);
   using enum Effect;
@@ -76,7 +76,7 @@ TEST(EffectSwitch, TakeTheirEffectAndWhatCannotBeWithoutIt) {
   }
 }
 
-TEST(EffectSwitch, LeaveAllConstantsOfOtherEffectsAlone) {
+TEST(EffectSwitch, Without_KeepsOtherConstants) {
   const Case base = thesisCase();
   const auto switches = effectSwitches(base);
   const ContactLaw& viscous = off(switches, "tangential_spring").law;
@@ -100,14 +100,14 @@ TEST(EffectSwitch, LeaveAllConstantsOfOtherEffectsAlone) {
   EXPECT_FALSE(off(switches, "rotation").particles.rotation);
 }
 
-TEST(EffectSwitch, FragmentsMakeTheSameCaseOfTheFile) {
+TEST(EffectSwitch, Fragment_MakesTheSameCase) {
   const auto file = std::filesystem::path(testing::TempDir()) / "every_effect.toml";
   for (const EffectSwitch& one : effectSwitches(thesisCase()))
     EXPECT_EQ(loadCase(file, {}, one.fragment).front().resolvedToml, one.without.resolvedToml)
         << one.name;
 }
 
-TEST(EffectSwitch, BlockedRotationDropsThePackingsSpins) {
+TEST(EffectSwitch, NoRotation_DropsSpins) {
   const Case base = thesisCase();
   Packing packing;
   packing.disks.radius = packing.disks.mass = packing.disks.inertia = {1.0};
@@ -118,7 +118,7 @@ TEST(EffectSwitch, BlockedRotationDropsThePackingsSpins) {
   EXPECT_EQ(couetteScene(blocked->without, packing, 1e-5).disks.spin, std::vector<double>{0.0});
 }
 
-TEST(EffectSwitch, GoDownTheLadderOfTangentialLaws) {
+TEST(EffectSwitch, TangentialLaws_Simplify) {
   Case setup = thesisCase({"law.tangential=spring", "law.gt=0"});
   EXPECT_EQ(without(setup, Effect::tangentialSpring)->without.law.tangential,
             TangentialLaw::coulomb);

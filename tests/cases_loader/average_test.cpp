@@ -32,7 +32,20 @@ void expectMessage(const std::string& text, const std::string& part) {
   EXPECT_NE(message.find(part), std::string::npos) << message << "\nis not: " << part;
 }
 
-TEST_F(Average, OfAnAssembly) {
+TEST_F(Average, AssemblyDisks_GridByDensity) {
+  std::ofstream("case.toml") << withLine(
+      soundAssembly, 12,
+      "density = 4.0\njitter = 0.25\ngrid = { columns = 2, rows = 2, spacing = [2, 3] }");
+  const Case c = loadCase("case.toml").front();
+  EXPECT_EQ(c.assembly.contactTimes, 3.0);
+  const DiskGroup group = c.assembly.disks.at(0);
+  EXPECT_EQ(group.position, Vec2(0.0, 1.0));
+  EXPECT_DOUBLE_EQ(group.mass, 4.0 * 3.14159265358979323846 * group.radius * group.radius);
+  EXPECT_EQ(group.jitter, 0.25);
+  EXPECT_EQ(group.places, (std::vector<Vec2>{{0, 0}, {2, 0}, {0, 3}, {2, 3}}));  // diameters
+}
+
+TEST_F(Average, Assembly_Slabs) {
   std::ofstream("case.toml") << scene + slabs +
                                     endpoint(
                                         "quantity = \"velocity_x\"\nat = \"slope\"\nabsolute = 2") +
@@ -49,7 +62,7 @@ TEST_F(Average, OfAnAssembly) {
   EXPECT_EQ(c.averaging.endpoints.at("one").value, 2.0);
 }
 
-TEST_F(Average, SaysThatRatiosAreOfMeans) {
+TEST_F(Average, Definition_OfRatios) {
   const auto definition = [](const std::string& keys) {
     std::ofstream("case.toml") << scene + slabs + endpoint(keys + "\nabsolute = 2") +
                                       "[preparation]\npackings = 5\nseed = 7\n";
@@ -66,7 +79,7 @@ TEST_F(Average, SaysThatRatiosAreOfMeans) {
   EXPECT_EQ(definition("quantity = \"spin\""), "mean of spin over the averaged part");
 }
 
-TEST_F(Average, SaysWhatIsWrong) {
+TEST_F(Average, BadInput_NamesTheKey) {
   const auto with = [](const std::string& keys) { return scene + slabs + endpoint(keys); };
   expectMessage(with("quantity = \"stress_rr\"\nabsolute = 1"), "did you mean stress_");
   expectMessage(with("quantity = \"spin\"\nat = 5\nabsolute = 1"), "endpoints[0].at = 5");
@@ -84,10 +97,13 @@ TEST_F(Average, SaysWhatIsWrong) {
   expectMessage(scene + "[looks]\ncount = 2\n", "is of no use without [average]");
   expectMessage(scene + withLine(slabs, 7, "from = 3"), "average.from = 3: must be < 3 s");
   expectMessage(withLine(scene, 13, "") + slabs, "no packing would differ from another");
+  expectMessage(scene + slabs + "columns = 3\n",
+                "average.columns = 3: has no meaning with bins = \"slabs\"");
+  expectMessage(scene + withLine(slabs, 3, ""), "average.along is missing");
   expectMessage(scene + withLine(slabs, 5, "high = [0, 4]"), "must lie above and to the right");
 }
 
-TEST_F(Average, HasClosedForms) {
+TEST_F(Average, ClosedForms) {
   const std::string still = withLine(scene, 13, "");  // nothing is random
   const auto with = [&](const std::string& keys, const std::string& rest = "") {
     return still + slabs + endpoint(keys) + rest;
@@ -127,7 +143,7 @@ TEST_F(Average, HasClosedForms) {
                 "must be [from, to] in s");
 }
 
-TEST_F(Average, ReadsAllStartFilesFirstAndNamesTheLine) {
+TEST_F(Average, StartFiles_AreAllReadFirst_WithLines) {
   const std::string start = scene.substr(0, scene.find("[[")) +
                             "[assembly.start]\nfile = [\"one.csv\", \"two.csv\"]\ndensity = 2\n";
   write("one.csv", "x,y,radius\n0,1,0.5\n2,1,0.5\n");
@@ -140,7 +156,7 @@ TEST_F(Average, ReadsAllStartFilesFirstAndNamesTheLine) {
   expectMessage(start, "are radii in mm?");
 }
 
-TEST_F(Average, StartsFromAFile) {
+TEST_F(Average, StartFile_Csv) {
   write("start.csv", "# made by hand\nx, y,radius,vy,fixed\n+0.0,+1,0.5,-2,0\r\n\n3,0,0.25,0,1\n");
   const std::string start =
       scene.substr(0, scene.find("[[")) + "[assembly.start]\nfile = \"start.csv\"\ndensity = 2\n";
@@ -168,7 +184,7 @@ TEST_F(Average, StartsFromAFile) {
   write("start.csv", "\xEF\xBB\xBFx,y,radius\n0,1,1\n");  // as spreadsheets save it
   EXPECT_EQ(messageOfText(start), "");
   write("start.csv", "x,y,radius\n0,1,1\n");
-  expectMessage(start.substr(0, start.find("density")), "tells no masses");
+  expectMessage(start.substr(0, start.find("density")), "has no masses");
   expectMessage(start.substr(0, start.find("file")), "assembly.start.file is missing");
   const auto of = [&](const std::string& files) {
     return start.substr(0, start.find("file")) + "file = " + files + "\ndensity = 2\n";

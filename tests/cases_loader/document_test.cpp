@@ -1,6 +1,7 @@
-// Merging: extends, variants, overrides, and the resolved document.
+// Merging: extends, variants, overrides; the resolved document, and the keys in it.
+#include "cases/case_keys.hpp"
+#include "cases/packing.hpp"
 #include "cases/time_step.hpp"
-#include "cases/volume_fraction.hpp"
 #include "files.hpp"
 
 namespace crossgrain::test {
@@ -8,42 +9,24 @@ namespace {
 
 using LoaderMerging = InFolder;
 
-TEST_F(LoaderMerging, DefaultsAreThoseOfTheTypes) {
-  write("plain.toml", soundCase);
-  const auto cases = loadCase("plain.toml");
-  ASSERT_EQ(cases.size(), 1u);
-  const Case& c = cases.front();
-  EXPECT_EQ(c.name, "plain");  // the file's name
-  EXPECT_EQ(c.variant, "");
-  EXPECT_EQ(c.kind, CaseKind::couette);
-  EXPECT_FALSE(c.bottom);
-  EXPECT_FALSE(c.run.dt);
-  EXPECT_EQ(c.averaging.methods, std::vector<std::string>{"slicing"});
-  EXPECT_EQ(c.preparation.packings, Preparation{}.packings);
-  EXPECT_EQ(c.law.conventions.leverArm, LeverArm::radius);
-}
-
-TEST_F(LoaderMerging, AChainOfFilesIsMergedKeyByKeyLaterWins) {
-  write("base/law.toml", soundCase);
+TEST_F(LoaderMerging, ChainOfFiles_IsMergedKeyByKey_LaterWins) {
+  write("base/law.toml", soundCase + "[run]\nmay_differ = [\"tension\", \"dashpot\"]\n");
   write("base/middle.toml",
         "[case]\nname = \"middle\"\nextends = \"law.toml\"\n[law]\nkn = 400\n"
         "[cell]\nomega = 0.5\n");
-  write("top.toml", "[case]\nextends = \"base/middle.toml\"\n[law]\nkn = 500\n");
+  write("top.toml",
+        "[case]\nextends = \"base/middle.toml\"\n[law]\nkn = 500\n"
+        "[run]\nmay_differ = [\"normal\"]\n");
   const Case c = loadCase("top.toml").front();
-  EXPECT_EQ(c.law.kn, 500.0);    // top over middle over law
-  EXPECT_EQ(c.cell.omega, 0.5);  // middle over law
-  EXPECT_EQ(c.law.gn, 0.19);     // law
-  EXPECT_EQ(c.name, "top");      // a name is not inherited
+  EXPECT_EQ(c.run.mayDiffer, std::vector<std::string>{"normal"});  // lists are replaced
+  EXPECT_EQ(c.law.kn, 500.0);                                      // top over middle over law
+  EXPECT_EQ(c.cell.omega, 0.5);                                    // middle over law
+  EXPECT_EQ(c.law.gn, 0.19);                                       // law
+  EXPECT_EQ(c.name, "top");                                        // a name is not inherited
   EXPECT_EQ(c.file, "top.toml");
 }
 
-TEST_F(LoaderMerging, ListsAreReplacedNotJoined) {
-  write("base.toml", soundCase + "[run]\nmay_differ = [\"tension\", \"dashpot\"]\n");
-  write("top.toml", "[case]\nextends = \"base.toml\"\n[run]\nmay_differ = [\"normal\"]\n");
-  EXPECT_EQ(loadCase("top.toml").front().run.mayDiffer, std::vector<std::string>{"normal"});
-}
-
-TEST_F(LoaderMerging, TheLaterOfTwoWaysToSayOneThingReplacesTheEarlier) {
+TEST_F(LoaderMerging, TwoWaysToSayOneThing_LaterReplaces) {
   write("base.toml", soundCase +
                          "[run]\ndt = 1e-5\n[averaging.margins]\n"
                          "spin = { relative = 0.1, why = \"a\" }\n");
@@ -58,7 +41,7 @@ TEST_F(LoaderMerging, TheLaterOfTwoWaysToSayOneThingReplacesTheEarlier) {
   EXPECT_EQ(loadCase("base.toml", {"run.steps_per_contact=70"}).front().run.stepsPerContact, 70.0);
 }
 
-TEST_F(LoaderMerging, VariantsGiveOneCaseEachInTheirOrder) {
+TEST_F(LoaderMerging, Variants_GiveOneCaseEachInOrder) {
   write("v.toml", soundCase +
                       "[[variants]]\nname = \"slow\"\ncell.omega = 0.1\n"
                       "[[variants]]\nname = \"cut\"\n[variants.law]\ntension = \"cut\"\n");
@@ -72,7 +55,7 @@ TEST_F(LoaderMerging, VariantsGiveOneCaseEachInTheirOrder) {
   EXPECT_EQ(cases[1].law.conventions.tension, Tension::cut);
 }
 
-TEST_F(LoaderMerging, OverridesComeLastAndReadTomlOrBareWords) {
+TEST_F(LoaderMerging, Overrides_ComeLast_TomlOrBareWords) {
   write("v.toml", soundCase + "[[variants]]\nname = \"slow\"\ncell.omega = 0.1\n");
   const Case c = loadCase("v.toml", {"cell.omega=0.2", "law.tension=cut", "run.mirrors=false",
                                      "engines.box2d-impulse.dt=5e-4", "engines.x.solver=fast-one",
@@ -87,7 +70,7 @@ TEST_F(LoaderMerging, OverridesComeLastAndReadTomlOrBareWords) {
   EXPECT_EQ(c.averaging.methods, std::vector<std::string>{"centre"});
 }
 
-TEST_F(LoaderMerging, EngineSettingsKeepTheirTypes) {
+TEST_F(LoaderMerging, EngineSettings_KeepTheirTypes) {
   write("e.toml", soundCase + "[engines.some]\nflag = true\ncount = 3\nrate = 0.5\nmode = \"a\"\n");
   const Settings settings = loadCase("e.toml").front().engines.at("some");
   EXPECT_TRUE(std::get<bool>(settings.at("flag")));
@@ -96,7 +79,7 @@ TEST_F(LoaderMerging, EngineSettingsKeepTheirTypes) {
   EXPECT_EQ(std::get<std::string>(settings.at("mode")), "a");
 }
 
-TEST_F(LoaderMerging, TheResolvedDocumentLoadsToTheSameCase) {
+TEST_F(LoaderMerging, Resolved_LoadsToTheSameCase) {
   write("law.toml", soundCase);
   write("v.toml",
         "[case]\nextends = \"law.toml\"\n[particles]\nsmall = 200\n"
@@ -115,7 +98,7 @@ TEST_F(LoaderMerging, TheResolvedDocumentLoadsToTheSameCase) {
   EXPECT_EQ(second.engines, first.engines);
 }
 
-TEST_F(LoaderMerging, ParametersThatTheLawHasNoUseForAreCleared) {
+TEST_F(LoaderMerging, UnusedLawParameters_AreCleared) {
   write("c.toml", soundCase);
   const auto law = [](const std::string& tangential) {
     return loadCase("c.toml", {"law.tangential=" + tangential}).front().law;
@@ -132,7 +115,7 @@ TEST_F(LoaderMerging, ParametersThatTheLawHasNoUseForAreCleared) {
   EXPECT_EQ(smooth.law.tangential, TangentialLaw::none);
 }
 
-TEST_F(LoaderMerging, ARigidLawTakesCoulombFrictionWithItsCoefficient) {
+TEST_F(LoaderMerging, RigidLaw_WithMu_IsCoulomb) {
   const std::string rigid = "[case]\nkind = \"collision\"\n[law]\nnormal = \"rigid\"\ne_n = 0.9\n";
   const std::string rest =
       "[collision]\npsi = 1\nvn = [0.1, 0.2]\nradius = [0.001, 0.002]\n"
@@ -150,7 +133,7 @@ TEST_F(LoaderMerging, ARigidLawTakesCoulombFrictionWithItsCoefficient) {
   EXPECT_EQ(collisionTimeSteps(smooth), std::vector<double>{1e-4});
 }
 
-TEST_F(LoaderMerging, APackingFileIsRelativeToTheFileThatNamesIt) {
+TEST_F(LoaderMerging, PackingFile_IsRelativeToItsCaseFile) {
   write("base/own.h5", "");
   write("base/case.toml", soundCase + "file = \"own.h5\"\n");
   write("top.toml", "[case]\nextends = \"base/case.toml\"\n");
@@ -158,6 +141,93 @@ TEST_F(LoaderMerging, APackingFileIsRelativeToTheFileThatNamesIt) {
   EXPECT_EQ(c.particles.file, "base/own.h5");
   EXPECT_EQ(c.particles.small, 0);  // the file says how many
   EXPECT_NEAR(timeStep(c), 43.5e-6, 0.05e-6);
+}
+
+void expectSame(const Case& a, const Case& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.variant, b.variant);
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.resolvedToml, b.resolvedToml);
+  EXPECT_EQ(a.particles.file, b.particles.file);
+  if (a.kind == CaseKind::couette) {
+    EXPECT_EQ(packingHash(a, 0, 1e-5), packingHash(b, 0, 1e-5));
+    ASSERT_EQ(a.averaging.margins.size(), b.averaging.margins.size());
+    for (const auto& [field, margin] : a.averaging.margins) {
+      EXPECT_EQ(margin.value, b.averaging.margins.at(field).value) << field;
+      EXPECT_EQ(margin.why, b.averaging.margins.at(field).why);
+    }
+  }
+  if (a.kind == CaseKind::collision) {
+    EXPECT_EQ(a.collision.psi, b.collision.psi);
+  }
+}
+
+TEST_F(LoaderMerging, ShippedCases_ResolvedLoadToThemselves) {
+  int count = 0;
+  for (const char* const part : {"couette", "collision", "cost", "hard"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(CROSSGRAIN_CASES) / part)) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::vector<Case> once = loadCase(entry.path());
+      const std::string text = resolvedFile(once);
+      write("again.toml", text);
+      const std::vector<Case> again = loadCase("again.toml");
+      ASSERT_EQ(once.size(), again.size()) << entry.path();
+      for (std::size_t k = 0; k < once.size(); ++k) expectSame(once[k], again[k]);
+      EXPECT_EQ(resolvedFile(again), text) << entry.path();
+      ++count;
+    }
+  EXPECT_GT(count, 60);
+}
+
+TEST_F(LoaderMerging, Resolved_NamesAPackingFileInFull) {
+  write("sub/mine.h5", "");
+  write("sub/case.toml", soundCase + "file = \"mine.h5\"\n[run]\ndt = 1e-5\n");
+  const auto once = loadCase("sub/case.toml");
+  write("again.toml", resolvedFile(once));
+  EXPECT_EQ(std::filesystem::absolute(*once.front().particles.file),
+            *loadCase("again.toml").front().particles.file);
+}
+
+using CaseKeysOf = InFolder;
+
+TEST_F(CaseKeysOf, MergedDocument_ByFullName) {
+  write("base.toml", soundCase +
+                         "[averaging.margins]\nspin = { absolute = 0.3, why = \"b\" }\n"
+                         "[engines.box2d-impulse]\ndt = 5e-4\n");
+  write("top.toml", "[case]\nextends = \"base.toml\"\n[law]\nmu = 0.5\n");
+  const CaseKeys keys = caseKeys(loadCase("top.toml").front().resolvedToml);
+  EXPECT_EQ(keys.at("case.name"), "\"top\"");
+  EXPECT_EQ(keys.at("law.mu"), "0.5");
+  EXPECT_EQ(keys.at("law.kn"), "352.1");
+  EXPECT_EQ(keys.at("averaging.margins.spin.absolute"), "0.3");
+  EXPECT_EQ(keys.at("engines.box2d-impulse.dt"), "0.0005");
+  EXPECT_FALSE(keys.contains("averaging.rings"));  // left to its default
+}
+
+TEST_F(CaseKeysOf, Changes_KeyByKey_FewAndShort) {
+  write("one.toml", soundCase);
+  const auto keysWith = [](const std::vector<std::string>& overrides) {
+    return caseKeys(loadCase("one.toml", overrides).front().resolvedToml);
+  };
+  EXPECT_EQ(changes(keysWith({}), keysWith({})), std::vector<std::string>{});
+  EXPECT_EQ(
+      changes(keysWith({"averaging.rings=20"}), keysWith({"averaging.rings=30", "law.mu=1.0"})),
+      (std::vector<std::string>{"averaging.rings: 20 → 30", "law.mu: 0.44 → 1.0"}));
+  EXPECT_EQ(changes(keysWith({}), keysWith({"averaging.rings=30"})),
+            std::vector<std::string>{"averaging.rings: none → 30"});
+  CaseKeys before, now;
+  for (int k = 0; k < 10; ++k) now["key" + std::to_string(k)] = "1";
+  EXPECT_TRUE(changesInWords(changes(before, now)).ends_with("key7: none → 1; and 2 more"));
+  before = {{"psi", "1.5"}};
+  now = {{"psi", "'" + std::string(58, 'a') + "ΨΨΨΨ'"}};
+  EXPECT_EQ(changesInWords(changes(before, now)), "psi: 1.5 → '" + std::string(58, 'a') + "…");
+}
+
+TEST(CaseKeysIn, Section_IsNotWhatBeginsLikeIt) {
+  EXPECT_TRUE(isIn("averaging.margins", "averaging.margins.spin.absolute"));
+  EXPECT_TRUE(isIn("run.timeout", "run.timeout"));
+  EXPECT_FALSE(isIn("engines.grain", "engines.grain-as-yade.threads"));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// Bad input as in errors_test.cpp, of laws and of collisions.
+// Bad input as in errors_test.cpp, of laws.
 #include "bad_cases.hpp"
 
 namespace crossgrain::test {
 namespace {
 
-TEST_F(LoaderErrors, LawsNeedWhatTheyUseAndNothingElse) {
+TEST_F(LoaderErrors, Law_NeedsWhatItUsesAndNothingElse) {
   expectMessages({
       {line(4, "kn = 0"), "case.toml:4:6: law.kn = 0: a linear law needs it > 0"},
       {line(7, ""), "case.toml:3:1: law.kt is missing: a spring law needs it > 0"},
@@ -19,6 +19,8 @@ TEST_F(LoaderErrors, LawsNeedWhatTheyUseAndNothingElse) {
        "leave it out"},
       {withLine(line(9, "tangential = \"viscous\""), 8, "gt = 0"),
        "case.toml:8:6: law.gt = 0: a viscous law needs it > 0"},
+      {line(5, ""), "case.toml:3:1: law.gn is missing: an undamped law says 0"},
+      {line(9, ""), "case.toml:3:1: law.tangential is missing: a frictionless law says none"},
       {line(5, "gn = 30"),
        "case.toml:5:6: law.gn = 30: overdamps the lightest pair: must be < 0.4401"},
       {line(5, "gn = 0.1\ne_n = 0.9"),
@@ -47,7 +49,7 @@ TEST_F(LoaderErrors, TwoMaterials_OutsideACollision_AreRefused) {
   }
 }
 
-TEST_F(LoaderErrors, LawsThatStiffenHaveTheirOwnKeys) {
+TEST_F(LoaderErrors, Law_ThatStiffens_HasItsOwnKeys) {
   const std::string hertz =
       "[case]\nkind = \"collision\"\n[collision]\npsi = 1\nvn = 1\nradius = 1\nmass = 1\n[law]\n"
       "normal = \"hertz\"\ntangential = \"none\"\nyoung = 1e9\npoisson = 0.3\ngn = 0\n";  // 14 on
@@ -78,29 +80,7 @@ TEST_F(LoaderErrors, LawsThatStiffenHaveTheirOwnKeys) {
   });
 }
 
-TEST_F(LoaderErrors, WallsHaveNeitherSizeNorSpin) {
-  expectMessages({
-      {collision(12, "mass = 0.275e-3\nsecond = \"wall\""), ""},
-      {collision(12, "mass = 0.275e-3\nsecond = \"wal\""),
-       "case.toml:13:10: collision.second = \"wal\": unknown name (did you mean wall?)"},
-      {collision(12, "mass = [0.275e-3, 1]\nsecond = \"wall\""),
-       "case.toml:12:8: collision.mass: a wall has none: give the disk's alone"},
-      {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\ncounter_spin = 1"),
-       "case.toml:14:16: collision.counter_spin = 1: a wall does not turn"},
-      {collision(12, "mass = 0.275e-3\nwall_velocity = [0, 1]"),
-       "case.toml:13:17: collision.wall_velocity: only a wall has one (second = \"wall\")"},
-      {collision(12, "mass = 0.275e-3\nsecond = \"wall\"\nwall_velocity = 1"),
-       "case.toml:14:17: collision.wall_velocity = 1: must be [along its normal, along it] in m/s"},
-      {collision(9, "psi = 1\nangle = 45"),
-       "case.toml:10:9: collision.angle = 45: and psi, its tangent: give one of them"},
-      {collision(9, "angle = 90"),
-       "case.toml:9:9: collision.angle = 90: must be in (-90, 90) degrees"},
-      {collision(10, "vn = 1\nspeed = 1"),
-       "case.toml:11:9: collision.speed = 1: and vn, its part along the normal: give one of them"},
-  });
-}
-
-TEST_F(LoaderErrors, RigidLawsHaveNeitherSpringsNorAContactTime) {
+TEST_F(LoaderErrors, Law_Rigid_HasNeitherSpringsNorAContactTime) {
   const std::string rigid =
       "[case]\nkind = \"collision\"\n[collision]\npsi = 1\nvn = 1\nradius = 1\nmass = 1\n"
       "[run]\ndt = 0.1\n[law]\nnormal = \"rigid\"\ne_n = 0.9\n";  // further lines: 13 on
@@ -117,36 +97,6 @@ TEST_F(LoaderErrors, RigidLawsHaveNeitherSpringsNorAContactTime) {
       {withLine(rigid, 7, "mass = 1\nsteps_per_contact = 50"),
        "case.toml:8:21: collision.steps_per_contact = 50: a rigid law has no contact time, give "
        "run.dt"},
-  });
-}
-
-TEST_F(LoaderErrors, SweepsOfCollisions) {
-  expectMessages({
-      {soundCollision + "[collision.margins]\nspin = { absolute = 1, why = \"x\" }",
-       "case.toml:14:1: unknown key collision.margins.spin (did you mean spin_i?)"},
-      {soundCollision + "[collision.margins]\nanything_else_at_all = { absolute = 1, why = \"x\" }",
-       "case.toml:14:1: unknown key collision.margins.anything_else_at_all (there are: psi_f, e_n, "
-       "beta, e_t, centre_psi_f, rebound_angle, spin_i, spin_j, duration, max_overlap, "
-       "energy_lost, "
-       "lost_normal_damping, lost_tangential, lost_tangential_damping, lost_stiffening, "
-       "lost_sliding, lost_stored)"},
-      {collision(9, "psi = []"), "case.toml:9:7: collision.psi: must not be empty"},
-      {collision(9, "psi = { from = 0, to = 4 }"), "case.toml:9:7: collision.psi.count is missing"},
-      {collision(9, "psi = { from = 0, to = 4, count = 1 }"),
-       "case.toml:9:35: collision.psi.count = 1: must be in [2, 10000]"},
-      {collision(9, "psi = { from = 4, to = 4, count = 3 }"),
-       "case.toml:9:24: collision.psi.to = 4: must be > 4 (from)"},
-      {collision(11, "radius = [1, 2, 3]"),
-       "case.toml:11:10: collision.radius: must be one number or two"},
-      {collision(12, "mass = 0.275e-3\nstart_phase = 1"),
-       "case.toml:13:15: collision.start_phase = 1: must be < 1"},
-      {collision(12, "mass = 0.275e-3\nstart_phase = -0.5"),
-       "case.toml:13:15: collision.start_phase = -0.5: must be >= 0, else the disks overlap at the "
-       "start"},
-      {collision(12, "mass = 0.275e-3\napproach = \"obligue\""),
-       "case.toml:13:12: collision.approach = \"obligue\": unknown name (did you mean oblique?)"},
-      {collision(5, "gn = 0.45"),
-       "case.toml:5:6: law.gn = 0.45: overdamps the lightest pair: must be < 0.4401"},
   });
 }
 

@@ -9,7 +9,6 @@
 
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
-#include "cases/volume_fraction.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "tests/cases_loader/files.hpp"

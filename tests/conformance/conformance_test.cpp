@@ -1,23 +1,80 @@
 // Every engine of the registry passes every check of runs/conformance, each through its real
-// worker; what it skips is what expected_skips.cpp lists, no more and no less, so that coverage
-// does not shrink unseen.
+// worker; what it skips is what is listed here, no more and no less, so that coverage does not
+// shrink unseen. The program itself lists the ctest entries, since engines are the registry's
+// business, and it is the worker that it tests.
 #include <fmt/format.h>
+#include <gsl/gsl_errno.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
+#include <string_view>
 
 #include "adapters/registry.hpp"
+#include "adapters/worker/serve.hpp"
 #include "results/json_fields.hpp"
-#include "runs/conformance/examination.hpp"
+#include "runs/conformance/conformance.hpp"
 #include "support/scratch_folder.hpp"
-#include "tests/conformance/expected_skips.hpp"
-#include "tests/conformance/names.hpp"
 
 namespace crossgrain::test {
 namespace {
 
 using conformance::Check;
 using conformance::checksOf;
+
+/// A check that an engine cannot run, and part of the reason that it gives. An engine that is not
+/// listed skips nothing.
+struct ExpectedSkip {
+  std::string_view engine, check, reason;
+};
+
+constexpr std::array expectedSkips = {
+    ExpectedSkip{"yade", "BottomPlateBrakesADisk", "has no bottom_friction"},
+    ExpectedSkip{"yade", "SlantingPlaneDoesNotYield", "has planes along an axis only"},
+    ExpectedSkip{"yade", "TurningPlanePushes", "oscillating, not rotating as those of plane are"},
+    ExpectedSkip{"lammps", "BottomPlateBrakesADisk", "has no bottom_friction"},
+    ExpectedSkip{"lammps", "SlantingPlaneDoesNotYield", "has planes along an axis only"},
+    ExpectedSkip{"lammps", "TurningPlanePushes", "fixed, not rotating as those of plane are"},
+    ExpectedSkip{"lammps", "PlaneComesFromAfar", "fixed, not translating as those of plane are"},
+    ExpectedSkip{"lammps", "ShrinkingWallPushes", "oscillating, not radial as wall is"},
+    ExpectedSkip{"lammps", "ShrinkingWallStops", "oscillating, not radial as wall is"},
+    ExpectedSkip{"grain-as-lammps", "FollowsItsPeerByHertzLaw",
+                 "between disks alone, not at planes"},
+    ExpectedSkip{"box2d-impulse", "BottomPlateBrakesADisk", "has no bottom_friction"},
+    ExpectedSkip{"box2d-impulse", "ShrinkingWallPushes", "oscillating, not radial as wall is"},
+    ExpectedSkip{"box2d-impulse", "ShrinkingWallStops", "oscillating, not radial as wall is"},
+    ExpectedSkip{"box2d-impulse", "SlidingFlagsMarkTheBound", "has no sliding flags"},
+    ExpectedSkip{"box2d-impulse", "SpringsHoldWhileAnotherFalls", "has no linear law"},
+    ExpectedSkip{"grain-as-box2d-impulse", "SpringsHoldWhileAnotherFalls", "has no linear law"},
+    ExpectedSkip{"box2d-penalty", "ShrinkingWallPushes", "oscillating, not radial as wall is"},
+    ExpectedSkip{"box2d-penalty", "ShrinkingWallStops", "oscillating, not radial as wall is"},
+    ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughACollision",
+                 "its peer has another normal law"},
+    ExpectedSkip{"grain-stiff", "FollowsItsPeerThroughAHeap", "its peer has another normal law"},
+    ExpectedSkip{"grain-stiff", "FollowsItsPeerOnAPlane", "its peer has another normal law"},
+    ExpectedSkip{"grain-stiff", "FollowsItsPeerByHertzLaw", "its peer has another normal law"},
+    ExpectedSkip{"grain-as-box2d-penalty", "FollowsItsPeerByHertzLaw",
+                 "its peer has another normal law"},
+    ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerByHertzLaw",
+                 "its peer has another normal law"},
+    ExpectedSkip{"grain-as-box2d-impulse", "FollowsItsPeerThroughAHeap",
+                 "lets contacts collide one by one"},
+    ExpectedSkip{"grain", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"grain-as-yade", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"grain-as-lammps", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"grain-as-box2d-penalty", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"grain-as-box2d-impulse", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"grain-stiff", "ConventionsAreThoseDeclared", "is the in-house engine"},
+    ExpectedSkip{"box2d-impulse", "ConventionsAreThoseDeclared", "no convention of a soft law"},
+};
+
+/// An engine's name as googletest can have it: letters, digits and underscores.
+std::string testName(std::string engine) {
+  std::ranges::replace(engine, '-', '_');
+  return engine;
+}
 
 std::vector<std::string> allEngines() {
   std::vector<std::string> names;
@@ -27,19 +84,19 @@ std::vector<std::string> allEngines() {
 
 class Conformance : public testing::TestWithParam<std::string> {};
 
-TEST_P(Conformance, OfEveryCheck) {
+TEST_P(Conformance, Engine_AllChecks_PassOrSkipAsExpected) {
   const EngineEntry& entry = *findEngine(GetParam());
   if (entry.missing && !entry.missing().empty()) GTEST_SKIP() << entry.missing();
   std::map<std::string, std::string> expected;
-  for (const ExpectedSkip& skip : expectedSkips())
-    if (skip.engine == entry.name) expected[std::string(skip.test)] = skip.reason;
+  for (const ExpectedSkip& skip : expectedSkips)
+    if (skip.engine == entry.name) expected[std::string(skip.check)] = skip.reason;
 
   const ScratchFolder scratch;
   const std::vector<Check> checks = checksOf(!entry.mirrors.empty());
-  const conformance::Examination done =
-      conformance::examine(entry, checks, scratch.path, [](const std::string&, double) {});
+  const conformance::CheckReport done =
+      conformance::runChecks(entry, checks, scratch.path, [](const std::string&, double) {});
   for (const ConformanceRow& row : done.rows) {
-    // What it does not declare cannot be asked for.
+    // What it does not declare is not required.
     constexpr std::string_view undeclared = "declares no ";
     if (row.outcome == ConformanceOutcome::skipped && row.detail.starts_with(undeclared) &&
         std::ranges::count(done.declared, row.detail.substr(undeclared.size())) == 0)
@@ -56,7 +113,7 @@ TEST_P(Conformance, OfEveryCheck) {
           << fmt::format(" ({} faults)", row.faults);
     }
   }
-  // A check that marks what nobody declares marks nothing: it is named otherwise there.
+  // Names that checks mark as examined are names of declared capabilities.
   if (entry.name == engineRegistry().front().name) {
     for (const std::string& one : done.examined)
       EXPECT_EQ(std::ranges::count(done.declared, one), 1) << one;
@@ -69,11 +126,42 @@ TEST_P(Conformance, OfEveryCheck) {
 INSTANTIATE_TEST_SUITE_P(Engines, Conformance, testing::ValuesIn(allEngines()),
                          [](const auto& one) { return testName(one.param); });
 
-}  // namespace
-
-TEST(ExpectedSkips, AreOfEnginesThatThereAre) {
-  for (const ExpectedSkip& skip : expectedSkips())
+TEST(ExpectedSkips, Engines_AreInTheRegistry) {
+  for (const ExpectedSkip& skip : expectedSkips)
     EXPECT_TRUE(findEngine(std::string(skip.engine))) << skip.engine;
 }
 
+/// Writes one ctest entry for each engine, since a worker takes seconds to start, and one for what
+/// concerns none.
+int writeTests(const std::string& program, const std::string& file) {
+  std::ofstream out(file);
+  const auto write = [&](const std::string& name, const std::string& filter) {
+    out << fmt::format("add_test([[conformance.{}]] [[{}]] [[--gtest_filter={}]])\n", name, program,
+                       filter)
+        << fmt::format("set_tests_properties([[conformance.{}]] PROPERTIES TIMEOUT 300)\n", name);
+  };
+  for (const EngineEntry& entry : engineRegistry()) write(entry.name, "*/" + testName(entry.name));
+  write("expected-skips", "ExpectedSkips.*");
+  write("planted-faults", "*PlantedFault*");
+  out.close();
+  return out ? 0 : 1;
+}
+
+/// What `crossgrain __serve NAME` does: this program is also the worker that it tests.
+int serveEngine(const std::string& name) {
+  const EngineEntry* entry = findEngine(name);
+  return entry && entry->make ? serve(*entry->make()) : 2;
+}
+
+}  // namespace
 }  // namespace crossgrain::test
+
+int main(int argc, char** argv) {
+  using namespace crossgrain::test;
+  gsl_set_error_handler_off();  // as in cli/main.cpp
+  if (argc == 3 && std::string_view(argv[1]) == "__serve") return serveEngine(argv[2]);
+  if (argc == 3 && std::string_view(argv[1]) == "--write-tests")
+    return writeTests(argv[0], argv[2]);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

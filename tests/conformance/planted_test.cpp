@@ -1,11 +1,11 @@
-// What conformance says of engines that are right but for one thing that they declare: which check
-// fails, and what is named as the cause.
+// Engines that are right but for one thing that they declare: which check fails, and the cause that
+// it names.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <regex>
 
-#include "runs/conformance/examination.hpp"
+#include "runs/conformance/conformance.hpp"
 #include "support/scratch_folder.hpp"
 #include "tests/mischief/entries.hpp"
 
@@ -38,8 +38,8 @@ EngineEntry mischiefOf(const std::string& mischief) {
 
 std::vector<ConformanceRow> rowsOf(const EngineEntry& entry) {
   const ScratchFolder scratch;
-  return conformance::examine(entry, conformance::checksOf(false), scratch.path,
-                              [](const std::string&, double) {})
+  return conformance::runChecks(entry, conformance::checksOf(false), scratch.path,
+                                [](const std::string&, double) {})
       .rows;
 }
 
@@ -51,14 +51,14 @@ std::string faultsOf(const std::vector<ConformanceRow>& rows) {
   return text;
 }
 
-TEST(PlantedFaults, OfAnEngineThatIsRightNoneIsFound) {
+TEST(PlantedFaults, RightEngine_AllChecks_FindNoFault) {
   EXPECT_EQ("", faultsOf(rowsOf(plantedEntry("right", ""))));
   EXPECT_EQ("", faultsOf(rowsOf(mischiefOf("none"))));
 }
 
 class PlantedFault : public testing::TestWithParam<Planted> {};
 
-TEST_P(PlantedFault, FailsACheckAndIsNamed) {
+TEST_P(PlantedFault, PlantedEngine_Check_FailsAndNamesCause) {
   const std::vector<ConformanceRow> rows = rowsOf(GetParam().entry);
   const auto failed = std::ranges::find(rows, GetParam().check, &ConformanceRow::name);
   ASSERT_NE(failed, rows.end());

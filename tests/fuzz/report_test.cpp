@@ -15,6 +15,7 @@
 #include "adapters/worker/json.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "reports/report.hpp"
+#include "results/conformance.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
 #include "support/input_file.hpp"

@@ -42,13 +42,13 @@ std::vector<std::string> said(const CompareResults& results,
   return words;
 }
 
-using Words = std::vector<std::string>;
+using Alarms = std::vector<std::string>;
 
 TEST(Alarms, AreRaisedBeyondTenMarginsUnlessItIsADisagreementAnyway) {
   EXPECT_EQ(said({}, {pressure(-10.5, Answer::undecided, 1)}),
-            Words{"pressure is 10 margins off, which 1 packing cannot prove"});
-  EXPECT_EQ(said({}, {pressure(9.9, Answer::undecided)}), Words{});
-  EXPECT_EQ(said({}, {pressure(99.0, Answer::disagree)}), Words{});
+            Alarms{"pressure is 10 margins off, which 1 packing cannot prove"});
+  EXPECT_EQ(said({}, {pressure(9.9, Answer::undecided)}), Alarms{});
+  EXPECT_EQ(said({}, {pressure(99.0, Answer::disagree)}), Alarms{});
 }
 
 /// Eight packings of an engine, of which the first ones have a pressure.
@@ -69,28 +69,28 @@ TEST(Alarms, AreRaisedWhereOneEngineHasNoValueOnMostPackings) {
   addRuns(one, "a", 8);
   addRuns(one, "b", 3);
   EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 3, 5)}),
-            Words{"pressure is missing on 5 of 8 packings"});
-  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 4, 4)}), Words{});
+            Alarms{"pressure is missing on 5 of 8 packings"});
+  EXPECT_EQ(said(one, {pressure(0.0, Answer::undecided, 4, 4)}), Alarms{});
   addRuns(both, "a", 3);
   addRuns(both, "b", 3);  // what neither has is no difference
-  EXPECT_EQ(said(both, {pressure(0.0, Answer::undecided, 3, 5)}), Words{});
+  EXPECT_EQ(said(both, {pressure(0.0, Answer::undecided, 3, 5)}), Alarms{});
 }
 
 TEST(Alarms, AreRaisedForAnotherRegimeOnMostPackings) {
   CompareResults results;
   results.regimes = {{"a", "b", PairKind::peer, 4, {0, 1, 3}}};
-  EXPECT_EQ(said(results), Words{"another regime on 3 of 4 packings"});
+  EXPECT_EQ(said(results), Alarms{"another regime on 3 of 4 packings"});
   results.regimes[0].differ = {0, 1};
-  EXPECT_EQ(said(results), Words{});
+  EXPECT_EQ(said(results), Alarms{});
 }
 
 TEST(Alarms, AreRaisedForDisksThatAreGone) {
   CompareResults results;
   results.regimes = {{"a", "b", PairKind::peer, 1, {}}};
   results.runs = {filled("a", 0.8), filled("b", 0.6)};
-  EXPECT_EQ(said(results), Words{"25 % of the disks are gone from the cell"});
+  EXPECT_EQ(said(results), Alarms{"25 % of the disks are gone from the cell"});
   results.runs[1] = filled("b", 0.79);  // what crosses the circles of the walls and comes back
-  EXPECT_EQ(said(results), Words{});
+  EXPECT_EQ(said(results), Alarms{});
 }
 
 }  // namespace

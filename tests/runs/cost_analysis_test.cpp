@@ -251,6 +251,14 @@ TEST(CostAdvice, AveragesContradict_NotReached) {
   EXPECT_FALSE(one.cheapest);
 }
 
+TEST(CostAdvice, SettingThatOneKindDoesNotMeasure_DoesNotKeepItOpen) {
+  Points points = ladder(0.05, 0.002);
+  CostPoint integrator = at(1e-4, 1.0, "velocity_verlet, t_c/8");
+  integrator.knob = "integrator";
+  points.push_back(integrator);
+  EXPECT_EQ(advice(points, {0.01}).front().verdict, CostVerdict::notReached);
+}
+
 TEST(CostAdvice, AveragesCannotDecide_CollisionsDoAndTheOpenAverageIsNamed) {
   const Points points = ladder(0.0, 0.02);
   const Advice one = advice(points, {0.01}).front();

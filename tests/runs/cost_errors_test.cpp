@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "adapters/grain.hpp"
+#include "cases/couette.hpp"
 #include "cases/preparation.hpp"
 #include "runs/cost/averages.hpp"
 #include "runs/cost/collision.hpp"

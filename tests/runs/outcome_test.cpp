@@ -6,6 +6,7 @@
 #include "runs/couette/compare.hpp"
 #include "runs/couette/lockstep_job.hpp"
 #include "runs/effects/effects.hpp"
+#include "runs/regression/diff.hpp"
 #include "runs/scale/scale.hpp"
 #include "runs/stability/stability.hpp"
 
@@ -204,6 +205,21 @@ TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
     conformance.rows.emplace_back().outcome = outcome;
     EXPECT_EQ(outcomeOf(conformance).status, status);
   }
+}
+
+TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
+  const auto status = [](DiffVerdict verdict, const char* failure = "") {
+    DiffResults results;
+    DiffRow& found = results.rows.emplace_back();
+    found.verdict = verdict;
+    found.failure = failure;
+    found.reason = "why";
+    return outcomeOf(results).status;
+  };
+  EXPECT_EQ(status(DiffVerdict::sameBits), exitHeld);
+  EXPECT_EQ(status(DiffVerdict::differs), exitFellShort);
+  EXPECT_EQ(status(DiffVerdict::notMeasured), exitFellShort);
+  EXPECT_EQ(status(DiffVerdict::differs, "broke"), exitEngineFailed);
 }
 
 }  // namespace

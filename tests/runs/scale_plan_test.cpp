@@ -5,7 +5,6 @@
 
 #include "cases/couette.hpp"
 #include "cases/scaled_cell.hpp"
-#include "cases/volume_fraction.hpp"
 #include "runs/scale/scale.hpp"
 #include "support/bad_input.hpp"
 

@@ -46,11 +46,12 @@ def settings(**changes):
 def recorded_exchanges(recording):
     """Request, answer and the array file of the answer of each exchange of a recording (docs/files.md)."""
     with open(recording, "rb") as file:
-        next(file)
+        file.readline(), file.readline()  # the head and its checksum
         while line := file.readline():
             exchange = json.loads(line)
             file.seek(exchange["sent"], 1)
             yield exchange["request"], exchange["answer"], file.read(exchange["received"])
+            file.readline()
 
 
 def environment(changes):

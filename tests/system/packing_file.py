@@ -1,4 +1,4 @@
-"""Writes packing files (cases/README.md) through the HDF5 library that crossgrain itself needs, so
+"""Writes packing files (docs/cases.md) through the HDF5 library that crossgrain itself needs, so
 that the tests need no Python package for it."""
 
 import ctypes

@@ -202,7 +202,7 @@ class Refused(SystemTest):
             (str(COUETTE), "--kn=1"): "one of",
             ("--tc=1e-3", *PAIR): "--en is missing",
             ("--en=0.9", "--tc=1e-3", "--mu=0.4", *PAIR): "--et is missing",
-            ("--en=0", "--tc=1e-3", *PAIR): "--en = 0: must be > 0 and <= 1",
+            ("--en=0", "--tc=1e-3", *PAIR): "--en = 0: must be in (0, 1]",
             ("--en=1.2", "--tc=1e-3", *PAIR): "--en = 1.2",
             ("--en=nan", "--tc=1e-3", *PAIR): "--en = nan",
             ("--en=x", "--tc=1e-3", *PAIR): "--en",

@@ -61,7 +61,7 @@ class List(SystemTest):
         rows = {(row["section"], row["key"]): row for row in self.listed("keys")}
         kn = rows["law", "kn"]
         self.assertEqual(("N/m", "required (linear)"), (kn["unit"], kn["default"]))
-        self.assertEqual("allow, cut", rows["law", "tension"]["default"])
+        self.assertEqual(("\"allow\"", "allow, cut"), (rows["law", "tension"]["default"], rows["law", "tension"]["values"]))
         self.assertIn("upward", rows["assembly.disks", "stack"]["what"])
         self.assertFalse([row for row in rows.values() if "`" in row["what"] + row["default"]])
 

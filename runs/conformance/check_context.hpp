@@ -1,0 +1,225 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "adapters/registry.hpp"
+#include "runs/conformance/conformance_scenes.hpp"
+
+/// What a check works with: the engine, what it declares, comparisons with tolerances, and the
+/// faults found so far.
+namespace crossgrain::conformance {
+
+/// How far a value may be from the expected one: `absolute` or `relative` of the expected value,
+/// whichever allows more. `why` is not optional.
+struct Tolerance {
+  double absolute;
+  double relative;
+  const char* why;
+};
+
+struct Comparison {
+  std::string difference;  ///< empty: equal to within the tolerance
+};
+
+Comparison close(double actual, double expected, const Tolerance& allowed);
+Comparison close(const Vec2& actual, const Vec2& expected, const Tolerance& allowed);
+
+/// Whether two snapshots have the same bits.
+Comparison sameBits(const Snapshot& a, const Snapshot& b);
+
+struct DiskState {
+  Vec2 position, velocity;  ///< [m, m/s]
+  double spin;  ///< where a snapshot has none, the one that the scene started with [rad/s]
+};
+
+/// The spins of a snapshot; where it has none, those that the scene started with.
+std::vector<double> spinsOf(const Scene& scene, const Snapshot& snapshot);
+std::vector<DiskState> statesOf(const Scene& scene, const Snapshot& snapshot);
+
+/// The sum over disks of ½ m v² + ½ J ω² [J].
+double kineticEnergy(const Scene& scene, const Snapshot& now);
+
+/// Normal and tangential force of one contact on disk i [N].
+Vec2 forceOf(const Contacts& contacts, std::size_t c);
+
+// Names of declared capabilities: each is examined by some check, or reported as not examined.
+
+inline const std::string planes = "planes";
+inline const std::string slantingPlanes = "slanting planes";
+inline const std::string planesAlongThemselves = "planes that move along themselves";
+inline const std::string checkpoints = "checkpoints";
+inline const std::string slidingFlags = "sliding flags";
+inline const std::string instantContacts = "instant contacts";
+inline const std::string accumulatedContacts = "accumulated contacts";
+inline const std::string energyLedger = "energy ledger";
+inline const std::string tangentialRestitution = "tangential restitution";
+inline const std::string severalSizes = "several sizes";
+inline const std::string manyDisks = "many disks";
+inline const std::string farPlaces = "places far from the origin";
+inline const std::string lateTimes = "late times";
+std::string planeMotion(Motion::Kind kind);  ///< "planes: rotating"
+std::string wallMotion(Motion::Kind kind);   ///< "walls: rotating"
+std::string precisionNamed(Precision precision);
+
+/// All of it: effects, each value of each law option, planes and walls with each motion,
+/// observables, precisions, settings; and what every engine must have: several sizes, many disks,
+/// places far off and late times. What limits do not exclude is declared.
+std::vector<std::string> declaredBy(const Capabilities& can);
+
+/// The values that the engine declares of an option; of one that it does not list, the law's own.
+std::vector<std::string> valuesOf(const Capabilities& can, const ContactLaw& law,
+                                  const std::string& option);
+
+/// The law with each option that the engine lacks set to one that it has.
+ContactLaw followed(const Capabilities& can, ContactLaw law);
+
+/// Ends a check: the engine does not declare what it needs, or refuses the scene. No fault.
+struct Skipped {
+  std::string reason;
+};
+
+/// Ends a check after a fault that makes the rest of it meaningless.
+struct GivenUp {};
+
+/// Values as one text.
+template <typename... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream all;
+  ((all << parts), ...);
+  return all.str();
+}
+
+/// One check of one engine.
+class CheckContext {
+ public:
+  /// @param start  starts another worker of any engine; everything given outlives the context
+  using Start = std::function<std::unique_ptr<Engine>(const EngineEntry&)>;
+  CheckContext(Engine& checked, const EngineEntry& ofEntry, const Start& starter)
+      : engine(checked), entry(ofEntry), start(starter), can(checked.capabilities()) {}
+
+  Engine& engine;
+  const EngineEntry& entry;
+  const Start& start;
+  Capabilities can;
+  Scene scene;        ///< the one loaded last
+  Realised realised;  ///< what the engine made of it
+
+  std::vector<std::string> faults;             ///< in the order found; a loop may repeat one
+  std::set<std::string> examined;              ///< capabilities in which a fault would be found
+  std::map<std::string, std::string> refused;  ///< capabilities that could not be examined, and why
+  std::optional<std::string> cause;            ///< of the faults; empty: none that was tried fits
+
+  /// Single precision by default.
+  bool single() const;
+  /// The thesis' law with the engine's own conventions where it lacks the thesis' ones.
+  ContactLaw law() const { return followed(can, fullLaw()); }
+  /// Rigid disks have no duration of contact, and no oracle of the soft law applies to them.
+  bool rigid() const { return law().normal == NormalLaw::rigid; }
+  /// It is the in-house engine, with whatever conventions.
+  bool inHouse() const;
+  /// The scene without effects that the engine does not have, for checks that need something to
+  /// happen, whatever it is.
+  Scene simplified(const Scene& scene) const;
+  /// Many contacts of all kinds that the engine has.
+  Scene busy() const { return simplified(busyScene(law())); }
+  ContactReport contactReport() const;
+  /// By the engine's precision, absolute in units of `unit`; relative as well where that is 1.
+  Tolerance byPrecision(double ifDouble, double ifFloat, const char* why, double unit = 1.0) const;
+
+  /// Has the engine load a scene with these settings, the others as its file has them.
+  /// @returns why it cannot
+  [[nodiscard]] std::optional<std::string> refusal(const Scene& scene,
+                                                   const Settings& settings = {});
+  /// The same; a refusal is a skip. @throws Skipped
+  void load(const Scene& scene, const Settings& settings = {});
+  /// The same for what limits can declare (adapters/scene_limits.hpp): refusing a scene that no
+  /// declared limit excludes is a fault. @throws Skipped, GivenUp
+  void loadWithinLimits(const Scene& scene);
+  Snapshot at(double t);                        ///< advances to t; a snapshot with contacts
+  Snapshot run(const Scene& wanted, double t);  ///< loads it and goes there. @throws Skipped
+  /// Snapshots after every step from 0 to t; the first is the start.
+  std::vector<Snapshot> watch(double t);
+
+  [[noreturn]] void skip(std::string reason) const { throw Skipped{std::move(reason)}; }
+  /// A skip unless the engine declares it. @throws Skipped
+  void needs(const std::string& capability) const;
+  void needsContacts() const;
+
+  void fault(std::string what) { faults.push_back(std::move(what)); }
+  /// A fault unless it holds. @param otherwise  the fault
+  void expect(bool holds, const std::string& otherwise);
+  void expect(const Comparison& comparison, const std::string& what);
+  /// A fault unless `found` is as close to `wanted` as allowed; numbers or vectors.
+  void near(const auto& found, const auto& wanted, const Tolerance& allowed,
+            const std::string& what) {
+    expect(close(found, wanted, allowed), what);
+  }
+  /// The same as expect, and the end of the check. @throws GivenUp
+  void require(bool holds, const std::string& otherwise);
+  void equal(const auto& found, const auto& wanted, const std::string& what) {
+    expect(found == wanted, text(what, ": ", found, ", not ", wanted));
+  }
+  void requireEqual(const auto& found, const auto& wanted, const std::string& what) {
+    require(found == wanted, text(what, ": ", found, ", not ", wanted));
+  }
+  void above(const auto& found, const auto& limit, const std::string& what) {
+    expect(found > limit, text(what, ": ", found, ", not above ", limit));
+  }
+  void atLeast(const auto& found, const auto& limit, const std::string& what) {
+    expect(found >= limit, text(what, ": ", found, ", below ", limit));
+  }
+  void below(const auto& found, const auto& limit, const std::string& what) {
+    expect(found < limit, text(what, ": ", found, ", not below ", limit));
+  }
+  void atMost(const auto& found, const auto& limit, const std::string& what) {
+    expect(found <= limit, text(what, ": ", found, ", above ", limit));
+  }
+  /// Velocity and spin to that part of Encounter::speed and of what a small disk would roll with at
+  /// that speed.
+  void sameMotion(const DiskState& found, const DiskState& wanted, const Tolerance& part,
+                  const std::string& which);
+  /// The same and the position, to that part of a small radius.
+  void sameState(const DiskState& found, const DiskState& wanted, const Tolerance& part,
+                 const std::string& which);
+
+  void examine(const std::string& capability) { examined.insert(capability); }
+  void couldNotExamine(const std::string& capability, const std::string& why) {
+    refused.try_emplace(capability, why);
+  }
+  /// What explains the faults found, sign and size; the first counts.
+  void suspect(std::string what) {
+    if (!cause) cause = std::move(what);
+  }
+};
+
+/// A property that holds for any engine.
+struct Check {
+  const char* name;            ///< "HeadOnCollision"
+  const char* what;            ///< the property
+  void (*run)(CheckContext&);  ///< finds faults, or throws Skipped
+};
+
+using Checks = std::span<const Check>;
+Checks capabilityChecks();
+Checks lifecycleChecks();
+Checks freeMotionChecks();
+Checks collisionChecks();
+Checks lawChecks();
+Checks symmetryChecks();
+Checks wallChecks();
+Checks contactChecks();
+Checks reachChecks();
+Checks refusalChecks();
+Checks mirrorChecks();
+
+}  // namespace crossgrain::conformance

@@ -1,0 +1,482 @@
+// Capabilities, the life cycle (load, advance, snapshot, load again) and refusals: what every run
+// relies on.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "adapters/law_options.hpp"
+#include "adapters/pair_table.hpp"
+#include "adapters/suitability.hpp"
+#include "runs/common/engine_access.hpp"
+#include "runs/conformance/check_context.hpp"
+#include "support/bad_input.hpp"
+#include "support/scratch_folder.hpp"
+
+namespace crossgrain::conformance {
+namespace {
+
+bool named(const std::vector<Deviation>& deviations, const std::string& name) {
+  return std::ranges::find(deviations, name, &Deviation::name) != deviations.end();
+}
+
+/// A scene that calls for everything that the law has.
+Scene fullScene(const ContactLaw& law) {
+  Scene scene = busyScene(law);
+  scene.bottom = thesisBottom<BottomPlate>();
+  return scene;
+}
+
+// ---- capabilities -------------------------------------------------------------------------------
+
+void capabilitiesAreComplete(CheckContext& context) {
+  context.expect(!context.can.version.empty(), "it reports no version");
+  context.expect(!context.can.precisions.empty(), "it reports no precision");
+}
+
+void lawOptionsAreThoseOfTheCaseFiles(CheckContext& context) {
+  context.expect(context.can.lawOptions.contains("normal"), "it does not list its normal laws");
+  ContactLaw law;
+  for (const auto& [name, values] : context.can.lawOptions) {
+    context.expect(!values.empty(), text(name, " has no value"));
+    for (const std::string& value : values) {
+      setLawOption(law, name, value);
+      context.equal(std::ranges::count(values, value), 1,
+                    text("times that ", name, " = ", value, " is listed"));
+    }
+  }
+}
+
+void settingsAreDocumented(CheckContext& context) {
+  std::set<std::string> names;
+  for (const SettingSpec& setting : context.can.settings) {
+    context.expect(!setting.name.empty(), "a setting has no name");
+    context.expect(names.insert(setting.name).second, text(setting.name, " is listed twice"));
+    context.expect(!setting.doc.empty(), text(setting.name, " has no doc"));
+    context.expect(!std::holds_alternative<double>(setting.defaultValue) || !setting.unit.empty(),
+                   text(setting.name, " has no unit"));
+    const auto* chosen = std::get_if<std::string>(&setting.defaultValue);
+    if (chosen && !setting.choices.empty())
+      context.equal(std::ranges::count(setting.choices, *chosen), 1,
+                    text("times that the default of ", setting.name, " is among its choices"));
+  }
+}
+
+void defaultsSpokenAloudChangeNothing(CheckContext& context) {
+  const Scene scene = context.busy();
+  const Snapshot silent = context.run(scene, busyEnd);
+  const double dt = context.realised.dt;
+  Settings spoken = context.entry.settings;
+  for (const SettingSpec& setting : context.can.settings)
+    spoken.try_emplace(setting.name, setting.defaultValue);
+  context.load(scene, spoken);
+  context.equal(context.realised.dt, dt, "the time step with its defaults as settings");
+  context.expect(sameBits(context.at(busyEnd), silent),
+                 "with its defaults as settings, and without");
+}
+
+void realisedSaysWhatTheSceneSays(CheckContext& context) {
+  const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
+  context.load(scene);
+  const Realised& realised = context.realised;
+  context.above(realised.dt, 0.0, "the time step");
+  context.equal(realised.precision, toString(context.can.precisions.front()), "the precision");
+  context.expect(!realised.integrator.empty(), "it reports no integrator");
+  // The constants of a pair are the scene's, whatever the engine's mixing rule, unless it declares
+  // that its contacts are stiffer; then restitutions stay, γ²/k being the same.
+  double stiffness = 1.0;
+  for (const Deviation& deviation : realised.deviations) {
+    context.expect(!deviation.name.empty() || deviation.note.empty(), deviation.name);
+    if (deviation.name == "stiffness") stiffness = deviation.value;
+  }
+  if (realised.pairs.empty()) context.skip("reports no pairs: the constants that it uses");
+  const Tolerance rounding = {1e-14, 1e-12, "a mixing rule undone: some roundings"};
+  const PairCoefficients wanted = coefficientsOf(scene.law);
+  const double root = std::sqrt(stiffness);
+  for (const PairCoefficients& used : realised.pairs)
+    for (const auto& [name, found, expected] : {std::tuple("kn", used.kn, wanted.kn * stiffness),
+                                                {"gn", used.gn, wanted.gn * root},
+                                                {"kt", used.kt, wanted.kt * stiffness},
+                                                {"gt", used.gt, wanted.gt * root},
+                                                {"mu", used.mu, wanted.mu},
+                                                {"en", used.en, wanted.en},
+                                                {"et0", used.et0, wanted.et0}})
+      context.near(found, expected, rounding, text(used.pair, ", ", name));
+}
+
+/// It simulates what the scene calls for, or reports a deviation.
+void simulatesWhatTheSceneCallsFor(CheckContext& context) {
+  ContactLaw undamped = context.law();
+  undamped.gn = 0.0;
+  undamped.en = 1.0;
+  ContactLaw dashpotless = context.law();
+  dashpotless.gt = 0.0;
+  const Scene full = fullScene(context.law());
+  Scene spinFree = full;
+  spinFree.bottom->spin = false;
+  const auto meeting = [](const ContactLaw& law) { return encounterScene({}, law, coarseSteps); };
+  for (const Scene& wanted : {meeting(frictionless(undamped)), meeting(frictionless(context.law())),
+                              meeting(dashpotless), meeting(context.law()), full, spinFree}) {
+    const Scene scene = context.simplified(wanted);
+    const Effects called = effectsOf(scene);
+    context.load(scene);
+    for (const Effect effect : allEffects) {
+      const bool simulated = context.realised.effects.contains(effect);
+      context.expect(simulated == called.contains(effect) ||
+                         named(context.realised.deviations, toString(effect)),
+                     text(toString(effect), " is called for: ", called.contains(effect),
+                          ", simulated: ", simulated));
+    }
+  }
+}
+
+/// Capabilities, the harness' own account of a scene and Realised agree, of a scene that calls for
+/// everything: an effect that an engine never simulates is not among the simulated ones, a soft
+/// law's springs in a rigid engine included.
+void effectsAreThoseThatItsCapabilitiesSay(CheckContext& context) {
+  Scene full = fullScene(fullLaw());
+  context.requireEqual(effectsOf(full).size(), allEffects.size(),
+                       "effects of a scene that calls for all");
+  std::vector<std::string> all;
+  for (const Effect effect : allEffects) all.push_back(toString(effect));
+  for (const LawOption& option : lawOptions()) all.emplace_back(option.name);
+  Scene scene = adaptScene(context.can, full, all).scene;
+  try {
+    context.realised = context.engine.load(scene, context.entry.settings);
+  } catch (const UnsupportedScene&) {  // nor can it put another law in this one's place
+    full.law = context.law();
+    scene = adaptScene(context.can, full, all).scene;
+    context.realised = context.engine.load(scene, context.entry.settings);
+  }
+  for (const Effect effect : effectsOf(full))
+    context.equal(context.realised.effects.contains(effect),
+                  context.can.effects.at(effect) != Support::never, toString(effect));
+  context.expect(context.realised.effects == simulatedEffects(context.can, scene),
+                 "its effects are not those of the scene that it has");
+}
+
+// ---- life cycle ---------------------------------------------------------------------------------
+
+void advancesByWholeSteps(CheckContext& context) {
+  context.load(context.busy());
+  const double dt = context.realised.dt;
+  const Tolerance rounding = {0.0, 1e-12, "steps·dt in one order of additions or another"};
+  const Tolerance step = {1.001 * dt, 0.0, "arrays may be staggered by up to a step"};
+  std::vector<double> stops = {0.0, 0.3, 1.0, 10.4, 10.6, 11.0};
+  while (stops.back() < 40.0) stops.push_back(stops.back() + 1.0);  // as often as a run is stopped
+  for (const double steps : stops) {
+    const double reached = context.engine.advance(steps * dt);
+    const auto whole = static_cast<double>(std::llround(steps));
+    context.near(reached, whole * dt, rounding, text("advance to ", steps, " steps"));
+    context.equal(context.engine.stats().steps, static_cast<std::uint64_t>(whole), "steps counted");
+    const Snapshot now = context.engine.snapshot(ContactReport::none);
+    context.near(now.positionTime, reached, rounding, "position_time");
+    context.near(now.velocityTime, reached, step, "velocity_time");
+    context.near(now.contactTime, reached, step, "contact_time");
+    context.expect(!now.contacts, "shows contacts that were not asked for");
+  }
+  context.engine.advance(busyEnd);
+  const Stats stats = context.engine.stats();
+  context.above(stats.contactEvaluations, 0u, "contact_evaluations");
+  context.above(stats.wallSeconds, 0.0, "wall_seconds");
+  context.above(stats.cpuSeconds, 0.0, "cpu_seconds");
+}
+
+void startIsTheScene(CheckContext& context) {
+  const Scene scene = context.busy();
+  context.load(scene);
+  const Snapshot start = context.engine.snapshot(ContactReport::none);
+  const Tolerance rounding = context.byPrecision(1e-15, 1e-7, "the given numbers, rounded once");
+  context.requireEqual(start.position.size(), scene.disks.size(), "positions shown");
+  context.requireEqual(start.velocity.size(), scene.disks.size(), "velocities shown");
+  const std::vector<DiskState> states = statesOf(scene, start);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    context.near(states[i].position, scene.disks.position[i], rounding, "a disk's position");
+    context.near(states[i].velocity, scene.disks.velocity[i] + start.velocityTime * scene.gravity,
+                 rounding, "a disk's velocity");
+    context.near(states[i].spin, scene.disks.spin[i], rounding, "a disk's spin");
+  }
+  context.requireEqual(start.bodies.size(), scene.bodies.size(), "wall bodies shown");
+  context.requireEqual(start.wallPosition.size(), scene.wallDiskCount(), "wall disks shown");
+  std::size_t k = 0;
+  for (const WallBody& body : scene.bodies)
+    for (const Vec2& position : body.diskPosition)
+      context.near(start.wallPosition[k++], position, rounding, "a wall disk's position");
+}
+
+void halfwayStopsChangeNothing(CheckContext& context) {
+  const Scene scene = context.busy();
+  const Snapshot once = context.run(scene, busyEnd);
+  context.require(once.contacts && once.contacts->size() > 0, "nothing happens in this scene");
+  context.load(scene);
+  context.engine.advance(0.37 * busyEnd);
+  context.engine.advance(0.5 * busyEnd);
+  context.expect(sameBits(context.at(busyEnd), once), "with stops half way, and without");
+}
+
+void lookingChangesNothing(CheckContext& context) {
+  const Scene scene = context.busy();
+  const Snapshot unseen = context.run(scene, busyEnd);
+  context.load(scene);
+  for (int k = 0; k < 20; ++k) {
+    context.engine.advance(busyEnd * k / 20);
+    context.engine.snapshot(ContactReport::none);
+    if (context.can.instantContacts) context.engine.snapshot(ContactReport::instant);
+    if (context.can.accumulatedContacts) context.engine.snapshot(ContactReport::accumulated);
+    context.engine.stats();
+  }
+  const Snapshot seen = context.at(busyEnd);
+  if (context.contactReport() == ContactReport::accumulated) {  // each begins another interval
+    context.expect(seen.position == unseen.position,
+                   "positions differ from those of a run without snapshots");
+  } else {
+    context.expect(sameBits(seen, unseen), "with many snapshots, and without");
+  }
+  const Snapshot once = context.engine.snapshot(ContactReport::none);
+  context.expect(sameBits(once, context.engine.snapshot(ContactReport::none)),
+                 "two snapshots of one state");
+}
+
+void loadingStartsAfresh(CheckContext& context) {
+  const Scene scene = context.busy();
+  const Snapshot first = context.run(scene, busyEnd);
+  const Stats stats = context.engine.stats();
+  context.run(encounterScene(crookedEncounter(), context.law(), 37.0), Encounter::end);
+  context.load(scene);
+  context.equal(context.engine.stats().steps, 0u, "steps counted after loading");
+  const Snapshot second = context.at(busyEnd);
+  context.expect(sameBits(second, first), "loaded the second time, and the first");
+  context.equal(context.engine.stats().steps, stats.steps, "steps counted the second time");
+  context.equal(context.engine.stats().contactEvaluations, stats.contactEvaluations,
+                "contact_evaluations the second time");
+  // Nothing came in between that would have emptied what is kept of these pairs.
+  context.expect(sameBits(context.run(scene, busyEnd), second),
+                 "loaded a third time, at once, and the second");
+}
+
+void workersAgreeBitForBit(CheckContext& context) {
+  const Scene scene = context.busy();
+  const Snapshot here = context.run(scene, busyEnd);
+  const auto other = context.start(context.entry);
+  other->load(scene, context.entry.settings);
+  other->advance(busyEnd);
+  context.expect(sameBits(other->snapshot(context.contactReport()), here), "two workers");
+}
+
+/// A run that another worker resumes from the middle goes on to the bit, and the one that wrote the
+/// checkpoint is unaffected by it. Of a scene that is loaded.
+void expectResumed(CheckContext& context, double middle, double end) {
+  const Scene scene = context.scene;
+  const Snapshot whole = context.at(end);
+  const Snapshot half = context.run(scene, middle);
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch.path / "checkpoint";
+  const auto other = context.start(context.entry);
+  try {
+    context.engine.checkpoint(file);
+    other->load(context.scene, context.entry.settings);
+    other->restore(file);
+  } catch (const EngineFailure& failure) {
+    context.suspect("checkpoints are declared, and there are none that work");
+    context.require(false, text("it declares checkpoints, and one at t = ", middle,
+                                " s fails: ", failure.what()));
+  }
+  context.expect(sameBits(context.at(end), whole),
+                 "the run that wrote a checkpoint, and one that did not");
+  context.expect(sameBits(other->snapshot(context.contactReport()), half),
+                 "the restored state, at once");
+  other->advance(end);
+  const Snapshot resumed = other->snapshot(context.contactReport());
+  const Comparison same = sameBits(resumed, whole);
+  context.expect(same, text("resumed from a checkpoint at t = ", middle, " s, and in one go"));
+  const bool fixed =
+      scene.bodies.empty() || scene.bodies.front().motion.kind == Motion::Kind::fixed;
+  if (same.difference.empty() || !fixed) return;
+  // A start from the same places and velocities has no springs.
+  Scene afresh = scene;
+  afresh.disks.position = half.position;
+  afresh.disks.velocity = half.velocity;
+  afresh.disks.spin = spinsOf(scene, half);
+  if (context.refusal(afresh)) return;
+  const Snapshot forgot = context.at(end - middle);
+  const auto distance = [&](const Snapshot& from) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < from.velocity.size(); ++i)
+      most = std::max(most, (resumed.velocity[i] - from.velocity[i]).norm());
+    return most;
+  };
+  if (distance(forgot) < 0.1 * distance(whole))
+    context.suspect(
+        "checkpoints lose the springs of contacts: a restored run goes on as a start without them "
+        "does");
+}
+
+void checkpointsGoOnToTheBit(CheckContext& context) {
+  context.needs(checkpoints);
+  context.examine(checkpoints);
+  // On the plane when the contact is deepest, about; engines without planes have the heap alone.
+  constexpr double inContact = Encounter::gap / 0.05 + 0.5 * smallContactTime;
+  if (!context.refusal(landingScene(context.law(), coarseSteps)))
+    expectResumed(context, inContact, Encounter::end);
+  context.load(context.busy());
+  expectResumed(context, 0.5 * busyEnd, busyEnd);
+}
+
+// ---- refusals -----------------------------------------------------------------------------------
+
+/// The message of the refusal; empty without one.
+template <typename Refusal>
+std::string refusalOf(const auto& act) {
+  try {
+    act();
+  } catch (const Refusal& refusal) {
+    return refusal.what();
+  }
+  return {};
+}
+
+bool oneLine(const std::string& message) {
+  return !message.empty() && message.find('\n') == std::string::npos;
+}
+
+/// Effects that the scene calls for and the engine does not have.
+std::vector<Effect> lacking(const Capabilities& can, const Scene& scene) {
+  std::vector<Effect> effects;
+  for (const Effect effect : effectsOf(scene))
+    if (can.effects.at(effect) == Support::never) effects.push_back(effect);
+  return effects;
+}
+
+void harnessRefusesWhatTheEngineLacks(CheckContext& context) {
+  const auto expectRefusal = [&](const Scene& scene, const std::string& what,
+                                 const std::vector<std::string>& mayDiffer) {
+    Case setup;
+    setup.file = "conformance.toml";
+    setup.run.mayDiffer = mayDiffer;
+    const std::string why = refusalOf<UnsupportedScene>(
+        [&] { loadScene(context.engine, context.entry, setup, scene); });
+    context.expect(
+        oneLine(why) && why.find(context.entry.name) != std::string::npos &&
+            why.find(what) != std::string::npos,
+        text("a scene with ", what, " is not refused in a line that names both: '", why, "'"));
+  };
+  for (const LawOption& option : lawOptions()) {
+    const auto has = context.can.lawOptions.find(std::string(option.name));
+    if (has == context.can.lawOptions.end()) continue;
+    for (const std::string_view value : option.values) {
+      if (std::ranges::find(has->second, value) != has->second.end()) continue;
+      Scene scene = encounterScene({}, context.law(), coarseSteps);
+      setLawOption(scene.law, option.name, value);
+      if (mattersTo(scene.law, option.name)) expectRefusal(scene, has->first, {});
+    }
+  }
+  const Scene full = fullScene(context.law());
+  const std::vector<Effect> lacked = lacking(context.can, full);
+  for (const Effect effect : lacked) {
+    std::vector<std::string> others;
+    for (const Effect other : lacked)
+      if (other != effect) others.push_back(toString(other));
+    expectRefusal(full, toString(effect), others);
+  }
+}
+
+/// Past the harness, an engine refuses a scene or reports its deviation.
+void engineRefusesOrSaysHowItDeviates(CheckContext& context) {
+  const auto expectHonest = [&](const Scene& scene, const std::string& what) {
+    Realised realised;
+    const std::string why = refusalOf<UnsupportedScene>(
+        [&] { realised = context.engine.load(scene, context.entry.settings); });
+    if (why.empty()) {
+      context.expect(named(realised.deviations, what), text("runs ", what, " without a deviation"));
+    } else {
+      context.expect(oneLine(why), text("its refusal is not one line: ", why));
+    }
+  };
+  const std::vector<std::string>& has = context.can.lawOptions.at("normal");
+  for (const char* normal : {"linear", "rigid"}) {
+    Scene scene = encounterScene({}, context.law(), coarseSteps);
+    setLawOption(scene.law, "normal", normal);
+    if (std::ranges::find(has, normal) == has.end()) expectHonest(scene, "normal");
+  }
+  const Scene full = fullScene(context.law());
+  for (const Effect effect : lacking(context.can, full)) expectHonest(full, toString(effect));
+}
+
+void livesOnAfterARefusal(CheckContext& context) {
+  const Scene scene = encounterScene(crookedEncounter(), context.law(), coarseSteps);
+  const Snapshot before = context.run(scene, Encounter::end);
+  Scene other = scene;
+  other.law.normal = context.rigid() ? NormalLaw::linear : NormalLaw::rigid;
+  refusalOf<UnsupportedScene>([&] { context.engine.load(other, context.entry.settings); });
+  context.expect(sameBits(context.run(scene, Encounter::end), before),
+                 "after a refusal, and before");
+}
+
+void unknownSettingsAreRefused(CheckContext& context) {
+  const auto expectRefusal = [&](const std::string& name, const SettingValue& value) {
+    Case setup;
+    setup.file = "conformance.toml";
+    setup.engines[context.entry.name][name] = value;
+    const std::string why =
+        refusalOf<BadInput>([&] { settingsFor(setup, context.entry.name, context.can); });
+    context.expect(
+        oneLine(why) && why.find(name) != std::string::npos,
+        text("the setting ", name, " is not refused in a line that names it: '", why, "'"));
+  };
+  expectRefusal("no_such_setting", 1.0);
+  for (const SettingSpec& setting : context.can.settings) {
+    SettingValue wrong = true;
+    if (wrong.index() == setting.defaultValue.index()) wrong = 1.0;
+    expectRefusal(setting.name, wrong);
+    if (!setting.choices.empty()) expectRefusal(setting.name, std::string("no such choice"));
+  }
+}
+
+}  // namespace
+
+Checks capabilityChecks() {
+  static constexpr Check list[] = {
+      {"CapabilitiesAreComplete", "it says what it can do", capabilitiesAreComplete},
+      {"LawOptionsAreThoseOfTheCaseFiles",
+       "its law options have names and values that case files know",
+       lawOptionsAreThoseOfTheCaseFiles},
+      {"SettingsAreDocumented", "its settings have names, units and words", settingsAreDocumented},
+      {"DefaultsSpokenAloudChangeNothing", "its defaults as settings change nothing",
+       defaultsSpokenAloudChangeNothing},
+      {"RealisedSaysWhatTheSceneSays", "the constants that it uses are the scene's",
+       realisedSaysWhatTheSceneSays},
+      {"SimulatesWhatTheSceneCallsFor", "it simulates what the scene calls for, or says otherwise",
+       simulatesWhatTheSceneCallsFor},
+      {"EffectsAreThoseThatItsCapabilitiesSay", "effects are those that its capabilities say",
+       effectsAreThoseThatItsCapabilitiesSay},
+  };
+  return list;
+}
+
+Checks lifecycleChecks() {
+  static constexpr Check list[] = {
+      {"AdvancesByWholeSteps", "it advances by whole steps and counts them", advancesByWholeSteps},
+      {"StartIsTheScene", "it starts from the scene's own state", startIsTheScene},
+      {"HalfwayStopsChangeNothing", "stops half way change nothing", halfwayStopsChangeNothing},
+      {"LookingChangesNothing", "looking changes nothing", lookingChangesNothing},
+      {"LoadingStartsAfresh", "loading again starts afresh, to the bit", loadingStartsAfresh},
+      {"CheckpointsGoOnToTheBit", "a run taken up from a checkpoint goes on to the bit",
+       checkpointsGoOnToTheBit},
+      {"WorkersAgreeBitForBit", "two workers do the same, to the bit", workersAgreeBitForBit},
+  };
+  return list;
+}
+
+Checks refusalChecks() {
+  static constexpr Check list[] = {
+      {"HarnessRefusesWhatTheEngineLacks", "what it lacks is refused before it is asked",
+       harnessRefusesWhatTheEngineLacks},
+      {"EngineRefusesOrSaysHowItDeviates", "it refuses, or says how it deviates",
+       engineRefusesOrSaysHowItDeviates},
+      {"LivesOnAfterARefusal", "it lives on after a refusal", livesOnAfterARefusal},
+      {"UnknownSettingsAreRefused", "settings that it does not have are refused",
+       unknownSettingsAreRefused},
+  };
+  return list;
+}
+
+}  // namespace crossgrain::conformance
