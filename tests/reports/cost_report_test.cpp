@@ -169,7 +169,7 @@ TEST(CostReport, Text_HasVerdictsReasonsAndFragments) {
   EXPECT_TRUE(has(text, " not measured, for they did not fit into the budget of 12 min 00 s"));
   EXPECT_TRUE(has(text, "would take about 140 s, budget 60 s"));
   EXPECT_TRUE(has(text, "a disk left the cell at step 37; odd <b>"));
-  EXPECT_TRUE(has(text, "### grain for 10 %: t_c/25\n[run]\nsteps_per_contact = 25\n"));
+  EXPECT_TRUE(has(text, "### grain for 10 %: t_c/10\n[run]\nsteps_per_contact = 10\n"));
   for (const char* plot : {"[cost_collision]", "[cost_trajectory]", "[cost_averages]"})
     EXPECT_TRUE(has(text, plot)) << plot;
   EXPECT_TRUE(has(textOf(costReport({})), "Nothing was measured."));

@@ -66,8 +66,8 @@ TEST(StateSentences, NameThePackingThatStandsStillAndWhere) {
   EXPECT_EQ(sentences[2],
             "Means over packings mix regimes on ours, soft: they describe none of them.");
   EXPECT_EQ(sentences[3],
-            "Not in the same regime as ours: hard on packing 1. What is said of these pairs below "
-            "compares different states.");
+            "Not in the same regime as ours: hard on packing 1. These pairs are compared in "
+            "different states.");
 }
 
 TEST(StateSentences, EveryEngineIsEveryOneThatFinishedThePacking) {
