@@ -2,7 +2,7 @@
 
 #include "results/collision.hpp"
 #include "results/engine_fields.hpp"
-#include "results/head_fields.hpp"
+#include "results/head.hpp"
 #include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {
@@ -142,7 +142,7 @@ void fields(auto& io, ConvergenceOrder& order) {
 }
 
 void fields(auto& io, CollideResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io.present("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("variants", results.variants);

@@ -1,8 +1,10 @@
 #include "results/compare.hpp"
 
-#include "results/endpoints_fields.hpp"
+#include "results/endpoints.hpp"
+#include "results/engine_fields.hpp"
 #include "results/flow_fields.hpp"
-#include "results/lockstep_fields.hpp"
+#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {
 
@@ -40,7 +42,7 @@ void fields(auto& io, NothingJudged& nothing) {
 
 void fields(auto& io, CompareResults& results) {
   const bool compared = results.head.kind != kindAverage;
-  fields(io, static_cast<FlowStudy&>(results));
+  results.FlowStudy::fields(io);
   io.present("lockstep", results.lockstep);
   io.when(compared, "regimes", results.regimes);
   io("steadiness", results.steadiness);

@@ -9,8 +9,10 @@
 #include "results/endpoints.hpp"
 #include "results/engine_row.hpp"
 #include "results/flow_frame.hpp"
+#include "results/json_fields.hpp"
 #include "results/lockstep_findings.hpp"
 #include "results/run.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::inline results {
 
@@ -20,6 +22,14 @@ struct FlowStudy : FlowFrame {
   std::vector<EngineRow> engines;  ///< the reference first
   std::vector<PackingRow> packings;
   std::vector<FlowRun> runs;
+
+  void fields(auto& io) {
+    FlowFrame::fields(io);
+    io.present("elapsed_s", elapsed);
+    io("engines", engines);
+    io.when(head.kind != kindAverage, "packings", packings);
+    io("runs", runs);
+  }
 };
 
 /// Kind "compare"; and kind "average", of one source and one packing, where nothing is compared.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "results/engine_fields.hpp"
-#include "results/head_fields.hpp"
+#include "results/head.hpp"
 
 namespace crossgrain::inline results {
 
@@ -19,7 +19,7 @@ void fields(auto& io, ConformanceRow& row) {
 }
 
 void fields(auto& io, ConformanceResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io.present("elapsed_s", results.elapsed);
   io("engine", results.engine);
   io("checks", results.rows);

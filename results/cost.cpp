@@ -34,7 +34,7 @@ std::size_t CostResults::count(CostStatus status) const {
 }
 
 void fields(auto& io, CostResults& results) {
-  fields(io, static_cast<FlowFrame&>(results));
+  results.FlowFrame::fields(io);
   io("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("packings", results.packings);

@@ -54,7 +54,7 @@ void fields(auto& io, TimingPlan& plan) {
 }
 
 void fields(auto& io, EffectsResults& results) {
-  fields(io, static_cast<FlowStudy&>(results));
+  results.FlowStudy::fields(io);
   io.when(!results.ensemble.empty(), "ensemble", results.ensemble);
   io("switches", results.switches);
   io("timing", results.timing);

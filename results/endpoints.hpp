@@ -6,6 +6,7 @@
 
 #include "averaging/interim_analyses.hpp"
 #include "results/agreement.hpp"
+#include "results/json_fields.hpp"
 
 /// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
 namespace crossgrain::inline results {
@@ -33,12 +34,46 @@ struct EndpointRow {
   std::string surrogateA, surrogateB;  ///< the mirror whose runs stand for a, for b; empty: its own
   std::optional<double> bound;         ///< B of those mirrors, in margins
   std::optional<double> reach;         ///< part of B: what the followed runs could have missed
+
+  void fields(auto& io) {
+    io("a", a, aName);
+    io("b", b, aName);
+    io("kind", kind);
+    io("endpoint", endpoint, aName);
+    io("unit", unit, aUnit);
+    io("margin", margin);
+    io("margin_relative", marginRelative);
+    io("margin_why", marginWhy);
+    io("answer", answer);
+    io("reference", reference);
+    io("difference", difference);
+    io("low", low);
+    io("high", high);
+    io("distance", distance);
+    io("distance_low", distanceLow);
+    io("distance_high", distanceHigh);
+    io("look", look);
+    io("packings", packings);
+    io("lost", lost);
+    io.when(!reason.empty(), "reason", reason);
+    io.present("needs", needs);
+    io.present("needs_at_most", needsAtMost);
+    io.when(!surrogateA.empty(), "carrier_a", surrogateA, aName);
+    io.when(!surrogateB.empty(), "carrier_b", surrogateB, aName);
+    io.present("bound", bound);
+    io.present("reach", reach);
+  }
 };
 
 /// One look as planned.
 struct InterimRow {
   int packings = 0;
   double alpha = 0.0;  ///< its part of 1 − confidence, for *disagree*
+
+  void fields(auto& io) {
+    io("packings", packings);
+    io("alpha", alpha);
+  }
 };
 
 struct InterimFindings {
@@ -47,6 +82,14 @@ struct InterimFindings {
   std::size_t taken = 0;
   double budget = 0.0;  ///< [s]
   std::string ended;    ///< why no further look was taken
+
+  void fields(auto& io) {
+    io("planned", planned);
+    io.present("agree_alpha", agreeAlpha);
+    io("taken", taken);
+    io("budget_s", budget);
+    io("ended", ended);
+  }
 };
 
 /// What a change of a constant does to an endpoint of the in-house engine, paired over packings.
@@ -57,6 +100,16 @@ struct EndpointResponse {
   std::optional<double> bound;       ///< largest that its 95 % interval allows, in margins
   std::optional<double> scatter;     ///< of one packing's difference, in margins: chaos
   int packings = 0;
+
+  void fields(auto& io) {
+    io("endpoint", endpoint, aName);
+    io("constant", constant, aName);
+    io("change", change);
+    io("difference", difference);
+    io("bound", bound);
+    io("scatter", scatter);
+    io("packings", packings);
+  }
 };
 
 /// One endpoint of the averaged run of a spot check, in margins.
@@ -66,6 +119,14 @@ struct SpotCheckNumber {
   std::optional<double> floor;       ///< scatter of two runs of one packing: chaos
   std::optional<double> chance;      ///< of one as large by chaos alone, times the endpoints tested
   std::optional<double> reach;       ///< the smallest difference that would be an alarm
+
+  void fields(auto& io) {
+    io("endpoint", endpoint, aName);
+    io("difference", difference);
+    io("floor", floor);
+    io("chance", chance);
+    io("reach", reach);
+  }
 };
 
 /// A change of a constant, relative, that separates the mirror from itself as far as the engine is
@@ -73,6 +134,11 @@ struct SpotCheckNumber {
 struct EquivalentChange {
   std::string constant;  ///< "kn"
   double change = 0.0;
+
+  void fields(auto& io) {
+    io("constant", constant);
+    io("change", change);
+  }
 };
 
 /// The followed run of a spot check: windows one after the other within one run of the engine,
@@ -85,6 +151,14 @@ struct LateWindows {
   /// of its interval (95 %). A constant that moves nothing has none.
   std::vector<EquivalentChange> equivalents;
   std::string failure;  ///< why there are none; empty: there are
+
+  void fields(auto& io) {
+    io("packing", packing);
+    io("times_s", times);
+    io("length_s", length);
+    io("equivalents", equivalents);
+    io("failure", failure);
+  }
 };
 
 /// An engine that lockstep found to be its mirror, which then carries the packings. The engine's
@@ -99,6 +173,18 @@ struct SurrogateEngine {
   std::string alarm;     ///< why the mirror does not stand for it after all; empty: it does
   bool carried = false;  ///< both runs of the spot check ended without an alarm
   LateWindows late = {};
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("mirror", mirror, aName);
+    io("equivalent", equivalent);
+    io("starts", starts);
+    io("canary_packing", spotCheckPacking);
+    io("canary", spotCheck);
+    io("alarm", alarm);
+    io("carried", carried);
+    io("late", late);
+  }
 };
 
 /// What nobody needs a test for.
@@ -106,6 +192,13 @@ struct AlarmRow {
   std::string a, b;
   PairKind kind = PairKind::peer;
   std::string what;  ///< a sentence
+
+  void fields(auto& io) {
+    io("a", a, aName);
+    io("b", b, aName);
+    io("kind", kind);
+    io("what", what);
+  }
 };
 
 struct EndpointFindings {
@@ -114,6 +207,14 @@ struct EndpointFindings {
   std::vector<AlarmRow> alarms;
   std::vector<SurrogateEngine> carried;
   std::vector<EndpointResponse> responses;
+
+  void fields(auto& io) {
+    io("looks", looks);
+    io("rows", rows);
+    io("alarms", alarms);
+    io("carried", carried);
+    io("responses", responses);
+  }
 };
 
 }  // namespace crossgrain::inline results

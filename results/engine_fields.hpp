@@ -6,15 +6,6 @@
 
 namespace crossgrain::inline results {
 
-void fields(auto& io, EngineRow& row) {
-  io("name", row.name, aName);
-  io("summary", row.summary);
-  io("version", row.version);
-  io("mirrors", row.mirrors, aName);
-  io("status", row.status);
-  io("reason", row.reason);
-}
-
 void fields(auto& io, Stats& stats) {
   io("steps", stats.steps);
   io("contact_evaluations", stats.contactEvaluations);

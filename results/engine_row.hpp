@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "results/json_fields.hpp"
+
 namespace crossgrain::inline results {
 
 /// Whether an engine, or one of its runs, came to anything.
@@ -23,6 +25,15 @@ struct EngineRow {
   std::string mirrors;  ///< the peer whose conventions it has; empty for one named by the user
   EngineStatus status = EngineStatus::ran;
   std::string reason;
+
+  void fields(auto& io) {
+    io("name", name, aName);
+    io("summary", summary);
+    io("version", version);
+    io("mirrors", mirrors, aName);
+    io("status", status);
+    io("reason", reason);
+  }
 };
 
 }  // namespace crossgrain::inline results

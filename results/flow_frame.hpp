@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/head.hpp"
+#include "results/json_fields.hpp"
 
 /// What results of a Couette case say of it, whatever was done with it.
 namespace crossgrain::inline results {
@@ -20,6 +21,21 @@ struct CouetteCell {
   double smallRadius = 0.0, largeRadius = 0.0;  ///< [m]
   double volumeFraction = 0.0;                  ///< of the disks without the walls' [-]
   double diameter = 0.0;                        ///< the d of r̃ = (r − R_i)/d [m]
+
+  void fields(auto& io) {
+    io("inner_radius", innerRadius);
+    io("outer_radius", outerRadius);
+    io("wall_radius", wallRadius);
+    io("wall_spacing", wallSpacing);
+    io("height", height);
+    io("omega", omega);
+    io("small", small);
+    io("large", large);
+    io("small_radius", smallRadius);
+    io("large_radius", largeRadius);
+    io("volume_fraction", volumeFraction);
+    io("diameter", diameter);
+  }
 };
 
 /// Rotations are the wheel's since the hand-over. Of a file's snapshots nobody knows them.
@@ -31,6 +47,18 @@ struct FlowAveraging {
   std::int64_t snapshots = 0;               ///< a run
   double confidence = 0.95;
   std::optional<double> lineWidth;  ///< of a study of ring widths: the kernels' [d]
+
+  void fields(auto& io) {
+    io("method", method, aName);
+    io.present("settle_rotations", settleRotations);
+    io.present("rotations", rotations);
+    io.present("from_rotation", fromRotation);
+    io.present("to_rotation", toRotation);
+    io.when(fromRotation.has_value(), "prepared_rotations", preparedRotations);
+    io("snapshots", snapshots);
+    io("confidence", confidence);
+    io.present("line_width", lineWidth);
+  }
 };
 
 /// The averaged part of a case that is no Couette cell (cases/case.hpp).
@@ -42,12 +70,30 @@ struct RegionRow {
   std::size_t disks = 0;        ///< in the scene
   std::vector<double> x, y;     ///< of the bins' centres; empty for rings [m]
   double from = 0.0, to = 0.0;  ///< averaged [s]
+
+  void fields(auto& io) {
+    io("bins", bins);
+    io.when(!along.empty(), "along", along);
+    io("height", height);
+    io("diameter", diameter);
+    io("disks", disks);
+    io("x", x);
+    io("y", y);
+    io("from_s", from);
+    io("to_s", to);
+  }
 };
 
 struct RingPlaces {
   std::vector<double> r;        ///< of the rings' centres [m]
   std::vector<double> rTilde;   ///< (r − R_i)/d
   std::optional<double> width;  ///< [m]
+
+  void fields(auto& io) {
+    io("r", r);
+    io("r_tilde", rTilde);
+    io("width", width);
+  }
 };
 
 struct PackingRow {
@@ -55,6 +101,13 @@ struct PackingRow {
   std::uint64_t seed = 0;
   std::string hash;
   bool fromCache = false;
+
+  void fields(auto& io) {
+    io("index", index);
+    io("seed", seed);
+    io("hash", hash);
+    io("from_cache", fromCache);
+  }
 };
 
 struct FlowFrame {
@@ -65,6 +118,16 @@ struct FlowFrame {
   std::vector<std::string> effects;  ///< that the case calls for
   RingPlaces rings;
   std::vector<std::string> notes;  ///< sentences for the top of the report
+
+  void fields(auto& io) {
+    head.fields(io);
+    io.when(!region, "cell", cell);
+    io.present("region", region);
+    io("averaging", averaging);
+    io("effects", effects, aName);
+    io("rings", rings);
+    io("notes", notes);
+  }
 };
 
 }  // namespace crossgrain::inline results

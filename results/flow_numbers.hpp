@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "results/json_fields.hpp"
+
 /// Numbers of one run of a Couette cell, or of an engine's runs together.
 namespace crossgrain::inline results {
 
@@ -29,6 +31,20 @@ struct HeadNumber {
   std::optional<double> value;
   std::optional<double> standardError;  ///< over packings
   std::optional<int> packings;          ///< that the mean is over; absent: one run
+
+  /// As of a fit: means over packings have the same members, whatever they are of.
+  void fields(auto& io) {
+    const bool mean = packings.has_value();
+    std::optional<double> chi2;
+    std::string reason;
+    io("name", name, aName);
+    io("value", value);
+    io("unit", unit, aUnit);
+    io.when(mean, "stderr", standardError);
+    io.when(mean, "chi2_per_dof", chi2);
+    io.when(mean, "reason", reason);
+    io.present("packings", packings);
+  }
 };
 
 /// What is read off the profile of the spin, not fitted: it has no χ².
@@ -44,6 +60,20 @@ struct FitRow {
   std::string reason;
   std::optional<double> period;             ///< of an angle, known up to multiples of it
   std::optional<int> packings, ofPackings;  ///< fitted, of how many; absent: one run
+
+  void fields(auto& io) {
+    io("name", name, aName);
+    io("label", label);
+    io("unit", unit, aUnit);
+    io("value", value);
+    io("stderr", standardError);
+    io.when(packings || name != spinInRing1, "chi2_per_dof", chi2PerDof);
+    io("reason", reason);
+    io("expected", expected);
+    io.present("period", period);
+    io.present("packings", packings);
+    io.present("of_packings", ofPackings);
+  }
 };
 
 /// What must hold in a steady state: ring by ring, or one number.
@@ -53,6 +83,16 @@ struct CheckRow {
   Numbers reference;  ///< as long as value
   std::optional<double> referenceError;
   std::optional<std::string> note;
+
+  void fields(auto& io) {
+    io("name", name, aName);
+    io("label", label);
+    io("value", value);
+    io("reference", reference);
+    io("reference_stderr", referenceError);
+    io("stderr", standardError);
+    io.present("note", note);
+  }
 };
 
 }  // namespace crossgrain::inline results

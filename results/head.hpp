@@ -2,18 +2,33 @@
 
 #include <string>
 
+#include "results/json_fields.hpp"
+
 /// What every kind of results begins with.
 namespace crossgrain::inline results {
 
 struct Machine {
   std::string cpu, os;
   unsigned cores = 0;
+
+  void fields(auto& io) {
+    io("cpu", cpu);
+    io("os", os);
+    io("cores", cores);
+  }
 };
 
 /// The case that was run, as it was resolved.
 struct CaseHead {
   std::string name, variant, file;
   std::string toml;  ///< the merged document, printed
+
+  void fields(auto& io) {
+    io("name", name);
+    io("variant", variant);
+    io("file", file);
+    io("toml", toml);
+  }
 };
 
 struct ResultsHead {
@@ -23,6 +38,18 @@ struct ResultsHead {
   std::string started;  ///< ISO 8601, UTC
   Machine machine;
   CaseHead setup;
+
+  /// Its members stand beside those of the results themselves, not in an object of their own.
+  void fields(auto& io) {
+    io("schema", schema);
+    io("kind", kind);
+    io("version", version);
+    io.when(!build.empty(), "build", build);
+    io("command", command);
+    io("started", started);
+    io("machine", machine);
+    io("case", setup);
+  }
 };
 
 }  // namespace crossgrain::inline results

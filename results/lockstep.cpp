@@ -1,12 +1,13 @@
 #include "results/lockstep.hpp"
 
+#include "results/engine_fields.hpp"
 #include "results/flow_fields.hpp"
-#include "results/lockstep_fields.hpp"
+#include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {
 
 void fields(auto& io, LockstepResults& results) {
-  fields(io, static_cast<FlowStudy&>(results));
+  results.FlowStudy::fields(io);
   io("lockstep", results.lockstep);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "adapters/engine.hpp"
+#include "results/json_fields.hpp"
 
 /// Engines held against their mirrors, step by step from the same starts. A mirror is the in-house
 /// engine with the conventions that an engine declares, on the scene that this engine runs.
@@ -36,6 +37,14 @@ struct LockstepRules {
   double referenceChange = 0.0;       ///< largest by which it was changed to see what that does
   std::string referencePerturbation;  ///< the constant: "kn"
   double strayShare = 0.0;            ///< of starts that may be beyond sameLaw by chance
+
+  void fields(auto& io) {
+    io("rounding", rounding);
+    io("same_law", sameLaw);
+    io("yardstick", referencePerturbation);
+    io("yardstick_change", referenceChange);
+    io("stray_share", strayShare);
+  }
 };
 
 /// One of the states that all engines start from.
@@ -43,6 +52,12 @@ struct LockstepStart {
   std::size_t packing = 0;  ///< index
   double time = 0.0;        ///< since the hand-over [s]
   double wheelAngle = 0.0;  ///< since the wheel was built [rad]
+
+  void fields(auto& io) {
+    io("packing", packing);
+    io("time_s", time);
+    io("wheel_angle", wheelAngle);
+  }
 };
 
 /// How far disks are from the mirror's, so long after the start: of each start the disk that is
@@ -58,6 +73,15 @@ struct LockstepSeparation {
   /// ε_eq, the median over the starts that can be read then; absent: none can, or nothing is beyond
   /// `rounding`.
   std::optional<double> equivalent;
+
+  void fields(auto& io) {
+    io("time_s", time);
+    io("median", median);
+    io("largest", largest);
+    io("yardstick", referencePerturbation);
+    io("rounding", rounding);
+    io("equivalent", equivalent);
+  }
 };
 
 /// What one start says.
@@ -67,6 +91,12 @@ struct StartReading {
   std::optional<double> equivalent;
   double until = 0.0;   ///< the last time that can be read, since the start [s]; 0: none can
   bool beyond = false;  ///< ε_eq is above LockstepRules::sameLaw, or disks that touch nothing part
+
+  void fields(auto& io) {
+    io("equivalent", equivalent);
+    io("until_s", until);
+    io("beyond", beyond);
+  }
 };
 
 /// Contacts of the mirror that the windows came upon, each counted once a window and kind.
@@ -74,6 +104,14 @@ struct ContactKinds {
   std::size_t sticking = 0, sliding = 0;
   std::size_t made = 0, opened = 0;  ///< since the look before
   std::size_t wall = 0;              ///< with a wall disk
+
+  void fields(auto& io) {
+    io("sticking", sticking);
+    io("sliding", sliding);
+    io("new", made);
+    io("opening", opened);
+    io("wall", wall);
+  }
 };
 
 /// Where an engine first leaves its mirror by more than rounding in its precision, over all starts.
@@ -84,6 +122,16 @@ struct FirstExceedance {
   std::optional<std::size_t> partner;  ///< of its contact whose force is farthest off
   std::string contact;                 ///< "sliding", "new, wall"; empty: it touches nothing
   std::size_t touching = 0;            ///< how many contacts it has, or its partner if more
+
+  void fields(auto& io) {
+    io("start", start);
+    io("after_s", after);
+    io("until_s", until);
+    io("disk", disk);
+    io("partner", partner);
+    io("contact", contact);
+    io("touching", touching);
+  }
 };
 
 /// Forces of the first step, from the same positions and velocities.
@@ -93,6 +141,14 @@ struct LockstepForces {
   std::size_t extra = 0;     ///< that the mirror does not have
   double normal = 0.0;       ///< largest difference, in the largest normal force [-]
   double tangential = 0.0;   ///< likewise
+
+  void fields(auto& io) {
+    io("contacts", contacts);
+    io("missing", missing);
+    io("extra", extra);
+    io("normal", normal);
+    io("tangential", tangential);
+  }
 };
 
 /// A single change of the mirror that would account for what was seen.
@@ -100,6 +156,12 @@ struct NamedTerm {
   std::string name;              ///< "kn", "tension = cut", "without gravity"
   std::optional<double> amount;  ///< of a constant: relative change
   double unexplained = 0.0;      ///< rms part of the separation that is left, 0 … 1
+
+  void fields(auto& io) {
+    io("name", name);
+    io("amount", amount);
+    io("unexplained", unexplained);
+  }
 };
 
 /// One engine against its mirror.
@@ -132,12 +194,45 @@ struct LockstepRow {
   std::optional<NamedTerm> term;  ///< absent: same to rounding, or none fits
   std::optional<EffectiveParameters> effective;
   double wallSeconds = 0.0;  ///< that it took in all [s]
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("verdict", verdict);
+    io("reason", reason);
+    io("equivalent", equivalent);
+    io("equivalent_low", equivalentLow);
+    io("equivalent_high", equivalentHigh);
+    io("readings", readings);
+    io("read", read);
+    io("beyond", beyond);
+    io("share_high", shareHigh);
+    io.when(severalAtOnce, "several_at_once", severalAtOnce);
+    io("resolution", resolution);
+    io("starts", starts);
+    io("same_to_its_precision", precise);
+    io("failure", failure);
+    io("separations", separations);
+    io("track_time_s", trackTime);
+    io("track", track);
+    io("kinds", kinds);
+    io("first", first);
+    io("forces", forces);
+    io("term", term);
+    io("realised", effective);
+    io("wall_s", wallSeconds);
+  }
 };
 
 struct LockstepFindings {
   LockstepRules rules;
   std::vector<LockstepStart> starts;
   std::vector<LockstepRow> rows;
+
+  void fields(auto& io) {
+    io("rules", rules);
+    io("starts", starts);
+    io("rows", rows);
+  }
 };
 
 }  // namespace crossgrain::inline results

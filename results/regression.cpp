@@ -1,8 +1,10 @@
 #include "results/regression.hpp"
 
-#include "results/endpoints_fields.hpp"
-#include "results/head_fields.hpp"
-#include "results/lockstep_fields.hpp"
+#include "results/endpoints.hpp"
+#include "results/engine_fields.hpp"
+#include "results/head.hpp"
+#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 
 namespace crossgrain::inline results {
 
@@ -52,7 +54,7 @@ void fields(auto& io, DiffRow& row) {
 }
 
 void fields(auto& io, DiffResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io("baseline", results.baseline);
   io("baseline_version", results.baselineVersion);
   io("changed_keys", results.changedKeys);

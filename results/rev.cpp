@@ -23,7 +23,7 @@ void fields(auto& io, RevMeeting& meeting) {
 }
 
 void fields(auto& io, RevResults& results) {
-  fields(io, static_cast<FlowFrame&>(results));
+  results.FlowFrame::fields(io);
   io("engine", results.engine, aName);
   io("curves", results.curves);
   io("meetings", results.meetings);

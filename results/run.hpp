@@ -43,6 +43,25 @@ struct FlowRun {
   std::optional<ScenePicture> picture;  ///< of the first packing
 
   bool finished() const { return status == RunStatus::finished; }
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io.when(!without.empty(), "without", without, aName);
+    io("packing", packing);
+    io("status", status);
+    io("reason", reason);
+    io.present("realised", effective);
+    io.present("stats", stats);
+    io.when(finished(), "head", head);
+    io.present("regime", regime);
+    io.when(finished(), "steadiness", steadiness);
+    io.when(finished(), "profiles", profiles);
+    io.when(finished(), "fits", fits);
+    io.when(finished(), "checks", checks);
+    io.present("series", series);
+    io.when(series.has_value(), "distributions", distributions);
+    io.when(effective && series, "picture", picture);
+  }
 };
 
 Json toJson(const FlowRun& run);
@@ -58,6 +77,16 @@ struct CouetteEnsemble {
   std::vector<Distribution> distributions;
   std::vector<FitRow> fits;
   std::vector<HeadNumber> head;
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io.when(!without.empty(), "without", without, aName);
+    io("packings", packings);
+    io("profiles", profiles);
+    io("distributions", distributions);
+    io("fits", fits);
+    io("head", head);
+  }
 };
 
 /// Null where there is none.

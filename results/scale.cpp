@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "results/engine_fields.hpp"
-#include "results/head_fields.hpp"
-#include "results/scale_fields.hpp"
+#include "results/head.hpp"
 
 namespace crossgrain::inline results {
 
@@ -76,7 +75,7 @@ void fields(auto& io, ScaleSharing& sharing) {
 }
 
 void fields(auto& io, ScaleResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io.present("elapsed_s", results.elapsed);
   io("repetitions", results.repetitions);
   io("engines", results.engines);

@@ -9,6 +9,7 @@
 
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
+#include "results/json_fields.hpp"
 
 /// results.json of kind "scale": what a step takes as a cell grows and more workers share it.
 namespace crossgrain::inline results {
@@ -37,6 +38,23 @@ struct ScalePoint {
   double dt = 0.0;                   ///< of the engine [s]
   std::vector<std::string> differs;  ///< what it does otherwise than the scene says
   std::string measured;              ///< when it was begun: ISO 8601, UTC
+
+  /// Kept by itself as soon as it is there.
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("disks", disks);
+    io("workers", workers);
+    io("status", status);
+    io("reason", reason);
+    io("steps", steps);
+    io("step_s", seconds);
+    io("contacts_per_step", contacts);
+    io("memory_bytes", memory);
+    io("precision", precision, aName);
+    io("dt_s", dt);
+    io("differs", differs);
+    io("measured", measured);
+  }
 };
 
 /// What workers are to an engine: "threads", "ranks"; empty: it has one.

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "results/json_fields.hpp"
+
 namespace crossgrain::inline results {
 
 /// A scene at one instant, to be drawn: lengths in m, one entry per disk, wall disk or contact.
@@ -16,6 +18,23 @@ struct ScenePicture {
   std::optional<std::vector<std::array<double, 4>>> planes;  ///< x, y and normal x, y
   double time = 0.0;                                         ///< [s]
   double rotation = 0.0;                                     ///< of the wheel so far
+
+  void fields(auto& io) {
+    io("radius", radius);
+    io("x", x);
+    io("y", y);
+    io("start_r", startR);
+    io("start_phi", startPhi);
+    io("wall_x", wallX);
+    io("wall_y", wallY);
+    io("wall_radius", wallRadius);
+    io.present("contact_i", contactI);
+    io.present("contact_j", contactJ);
+    io.present("contact_force", contactForce);
+    io.present("planes", planes);
+    io("time_s", time);
+    io("rotation", rotation);
+  }
 };
 
 }  // namespace crossgrain::inline results

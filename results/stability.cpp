@@ -1,7 +1,8 @@
 #include "results/stability.hpp"
 
-#include "results/head_fields.hpp"
-#include "results/stability_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/head.hpp"
+#include "results/scene_picture.hpp"
 
 namespace crossgrain::inline results {
 
@@ -20,7 +21,7 @@ void fields(auto& io, HardCase& setup) {
 }
 
 void fields(auto& io, StabilityResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io.present("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("cases", results.cases);

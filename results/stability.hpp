@@ -10,6 +10,7 @@
 #include "adapters/engine.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
+#include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "stability/verdict.hpp"
 
@@ -38,6 +39,11 @@ constexpr auto namesOf(HardRunStatus) {
 struct MeasureCurve {
   std::vector<double> time;   ///< [s]
   std::vector<double> value;  ///< in the measure's unit; NaN: not known
+
+  void fields(auto& io) {
+    io("t_s", time);
+    io("value", value);
+  }
 };
 
 /// One engine on one variant of a hard case.
@@ -58,6 +64,28 @@ struct StabilityRun {
   std::optional<ScenePicture> picture;  ///< of the worst moment, where the limit was passed
   std::optional<EffectiveParameters> effective;  ///< absent: the engine did not load the scene
   std::optional<Stats> stats;
+
+  /// Kept by itself as soon as it is there.
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("case", name, aName);
+    io("variant", variant);
+    io("status", status);
+    io("verdict", verdict);
+    io("measure", measure, aName);
+    io("value", value);
+    io("limit", limit);
+    io("degraded_limit", degradedLimit);
+    io("unit", unit, aUnit);
+    io("step", step);
+    io("time_s", time);
+    io.present("worst_time_s", worstTime);
+    io("reason", reason);
+    io("curve", curve);
+    io("picture", picture);
+    io("realised", effective);
+    io("stats", stats);
+  }
 };
 
 struct StabilityResults {

@@ -7,12 +7,13 @@
 #include <cstdlib>
 #include <span>
 
-#include "results/thesis_fields.hpp"
+#include "results/collision_fields.hpp"
+#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 
 void fields(auto& io, ThesisResults& results) {
-  fields(io, results.head);
+  results.head.fields(io);
   io.present("elapsed_s", results.elapsed);
   io("engines", results.engines);
   io("carriers", results.surrogates);

@@ -36,6 +36,21 @@ struct ThesisCase {
   std::string caseToml;            ///< as resolved
 
   double endRotation() const { return settleRotations + averagedRotations; }
+
+  void fields(auto& io) {
+    io("name", name, aName);
+    io("purpose", purpose);
+    io("file", file);
+    io("families", families);
+    io("cell", cell);
+    io("label", label);
+    io("kn", kn);
+    io("mu", mu);
+    io("bottom_friction", bottomFriction);
+    io("settle_rotations", settleRotations);
+    io("averaged_rotations", averagedRotations);
+    io("toml", caseToml);
+  }
 };
 
 /// Means over one part of a run, most often one rotation, of what single snapshots show; the
@@ -52,6 +67,22 @@ struct ThesisSpan {
   std::optional<double> velocityAtWheel;        ///< v_φ/(ΩR_i) of the innermost ring [-]
   std::optional<double> kineticEnergy;          ///< [J]
   std::optional<double> maxOverlap, meanOverlap;  ///< [m]
+
+  void fields(auto& io) {
+    io("from", from);
+    io("to", to);
+    io("outer_pressure", outerPressure);
+    io("wheel_torque", wheelTorque);
+    io("wheel_contacts", wheelContacts);
+    io("wheel_touched", wheelTouched);
+    io("coordination", coordination);
+    io("volume_fraction_at_wheel", volumeFractionAtWheel);
+    io("volume_fraction_outside", volumeFractionOutside);
+    io("velocity_at_wheel", velocityAtWheel);
+    io("kinetic_energy", kineticEnergy);
+    io("max_overlap", maxOverlap);
+    io("mean_overlap", meanOverlap);
+  }
 };
 using SpanNumber = std::optional<double> ThesisSpan::*;
 
@@ -73,6 +104,12 @@ struct RingAverages {
   int rings = 0;
   RingPlaces places;              ///< empty: equally wide, from the wheel to the ring
   std::vector<Profile> profiles;  ///< of all the case's methods, without n_eff and dof
+
+  void fields(auto& io) {
+    io("count", rings);
+    io("places", places);
+    io("profiles", profiles);
+  }
 };
 
 /// One engine on one packing of one case.
@@ -85,6 +122,18 @@ struct ThesisRun {
   FlowRun run;               ///< averaged over the case's last rotations, on the case's rings
   std::vector<RingAverages> finer;  ///< the same time on narrower rings: about d/3
   std::vector<ThesisSpan> history;  ///< from the closing of the ring to the end
+
+  void fields(auto& io) {
+    io("leg", setup, aName);
+    io("engine", engine, aName);
+    io("packing", packing);
+    io("seed", seed);
+    io("key", key);
+    io("program", program);
+    io("run", run);
+    io("finer", finer);
+    io("history", history);
+  }
 };
 
 enum class ClaimVerdict { reproduced, refuted, undecided };
@@ -100,6 +149,17 @@ struct ClaimFigure {
   std::optional<double> low, high;             ///< what the rule asks for; absent: no bound there
   std::string key = {};                        ///< the rule's name of it: "exponent_rp"
   std::optional<ClaimVerdict> verdict = {};    ///< absent: reported, not judged
+
+  void fields(auto& io) {
+    io("name", name);
+    io("unit", unit, aUnit);
+    io("value", value);
+    io("stderr", standardError);
+    io("low", low);
+    io("high", high);
+    io("key", key);
+    io("verdict", verdict);
+  }
 };
 
 /// What one claim comes to for one engine, under one interpretation of what the thesis leaves open.
@@ -116,6 +176,20 @@ struct ClaimRow {
   std::vector<std::string> reasons;
   std::vector<std::string> cases;  ///< that it rests on
   std::string plot;                ///< "figure 7.14": the report's redrawn one; empty: none
+
+  void fields(auto& io) {
+    io("id", id);
+    io("claim", claim);
+    io("engine", engine, aName);
+    io("carrier", mirror, aName);
+    io("reading", interpretation);
+    io("figures", figures);
+    io("verdict", verdict);
+    io("why", why);
+    io("reasons", reasons);
+    io("legs", cases);
+    io("plot", plot);
+  }
 };
 
 /// An engine that lockstep compared with its mirror, whose runs may stand for it.
@@ -125,6 +199,15 @@ struct ThesisSurrogate {
   std::optional<double> equivalent;  ///< ε_eq: a change of k_n that would make the same difference
   std::size_t starts = 0;            ///< windows that were followed to the end
   std::string why;                   ///< the verdict as a sentence
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("mirror", mirror, aName);
+    io("carries", accepted);
+    io("equivalent", equivalent);
+    io("starts", starts);
+    io("why", why);
+  }
 };
 
 /// Kind "thesis".

@@ -22,11 +22,11 @@
 
 /// How structs become JSON and come back. One list of a struct's members serves both ways:
 ///
-///     void fields(auto& io, StabilityRun& run) {
-///       io("engine", run.engine);           // always written; where a file lacks it, the default
+///     void fields(auto& io) {
+///       io("engine", engine);           // always written; where a file lacks it, the default
 ///       io.required("dt", run.dt);          // must be there and not be null
-///       io.present("step", run.step);       // an optional that is written only where it is there
-///       io.when(run.turns, "spin", run.spin);  // written where that holds, read where it is there
+///       io.present("step", step);       // an optional that is written only where it is there
+///       io.when(turns, "spin", spin);  // written where that holds, read where it is there
 ///     }
 ///
 /// A list that does more asks io.reading. A text that becomes part of a file's name, a command or a
@@ -198,6 +198,15 @@ concept PlaneVector = requires(T v) {
   T(v.x(), v.y());
 };
 
+/// Those that stand in the struct, or beside one of a folder that knows no JSON.
+template <typename T>
+void fieldsOf(auto& io, T& value) {
+  if constexpr (requires { value.fields(io); })
+    value.fields(io);
+  else
+    fields(io, value);
+}
+
 [[noreturn]] inline void expected(const char* what, const Json& found) {
   throw FieldError(fmt::format(": is {}, not {}", found.type_name(), what));
 }
@@ -260,7 +269,7 @@ Json jsonOf(const T& value) {
   } else {
     Json object = Json::object();
     FieldWriter writer(object);
-    fields(writer, const_cast<T&>(value));  // a writer only reads
+    detail::fieldsOf(writer, const_cast<T&>(value));  // a writer only reads
     return object;
   }
 }
@@ -325,7 +334,7 @@ void readFrom(const Json& json, T& value) {
   } else {
     if (!json.is_object()) detail::expected("an object", json);
     FieldReader reader(json);
-    fields(reader, value);
+    detail::fieldsOf(reader, value);
   }
 }
 

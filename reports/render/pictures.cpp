@@ -9,7 +9,7 @@
 
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
-#include "results/scene_picture_fields.hpp"
+#include "results/scene_picture.hpp"
 #include "support/files.hpp"
 
 namespace crossgrain::reports {

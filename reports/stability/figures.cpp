@@ -9,8 +9,10 @@
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
+#include "results/engine_fields.hpp"
 #include "results/json_fields.hpp"
-#include "results/stability_fields.hpp"
+#include "results/scene_picture.hpp"
+#include "results/stability.hpp"
 
 namespace crossgrain::reports {
 

@@ -5,7 +5,7 @@
 #include "adapters/suitability.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
-#include "results/endpoints_fields.hpp"
+#include "results/endpoints.hpp"
 #include "results/schema.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/study_cases.hpp"

@@ -6,7 +6,9 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "results/lockstep_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/lockstep.hpp"
+#include "results/lockstep_findings.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/lockstep/comparison.hpp"

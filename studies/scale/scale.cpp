@@ -13,7 +13,7 @@
 #include "cases/preparation.hpp"
 #include "cases/scaled_cell.hpp"
 #include "cases/time_step.hpp"
-#include "results/scale_fields.hpp"
+#include "results/scale.hpp"
 #include "results/schema.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"

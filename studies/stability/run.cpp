@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/stability_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/scene_picture.hpp"
+#include "results/stability.hpp"
 #include "stability/measures.hpp"
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"

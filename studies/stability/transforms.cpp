@@ -10,7 +10,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "results/stability_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/scene_picture.hpp"
+#include "results/stability.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/lockstep/separation.hpp"
 #include "studies/lockstep/window.hpp"

@@ -8,7 +8,7 @@
 
 #include "adapters/worker/json.hpp"
 #include "results/engine_row.hpp"
-#include "results/head_fields.hpp"
+#include "results/head.hpp"
 #include "results/schema.hpp"
 
 /// Pieces that both samples use.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "results/head_fields.hpp"
+#include "results/head.hpp"
 
 namespace crossgrain::inline results {
 

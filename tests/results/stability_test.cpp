@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "results/stability_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/scene_picture.hpp"
 
 namespace crossgrain::inline results {
 namespace {

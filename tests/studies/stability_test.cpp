@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "results/stability_fields.hpp"
+#include "results/engine_fields.hpp"
+#include "results/scene_picture.hpp"
+#include "results/stability.hpp"
 #include "stability/verdict.hpp"
 #include "studies/core/engine_access.hpp"
 #include "support/bad_input.hpp"
