@@ -93,7 +93,7 @@ std::string countText(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// "Of the 9 runs of its legs 6 were collisional, 3 flowing while averaged."
+/// "Of its 9 runs 6 were collisional, 3 flowing while averaged."
 std::string regimeReason(const std::vector<const ThesisRun*>& runs) {
   std::array<std::size_t, 3> of{};
   std::size_t known = 0;
@@ -111,8 +111,8 @@ std::string regimeReason(const std::vector<const ThesisRun*>& runs) {
                                   : count == 1   ? "was "
                                                  : "were ",
                                   toString(regime)));
-  std::string sentence = fmt::format("Of the {} of its runs {} while averaged",
-                                     countText(runs.size(), "run"), fmt::join(parts, ", "));
+  std::string sentence = fmt::format("Of its {} {} while averaged", countText(runs.size(), "run"),
+                                     fmt::join(parts, ", "));
   if (2 * of[static_cast<std::size_t>(Regime::collisional)] > known)
     sentence += ", most in the regime in which stress comes from impacts and goes with Ω²";
   return sentence + ".";

@@ -85,7 +85,7 @@ COMMANDS = {
 # What depends on this run and machine; "stats" and "contacts_per_step" count steps of a timed
 # length, "overview" repeats times.
 TRANSIENT = {
-    "elapsed_s", "started", "command", "version", "build", "machine", "file", "stats", "wall_s", "cpu_s", "overview",
+    "elapsed_s", "started", "command", "version", "program", "build", "machine", "file", "stats", "wall_s", "cpu_s", "overview",
     "time_ratio", "time_ratio_stderr", "step_s", "spread", "strong", "weak", "ratio", "memory_bytes", "bytes_per_disk",
     "ns_per_disk", "steps", "repetitions", "predicted_s", "on_front", "cores", "timings", "best_s", "advice", "fronts",
     "measured", "cells", "cheapest", "startup", "contacts_per_step", "from_cache",

@@ -51,7 +51,7 @@ TEST(ClaimReasons, TellTheStateOfTheRuns) {
   const ClaimRow row = rowOf(reasoned(wideZoneWhereCollisional()), "C5");
   ASSERT_EQ(row.verdict, ClaimVerdict::refuted) << row.why;
   EXPECT_TRUE(says(row,
-                   "Of the 27 runs of its legs 21 were collisional, 6 flowing while averaged, "
+                   "Of its 27 runs 21 were collisional, 6 flowing while averaged, "
                    "most in the regime in which stress comes from impacts and goes with Ω²."))
       << all(row);
   EXPECT_TRUE(says(row,
