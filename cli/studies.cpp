@@ -347,7 +347,7 @@ extern const Command stabilityCommand = {
     "crossgrain stability -k pile --engines grain --out out/pile\n"
     "crossgrain stability cases/hard/pile.toml --engines grain,yade --out out/piles\n"
     "crossgrain stability --transforms cases/couette/quick.toml --engines grain,yade --out "
-    "out/told\n"
+    "out/transforms\n"
     "crossgrain stability --transforms --budget 10m cases/couette/quick.toml --engines all --out "
     "out/brief",
     [](CLI::App& app, CommandLine& line) {

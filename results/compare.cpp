@@ -40,18 +40,6 @@ void fields(auto& io, NothingJudged& nothing) {
   io("by_request", nothing.byRequest);
 }
 
-void fields(auto& io, CompareResults& results) {
-  const bool compared = results.head.kind != kindAverage;
-  results.FlowStudy::fields(io);
-  io.present("lockstep", results.lockstep);
-  io.when(compared, "regimes", results.regimes);
-  io("steadiness", results.steadiness);
-  io.when(compared, "ensemble", results.ensemble);
-  io.when(compared, "agreement", results.agreement);
-  io.when(compared, "endpoints", results.endpoints);
-  io.present("nothing_judged", results.nothingJudged);
-}
-
 Json toJson(const CompareResults& results) {
   return jsonOf(results);
 }

@@ -41,6 +41,18 @@ struct CompareResults : FlowStudy {
   std::vector<AgreementRow> agreement;         ///< ring by ring: where a difference is
   EndpointFindings endpoints;                  ///< what carries the verdicts
   std::optional<NothingJudged> nothingJudged;  ///< absent where something was judged
+
+  void fields(auto& io) {
+    const bool compared = head.kind != kindAverage;
+    FlowStudy::fields(io);
+    io.present("lockstep", lockstep);
+    io.when(compared, "regimes", regimes);
+    io("steadiness", steadiness);
+    io.when(compared, "ensemble", ensemble);
+    io.when(compared, "agreement", agreement);
+    io.when(compared, "endpoints", endpoints);
+    io.present("nothing_judged", nothingJudged);
+  }
 };
 
 Json toJson(const CompareResults& results);

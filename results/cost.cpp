@@ -33,25 +33,6 @@ std::size_t CostResults::count(CostStatus status) const {
   return static_cast<std::size_t>(std::ranges::count(points, status, &CostPoint::status));
 }
 
-void fields(auto& io, CostResults& results) {
-  results.FlowFrame::fields(io);
-  io("elapsed_s", results.elapsed);
-  io("engines", results.engines);
-  io("packings", results.packings);
-  io.present("want", results.target);
-  io("budget_s", results.budget);
-  io("budget_for_the_rest_s", results.budgetForTheRest);
-  io("points", results.points);
-  io("references", results.references);
-  io("models", results.models);
-  io("window_s", results.window);
-  io("startup", results.startup);
-  io("engine_failures", results.engineFailures);
-  io("fronts", results.fronts);
-  io("advice", results.advice);
-  io("cells", results.cells);
-}
-
 Json toJson(const CostResults& results) {
   return jsonOf(results);
 }

@@ -318,6 +318,25 @@ struct CostResults : FlowFrame {
 
   /// How many points have that status.
   std::size_t count(CostStatus status) const;
+
+  void fields(auto& io) {
+    FlowFrame::fields(io);
+    io("elapsed_s", elapsed);
+    io("engines", engines);
+    io("packings", packings);
+    io.present("want", target);
+    io("budget_s", budget);
+    io("budget_for_the_rest_s", budgetForTheRest);
+    io("points", points);
+    io("references", references);
+    io("models", models);
+    io("window_s", window);
+    io("startup", startup);
+    io("engine_failures", engineFailures);
+    io("fronts", fronts);
+    io("advice", advice);
+    io("cells", cells);
+  }
 };
 
 Json toJson(const CostResults& results);

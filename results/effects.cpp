@@ -53,14 +53,6 @@ void fields(auto& io, TimingPlan& plan) {
   io("rounds", plan.rounds);
 }
 
-void fields(auto& io, EffectsResults& results) {
-  results.FlowStudy::fields(io);
-  io.when(!results.ensemble.empty(), "ensemble", results.ensemble);
-  io("switches", results.switches);
-  io("timing", results.timing);
-  io("legs", results.variants);
-}
-
 Json toJson(const EffectsResults& results) {
   return jsonOf(results);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "results/compare.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::inline results {
 
@@ -81,6 +82,14 @@ struct EffectsResults : FlowStudy {
   std::vector<SwitchRow> switches;
   TimingPlan timing;
   std::vector<EffectVariant> variants;  ///< of each engine first that with everything on
+
+  void fields(auto& io) {
+    FlowStudy::fields(io);
+    io.when(!ensemble.empty(), "ensemble", ensemble);
+    io("switches", switches);
+    io("timing", timing);
+    io("legs", variants);
+  }
 };
 
 Json toJson(const EffectsResults& results);

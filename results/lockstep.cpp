@@ -6,11 +6,6 @@
 
 namespace crossgrain::inline results {
 
-void fields(auto& io, LockstepResults& results) {
-  results.FlowStudy::fields(io);
-  io("lockstep", results.lockstep);
-}
-
 Json toJson(const LockstepResults& results) {
   return jsonOf(results);
 }

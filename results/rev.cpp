@@ -22,13 +22,6 @@ void fields(auto& io, RevMeeting& meeting) {
   io("difference", meeting.difference);
 }
 
-void fields(auto& io, RevResults& results) {
-  results.FlowFrame::fields(io);
-  io("engine", results.engine, aName);
-  io("curves", results.curves);
-  io("meetings", results.meetings);
-}
-
 Json toJson(const RevResults& results) {
   return jsonOf(results);
 }

@@ -29,6 +29,13 @@ struct RevResults : FlowFrame {
   std::string engine;  ///< whose snapshots
   std::vector<RevCurve> curves;
   std::vector<RevMeeting> meetings;
+
+  void fields(auto& io) {
+    FlowFrame::fields(io);
+    io("engine", engine, aName);
+    io("curves", curves);
+    io("meetings", meetings);
+  }
 };
 
 Json toJson(const RevResults& results);

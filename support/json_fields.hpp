@@ -201,6 +201,8 @@ concept PlaneVector = requires(T v) {
 /// Those that stand in the struct, or beside one of a folder that knows no JSON.
 template <typename T>
 void fieldsOf(auto& io, T& value) {
+  // Of a struct whose base has the one and that has the other, a list would be left out.
+  static_assert(!(requires { value.fields(io); } && requires { fields(io, value); }));
   if constexpr (requires { value.fields(io); })
     value.fields(io);
   else

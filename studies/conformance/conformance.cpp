@@ -28,8 +28,7 @@
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"
 
-namespace crossgrain {
-namespace conformance {
+namespace crossgrain::conformance {
 namespace {
 
 constexpr double timeout = 60.0;  // for one answer [s]
@@ -109,9 +108,9 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
   return result;
 }
 
-}  // namespace conformance
+}  // namespace crossgrain::conformance
 
-inline namespace studies {
+namespace crossgrain::inline studies {
 
 namespace {
 
@@ -342,5 +341,4 @@ Outcome outcomeOf(const ConformanceResults& results) {
   return results.count(passed) == 0 ? notJudged("every check was skipped") : Outcome();
 }
 
-}  // namespace studies
-}  // namespace crossgrain
+}  // namespace crossgrain::inline studies

@@ -13,8 +13,7 @@
 #include "studies/conformance/check_context.hpp"
 #include "studies/core/study.hpp"
 
-namespace crossgrain {
-namespace conformance {
+namespace crossgrain::conformance {
 
 /// What the checks found.
 struct CheckReport {
@@ -38,9 +37,9 @@ CheckReport runChecks(const EngineEntry& entry, const std::vector<Check>& checks
                       const std::filesystem::path& scratch,
                       const std::function<void(const std::string&, double)>& progress);
 
-}  // namespace conformance
+}  // namespace crossgrain::conformance
 
-inline namespace studies {
+namespace crossgrain::inline studies {
 
 struct ConformanceTask {
   EngineEntry entry;
@@ -57,5 +56,4 @@ ConformanceResults runConformance(const ConformanceTask& task);
 /// An engine that broke down failed; a check that failed is a failure of what it declares.
 Outcome outcomeOf(const ConformanceResults& results);
 
-}  // namespace studies
-}  // namespace crossgrain
+}  // namespace crossgrain::inline studies
