@@ -149,9 +149,11 @@ std::string overviewText(const Overview& overview, const TextLook& look) {
     for (std::size_t r = 0; r < shown.rows; ++r) {
       const OverviewRow& row = overview.rows[r];
       std::string line = padded(row.name, widths[0]);
-      for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
-        line += std::string(gap, ' ') +
-                inColour(row.cells[k], padded(textOf(row.cells[k]), widths[k + 1]), look);
+      for (std::size_t k = begins[b]; k < begins[b + 1]; ++k) {
+        const std::string cell = textOf(row.cells[k]);
+        line += std::string(gap, ' ') + inColour(row.cells[k], cell, look) +
+                padded(cell, widths[k + 1]).substr(cell.size());
+      }
       text += withoutEnd(line);
     }
   }

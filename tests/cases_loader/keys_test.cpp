@@ -30,7 +30,7 @@ TEST_F(Keys, EveryKey_IsListedOnceWithADefault) {
       EXPECT_FALSE(key.standard.empty()) << section.name << ' ' << key.name;
       EXPECT_TRUE(seen.insert(section.name + "." + key.name).second) << key.name;
     }
-  EXPECT_GE(seen.size(), 220u);
+  EXPECT_GE(seen.size(), 210u);
 }
 
 TEST_F(Keys, Defaults_AreThoseOfTheTypes) {

@@ -32,12 +32,13 @@ Packing prepared(const Case& setup, int index);
 struct WindowRun : FlowRun {
   int window = 0;
   double rotations = 0.0;  ///< that it averages over
+
+  void fields(auto& io) {
+    FlowRun::fields(io);
+    io("window", window);
+    io("rotations", rotations);
+  }
 };
-void fields(auto& io, WindowRun& run) {
-  fields(io, static_cast<FlowRun&>(run));
-  io("window", run.window);
-  io("rotations", run.rotations);
-}
 
 /// Settles and averages one packing in windows that follow each other. With `whole`, the last entry
 /// averages over all windows.

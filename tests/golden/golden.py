@@ -124,7 +124,10 @@ def lasting(file, folder):
     if file.suffix == ".csv":
         lines = list(rows(text))
     elif file.suffix == ".json":
-        lines = [("/".join(path.split("/")[:3]), f"{path} {value}") for path, value in leaves(json.loads(text))]
+        document = json.loads(text)
+        if isinstance(document, list):  # of engines: others are installed here, and not there
+            document = [item for item in document if item["name"] in BUILT_IN.split(",")]
+        lines = [("/".join(path.split("/")[:3]), f"{path} {value}") for path, value in leaves(document)]
     else:
         lines = [(line, line) for line in text.splitlines() if " a step:" not in line and "predicted for" not in line]
     if sum(len(line) for _, line in lines) <= MOST_TEXT:

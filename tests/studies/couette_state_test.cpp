@@ -143,7 +143,7 @@ TEST(Steadiness, OfFewPackingsIsWhatAllRunsSay) {
 /// Of packing 0 of that seed.
 RegimeRow averaged(int seed) {
   const Case setup =
-      loadCase(CROSSGRAIN_TESTS "/runs/blocked.toml",
+      loadCase(CROSSGRAIN_TESTS "/studies/blocked.toml",
                {"averaging.rotations=0.25", fmt::format("preparation.seed={}", seed)})
           .front();
   const double dt = timeStep(setup);

@@ -68,7 +68,7 @@ class Baseline(SystemTest):
     def test_an_engine_that_refuses_the_case_is_left_out_and_reported(self):
         done = self.keep("grain,yade", "--starts=1", "--set=run.may_differ=[]")
         self.assert_status(done, HELD)
-        self.assertRegex(done.stdout, r"before.h5: kept of grain \S+$")
+        self.assertRegex(done.stdout, r"before.baseline: kept of grain \S+$")
         self.assertRegex(done.error_lines()[0], "^crossgrain: yade cannot run .*bottom_friction")
         self.assert_status(self.diff("grain"), HELD)
         done = self.keep("yade", "--starts=1", "--set=run.may_differ=[]", file=self.folder / "none.h5")

@@ -43,7 +43,7 @@ class Help(SystemTest):
     def test_of_the_program(self):
         usual = self.run_program("--help").stdout
         self.assertEqual(usual, self.run_program("help").stdout)
-        self.assertRegex(usual, r"Exit status:\n  0 +held[\s\S]*\n  130 +interrupted")
+        self.assertRegex(usual, r"Exit status:\n  0 +passed[\s\S]*\n  130 +interrupted")
         self.assertNotIn("__serve", usual)
         self.assertRegex(self.run_program("--version").stdout, r"^\d+\.\d+\.\d+\n$")
 

@@ -237,7 +237,7 @@ class Report(SystemTest):
                 self.assert_one_line(done, BAD_INPUT, "results.json", told)
 
     def test_all_folders_are_looked_at_before_any_is_rebuilt(self):
-        self.write("results.json", '{"schema": "crossgrain-results-1", "kind": "compare"}')
+        self.write("results.json", '{"schema": "crossgrain-results-1", "kind": "collide"}')
         done = self.run_program("report", self.folder, self.folder / "gone")
         self.assert_one_line(done, BAD_INPUT, "gone")
 

@@ -41,7 +41,7 @@ class Lockstep(SystemTest):
 
     def test_rigid_disks(self):
         """Single precision is told as such, and by rule; where disks meet several at once the law leaves the order open."""
-        case = pathlib.Path(__file__).resolve().parents[1] / "runs/rigid.toml"
+        case = pathlib.Path(__file__).resolve().parents[1] / "studies/rigid.toml"
         lockstep = ["lockstep", case, "--engines", "box2d-impulse", "--out", self.out, "--quiet"]
         done = self.run_program(*lockstep)
         self.assert_status(done, HELD)

@@ -40,7 +40,7 @@ class Looks(SystemTest):
         runs = [run["engine"] for run in self.results()["runs"]]
         self.assertEqual(1, runs.count("box2d-penalty"))
         self.assertIn("box2d-penalty: evaluated through its mirror grain-as-box2d-penalty", done.stdout)
-        self.assertIn("16 windows alike leave at most 19 % of states unlike", done.stdout)
+        self.assertIn("16 equal windows leave at most 19 % of states different", done.stdout)
 
     def test_the_next_look_is_taken_up_where_the_budget_ended(self):
         engines = "grain,box2d-impulse"
