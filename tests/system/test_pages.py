@@ -235,7 +235,7 @@ class Pages(unittest.TestCase):
     def used(self):
         frames = "".join(
             f'<iframe width="1280" height="100000" srcdoc="{html.escape(self.reports[name])}"></iframe>'
-            for name in ("collide", "compare")
+            for name in ("collide", "collide-many")
         )
         return found_by(f"<!doctype html><meta charset=utf-8><script>{USE}</script><body>{frames}")
 
