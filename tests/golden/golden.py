@@ -120,7 +120,7 @@ def rows(text):
 
 def lasting(file, folder):
     """(group, line) of a file of a run, and digests of groups where it is long."""
-    text = file.read_text(encoding="utf-8").replace(str(folder), "FOLDER")
+    text = file.read_text(encoding="utf-8").replace(str(folder), "FOLDER").replace(str(ROOT), "ROOT")
     if file.suffix == ".csv":
         lines = list(rows(text))
     elif file.suffix == ".json":
