@@ -92,12 +92,12 @@ class CollideWorkerDies(FailureTest):
             "collide", COLLISION, "--engines", BOTH, "--out", self.out,
             *settings(
                 run__mirrors="false",
-                collision__psi="{ from = 0.0, to = 4.0, count = 100 }",
+                collision__psi="{ from = 0.0, to = 4.0, count = 400 }",
                 collision__steps_per_contact=400,
             ),
         ]  # fmt: skip
         running = self.start(*self.arguments)
-        return running, running.worker_at_work(SLOW, stage="collisions:")
+        return running, running.worker_at_work(SLOW, 0.05, stage="collisions:")
 
     def test_the_same_command_goes_on(self):
         running, worker = self.collide()
