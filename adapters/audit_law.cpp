@@ -128,8 +128,8 @@ ContactKinematics kinematicsOf(const Snapshot& snapshot, const AuditBasis& basis
   return touch;
 }
 
-std::string whyNotNormal(double found, const ContactLaw& law, const ContactKinematics& touch,
-                         double relative) {
+std::string normalFault(double found, const ContactLaw& law, const ContactKinematics& touch,
+                        double relative) {
   const ElasticPart elastic = elasticPart(law, touch.place.overlap, touch.radius);
   const double gn = damping(law.damper, law.gn, elastic.stiffness, touch.mass);
   double force = elastic.force - gn * touch.approach;
@@ -143,8 +143,8 @@ std::string whyNotNormal(double found, const ContactLaw& law, const ContactKinem
       found, force, touch.place.overlap, allowed);
 }
 
-std::string whyNotTangential(double normal, double found, const ContactLaw& law,
-                             const ContactKinematics& touch, double relative) {
+std::string tangentialFault(double normal, double found, const ContactLaw& law,
+                            const ContactKinematics& touch, double relative) {
   const bool friction = law.tangential != TangentialLaw::none && law.mu > 0.0;
   const bool anyway = law.conventions.coulombBound != CoulombBound::compression;
   double bound = !friction ? 0.0 : law.mu * (anyway ? std::abs(normal) : std::max(normal, 0.0));
@@ -177,8 +177,8 @@ std::string lawFault(const Snapshot& snapshot, const AuditBasis& basis, const Co
       if (fn < 0.0) why = fmt::format("f_n is {:.6g} N: rigid disks do not pull", fn);
     } else {
       const ContactKinematics touch = kinematicsOf(snapshot, basis, places, doubts, k);
-      why = whyNotNormal(fn, law, touch, relative);
-      if (why.empty()) why = whyNotTangential(fn, ft, law, touch, relative);
+      why = normalFault(fn, law, touch, relative);
+      if (why.empty()) why = tangentialFault(fn, ft, law, touch, relative);
     }
     if (!why.empty()) return fmt::format("{}: {}", contactName(contacts, k, *basis.scene), why);
   }

@@ -7,7 +7,7 @@
 
 namespace crossgrain::reports {
 
-/// Colours by Okabe and Ito (2008), told apart with any colour vision; marks differ too. Of what is
+/// Colours by Okabe and Ito (2008), distinct with any colour vision; marks differ too. Of what is
 /// no engine, by its place.
 LineStyle engineStyle(std::size_t index);
 

@@ -37,7 +37,7 @@ OracleCurve oracleCurve(const Case& setup, const std::vector<CollisionStart>& st
 
 /// The same for a sweep in steps of dt [s]: beside a jump of the law at the first touch (where
 /// stepMissesSlip()) there is no reference either, if the law ends elsewhere by more than jumps are
-/// told by where it is evaluated a step late. That scales with dt, and hides no sweep: what lacks
+/// found by where it is evaluated a step late. That scales with dt, and hides no sweep: what lacks
 /// most of its references is not judged (mostAreKnown()).
 OracleCurve atStep(OracleCurve oracle, const Case& setup, const std::vector<CollisionStart>& starts,
                    double dt);

@@ -373,8 +373,8 @@ class MirrorPair {
   }
 
   void followThroughACollision(const ContactLaw& law) {
-    // Box2D's position solver, which a mirror does not have, moves disks that overlap by more than
-    // its slop.
+    // A position solver, which a mirror does not have, moves disks that overlap by more than its
+    // slop.
     const double steps = context.rigid() ? 2000.0 : coarseSteps;
     Encounter encounter = crookedEncounter();
     for (const double obliqueness : {0.5, -1.0}) {

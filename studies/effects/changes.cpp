@@ -36,8 +36,8 @@ struct PairedRuns {
 };
 
 /// Of a relative margin ratios are tested, as they are against the margin: so what is shown to lie
-/// beyond the margin is also told apart from no change, µ = 0 being the smaller claim of the same
-/// test.
+/// beyond the margin is also significantly different from no change, µ = 0 being the smaller claim
+/// of the same test.
 TestedRing testOfNoChange(const Margin* margin, const Numbers& whole, const Numbers& switched) {
   TestedRing ring = testedRing(margin ? *margin : Margin{}, whole, switched);
   ring.sample.margin = 0.0;
@@ -93,7 +93,7 @@ struct Family {
 };
 
 /// Sets the verdict and the interval that it rests on: half as wide as the smallest change that
-/// would have been told apart, so that it leaves out 0 exactly if the change is. Holm (1979) holds
+/// would have been significant, so that it leaves out 0 exactly if the change is. Holm (1979) holds
 /// the largest t against the level α/m of m tests, the next against α/(m − 1), and stops at the
 /// first that fails, the K + 1st: all that he rejects pass α/(m − K + 1), all others fail
 /// α/(m − K).

@@ -17,7 +17,7 @@ std::optional<double> endpointOf(const EndpointSpec& endpoint, const Case& setup
                                  const FlowRun& run);
 
 /// Of the first of these runs that has no value and of which more can be said than that there was
-/// nothing to measure: "yade, packing 3: no mean_x in 120 of 200 snapshots".
+/// nothing to measure: "mine, packing 3: no mean_x in 120 of 200 snapshots".
 std::string missingValueReason(const EndpointSpec& endpoint, const Case& setup, const Runs& runs);
 
 /// Of one engine's finished runs, by packing index.

@@ -45,7 +45,7 @@ struct SnapshotObserver {
 };
 
 /// Lets the packing settle and averages over the case's rotations.
-/// @param progress  told the fraction done, 0 … 1
+/// @param progress  called with the fraction done, 0 … 1
 /// @throws EngineFailure, UnsupportedScene, BadInput, Interrupted
 FlowRun runCouette(const CouetteTask& task, const std::function<void(double)>& progress,
                    const SnapshotObserver& watch = {});

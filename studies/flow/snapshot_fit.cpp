@@ -44,13 +44,13 @@ class Misfits {
 std::size_t compareKind(const Disks& disks, double radius, double mass, const char* kind,
                         Misfits& misfits) {
   std::size_t count = 0;
-  bool told = false;
+  bool reported = false;
   for (std::size_t i = 0; i < disks.size(); ++i) {
     if (!same(disks.radius[i], radius)) continue;
     ++count;
-    if (told || same(disks.mass[i], mass)) continue;
+    if (reported || same(disks.mass[i], mass)) continue;
     misfits.size(fmt::format("a {} disk's mass", kind), disks.mass[i], mass, "kg");
-    told = true;
+    reported = true;
   }
   return count;
 }

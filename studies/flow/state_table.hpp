@@ -20,7 +20,7 @@ std::vector<RegimesOfPair> regimesOf(std::span<const FlowRun> runs,
 /// t over packings, which needs no model of a run's own noise. Its level is shared out over the
 /// watched series (Bonferroni), so that a steady engine is called drifting in at most 1 −
 /// confidence of reports. With fewer packings all runs must say the same, each by its own interval;
-/// else it cannot be told.
+/// else it is not known.
 std::vector<EngineDrift> steadinessOf(std::span<const FlowRun> runs,
                                       const std::vector<std::string>& engines, double confidence);
 

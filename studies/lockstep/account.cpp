@@ -91,8 +91,8 @@ void judge(LockstepRow& row, bool moved, std::size_t alone) {
 }
 
 SeparationAccount::SeparationAccount(double diameter, std::vector<double> times,
-                                     std::vector<std::size_t> told)
-    : diameter_(diameter), times_(std::move(times)), reported_(std::move(told)) {
+                                     std::vector<std::size_t> reported)
+    : diameter_(diameter), times_(std::move(times)), reported_(std::move(reported)) {
   row_.track.assign(times_.size(), 0.0);
 }
 

@@ -9,7 +9,7 @@
 
 namespace crossgrain::inline studies {
 
-/// How far referencePerturbations move each disk from one start, by the times told; change by
+/// How far referencePerturbations move each disk from one start, by the times reported; change by
 /// change [d].
 using Responses = std::vector<std::vector<double>>;
 
@@ -24,8 +24,8 @@ void judge(LockstepRow& row, bool moved, std::size_t alone);
 class SeparationAccount {
  public:
   /// @param times  of the frames of every window, since the start [s]
-  /// @param told   frames whose separations are told one by one
-  SeparationAccount(double diameter, std::vector<double> times, std::vector<std::size_t> told);
+  /// @param reported  frames whose separations are reported one by one
+  SeparationAccount(double diameter, std::vector<double> times, std::vector<std::size_t> reported);
 
   /// @param start     its index
   /// @param wallFrom  ids from here on are the walls'
@@ -49,7 +49,7 @@ class SeparationAccount {
   std::vector<std::size_t> reported_;
   std::vector<std::vector<double>> tracks_;  ///< by start and frame [d]
   std::vector<std::size_t> touching_;        ///< by start, FirstExceedance::touching; 0 without one
-  /// By start, time told and disk [d].
+  /// By start, time reported and disk [d].
   std::vector<std::vector<std::vector<double>>> apart_;
   std::vector<Responses> responses_;         ///< by start
   std::vector<std::vector<double>> limits_;  ///< by start and frame [d]; none of double precision

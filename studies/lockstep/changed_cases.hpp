@@ -21,7 +21,7 @@ struct ChangedCase {
 /// Changes the yardstick, or µ, by that part of itself. @param constant  by name
 void changeConstant(ContactLaw& law, const std::string& constant, double by);
 
-/// The constant that ε_eq is told in, and µ where there is friction.
+/// The constant that ε_eq is expressed in, and µ where there is friction.
 std::vector<ChangedCase> changedCases(const Case& setup);
 
 }  // namespace crossgrain::inline studies

@@ -116,24 +116,24 @@ std::vector<double> separationOfAll(const std::vector<std::vector<LockstepFrame>
   return separation;
 }
 
-std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& told) {
-  std::vector<std::size_t> frames(told.front());
+std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& reported) {
+  std::vector<std::size_t> frames(reported.front());
   std::iota(frames.begin(), frames.end(), std::size_t{0});
-  frames.insert(frames.end(), told.begin(), told.end());
+  frames.insert(frames.end(), reported.begin(), reported.end());
   return frames;
 }
 
-std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& told,
+std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& reported,
                                        const std::vector<double>& times,
                                        const std::optional<FirstExceedance>& first) {
   constexpr double rounding = 1e-9;  // of a time
-  const std::vector<std::size_t> frames = framesForTerms(told);
+  const std::vector<std::size_t> frames = framesForTerms(reported);
   std::size_t when = 0;
   while (when + 1 < frames.size() &&
          !(first && times[frames[when]] >= (1.0 - rounding) * first->until))
     ++when;
   std::vector<std::size_t> looks = {when};
-  while (looks.back() < told.front()) looks.push_back(looks.back() + 1);
+  while (looks.back() < reported.front()) looks.push_back(looks.back() + 1);
   return looks;
 }
 

@@ -37,14 +37,15 @@ std::vector<double> separationOfAll(const std::vector<std::vector<LockstepFrame>
                                     const std::vector<std::vector<LockstepFrame>>& other,
                                     std::size_t frame, double diameter);
 
-/// Frames among which looks are chosen: all up to the first of those told, and these.
-std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& told);
+/// Frames among which looks are chosen: all up to the first of those reported, and these.
+std::vector<std::size_t> framesForTerms(const std::vector<std::size_t>& reported);
 
 /// The looks, indices into framesForTerms(): from the first that shows what was first seen to the
-/// first of those told, or else that one alone. The earlier the better: a contact made or broken at
-/// another step is no term's doing; but the first may hold little but what is beside the term.
+/// first of those reported, or else that one alone. The earlier the better: a contact made or
+/// broken at another step is no term's doing; but the first may hold little but what is beside the
+/// term.
 /// @param times  of all frames [s]
-std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& told,
+std::vector<std::size_t> looksForTerms(const std::vector<std::size_t>& reported,
                                        const std::vector<double>& times,
                                        const std::optional<FirstExceedance>& first);
 

@@ -101,12 +101,12 @@ class Comparison {
     mirror_->load(mirrored, {});
     const LockstepWindow window =
         followBoth(engine_, *mirror_, step_, steps_, can_.instantContacts);
-    if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), told());
+    if (!account_) account_.emplace(flowDiameter(setup_), timesOf(steps_, step_), reported());
     account_->add(start, window, responses(mirrored, window), mirrored.disks.size(),
                   precisionLimits(effective.precision, *mirror_, mirrored, window.mirror, steps_,
                                   flowDiameter(setup_)));
-    engineFrames_.push_back(chosen(window.engine, framesForTerms(told())));
-    mirrorFrames_.push_back(chosen(window.mirror, framesForTerms(told())));
+    engineFrames_.push_back(chosen(window.engine, framesForTerms(reported())));
+    mirrorFrames_.push_back(chosen(window.mirror, framesForTerms(reported())));
     scenes_.push_back(mirrored);
     if (!effective_) effective_ = std::move(effective);
   }
@@ -126,7 +126,7 @@ class Comparison {
 
  private:
   /// Frames nearest to lockstepTimes.
-  std::vector<std::size_t> told() const {
+  std::vector<std::size_t> reported() const {
     std::vector<std::size_t> frames;
     for (const double time : lockstepTimes) frames.push_back(frameAt(steps_, step_, time));
     return frames;
@@ -134,7 +134,7 @@ class Comparison {
 
   /// What changes of the yardstick do to the mirror from here.
   Responses responses(const Scene& mirrored, const LockstepWindow& window) {
-    return referenceResponses(*mirror_, chosen(window.mirror, told()), flowDiameter(setup_),
+    return referenceResponses(*mirror_, chosen(window.mirror, reported()), flowDiameter(setup_),
                               [&](double change) {
                                 Scene changed = mirrored;
                                 changeReference(changed.law, change);
@@ -144,11 +144,11 @@ class Comparison {
   }
 
   std::optional<NamedTerm> termOf(const LockstepRow& row) {
-    const std::vector<std::size_t> frames = framesForTerms(told());
+    const std::vector<std::size_t> frames = framesForTerms(reported());
     TermSearch search;
     search.scenes = scenes_;
     search.diameter = flowDiameter(setup_);
-    for (const std::size_t when : looksForTerms(told(), row.trackTime, row.first)) {
+    for (const std::size_t when : looksForTerms(reported(), row.trackTime, row.first)) {
       TermLook& look = search.looks.emplace_back();
       look.time = row.trackTime[frames[when]];
       for (const auto& mirror : mirrorFrames_) look.unchanged.push_back(mirror[when]);

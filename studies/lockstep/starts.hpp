@@ -19,7 +19,7 @@ struct FlowState {
 /// state comes twice: walls that swing leave few moments to start at, so that an assembly's further
 /// packings are drawn then; there are fewer states where it has none (files, or nothing random).
 /// @param dt        the case's [s]
-/// @param progress  told the fraction done, from all threads
+/// @param progress  called with the fraction done, from all threads
 /// @param jobs      packings side by side
 std::vector<FlowState> statesAlongTheFlow(const Case& setup, const std::vector<Packing>& packings,
                                           double dt, std::size_t count,

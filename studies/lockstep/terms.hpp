@@ -14,7 +14,7 @@ namespace crossgrain::inline studies {
 /// an effect less.
 struct MirrorChange {
   std::string name;         ///< "kn", "tension = cut", "without gravity"
-  bool isConstant = false;  ///< the response is linear in it: any amount can be told
+  bool isConstant = false;  ///< the response is linear in it: any amount can be given
   /// `by`: of a constant the relative change; no matter to others.
   std::function<void(Scene&, double by)> apply;
 };

@@ -343,7 +343,8 @@ const Study<ScaleOptions, ScaleResults> scaleStudy = {
            "prepare, once",
            &own.disks, "N,N"},
           {"--threads",
-           "threads, of lammps ranks, that share a step; one is always timed (default: 1, 2, 4, … "
+           "threads, or ranks of an engine that has them, that share a step; one is always timed "
+           "(default: 1, 2, 4, … "
            "up to the cores)",
            &own.threads, "P,P"},
           {"--steps", "timed in each repetition (default: 2*10^7 over disks, at least 50)",

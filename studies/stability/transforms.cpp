@@ -88,7 +88,7 @@ Settings inUnits(Settings settings, const std::vector<SettingSpec>& specs, const
 
 std::vector<CaseTransform> caseTransforms(std::size_t disks) {
   const auto turned = [](double angle) { return Transform{.placement = {.turn = angle}}; };
-  const auto told = [](Units units) { return Transform{.units = units}; };
+  const auto inUnitsOf = [](Units units) { return Transform{.units = units}; };
   const std::string rescaled = "In other units the same happens: nothing has a unit of its own.";
   return {{"turned", "turned by 90°", "A turned scene does the same, turned.",
            turned(0.5 * std::numbers::pi)},
@@ -97,9 +97,9 @@ std::vector<CaseTransform> caseTransforms(std::size_t disks) {
            "mirrored",
            "A mirrored scene does the same, mirrored.",
            {.placement = {.mirror = true}}},
-          {"rescaled", "lengths by 2⁻¹⁰", rescaled, told({.length = transformSmaller})},
-          {"rescaled", "masses by 2⁻¹⁰", rescaled, told({.mass = transformSmaller})},
-          {"rescaled", "times by 2¹⁰", rescaled, told({.time = transformSlower})},
+          {"rescaled", "lengths by 2⁻¹⁰", rescaled, inUnitsOf({.length = transformSmaller})},
+          {"rescaled", "masses by 2⁻¹⁰", rescaled, inUnitsOf({.mass = transformSmaller})},
+          {"rescaled", "times by 2¹⁰", rescaled, inUnitsOf({.time = transformSlower})},
           {"renumbered",
            "renumbered",
            "No disk is another for its number.",
@@ -183,7 +183,7 @@ class Trial {
     return can_.instantContacts ? ContactReport::instant : ContactReport::none;
   }
 
-  /// As the case lets the engine run it, its settings told in the same units.
+  /// As the case lets the engine run it, its settings in the same units.
   EffectiveParameters loadInto(Engine& engine, const Scene& scene, const Units& units) {
     can_ = engine.capabilities();
     const Adapted adapted = sceneFor(can_, task_.entry, *task_.setup, scene);
@@ -225,8 +225,8 @@ class Trial {
 
   /// limits_: what rounding may do, look by look [d].
   void rounding(double epsilon) {
-    const double told = epsilon * extentOf(hard_.scene) / diameter_;
-    std::vector<double> once(steps_.size(), told);
+    const double nudge = epsilon * extentOf(hard_.scene) / diameter_;
+    std::vector<double> once(steps_.size(), nudge);
     for (int n = 0; n < transformNudges; ++n) {
       Scene scene = hard_.scene;
       scene.disks = nudged(scene.disks, epsilon, transformSeed + static_cast<std::uint64_t>(n));
@@ -338,7 +338,7 @@ class Trial {
   std::vector<std::uint64_t> steps_;  ///< of the looks
   std::vector<LockstepFrame> original_;
   std::vector<double> limits_;
-  std::size_t blind_ = 0;  ///< the first look at which nothing can be told any more
+  std::size_t blind_ = 0;  ///< the first snapshot at which nothing can be compared any more
 };
 
 StabilityRun rowOf(const StabilityTask& task, const CaseTransform& transform) {

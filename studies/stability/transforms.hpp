@@ -15,8 +15,8 @@
 #include "stability/transform.hpp"
 #include "studies/stability/run.hpp"
 
-/// Changes of a case after which everything must go as it went: how a scene is told is nobody's
-/// physics. No second engine and no theory is needed for that.
+/// Changes of a case after which everything must go as it went: how a scene is expressed is
+/// nobody's physics. No second engine and no theory is needed for that.
 namespace crossgrain::inline studies {
 
 /// The part of a budget that one piece of work has, from its making on.
@@ -81,8 +81,8 @@ inline constexpr std::uint64_t transformSteps = 2000;
 /// same rule). Nudges are drawn at random; of several one is likely to lie along what grows most.
 inline constexpr int transformNudges = 4;
 
-/// Beyond this nothing is told: runs that far apart do not share their contacts, whose overlaps are
-/// as deep [d].
+/// Beyond this nothing is compared: runs that far apart do not share their contacts, whose overlaps
+/// are as deep [d].
 inline constexpr double transformBlind = 1e-2;
 
 /// Powers of two, whose products are not rounded; of a length a power of four, as Hertz' law takes
