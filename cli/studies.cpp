@@ -11,17 +11,12 @@
 #include "cases/engine_file.hpp"
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
-#include "reports/collide/report.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
-#include "reports/effects/report.hpp"
 #include "reports/flow/endpoint_text.hpp"
-#include "reports/flow/overview.hpp"
-#include "reports/lockstep/overview.hpp"
 #include "reports/lockstep/text.hpp"
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
-#include "reports/stability/report.hpp"
 #include "reports/thesis/report.hpp"
 #include "results/collision_outcome.hpp"
 #include "studies/collide/collide.hpp"
@@ -45,11 +40,10 @@ namespace crossgrain::inline cli {
 
 namespace {
 
-/// How results stand on a terminal: lines of text, then the matrix that their report opens with.
+/// How results stand on a terminal, before the matrix that their report opens with.
 template <typename Results>
 struct Terminal {
-  std::string (*text)(const Results&, const std::vector<Case>& cases);
-  Overview (*overview)(const Results&);
+  std::string (*text)(const Results&);
   bool timeSpent = false;
   /// What is printed in place of all that, to be pasted; empty: nothing is.
   std::string (*paste)(const Results&) = nullptr;
@@ -71,13 +65,12 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
   }
   const Results results = study.run(work, own);
   store.begin();
-  writeReport(results, line.run.out);
+  const Overview overview = writeReport(results, line.run.out).overview;
   const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
   if (!paste.empty())
     fmt::print("{}", paste);
   else
-    printResults(line, line.json ? "" : terminal.text(results, cases), terminal.overview(results),
-                 terminal.timeSpent);
+    printResults(line, line.json ? "" : terminal.text(results), overview, terminal.timeSpent);
   return printOutcome(line, study.outcome(results, line, own));
 }
 
@@ -93,13 +86,27 @@ Action declareStudy(CLI::App& app, CommandLine& line, const Study<Options, Resul
   };
 }
 
-std::string compareText(const CompareResults& results, const std::vector<Case>& cases) {
-  std::string text = describeEffects(effectsOf(cases.front())) + "\n";
+std::string orNone(const std::vector<std::string>& names, const char* none) {
+  return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// @param called  effects that the case calls for, by name
+std::string describeEffects(const std::vector<std::string>& called) {
+  std::vector<std::string> leftOut;
+  for (const Effect effect : allEffects)
+    if (std::ranges::find(called, toString(effect)) == called.end())
+      leftOut.push_back(toString(effect));
+  return fmt::format("effects called for: {}; left out: {}\n", orNone(called, "none"),
+                     orNone(leftOut, "none"));
+}
+
+std::string compareText(const CompareResults& results) {
+  std::string text = describeEffects(results.effects);
   const auto add = [&](const std::string& line) { text += line + "\n"; };
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
       add(reports::describe(row, results.lockstep->rules));
-  for (const SurrogateEngine& own : results.endpoints.carried) add(reports::describe(own));
+  for (const SurrogateEngine& own : results.endpoints.surrogates) add(reports::describe(own));
   std::map<Answer, int> answers;
   for (const EndpointRow& row : results.endpoints.rows) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
@@ -122,7 +129,7 @@ std::string compareText(const CompareResults& results, const std::vector<Case>& 
   return text;
 }
 
-std::string collideText(const CollideResults& results, const std::vector<Case>&) {
+std::string collideText(const CollideResults& results) {
   std::map<std::string, int> refused;
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
@@ -154,8 +161,8 @@ std::string effectText(const EffectVariant& variant) {
                                         : fmt::format("{} of {} rings changed", changed, judged));
 }
 
-std::string effectsText(const EffectsResults& results, const std::vector<Case>& cases) {
-  std::string text = describeEffects(effectsOf(cases.front())) + "\n";
+std::string effectsText(const EffectsResults& results) {
+  std::string text = describeEffects(results.effects);
   for (const EffectVariant& variant : results.variants)
     if (variant.isSwitched()) text += effectText(variant);
   return text;
@@ -185,7 +192,7 @@ std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict
   return text;
 }
 
-std::string stabilityText(const StabilityResults& results, const std::vector<Case>&) {
+std::string stabilityText(const StabilityResults& results) {
   const std::vector<StabilityRun>& runs = results.runs;
   const auto count = [&](StabilityVerdict verdict) {
     return std::ranges::count(runs, verdict, &StabilityRun::verdict);
@@ -202,7 +209,7 @@ std::string stabilityText(const StabilityResults& results, const std::vector<Cas
                             notRun == 0 ? "" : fmt::format(", {} not run", notRun));
 }
 
-std::string lockstepText(const LockstepResults& results, const std::vector<Case>&) {
+std::string lockstepText(const LockstepResults& results) {
   std::string text;
   for (const LockstepRow& row : results.lockstep.rows)
     text += reports::describe(row, results.lockstep.rules) + "\n";
@@ -210,7 +217,7 @@ std::string lockstepText(const LockstepResults& results, const std::vector<Case>
 }
 
 template <typename Results>
-std::string averagedText(const Results& results, const std::vector<Case>&) {
+std::string averagedText(const Results& results) {
   return fmt::format("{} snapshots averaged\n", results.averaging.snapshots);
 }
 
@@ -263,10 +270,6 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
   addFlag(app, "--json", line.json, "print results.json in place of words");
   addQuiet(app, line);
   return [&line, options] { return conformanceOf(line, *options); };
-}
-
-std::string orNone(const std::vector<std::string>& names, const char* none) {
-  return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
 }
 
 void printOption(const FoundOption& option) {
@@ -323,7 +326,7 @@ extern const Command compareCommand = {
     "compare", "run, average, cross-check",
     "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, compareStudy, {compareText, reports::compareOverview});
+      return declareStudy(app, line, compareStudy, {compareText});
     }};
 
 extern const Command collideCommand = {
@@ -331,14 +334,14 @@ extern const Command collideCommand = {
     "crossgrain collide cases/collision/figure-4-3.toml --engines grain,yade --out out/collide\n"
     "crossgrain collide cases/collision -k glass --engines grain --out out/glass",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, collideStudy, {collideText, reports::collideOverview});
+      return declareStudy(app, line, collideStudy, {collideText});
     }};
 
 extern const Command effectsCommand = {
     "effects", "what each effect of a case costs and changes",
     "crossgrain effects cases/couette/quick.toml --engines grain --out out/effects",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, effectsStudy, {effectsText, reports::effectsOverview, true});
+      return declareStudy(app, line, effectsStudy, {effectsText, true});
     }};
 
 extern const Command stabilityCommand = {
@@ -351,15 +354,14 @@ extern const Command stabilityCommand = {
     "crossgrain stability --transforms --budget 10m cases/couette/quick.toml --engines all --out "
     "out/brief",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, stabilityStudy,
-                          {stabilityText, reports::stabilityOverview, true});
+      return declareStudy(app, line, stabilityStudy, {stabilityText, true});
     }};
 
 extern const Command lockstepCommand = {
     "lockstep", "whether engines are the laws that they declare, step by step from equal states",
     "crossgrain lockstep cases/couette/quick.toml --engines yade,box2d-penalty --out out/lockstep",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, lockstepStudy, {lockstepText, reports::lockstepOverview});
+      return declareStudy(app, line, lockstepStudy, {lockstepText});
     }};
 
 extern const Command costCommand = {
@@ -367,11 +369,7 @@ extern const Command costCommand = {
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --budget 10m\n"
     "crossgrain cost cases/cost/quick.toml --engines all --out out/cost --want 1%",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, costStudy,
-                          {[](const CostResults& results, const std::vector<Case>&) {
-                             return reports::costText(results);
-                           },
-                           reports::costOverview, true, reports::costToml});
+      return declareStudy(app, line, costStudy, {reports::costText, true, reports::costToml});
     }};
 
 extern const Command scaleCommand = {
@@ -381,11 +379,7 @@ extern const Command scaleCommand = {
     "out/threads\n"
     "crossgrain scale --disks 1000000,10000000 --steps 50 --repetitions 2 --out out/large",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, scaleStudy,
-                          {[](const ScaleResults& results, const std::vector<Case>&) {
-                             return reports::scaleText(results);
-                           },
-                           reports::scaleOverview});
+      return declareStudy(app, line, scaleStudy, {reports::scaleText});
     }};
 
 extern const Command thesisCommand = {
@@ -396,11 +390,7 @@ extern const Command thesisCommand = {
     "crossgrain thesis --budget 2h --from out/thesis/results.json --out out/more\n"
     "crossgrain thesis --engines grain,yade --budget 8h --out out/yade",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, thesisStudy,
-                          {[](const ThesisResults& results, const std::vector<Case>&) {
-                             return reports::claimsText(results);
-                           },
-                           reports::thesisOverview});
+      return declareStudy(app, line, thesisStudy, {reports::claimsText});
     }};
 
 extern const Command averageCommand = {
@@ -408,15 +398,14 @@ extern const Command averageCommand = {
     "crossgrain average out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out "
     "out/averaged",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, averageStudy,
-                          {averagedText<CompareResults>, reports::averageOverview});
+      return declareStudy(app, line, averageStudy, {averagedText<CompareResults>});
     }};
 
 extern const Command revCommand = {
     "rev", "every field against ring width, under every weight",
     "crossgrain rev out/compare/snapshots/grain-p0.h5 cases/couette/quick.toml --out out/rev",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, revStudy, {averagedText<RevResults>, reports::revOverview});
+      return declareStudy(app, line, revStudy, {averagedText<RevResults>});
     }};
 
 extern const Command conformanceCommand = {

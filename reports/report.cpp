@@ -29,37 +29,14 @@ namespace crossgrain {
 namespace {
 
 using namespace reports;
+using reports::reportOf;  // beside those here
 
-Report build(const CollideResults& results) {
-  return collideReport(results);
-}
-Report build(const ConformanceResults& results) {
-  return conformanceReport(results);
-}
-Report build(const EffectsResults& results) {
-  return effectsReport(results);
-}
-Report build(const LockstepResults& results) {
-  return lockstepReport(results);
-}
-Report build(const RevResults& results) {
-  return revReport(results);
-}
-Report build(const ScaleResults& results) {
-  return scaleReport(results);
-}
-Report build(const StabilityResults& results) {
-  return stabilityReport(results);
-}
-Report build(const CompareResults& results) {
+Report reportOf(const CompareResults& results) {
   return results.head.kind == kindAverage ? averageReport(results) : compareReport(results);
 }
 
-Report build(const CostResults& results) {
-  return costReport(results);
-}
 /// Its page still fills a template of its own.
-Report build(const ThesisResults& results) {
+Report reportOf(const ThesisResults& results) {
   Report report{{results.head, results.engines, thesisOverview(results)}};
   report.figures = thesisFigures(results);
   report.tables = {{"claims.csv", claimsCsv(results)},
@@ -89,7 +66,7 @@ std::optional<std::string> draw(const Report& report, const std::filesystem::pat
 /// @param document  results.json
 template <typename Results>
 ReportDigest write(const Results& results, Json document, const std::filesystem::path& dir) {
-  const Report report = build(results);
+  const Report report = reportOf(results);
   makeDirectory(dir);
   document["overview"] = toJson(report.overview);
   writeFile(dir / "results.json", toText(document));
@@ -126,19 +103,19 @@ auto withResults(const Json& document, const auto& call) {
 }  // namespace
 
 template <typename Results>
-void writeReport(const Results& results, const std::filesystem::path& dir) {
-  write(results, toJson(results), dir);
+ReportDigest writeReport(const Results& results, const std::filesystem::path& dir) {
+  return write(results, toJson(results), dir);
 }
-template void writeReport(const CollideResults&, const std::filesystem::path&);
-template void writeReport(const CompareResults&, const std::filesystem::path&);
-template void writeReport(const ConformanceResults&, const std::filesystem::path&);
-template void writeReport(const CostResults&, const std::filesystem::path&);
-template void writeReport(const EffectsResults&, const std::filesystem::path&);
-template void writeReport(const LockstepResults&, const std::filesystem::path&);
-template void writeReport(const RevResults&, const std::filesystem::path&);
-template void writeReport(const ScaleResults&, const std::filesystem::path&);
-template void writeReport(const StabilityResults&, const std::filesystem::path&);
-template void writeReport(const ThesisResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const CollideResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const CompareResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const ConformanceResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const CostResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const EffectsResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const LockstepResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const RevResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const ScaleResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const StabilityResults&, const std::filesystem::path&);
+template ReportDigest writeReport(const ThesisResults&, const std::filesystem::path&);
 
 ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                          const std::filesystem::path& from) {
@@ -152,7 +129,7 @@ ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::p
 }
 
 Report reportOf(const nlohmann::json& results) {
-  return withResults(results, [](const auto& typed) { return build(typed); });
+  return withResults(results, [](const auto& typed) { return reportOf(typed); });
 }
 
 void writeSite(const std::vector<std::pair<std::filesystem::path, nlohmann::json>>& results,

@@ -17,13 +17,13 @@ namespace crossgrain {
 /// still written before the error is thrown.
 /// @param results  of any kind that has a report: CollideResults, CompareResults, …
 /// @throws std::runtime_error, one line, if something cannot be written or gnuplot is missing
+/// @returns what the report opens with
 template <typename Results>
-void writeReport(const Results& results, const std::filesystem::path& dir);
+reports::ReportDigest writeReport(const Results& results, const std::filesystem::path& dir);
 
 /// The same of a document, whose kind follows from results["kind"].
 /// @param from  the folder that results.json was read from (default: dir)
 /// @throws BadInput for JSON that is no such document
-/// @returns what the report opens with
 reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir,
                                   const std::filesystem::path& from);
 reports::ReportDigest writeReport(const nlohmann::json& results, const std::filesystem::path& dir);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -161,7 +162,7 @@ struct LateWindows {
   }
 };
 
-/// An engine that lockstep found to be its mirror, which then carries the packings. The engine's
+/// An engine that lockstep found to be its mirror, which then runs the packings. The engine's
 /// own runs are a spot check, for what begins after lockstep's windows: one is averaged and
 /// compared with the mirror's, one is followed by late windows.
 struct SurrogateEngine {
@@ -170,8 +171,8 @@ struct SurrogateEngine {
   std::size_t starts = 0;    ///< that lockstep followed
   int spotCheckPacking = 0;  ///< index
   std::vector<SpotCheckNumber> spotCheck;
-  std::string alarm;     ///< why the mirror does not stand for it after all; empty: it does
-  bool carried = false;  ///< both runs of the spot check ended without an alarm
+  std::string alarm;   ///< why the mirror does not stand for it after all; empty: it does
+  bool inUse = false;  ///< both runs of the spot check ended without an alarm
   LateWindows late = {};
 
   void fields(auto& io) {
@@ -182,10 +183,26 @@ struct SurrogateEngine {
     io("canary_packing", spotCheckPacking);
     io("canary", spotCheck);
     io("alarm", alarm);
-    io("carried", carried);
+    io("carried", inUse);
     io("late", late);
   }
 };
+
+/// What says that the engine's packings are run by its mirror; null: it runs them itself.
+inline const SurrogateEngine* surrogateOf(const std::vector<SurrogateEngine>& surrogates,
+                                          const std::string& engine) {
+  const auto found = std::ranges::find_if(
+      surrogates, [&](const SurrogateEngine& one) { return one.inUse && one.engine == engine; });
+  return found == surrogates.end() ? nullptr : &*found;
+}
+
+/// The same of the mirror that runs them; null: it runs nobody's.
+inline const SurrogateEngine* surrogateBy(const std::vector<SurrogateEngine>& surrogates,
+                                          const std::string& mirror) {
+  const auto found = std::ranges::find_if(
+      surrogates, [&](const SurrogateEngine& one) { return one.inUse && one.mirror == mirror; });
+  return found == surrogates.end() ? nullptr : &*found;
+}
 
 /// What nobody needs a test for.
 struct AlarmRow {
@@ -205,14 +222,14 @@ struct EndpointFindings {
   InterimFindings looks;
   std::vector<EndpointRow> rows;
   std::vector<AlarmRow> alarms;
-  std::vector<SurrogateEngine> carried;
+  std::vector<SurrogateEngine> surrogates;
   std::vector<EndpointResponse> responses;
 
   void fields(auto& io) {
     io("looks", looks);
     io("rows", rows);
     io("alarms", alarms);
-    io("carried", carried);
+    io("carried", surrogates);
     io("responses", responses);
   }
 };

@@ -331,7 +331,7 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
 
 }  // namespace
 
-Report collideReport(const CollideResults& results) {
+Report reportOf(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
   Report report{{results.head, results.engines, collideOverview(results)}};
   report.elapsed = results.elapsed;

@@ -12,7 +12,7 @@ namespace crossgrain::reports {
 /// Table: collisions.csv, one row per collision; a sweep without any is one row with its status,
 /// its reason and no numbers. Checks: one for each sweep and quantity that the case has a limit
 /// for.
-Report collideReport(const CollideResults& results);
+Report reportOf(const CollideResults& results);
 
 /// An engine per row, a group of quantities per column: the largest error as a share of its limit;
 /// and who passes, what causes differences, what is next.

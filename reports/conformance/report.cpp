@@ -152,7 +152,7 @@ Overview conformanceOverview(const ConformanceResults& results) {
   return overview;
 }
 
-Report conformanceReport(const ConformanceResults& results) {
+Report reportOf(const ConformanceResults& results) {
   Report report{{results.head, {results.engine}, conformanceOverview(results)}};
   report.elapsed = results.elapsed;
   for (const std::string& more : nonEmpty({conformanceNotExamined(results)}))

@@ -8,7 +8,7 @@
 /// What is written for the author of an engine.
 namespace crossgrain::reports {
 
-Report conformanceReport(const ConformanceResults& results);
+Report reportOf(const ConformanceResults& results);
 
 /// One row: checks passed in each part, and what was not examined.
 Overview conformanceOverview(const ConformanceResults& results);

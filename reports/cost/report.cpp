@@ -550,7 +550,7 @@ void addSections(Report& report, const CostResults& results) {
 
 }  // namespace
 
-Report costReport(const CostResults& results) {
+Report reportOf(const CostResults& results) {
   Report report{{results.head, results.engines, costOverview(results)}};
   report.elapsed = results.elapsed;
   report.notes = costSentences(results);

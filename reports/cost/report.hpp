@@ -30,7 +30,7 @@ std::string costCsv(const CostResults& results);
 /// cost_KIND: error against time for each kind of error.
 std::vector<Figure> costFigures(const CostResults& results);
 
-Report costReport(const CostResults& results);
+Report reportOf(const CostResults& results);
 
 /// @name What the report's parts share
 /// @{

@@ -325,7 +325,7 @@ std::string effectsCsv(const EffectsResults& results) {
 
 }  // namespace
 
-Report effectsReport(const EffectsResults& results) {
+Report reportOf(const EffectsResults& results) {
   const Engines engines = engineRuns(results, results.ensemble);
   Report report{{results.head, results.engines, effectsOverview(results)}};
   report.elapsed = results.elapsed;

@@ -9,7 +9,7 @@ namespace crossgrain::reports {
 
 /// Table: effects.csv, one row per field and ring; a variant without any is one row with its
 /// status.
-Report effectsReport(const EffectsResults& results);
+Report reportOf(const EffectsResults& results);
 
 /// An effect per row; for each engine what a step without it saves, and what that changes most.
 Overview effectsOverview(const EffectsResults& results);

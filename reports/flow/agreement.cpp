@@ -166,9 +166,9 @@ void addClosedForms(Blocks& blocks, const CompareResults& results) {
 }
 
 void addSurrogates(Blocks& blocks, const CompareResults& results) {
-  if (results.endpoints.carried.empty()) return;
+  if (results.endpoints.surrogates.empty()) return;
   List engines;
-  for (const SurrogateEngine& own : results.endpoints.carried)
+  for (const SurrogateEngine& own : results.endpoints.surrogates)
     engines.items.push_back({"", describe(own)});
   blocks.push_back(Heading{"Evaluated through mirrors"});
   blocks.push_back(std::move(engines));

@@ -108,7 +108,7 @@ std::string describeAnswer(const EndpointRow& row) {
 }
 
 std::string describe(const SurrogateEngine& own) {
-  if (!own.carried)
+  if (!own.inUse)
     return fmt::format("{}: its mirror {} is no surrogate for it: {}.", own.engine, own.mirror,
                        own.alarm);
   // The rule of three: no event in n trials leaves at most 3/n, at 95 %.

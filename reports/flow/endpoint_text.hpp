@@ -34,7 +34,7 @@ std::string describeSurrogate(const EndpointRow& row);
 std::string describeAnswer(const EndpointRow& row);
 
 /// Whether an engine is evaluated through its mirror, with its spot-check run and 3/n.
-std::string describe(const SurrogateEngine& carried);
+std::string describe(const SurrogateEngine& own);
 
 std::string describe(const AlarmRow& alarm);
 

@@ -73,8 +73,8 @@ std::vector<EngineRuns> engineRuns(const CompareResults& results) {
       std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
   for (EngineRuns& engine : engines) {
     engine.isSingle = means && !engine.ensemble && !engine.finished.empty();
-    for (const SurrogateEngine& own : results.endpoints.carried)
-      if (own.carried && own.engine == engine.name) engine.surrogate = own.mirror;
+    if (const auto* own = surrogateOf(results.endpoints.surrogates, engine.name))
+      engine.surrogate = own->mirror;
   }
   return engines;
 }

@@ -66,14 +66,6 @@ std::size_t otherRegime(const CompareResults& results, const std::string& a, con
   return 0;
 }
 
-/// The engine that is evaluated through a mirror; null: none.
-const SurrogateEngine* surrogateOf(const CompareResults& results, const std::string& mirror) {
-  const auto found = std::ranges::find_if(
-      results.endpoints.carried,
-      [&](const SurrogateEngine& carried) { return carried.carried && carried.mirror == mirror; });
-  return found == results.endpoints.carried.end() ? nullptr : &*found;
-}
-
 OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) {
   const std::string& reference = results.engines.front().name;
   const Endpoints& rows = results.endpoints.rows;
@@ -85,10 +77,10 @@ OverviewCell averagesOf(const CompareResults& results, const EngineRow& engine) 
   }
   if (engine.name == reference)
     return {CellState::notApplicable, {}, "margins", {}, "the reference", {}};
-  if (const SurrogateEngine* carried = surrogateOf(results, engine.name)) {
-    const EndpointRow* worst = worstOf(rowsOf(rows, reference, carried->engine));
+  if (const auto* own = surrogateBy(results.endpoints.surrogates, engine.name)) {
+    const EndpointRow* worst = worstOf(rowsOf(rows, reference, own->engine));
     OverviewCell cell = worst ? endpointCell(results, *worst) : OverviewCell{};
-    cell.words = "surrogate of " + carried->engine;
+    cell.words = "surrogate of " + own->engine;
     return cell;
   }
   const EndpointRow* worst = worstOf(rowsOf(rows, reference, engine.name));

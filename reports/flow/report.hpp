@@ -15,7 +15,7 @@ namespace crossgrain::reports {
 Report compareReport(const CompareResults& results);
 Report averageReport(const CompareResults& results);
 /// Plots of fields against ring width: rev_FIELD.
-Report revReport(const RevResults& results);
+Report reportOf(const RevResults& results);
 
 // Parts of these.
 

@@ -278,7 +278,7 @@ Overview revOverview(const RevResults& results) {
   return overview;
 }
 
-Report revReport(const RevResults& results) {
+Report reportOf(const RevResults& results) {
   Report report{{results.head,
                  {{results.engine, "", "", "", EngineStatus::ran, ""}},  // whose snapshots
                  revOverview(results)}};

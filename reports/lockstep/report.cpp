@@ -245,7 +245,7 @@ List lockstepReading(const LockstepFindings& findings) {
        {"Limit", "a fault that begins later than the windows is not seen; a full run sees it."}}};
 }
 
-Report lockstepReport(const LockstepResults& results) {
+Report reportOf(const LockstepResults& results) {
   Report report{{results.head, results.engines, lockstepOverview(results)}};
   report.elapsed = results.elapsed;
   report.notes = results.notes;

@@ -7,7 +7,7 @@ namespace crossgrain::reports {
 
 /// Plot: lockstep_separation, the difference over time beside what the yardstick's change does.
 /// Table: lockstep.csv (docs/results.md).
-Report lockstepReport(const LockstepResults& results);
+Report reportOf(const LockstepResults& results);
 
 /// The tables of its page, and how to read them.
 Blocks lockstepTables(const LockstepFindings& findings);

@@ -299,7 +299,7 @@ std::string scaleText(const ScaleResults& results) {
   return alignedText(rows) + notes;
 }
 
-Report scaleReport(const ScaleResults& results) {
+Report reportOf(const ScaleResults& results) {
   using Kind = Column::Kind;
   Report report{{results.head, results.engines, scaleOverview(results)}};
   report.elapsed = results.elapsed;

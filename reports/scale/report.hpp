@@ -9,7 +9,7 @@ namespace crossgrain::reports {
 
 /// Plots: scale_time, ns per disk and step against disks, a curve for each engine and number of
 /// workers; scale_efficiency, strong and weak; scale_memory, bytes per disk. Table: scale.csv.
-Report scaleReport(const ScaleResults& results);
+Report reportOf(const ScaleResults& results);
 
 /// An engine per row: on the largest cell that it ran the time for a disk, what sharing is worth,
 /// and how much memory it needs.

@@ -237,7 +237,7 @@ std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
 
 }  // namespace
 
-Report stabilityReport(const StabilityResults& results) {
+Report reportOf(const StabilityResults& results) {
   const std::vector<HardGroup> groups = hardGroups(results);
   Report report{{results.head, results.engines, stabilityOverview(results)}};
   report.elapsed = results.elapsed;

@@ -9,7 +9,7 @@ namespace crossgrain::reports {
 
 /// Table: stability.csv, one row per engine, case and variant. Checks: one for each engine and hard
 /// case; unstable ones failed, engines that broke down are errors, what was refused is skipped.
-Report stabilityReport(const StabilityResults& results);
+Report reportOf(const StabilityResults& results);
 
 /// An engine per row, a family of hard cases per column: runs that stayed stable, of those judged.
 Overview stabilityOverview(const StabilityResults& results);

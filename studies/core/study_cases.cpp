@@ -106,13 +106,4 @@ void printWarnings(const Case& setup) {
   for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
 }
 
-std::string describeEffects(const Effects& called) {
-  std::vector<std::string> in, out;
-  for (const Effect effect : allEffects)
-    (called.contains(effect) ? in : out).push_back(toString(effect));
-  return fmt::format("effects called for: {}; left out: {}",
-                     in.empty() ? "none" : fmt::format("{}", fmt::join(in, ", ")),
-                     out.empty() ? "none" : fmt::format("{}", fmt::join(out, ", ")));
-}
-
 }  // namespace crossgrain::inline studies

@@ -40,7 +40,4 @@ void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view comma
 /// What loads but is hardly meant, one line each on standard error.
 void printWarnings(const Case& setup);
 
-/// "effects called for: friction, rotation; left out: gravity"
-std::string describeEffects(const Effects& called);
-
 }  // namespace crossgrain::inline studies

@@ -112,7 +112,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   if (!lockstep.rows.empty()) results.lockstep = std::move(lockstep);
   std::vector<std::string> names;
   for (const EngineRow& engine : results.engines) names.push_back(engine.name);
-  for (const EndpointPair& pair : pairsOf(campaign, command.engines, endpoints.carried)) {
+  for (const EndpointPair& pair : pairsOf(campaign, command.engines, endpoints.surrogates)) {
     auto regimes = regimesOf(results.runs, {byRuns(pair)});
     auto rings = agreementOf(setup, results.runs, {byRuns(pair)});
     nameEngines(regimes, pair);

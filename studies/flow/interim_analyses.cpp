@@ -15,21 +15,10 @@ namespace crossgrain::inline studies {
 
 namespace {
 
-const SurrogateEngine* surrogateOf(const std::vector<SurrogateEngine>& carried,
-                                   const std::string& engine) {
-  const auto found = std::ranges::find(carried, engine, &SurrogateEngine::engine);
-  return found != carried.end() && found->carried ? &*found : nullptr;
-}
-
-bool isMirrorOfCarried(const std::vector<SurrogateEngine>& carried, const std::string& mirror) {
-  return std::ranges::any_of(
-      carried, [&](const SurrogateEngine& one) { return one.carried && one.mirror == mirror; });
-}
-
-EndpointPair standingIn(const ComparedPair& pair, const std::vector<SurrogateEngine>& carried) {
+EndpointPair standingIn(const ComparedPair& pair, const std::vector<SurrogateEngine>& surrogates) {
   EndpointPair own{pair.reference, pair.other, pair.kind, pair.reference, pair.other};
   for (std::string* const runs : {&own.runsOfA, &own.runsOfB})
-    if (const SurrogateEngine* const by = surrogateOf(carried, *runs)) {
+    if (const SurrogateEngine* const by = surrogateOf(surrogates, *runs)) {
       *runs = by->mirror;
       own.by.push_back(*by);
     }
@@ -49,7 +38,9 @@ class Sequence {
       if (campaign.refusal(e).empty()) open_.insert(e);
   }
 
-  void carry(std::vector<SurrogateEngine> carried) { findings_.carried = std::move(carried); }
+  void useSurrogates(std::vector<SurrogateEngine> surrogates) {
+    findings_.surrogates = std::move(surrogates);
+  }
 
   EndpointFindings run() {
     firstLook();
@@ -105,11 +96,11 @@ class Sequence {
     campaign_.add(std::move(runs));
     if (canaries.empty()) return;
     if (!cases.empty()) respond(responding, cases, std::move(ofChanged));
-    judgeCanaries(setup_, campaign_, findings_.responses, findings_.carried);
+    judgeCanaries(setup_, campaign_, findings_.responses, findings_.surrogates);
     followOwnRuns(canaries);
     std::vector<Variant> themselves;
     for (const Variant& variant : canaries)
-      if (!surrogateOf(findings_.carried, nameOf(variant.engine))) themselves.push_back(variant);
+      if (!surrogateOf(findings_.surrogates, nameOf(variant.engine))) themselves.push_back(variant);
     if (!themselves.empty() && packings > 1)
       campaign_.add(campaign_.runSome({{themselves, {1, packings}}},
                                       "running engines without a mirror in their place"));
@@ -119,12 +110,13 @@ class Sequence {
   void followOwnRuns(const std::vector<Variant>& canaries) {
     std::vector<std::size_t> engines;
     for (const Variant& variant : canaries)
-      if (surrogateOf(findings_.carried, nameOf(variant.engine))) engines.push_back(variant.engine);
+      if (surrogateOf(findings_.surrogates, nameOf(variant.engine)))
+        engines.push_back(variant.engine);
     std::vector<LateWindows> late = lateWindowsOf(campaign_, setup_, command_, engines);
     for (std::size_t k = 0; k < engines.size(); ++k)
       judgeLateWindows(
           setup_, findings_.responses, std::move(late[k]),
-          *std::ranges::find(findings_.carried, nameOf(engines[k]), &SurrogateEngine::engine));
+          *std::ranges::find(findings_.surrogates, nameOf(engines[k]), &SurrogateEngine::engine));
   }
 
   /// Without the first look there is no answer at all, so it is taken even so: who cannot wait is
@@ -164,13 +156,13 @@ class Sequence {
     campaign_.preparePackings(to);
     std::vector<Variant> variants;
     for (const std::size_t e : open_)
-      if (!surrogateOf(findings_.carried, nameOf(e))) variants.push_back({e, "", &setup_});
+      if (!surrogateOf(findings_.surrogates, nameOf(e))) variants.push_back({e, "", &setup_});
     campaign_.add(campaign_.runSome(
         {{variants, {from, to}}}, fmt::format("running engines, packings {} to {}", from, to - 1)));
   }
 
   void judge() {
-    const auto pairs = pairsOf(campaign_, command_.engines, findings_.carried);
+    const auto pairs = pairsOf(campaign_, command_.engines, findings_.surrogates);
     findings_.rows = endpointRows(setup_, campaign_.runs(), pairs, plan_,
                                   plan_.packings[findings_.looks.taken - 1], findings_.responses);
   }
@@ -235,8 +227,8 @@ class Sequence {
   }
 
   bool mayUseSurrogate(std::size_t e) const {
-    return std::ranges::find(findings_.carried, nameOf(e), &SurrogateEngine::engine) !=
-           findings_.carried.end();
+    return std::ranges::find(findings_.surrogates, nameOf(e), &SurrogateEngine::engine) !=
+           findings_.surrogates.end();
   }
 
   /// Those that run all packings by the case's own normal law.
@@ -262,7 +254,7 @@ class Sequence {
 }  // namespace
 
 std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
-                                  const std::vector<SurrogateEngine>& carried) {
+                                  const std::vector<SurrogateEngine>& surrogates) {
   const auto engines = campaign.engines();
   const auto named = [&](const EngineEntry& entry) {
     return entry.mirrors.empty() || isNamed(names, entry);
@@ -272,9 +264,9 @@ std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<st
     for (std::size_t b = a + 1; b < engines.size(); ++b)
       if (named(engines[a]) && named(engines[b]))
         pairs.push_back(
-            standingIn({engines[a].name, engines[b].name, PairKind::peer, ""}, carried));
+            standingIn({engines[a].name, engines[b].name, PairKind::peer, ""}, surrogates));
   for (const EngineEntry& mirror : engines) {
-    if (named(mirror) || isMirrorOfCarried(carried, mirror.name)) continue;
+    if (named(mirror) || surrogateBy(surrogates, mirror.name)) continue;
     const std::string reference = engines.front().name;
     if (reference != mirror.mirrors)
       pairs.push_back(standingIn({reference, mirror.name, PairKind::mirrorModel, ""}, {}));
@@ -288,7 +280,7 @@ EndpointFindings runWithInterims(const Case& setup, Campaign& campaign, const Ru
                                  const LockstepFindings& lockstep, double budget) {
   Sequence sequence(setup, campaign, command, budget);
   if (!hasClosedForms(setup))  // where every engine answers for itself
-    sequence.carry(surrogateEngines(campaign, command.engines, lockstep));
+    sequence.useSurrogates(surrogateEngines(campaign, command.engines, lockstep));
   return sequence.run();
 }
 

@@ -23,6 +23,6 @@ EndpointFindings runWithInterims(const Case& setup, Campaign& campaign, const Ru
 /// stands between the reference and its peer; where it carries the peer's packings, mirror and peer
 /// are lockstep's matter.
 std::vector<EndpointPair> pairsOf(const Campaign& campaign, const std::vector<std::string>& names,
-                                  const std::vector<SurrogateEngine>& carried);
+                                  const std::vector<SurrogateEngine>& surrogates);
 
 }  // namespace crossgrain::inline studies

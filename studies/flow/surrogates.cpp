@@ -46,7 +46,7 @@ std::string alarmOf(const Case& setup, const std::vector<SpotCheckNumber>& spotC
 std::vector<SurrogateEngine> surrogateEngines(const Campaign& campaign,
                                               const std::vector<std::string>& names,
                                               const LockstepFindings& found) {
-  std::vector<SurrogateEngine> carried;
+  std::vector<SurrogateEngine> surrogates;
   for (const LockstepRow& row : found.rows) {
     const bool same =
         row.verdict == LockstepVerdict::sameToRounding || row.verdict == LockstepVerdict::sameLaw;
@@ -54,15 +54,15 @@ std::vector<SurrogateEngine> surrogateEngines(const Campaign& campaign,
     for (std::size_t e = 0; e < campaign.engines().size(); ++e)
       if (campaign.engines()[e].mirrors == row.engine && campaign.refusal(e).empty() &&
           !isNamed(names, campaign.engines()[e]))
-        carried.push_back({row.engine,
-                           campaign.engines()[e].name,
-                           *row.equivalentHigh,
-                           row.starts,
-                           spotCheckPacking,
-                           {},
-                           {}});
+        surrogates.push_back({row.engine,
+                              campaign.engines()[e].name,
+                              *row.equivalentHigh,
+                              row.starts,
+                              spotCheckPacking,
+                              {},
+                              {}});
   }
-  return carried;
+  return surrogates;
 }
 
 void judgeCanaries(const Case& setup, const Campaign& campaign,
@@ -78,7 +78,7 @@ void judgeCanaries(const Case& setup, const Campaign& campaign,
     }
     own.spotCheck = spotCheckOf(setup, *run, *mirror, responses);
     own.alarm = alarmOf(setup, own.spotCheck, 1.0 - setup.averaging.confidence);
-    own.carried = own.alarm.empty() && !own.spotCheck.empty();
+    own.inUse = own.alarm.empty() && !own.spotCheck.empty();
   }
 }
 
@@ -101,7 +101,7 @@ void judgeLateWindows(const Case& setup, const std::vector<EndpointResponse>& re
           found.times.size(), found.packing, fmt::join(changes, " or "),
           endpointSpec(setup, name).words, *reach, largestReach);
     }
-  engine.carried = engine.carried && engine.alarm.empty();
+  engine.inUse = engine.inUse && engine.alarm.empty();
 }
 
 std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaign& campaign,

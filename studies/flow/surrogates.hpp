@@ -18,7 +18,7 @@ std::vector<SurrogateEngine> surrogateEngines(const Campaign& campaign,
                                               const std::vector<std::string>& names,
                                               const LockstepFindings& found);
 
-/// How endpoints respond to 10 % more of the constant that ε_eq is told in, and of µ.
+/// How endpoints respond to 10 % more of the constant that ε_eq is expressed in, and of µ.
 /// @param engine   one that has run the first `packings` of the campaign with the case as it is
 /// @param changed  the case with its law changed
 /// @param runs     among which are that engine's on as many packings with each of these
@@ -28,7 +28,7 @@ std::vector<EndpointResponse> endpointResponses(const Case& setup, const Campaig
                                                 const RunsById& runs, int packings);
 
 /// The first part of the spot check: compares the averaged run of each with its mirror's on the
-/// same packing, where chaos is as the responses show it. Sets `carried`, or the alarm.
+/// same packing, where chaos is as the responses show it. Sets `inUse`, or the alarm.
 void judgeCanaries(const Case& setup, const Campaign& campaign,
                    const std::vector<EndpointResponse>& responses,
                    std::vector<SurrogateEngine>& engines);

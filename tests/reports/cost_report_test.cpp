@@ -162,7 +162,7 @@ TEST(CostReport, Texts_OfSettingsAndMeasures) {
 }
 
 TEST(CostReport, Text_HasVerdictsReasonsAndFragments) {
-  const Report report = costReport(sample::costResults());
+  const Report report = reportOf(sample::costResults());
   const std::string text = textOf(report);
   EXPECT_TRUE(has(text, "is decided for 9 of 9 against"));
   EXPECT_TRUE(has(text, "box2d-impulse refused the scene: odd <b>"));
@@ -172,7 +172,7 @@ TEST(CostReport, Text_HasVerdictsReasonsAndFragments) {
   EXPECT_TRUE(has(text, "### grain for 10 %: t_c/10\n[run]\nsteps_per_contact = 10\n"));
   for (const char* plot : {"[cost_collision]", "[cost_trajectory]", "[cost_averages]"})
     EXPECT_TRUE(has(text, plot)) << plot;
-  EXPECT_TRUE(has(textOf(costReport({})), "Nothing was measured."));
+  EXPECT_TRUE(has(textOf(reportOf(CostResults{})), "Nothing was measured."));
 }
 
 }  // namespace

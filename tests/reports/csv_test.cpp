@@ -170,7 +170,7 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
   CollideResults results;
   results.head.setup.name = "walton";
   results.variants = {variant};
-  EXPECT_EQ(csvOf(collideReport(results), "collisions.csv"),
+  EXPECT_EQ(csvOf(reportOf(results), "collisions.csv"),
             "engine,case,variant,psi_i,v_n,e_n,psi_f,e_n_reference,psi_f_reference,dt_s,status,"
             "beta,beta_reference,centre_psi_f,centre_psi_f_reference,e_t,e_t_reference,"
             "rebound_angle_rad,rebound_angle_reference_rad,spin_i_rad_s,spin_i_reference_rad_s,"

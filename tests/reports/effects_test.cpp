@@ -18,14 +18,14 @@ std::string lineOf(const std::string& table, std::size_t line) {
 }
 
 TEST(EffectsCsv, BeginsWithTheContractsColumns) {
-  EXPECT_EQ(lineOf(csvOf(effectsReport(sample::effectsResults(4)), "effects.csv"), 0),
+  EXPECT_EQ(lineOf(csvOf(reportOf(sample::effectsResults(4)), "effects.csv"), 0),
             "engine,effect,time_ratio,field,ring,change,stderr,r_tilde,reference,unit,resolved,"
             "p_adjusted,smallest_resolvable,family_level,packings,stderr_kind,time_ratio_stderr,"
             "step_s,contacts_per_step,precision,status,reason");
 }
 
 TEST(EffectsCsv, HasARowPerRingOfEachFieldWithoutEachEffect) {
-  const std::string table = csvOf(effectsReport(sample::effectsResults(4)), "effects.csv");
+  const std::string table = csvOf(reportOf(sample::effectsResults(4)), "effects.csv");
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 2 * 3 + 1);
   EXPECT_EQ(lineOf(table, 2),
             "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,yes,1e-05,0.001,"
@@ -33,13 +33,12 @@ TEST(EffectsCsv, HasARowPerRingOfEachFieldWithoutEachEffect) {
 }
 
 TEST(EffectsCsv, WhatWasRefusedIsOneRowWithItsReason) {
-  const std::string last =
-      lineOf(csvOf(effectsReport(sample::effectsResults(4)), "effects.csv"), 13);
+  const std::string last = lineOf(csvOf(reportOf(sample::effectsResults(4)), "effects.csv"), 13);
   EXPECT_TRUE(last.starts_with("grain,tension_cut,,,,,,,,,,,,,,,,,,,refused,\"odd")) << last;
 }
 
 TEST(EffectsCsv, WhatIsNotTestedIsEmpty) {
-  EXPECT_EQ(lineOf(csvOf(effectsReport(sample::effectsResults(1)), "effects.csv"), 2),
+  EXPECT_EQ(lineOf(csvOf(reportOf(sample::effectsResults(1)), "effects.csv"), 2),
             "grain,friction,0.5,azimuthal_velocity,2,-0.004,0.0002,1.5,0.01,m/s,,,,,1,within_run,"
             "0.01,2.5e-06,45,double,ran,");
 }
@@ -105,7 +104,7 @@ TEST(EffectsReport, NotSignificant_HasAnIntervalThatContainsZero) {
   ring.low = -0.0290;
   ring.high = 0.0014;
   ring.smallest = 0.0152;
-  const auto text = [&] { return textOf(effectsReport(results)); };
+  const auto text = [&] { return textOf(reportOf(results)); };
   EXPECT_TRUE(has(text(), "○ −69 % (−145 to +7 %) // ring 1; seen from 76 %; margin: undecided"))
       << text();
   EXPECT_FALSE(has(text(), "beyond the margin"));
@@ -118,7 +117,7 @@ TEST(EffectsReport, NotSignificant_HasAnIntervalThatContainsZero) {
 }
 
 TEST(EffectsReport, FewPackings_NothingIsTested) {
-  const std::string text = textOf(effectsReport(sample::effectsResults(1)));
+  const std::string text = textOf(reportOf(sample::effectsResults(1)));
   EXPECT_TRUE(has(text, "Fewer than 4 packings"));
   EXPECT_FALSE(has(text, "○ −"));  // not significant is one thing, no test another
   EXPECT_TRUE(has(text, "too few packings"));
@@ -139,7 +138,7 @@ TEST(EffectsReport, SeveralEngines_HaveASectionEach) {
   ofTheOther(results.variants);
   ofTheOther(results.runs);
   ofTheOther(results.ensemble);
-  const std::string text = textOf(effectsReport(results));
+  const std::string text = textOf(reportOf(results));
   EXPECT_TRUE(has(text, "## What each effect costs and changes: other (effects-2)"));
   EXPECT_TRUE(has(text, "[effects_2_cost]"));
 }

@@ -62,11 +62,11 @@ TEST(JUnit, OfAMatrixIsWhatItAnswers) {
 }
 
 std::string junitOfStability(const StabilityResults& results) {
-  return junitOf(stabilityReport(results));
+  return junitOf(reportOf(results));
 }
 
 std::string junitOfCollide(const CollideResults& results) {
-  return junitOf(collideReport(results));
+  return junitOf(reportOf(results));
 }
 
 StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,

@@ -264,7 +264,7 @@ CompareResults randomResults(std::mt19937& random) {
   SurrogateEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
   for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
     own.spotCheck.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
-  results.endpoints.carried = {own};
+  results.endpoints.surrogates = {own};
   return results;
 }
 
@@ -272,7 +272,7 @@ TEST(CompareSentences, TheFarthestEndpointIsNamed) {
   std::mt19937 random(1);
   for (int k = 0; k < 300; ++k) {
     const CompareResults results = randomResults(random);
-    const SurrogateEngine& own = results.endpoints.carried.front();
+    const SurrogateEngine& own = results.endpoints.surrogates.front();
     const auto farthest = std::ranges::max_element(
         own.spotCheck, {},
         [](const SpotCheckNumber& number) { return std::abs(*number.difference); });
@@ -389,7 +389,7 @@ TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
       results.ensemble.push_back(mean);
     }
   }
-  results.endpoints.carried = {{"theirs", "mirror", 1e-4, 16, 0, {}, {}, true}};
+  results.endpoints.surrogates = {{"theirs", "mirror", 1e-4, 16, 0, {}, {}, true}};
   const auto engines = engineRuns(results);
   const auto figures = profileFigures(results, engines);
   const auto figure = std::ranges::find(figures, "profile_spin", &Figure::name);

@@ -57,18 +57,18 @@ TEST(CompareReport, RegimesAndSteadiness_ComeBeforeAnyMean) {
 /// ran.
 TEST(CollideReport, Effects_AreThoseOfEachVariant) {
   CollideResults results = sample::collideResults();
-  const std::string all = textOf(collideReport(results));
+  const std::string all = textOf(reportOf(results));
   EXPECT_TRUE(has(all, "| friction | called for | ✓ simulated |"));
   // The sample's engines simulate moving walls, which no collision calls for.
   EXPECT_TRUE(has(all, "| moving walls | – | + though not called for |"));
   results.variants[1].effects = {"normal_damping", "rotation"};
-  EXPECT_TRUE(has(textOf(collideReport(results)),
+  EXPECT_TRUE(has(textOf(reportOf(results)),
                   "| friction | called for in 1 of 2 scenes | ✓ simulated; + "
                   "though not called for "
                   "in 3 of 6 runs |"));
   for (CollisionVariant& variant : results.variants)
     variant.effects.reset();  // of an earlier version
-  EXPECT_FALSE(has(textOf(collideReport(results)), "though not called for"));
+  EXPECT_FALSE(has(textOf(reportOf(results)), "though not called for"));
 }
 
 TEST(CollideReport, NothingJudged_IsNoSuccess) {
@@ -106,7 +106,7 @@ TEST(CollideReport, ModelDifference_IsNoFailure) {
         declared.score.of[QuantityId::psiF]->held = true;
         declared.score.verdict = CurveVerdict::held;
       }
-  const std::string page = textOf(collideReport(results));
+  const std::string page = textOf(reportOf(results));
   EXPECT_TRUE(has(page, "| ≠ 4 of 6 passed, 2 ≠"));
   EXPECT_TRUE(has(page, "Declared instead: yade: tension cut."));
   EXPECT_TRUE(has(page, " | declared | "));
@@ -122,7 +122,7 @@ TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   own.velocity = 1e-9;
   own.limit = 1e-12;
   own.held = false;
-  const std::string page = textOf(collideReport(results));
+  const std::string page = textOf(reportOf(results));
   EXPECT_TRUE(has(page, "own scheme 1×10⁻⁹"));
   EXPECT_TRUE(has(page, "| ✗ 1×10⁻⁹ |"));
   EXPECT_EQ(outcomeOf(results.variants[0].curves[0]), SweepOutcome::beyondLimits);
@@ -142,7 +142,7 @@ TEST(CollideReport, MirrorsBesideTheirPeers_AreNotCounted) {
 TEST(CollideReport, PointsWithoutALimit_AreNamedWithTheReason) {
   CollideResults results = sample::collideResults();
   results.variants[1].noLimit = {{0.5573, 1e-4, 0.1, "the law jumps"}};
-  EXPECT_TRUE(has(textOf(collideReport(results)),
+  EXPECT_TRUE(has(textOf(reportOf(results)),
                   "Not judged: spring and dashpot, Ψ_i = 0.5573: the law jumps."));
 }
 
@@ -181,7 +181,7 @@ TEST(RevReport, NearnessToSlicing_DecidesTheMatrix) {
   EXPECT_EQ(revOverview(results).rows[0].cells[1].state, CellState::borderline);
   // Under "near d" of the first method, and a dash where no width was there to
   // meet at.
-  EXPECT_TRUE(has(textOf(revReport(sample::revResults())), "| 0.95 (1 %) | –"));
+  EXPECT_TRUE(has(textOf(reportOf(sample::revResults())), "| 0.95 (1 %) | –"));
 }
 
 }  // namespace

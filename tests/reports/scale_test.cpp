@@ -38,7 +38,7 @@ TEST(ScaleText, IsAlignedAndWhatIsAbsentIsADash) {
 }
 
 TEST(ScaleCsv, IsTheContract) {
-  const auto lines = textLines(csvOf(scaleReport(sample::scaleResults()), "scale.csv"));
+  const auto lines = textLines(csvOf(reportOf(sample::scaleResults()), "scale.csv"));
   ASSERT_EQ(lines.size(), 10u);
   EXPECT_EQ(lines[0],
             "engine,disks,workers,workers_are,status,step_s,spread,ns_per_disk,strong,weak,ratio,"
@@ -62,7 +62,7 @@ TEST(ScaleOverview, TellsTheLargestCellThatEachRan) {
 }
 
 TEST(ScaleFigures, HavePointsForWhatRan) {
-  const auto figures = scaleReport(sample::scaleResults()).figures;
+  const auto figures = reportOf(sample::scaleResults()).figures;
   ASSERT_EQ(figures.size(), 3u);
   const auto& curves = figures[0].panels[0].curves;
   ASSERT_EQ(curves.size(), 3u);

@@ -21,7 +21,7 @@ EngineRow engine(const char* name, const char* mirrors = "") {
 }
 
 /// Two questions; ours answers them so.
-SiteReport reportOf(const char* kind, CellState first, CellState second) {
+SiteReport siteReportOf(const char* kind, CellState first, CellState second) {
   SiteReport report;
   report.folder = kind;
   report.digest.head.kind = kind;
@@ -39,8 +39,8 @@ SiteReport reportOf(const char* kind, CellState first, CellState second) {
 TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
   using enum CellState;
   const std::vector<SiteReport> reports = {
-      reportOf("collide", good, bad), reportOf("compare", undecided, modelDifference),
-      reportOf("stability", good, notMeasured), reportOf("thesis", bad, good)};
+      siteReportOf("collide", good, bad), siteReportOf("compare", undecided, modelDifference),
+      siteReportOf("stability", good, notMeasured), siteReportOf("thesis", bad, good)};
   const Overview overview = siteOverview(reports);
   ASSERT_EQ(overview.columns.size(), 4u);
   EXPECT_EQ(overview.columns[0].name, "collide quick");
@@ -68,8 +68,8 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
 
 TEST(SiteOverview, TellsReportsOfOneNameApart) {
   using enum CellState;
-  std::vector<SiteReport> reports = {reportOf("collide", good, bad),
-                                     reportOf("collide", good, bad)};
+  std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
+                                     siteReportOf("collide", good, bad)};
   reports[1].folder = "again";
   const Overview overview = siteOverview(reports);
   EXPECT_EQ(overview.columns[0].name, "collide quick (collide)");
@@ -78,9 +78,9 @@ TEST(SiteOverview, TellsReportsOfOneNameApart) {
 
 TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
   using enum CellState;
-  std::vector<SiteReport> reports = {reportOf("collide", good, bad),
-                                     reportOf("compare", undecided, modelDifference),
-                                     reportOf("thesis", bad, bad)};
+  std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
+                                     siteReportOf("compare", undecided, modelDifference),
+                                     siteReportOf("thesis", bad, bad)};
   reports[0].digest.overview.rows[0].cells[1].anchor = "scores";
   reports[1].digest.overview.columns[0].name = "averages";  // a question of its own
   const Overview ours = engineOverview(reports, "ours");
@@ -104,7 +104,7 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
           "Failed: 1 question (collide quick).",
           "Borderline or undecided: 1 question (compare quick).",
           "Model difference: true to the law that it declares: 1 question (compare quick)."}));
-  EXPECT_EQ(engineOverview({reportOf("collide", good, good)}, "ours").conclusion,
+  EXPECT_EQ(engineOverview({siteReportOf("collide", good, good)}, "ours").conclusion,
             std::vector<std::string>{"Passed: 2 questions (collide quick)."});
   const Overview theirs = engineOverview(reports, "theirs");  // no row is its
   EXPECT_TRUE(theirs.rows.empty());
@@ -113,7 +113,7 @@ TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
 }
 
 SiteReport madeBy(const char* build, const char* started, CellState state, double margins) {
-  SiteReport report = reportOf("compare", state, CellState::good);
+  SiteReport report = siteReportOf("compare", state, CellState::good);
   report.folder = std::string("made-by-") + build;
   report.digest.head.version = "0.3.0";
   report.digest.head.build = build;
@@ -125,7 +125,7 @@ SiteReport madeBy(const char* build, const char* started, CellState state, doubl
 TEST(History, FollowsACaseFromOneVersionToTheNext) {
   using enum CellState;
   std::vector<SiteReport> reports = {madeBy("new", "2026-02-01", bad, 2.0),
-                                     reportOf("collide", good, good),
+                                     siteReportOf("collide", good, good),
                                      madeBy("old", "2026-01-01", good, 0.5)};
   reports[0].digest.values = {{"ours", "mean of spin", {figure, 3.0, "rad/s", "3 rad/s"}}};
   reports[2].digest.values = {{"ours", "mean of spin", {figure, 4.0, "rad/s", "4 rad/s"}}};

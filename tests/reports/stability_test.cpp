@@ -11,7 +11,7 @@ namespace crossgrain::reports {
 namespace {
 
 TEST(StabilityCsv, IsTheContract) {
-  const std::string table = csvOf(stabilityReport(sample::stabilityResults()), "stability.csv");
+  const std::string table = csvOf(reportOf(sample::stabilityResults()), "stability.csv");
   EXPECT_TRUE(table.starts_with(
       "engine,case,verdict,measure,value,limit,unit,step,reason,degraded_limit,variant,time_s\n"
       "grain,pile,stable,energy_gain,0.001,0.01,of the energy,,,0.1,slow,\n"));
@@ -79,7 +79,7 @@ StabilityResults transformsInTime() {
 
 TEST(StabilityReport, WhatWasNotRun_IsNotAmongThePassed) {
   const StabilityResults results = transformsInTime();
-  const Report report = stabilityReport(results);
+  const Report report = reportOf(results);
   const Overview& overview = report.overview;
   EXPECT_EQ(overview.rows[0].cells[0].state, CellState::good);
   EXPECT_EQ(overview.rows[0].cells[1].state, CellState::notMeasured);

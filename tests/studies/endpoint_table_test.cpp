@@ -151,18 +151,18 @@ TEST(EndpointTable, SpotCheck_ReachBeyondAMargin_RefusesTheMirror) {
   const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 0.5, 2.0, 1.0, 4}};
   const auto judged = [&](const LateWindows& late) {
     SurrogateEngine own;
-    own.carried = true;
+    own.inUse = true;
     judgeLateWindows(setup, responses, late, own);
     return own;
   };
   // 10 % of k_n do two margins at most: 4.9 % of it 0.98, 5.1 % 1.02.
   LateWindows late{1, {0.0}, 0.1, {{"kn", 0.049}}, ""};
-  EXPECT_TRUE(judged(late).carried);
+  EXPECT_TRUE(judged(late).inUse);
   EXPECT_EQ(judged(late).alarm, "");
   late.equivalents[0].change = 0.051;
-  EXPECT_FALSE(judged(late).carried);
+  EXPECT_FALSE(judged(late).inUse);
   EXPECT_NE(judged(late).alarm.find("1 margins"), std::string::npos) << judged(late).alarm;
-  EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).carried);
+  EXPECT_FALSE(judged({1, {}, 0.1, {}, "it shows no forces"}).inUse);
 }
 
 TEST(EndpointTable, TellsHowManyPackingsDecideFromTheScatterOfAllPairs) {
@@ -299,7 +299,7 @@ TEST(EndpointTable, ClosedFormsJudgeEveryEngineOnOneStart) {
   EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].answer, Answer::undecided);
 }
 
-TEST(EndpointTable, ACanaryIsHeldAgainstChaos) {
+TEST(EndpointTable, SpotCheck_IsComparedWithChaos) {
   const Case setup = judging("spin_at_wheel", {0.5, false, "because", ""});
   // Two responses of the same 8 packings: 7 degrees of freedom, rms scatter 0.5 margins.
   const std::vector<EndpointResponse> responses = {{"spin_at_wheel", "kn", 0.1, 3.0, 4.0, 0.7, 8},

@@ -53,11 +53,11 @@ EndpointFindings compared(const std::string& mischief, std::uint64_t step,
   return found;
 }
 
-TEST(Canary, LetsAnEngineThatIsRightBeCarried) {
+TEST(SpotCheck, LetsAnEngineThatIsRightBeCarried) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep);
-  ASSERT_EQ(found.carried.size(), 1u);
-  EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
+  ASSERT_EQ(found.surrogates.size(), 1u);
+  EXPECT_TRUE(found.surrogates[0].inUse) << found.surrogates[0].alarm;
   for (const EndpointRow& row : found.rows) {
     EXPECT_EQ(row.surrogateB, "mirror");
     EXPECT_GT(row.reach.value_or(0.0), 0.0);
@@ -66,7 +66,7 @@ TEST(Canary, LetsAnEngineThatIsRightBeCarried) {
   }
   EXPECT_EQ(found.rows.size(), 9u);
   // Its own run is followed to the end: a quarter and a twentieth of a rotation of 2π s.
-  const LateWindows& late = found.carried[0].late;
+  const LateWindows& late = found.surrogates[0].late;
   EXPECT_EQ(late.packing, 1);
   EXPECT_EQ(late.times.size(), 18u);
   EXPECT_NEAR(late.times.back() + late.length, 0.3 * 2.0 * std::numbers::pi, late.length);
@@ -74,29 +74,29 @@ TEST(Canary, LetsAnEngineThatIsRightBeCarried) {
   EXPECT_EQ(late.equivalents[1].constant, "mu");
 }
 
-TEST(Canary, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
+TEST(SpotCheck, IsHeldAgainstResponsesOfTheNextEngineWhereTheFirstFails) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("none", 0, lockstep, true);
   EXPECT_FALSE(found.responses.empty());
   for (const EndpointResponse& response : found.responses) EXPECT_EQ(response.packings, 4);
-  ASSERT_EQ(found.carried.size(), 1u);
-  EXPECT_TRUE(found.carried[0].carried) << found.carried[0].alarm;
+  ASSERT_EQ(found.surrogates.size(), 1u);
+  EXPECT_TRUE(found.surrogates[0].inUse) << found.surrogates[0].alarm;
 }
 
 /// Chaos hides in an averaged run what 30 % of the friction do to a few rotations' averages.
-TEST(Canary, FollowsItsOwnRunToWhatBeginsLate) {
+TEST(SpotCheck, FollowsItsOwnRunToWhatBeginsLate) {
   LockstepFindings lockstep;
   const EndpointFindings found = compared("worn", 25000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
   EXPECT_EQ(lockstep.rows[0].verdict, LockstepVerdict::sameToRounding);
-  ASSERT_EQ(found.carried.size(), 1u);
-  const SurrogateEngine& own = found.carried[0];
+  ASSERT_EQ(found.surrogates.size(), 1u);
+  const SurrogateEngine& own = found.surrogates[0];
   for (const SpotCheckNumber& number : own.spotCheck) EXPECT_GT(number.chance.value_or(0.0), 0.05);
   ASSERT_EQ(own.late.equivalents.size(), 2u);
   // From 1 s of 1.88 s on, half of the windows: no less than half of 30 %.
   EXPECT_EQ(own.late.equivalents[1].constant, "mu");
   EXPECT_GT(own.late.equivalents[1].change, 0.14);
-  EXPECT_FALSE(own.carried);
+  EXPECT_FALSE(own.inUse);
   EXPECT_NE(own.alarm.find("of packing 1"), std::string::npos) << own.alarm;
   for (const EndpointRow& row : found.rows) {
     EXPECT_EQ(row.surrogateB, "");
@@ -104,15 +104,16 @@ TEST(Canary, FollowsItsOwnRunToWhatBeginsLate) {
   }
 }
 
-TEST(Canary, CatchesWhatBeginsAfterTheWindows) {
+TEST(SpotCheck, CatchesWhatBeginsAfterTheWindows) {
   // 10 000 steps are four windows of 0.1 s, and a fifth of the run.
   LockstepFindings lockstep;
   const EndpointFindings found = compared("slippery", 10000, lockstep);
   ASSERT_EQ(lockstep.rows.size(), 1u);
   EXPECT_EQ(lockstep.rows[0].verdict, LockstepVerdict::sameToRounding);
-  ASSERT_EQ(found.carried.size(), 1u);
-  EXPECT_FALSE(found.carried[0].carried);
-  EXPECT_NE(found.carried[0].alarm.find("differs by"), std::string::npos) << found.carried[0].alarm;
+  ASSERT_EQ(found.surrogates.size(), 1u);
+  EXPECT_FALSE(found.surrogates[0].inUse);
+  EXPECT_NE(found.surrogates[0].alarm.find("differs by"), std::string::npos)
+      << found.surrogates[0].alarm;
   // It then runs all packings itself, and rows of the mirror say where the difference lies.
   bool implementation = false;
   for (const EndpointRow& row : found.rows) {
