@@ -139,9 +139,9 @@ std::vector<std::optional<PairedComparison>> comparePaired(std::span<const Paire
     PairedComparison& c = *result[k];
     const double margin = family[k].margin - family[k].bias;
     if (c.packings >= fewestPackings && *c.low >= -margin && *c.high <= margin)
-      c.verdict = Verdict::agree;
+      c.verdict = Verdict::pass;
     else if (c.pDisagree && *c.pDisagree <= alpha)
-      c.verdict = Verdict::disagree;
+      c.verdict = Verdict::fail;
   }
   return result;
 }
@@ -186,13 +186,13 @@ FieldVerdict fieldVerdict(std::span<const std::optional<PairedComparison>> rings
   for (const auto& ring : rings) {
     if (!ring) continue;
     ++result.compared;
-    result.agreeing += ring->verdict == Verdict::agree;
-    result.disagreeing += ring->verdict == Verdict::disagree;
+    result.agreeing += ring->verdict == Verdict::pass;
+    result.disagreeing += ring->verdict == Verdict::fail;
   }
   if (result.disagreeing > 0)
-    result.verdict = Verdict::disagree;
+    result.verdict = Verdict::fail;
   else if (result.compared > 0 && result.agreeing == result.compared)
-    result.verdict = Verdict::agree;
+    result.verdict = Verdict::pass;
   return result;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "support/verdict.hpp"
 
 namespace crossgrain::inline averaging {
 
@@ -18,15 +19,7 @@ struct EnsembleMean {
 /// Absent where no packing has the number.
 std::optional<EnsembleMean> ensembleMean(std::span<const std::optional<double>> packingMeans);
 
-enum class Verdict { agree, disagree, undecided };
-constexpr auto namesOf(Verdict) {
-  return std::array<std::string_view, 3>{"agree", "disagree", "undecided"};
-}
-
-/// "agree", "disagree", "undecided"
-constexpr std::string_view toString(Verdict verdict) {
-  return namesOf(verdict)[static_cast<std::size_t>(verdict)];
-}
+using support::Verdict;
 
 /// One ring of one field as two engines found it on the same packings.
 struct PairedSample {

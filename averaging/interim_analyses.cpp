@@ -82,7 +82,7 @@ std::vector<std::optional<InterimAnswer>> answersAfterInterims(std::span<const P
       InterimAnswer& own = answers[k] ? *answers[k] : answers[k].emplace();
       describe(own, *found[k], look, plan.packings[look]);
       own.answer = Answer::undecided;
-      if (found[k]->verdict == Verdict::agree)
+      if (found[k]->verdict == Verdict::pass)
         own.answer = agreement(*found[k]);
       else if (found[k]->pDisagree && *found[k]->pDisagree <= plan.alpha[look])
         own.answer = Answer::disagree;

@@ -19,7 +19,7 @@ void fields(auto& io, AgreementRing& ring) {
   io("within_share", ring.withinFraction);
   io("scale", ring.scale);
   io("packings", ring.packings);
-  io("verdict", ring.verdict);
+  io("verdict", ring.verdict, agreementNames);
 }
 
 void fields(auto& io, AgreementRow& row) {
@@ -30,7 +30,7 @@ void fields(auto& io, AgreementRow& row) {
   io("margin", row.margin);
   io("margin_relative", row.marginRelative);
   io("margin_why", row.marginWhy);
-  io("verdict", row.verdict);
+  io("verdict", row.verdict, agreementNames);
   io("detects", row.detects);
   io("rings", row.rings);
 }

@@ -14,14 +14,14 @@ void fields(auto& io, RingChange& ring) {
   io("low", ring.low);
   io("high", ring.high);
   io("smallest", ring.smallest);
-  io("verdict", ring.verdict);
+  io("verdict", ring.verdict, agreementNames);
 }
 
 void fields(auto& io, ChangedField& field) {
   io("field", field.field, aField);
   io("unit", field.unit, aUnit);
   io("judged", field.judged);
-  io("verdict", field.verdict);
+  io("verdict", field.verdict, agreementNames);
   io("rings", field.rings);
 }
 

@@ -12,11 +12,6 @@
 namespace crossgrain::inline results {
 
 /// How the change of a field, or of a ring, stands against the case's margin.
-enum class AgainstMargin { notTested, agree, disagree, undecided };
-constexpr auto namesOf(AgainstMargin) {
-  return std::array<std::string_view, 4>{"", "agree", "disagree", "undecided"};
-}
-
 /// What standard errors are of.
 enum class BarKind { packings, withinRun };
 constexpr auto namesOf(BarKind) {
@@ -32,13 +27,13 @@ struct RingChange {
   std::optional<bool> resolved;     ///< significant
   std::optional<double> low, high;  ///< the interval that `resolved` rests on
   std::optional<double> smallest;   ///< change that would just have been resolved
-  AgainstMargin verdict = AgainstMargin::notTested;
+  Verdict verdict = Verdict::notApplicable;
 };
 
 struct ChangedField {
   std::string field, unit;
   bool judged = false;
-  AgainstMargin verdict = AgainstMargin::notTested;
+  Verdict verdict = Verdict::notApplicable;
   std::vector<RingChange> rings;
 };
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "support/json_fields.hpp"
+#include "support/verdict.hpp"
 
 /// What texts in results can be; support/json_fields.hpp has how structs become JSON.
 namespace crossgrain::inline results {
 
 using support::Json;
 using support::nameOf;
+using support::Status;
+using support::Verdict;
 
 /// Of engines, cases, variants, methods, quantities, …; empty where there is none.
 bool isName(std::string_view text);
@@ -19,5 +22,11 @@ inline constexpr Words aField{isField, "a field (crossgrain list fields has them
 /// "N/m²", "Ω D/d", "1"; empty where there is none.
 bool isUnit(std::string_view text);
 inline constexpr Words aUnit{isUnit, "a unit"};
+
+/// What files call an agreement within a margin; a field that nothing is asked of has none.
+inline constexpr support::EnumNames<Verdict, 4> agreementNames{{{Verdict::pass, "agree"},
+                                                                {Verdict::fail, "disagree"},
+                                                                {Verdict::undecided, "undecided"},
+                                                                {Verdict::notApplicable, ""}}};
 
 }  // namespace crossgrain::inline results

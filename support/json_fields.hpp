@@ -10,6 +10,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <string>
 #include <string_view>
@@ -34,7 +35,9 @@
 /// are sentences, which whoever prints them has to quote.
 ///
 /// Enumerators are written by name: constexpr auto namesOf(Verdict) { return std::array{…}; }.
-/// An absent optional is null; a number that is not finite is null too and comes back as NaN.
+/// Where a file has names of its own for some of them, those go along: io("outcome", verdict,
+/// outcomeNames). An absent optional is null; a number that is not finite is null too and comes
+/// back as NaN.
 namespace crossgrain::inline support {
 
 using Json = nlohmann::json;
@@ -50,6 +53,16 @@ struct Words {
   bool (*fit)(std::string_view);
   std::string_view what;
 };
+
+/// The names that one kind of file has for enumerators; those that are missing have none there.
+template <typename Enum, std::size_t n>
+using EnumNames = std::array<std::pair<Enum, std::string_view>, n>;
+
+/// @pre the file has a name for it
+template <typename Enum, std::size_t n>
+constexpr std::string_view nameOf(Enum value, const EnumNames<Enum, n>& names) {
+  return std::ranges::find(names, value, &EnumNames<Enum, n>::value_type::first)->second;
+}
 
 class FieldWriter;
 class FieldReader;
@@ -102,6 +115,10 @@ class FieldWriter {
   void when(bool there, const char* key, const T& value, const Words&) {
     when(there, key, value);
   }
+  template <typename Enum, std::size_t n>
+  void operator()(const char* key, Enum value, const EnumNames<Enum, n>& names) {
+    object_[key] = std::string(nameOf(value, names));
+  }
 
  private:
   Json& object_;
@@ -153,6 +170,16 @@ class FieldReader {
   void when(bool, const char* key, T& value, const Words& words) {
     (*this)(key, value, words);
   }
+  template <typename Enum, std::size_t n>
+  void operator()(const char* key, Enum& value, const EnumNames<Enum, n>& names) {
+    std::string name(nameOf(value, names));
+    (*this)(key, name);
+    const auto found = std::ranges::find(names, name, &EnumNames<Enum, n>::value_type::second);
+    if (found == names.end())
+      throw FieldError(fmt::format("{}: is \"{}\", not one of \"{}\"", key, asOneLine(name, 60),
+                                   fmt::join(names | std::views::values, "\", \"")));
+    value = found->first;
+  }
 
  private:
   static void require(const char* key, const std::string& text, const Words& words) {
@@ -202,7 +229,8 @@ concept PlaneVector = requires(T v) {
 template <typename T>
 void fieldsOf(auto& io, T& value) {
   // Of a struct whose base has the one and that has the other, a list would be left out.
-  static_assert(!(requires { value.fields(io); } && requires { fields(io, value); }));
+  static_assert(!(
+      requires { value.fields(io); } && requires { fields(io, value); }));
   if constexpr (requires { value.fields(io); })
     value.fields(io);
   else

@@ -125,11 +125,11 @@ std::string describeChanges(const VariantSummary& variant) {
 
 /// Beyond only where that is shown, and where: the field may exceed its margin in another ring.
 std::string againstMargin(const FieldChange& change) {
-  if (change.verdict == AgainstMargin::notTested) return {};
-  if (change.verdict == AgainstMargin::agree) return "shown within the margin";
-  if (change.verdictHere == AgainstMargin::disagree) return "shown beyond the margin";
-  return change.verdict == AgainstMargin::disagree ? "shown beyond the margin in another ring"
-                                                   : "margin: undecided";
+  if (change.verdict == Verdict::notApplicable) return {};
+  if (change.verdict == Verdict::pass) return "shown within the margin";
+  if (change.verdictHere == Verdict::fail) return "shown beyond the margin";
+  return change.verdict == Verdict::fail ? "shown beyond the margin in another ring"
+                                         : "margin: undecided";
 }
 
 const char* symbolOf(const FieldChange& change) {

@@ -117,7 +117,7 @@ bool VariantSummary::changesSomething() const {
 
 bool VariantSummary::withinMargins() const {
   return !changes.empty() && std::ranges::all_of(changes, [](const FieldChange& c) {
-    return c.verdict == AgainstMargin::agree;
+    return c.verdict == Verdict::pass;
   });
 }
 

@@ -15,8 +15,8 @@ namespace crossgrain::reports {
 /// everything on, so that a ring where next to nothing is left of a field does not dominate.
 struct FieldChange {
   std::string field;
-  AgainstMargin verdict = AgainstMargin::notTested;
-  AgainstMargin verdictHere = AgainstMargin::notTested;  ///< that of the ring alone
+  Verdict verdict = Verdict::notApplicable;
+  Verdict verdictHere = Verdict::notApplicable;  ///< that of the ring alone
   std::size_t ring = 0;
   double change = 0.0;          ///< switched − everything on
   std::optional<double> error;  ///< standard error

@@ -20,9 +20,9 @@ using Names = std::vector<std::string>;
 
 /// Of a ring, which has no verdict: where its interval lies.
 CellState ringState(Verdict ring) {
-  return ring == Verdict::agree      ? CellState::good
-         : ring == Verdict::disagree ? CellState::bad
-                                     : CellState::undecided;
+  return ring == Verdict::pass   ? CellState::good
+         : ring == Verdict::fail ? CellState::bad
+                                 : CellState::undecided;
 }
 
 /// The matrix' mark and colour of the same answer. @param brief  the distance alone

@@ -89,8 +89,8 @@ std::optional<double> regimesDiffer(const std::vector<RegimesOfPair>& regimes, c
 
 /// Where a ring's interval lies, which is no verdict.
 std::string placeOf(Verdict ring) {
-  if (ring == Verdict::agree) return "within";
-  return ring == Verdict::disagree ? "beyond" : "open";
+  if (ring == Verdict::pass) return "within";
+  return ring == Verdict::fail ? "beyond" : "open";
 }
 
 std::string steadinessRow(const SeriesDrift& drifts, const std::string& engine,

@@ -128,7 +128,7 @@ std::vector<ChangedField> changesOf(const std::vector<TestedField>& fields, doub
   std::vector<ChangedField> changes;
   for (const TestedField& field : fields) {
     ChangedField& change = changes.emplace_back(
-        ChangedField{field.name, field.unit, field.judged, AgainstMargin::notTested, {}});
+        ChangedField{field.name, field.unit, field.judged, Verdict::notApplicable, {}});
     for (const TestedChange& ring : field.rings) {
       RingChange row;
       row.ring = change.rings.size();
@@ -149,11 +149,6 @@ std::size_t packingsInBoth(const PairedRuns& runs) {
   return both;
 }
 
-AgainstMargin againstMargin(Verdict verdict) {
-  if (verdict == Verdict::agree) return AgainstMargin::agree;
-  return verdict == Verdict::disagree ? AgainstMargin::disagree : AgainstMargin::undecided;
-}
-
 }  // namespace
 
 EffectChanges effectChanges(const Case& setup, std::span<const FlowRun> runs,
@@ -169,9 +164,8 @@ EffectChanges effectChanges(const Case& setup, std::span<const FlowRun> runs,
        agreementOf(setup, runs, {{engine, engine, PairKind::effect, without}}))
     for (ChangedField& field : changes.fields) {
       if (field.field != row.field) continue;
-      field.verdict = againstMargin(row.verdict);
-      for (const AgreementRing& ring : row.rings)
-        field.rings.at(ring.ring).verdict = againstMargin(ring.verdict);
+      field.verdict = row.verdict;
+      for (const AgreementRing& ring : row.rings) field.rings.at(ring.ring).verdict = ring.verdict;
     }
   return changes;
 }

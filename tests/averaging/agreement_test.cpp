@@ -74,12 +74,12 @@ TEST(ComparePaired, IntervalByHand) {
   EXPECT_NEAR(c.standardError.value(), error, 1e-12);
   EXPECT_NEAR(c.high.value() - 2.5, 2.353 * error, 5e-4);
   EXPECT_NEAR(2.5 - c.low.value(), 2.353 * error, 5e-4);
-  EXPECT_EQ(c.verdict, Verdict::agree);
+  EXPECT_EQ(c.verdict, Verdict::pass);
 }
 
 TEST(ComparePaired, TheThreeVerdicts) {
-  EXPECT_EQ(compareOne(differing({0.1, -0.1, 0.05, -0.05}, 1.0)).verdict, Verdict::agree);
-  EXPECT_EQ(compareOne(differing({5.1, 4.9, 5.05, 4.95}, 1.0)).verdict, Verdict::disagree);
+  EXPECT_EQ(compareOne(differing({0.1, -0.1, 0.05, -0.05}, 1.0)).verdict, Verdict::pass);
+  EXPECT_EQ(compareOne(differing({5.1, 4.9, 5.05, 4.95}, 1.0)).verdict, Verdict::fail);
   EXPECT_EQ(compareOne(differing({2.0, -2.0, 1.0, -1.0}, 1.0)).verdict, Verdict::undecided);
 }
 
@@ -99,7 +99,7 @@ TEST(ComparePaired, FewerThanFourPackingsDecideNothing) {
 }
 
 TEST(ComparePaired, AnEngineAgreesWithItself) {
-  EXPECT_EQ(compareOne(differing({0.0, 0.0, 0.0, 0.0}, 0.0)).verdict, Verdict::agree);
+  EXPECT_EQ(compareOne(differing({0.0, 0.0, 0.0, 0.0}, 0.0)).verdict, Verdict::pass);
 }
 
 TEST(ComparePaired, AbsentValues) {
@@ -126,9 +126,9 @@ TEST(ComparePaired, HolmByHand) {
   EXPECT_NEAR(*family[1]->pDisagree / *compareOne(near).pDisagree, 2.0, 1e-9);
   EXPECT_LE(*family[0]->pDisagree, 1.0);
   // near alone is significant (p < 0.05), in the family it is not.
-  EXPECT_EQ(compareOne(near).verdict, Verdict::disagree);
+  EXPECT_EQ(compareOne(near).verdict, Verdict::fail);
   EXPECT_EQ(family[1]->verdict, Verdict::undecided);
-  EXPECT_EQ(family[2]->verdict, Verdict::disagree);
+  EXPECT_EQ(family[2]->verdict, Verdict::fail);
 }
 
 TEST(ComparePaired, WhatIsNoNumberIsNoTestOfTheFamily) {
@@ -136,20 +136,20 @@ TEST(ComparePaired, WhatIsNoNumberIsNoTestOfTheFamily) {
   const PairedSample none = differing({NAN, 10.1, 10.2, 9.8}, 1.0);
   const auto family = comparePaired(std::vector{none, far}, confidence);
   EXPECT_EQ(family[0]->verdict, Verdict::undecided);
-  EXPECT_EQ(family[1]->verdict, Verdict::disagree);
+  EXPECT_EQ(family[1]->verdict, Verdict::fail);
   EXPECT_EQ(*family[1]->pDisagree, *compareOne(far).pDisagree);  // as if it were alone
 }
 
 TEST(ComparePaired, FalseAlarmsAreHeldToAlpha) {
   // 20 rings × 4 packings of equal engines. Margin 0 is the hardest null: any disagree is false.
   // α = 5 %, binomial sd of 4000 families 0.34 %: three of them on top.
-  const double rate = familyRate(Verdict::disagree, 0.0, 0.0, 4000);
+  const double rate = familyRate(Verdict::fail, 0.0, 0.0, 4000);
   RecordProperty("false_alarms", std::to_string(rate));
   EXPECT_LE(rate, 0.05 + 3.0 * 0.0034);
   EXPECT_GE(rate, 0.03);  // and the procedure is not idle
   // A true difference right at the margin must not raise it.
-  EXPECT_LE(familyRate(Verdict::disagree, 1.0, 1.0, 4000), 0.05 + 3.0 * 0.0034);
-  EXPECT_LE(familyRate(Verdict::disagree, 0.0, 0.5, 4000), 0.05);
+  EXPECT_LE(familyRate(Verdict::fail, 1.0, 1.0, 4000), 0.05 + 3.0 * 0.0034);
+  EXPECT_LE(familyRate(Verdict::fail, 0.0, 0.5, 4000), 0.05);
 }
 
 TEST(ComparePaired, FalseAgreementIsHeldToAlphaPerRing) {
@@ -159,12 +159,12 @@ TEST(ComparePaired, FalseAgreementIsHeldToAlphaPerRing) {
   constexpr int repeats = 1000;
   for (int k = 0; k < repeats; ++k)
     for (const auto& ring : comparePaired(randomFamily(generator, 20, 4, 3.0, 3.0), confidence))
-      agreeing += ring->verdict == Verdict::agree;
+      agreeing += ring->verdict == Verdict::pass;
   EXPECT_LE(agreeing / (20.0 * repeats), 0.05 + 3.0 * std::sqrt(0.05 * 0.95 / (20.0 * repeats)));
 }
 
 TEST(ComparePaired, LargeDifferencesAreFound) {
-  EXPECT_GT(familyRate(Verdict::disagree, 30.0, 1.0, 500), 0.99);
+  EXPECT_GT(familyRate(Verdict::fail, 30.0, 1.0, 500), 0.99);
 }
 
 TEST(SmallestDetectable, IsTheNoncentralT) {
@@ -188,7 +188,7 @@ TEST(SmallestDetectable, APlantedShiftIsFoundNineTimesOutOfTen) {
   for (int k = 0; k < repeats; ++k) {
     auto family = randomFamily(generator, 20, 6, 0.0, 1.0);
     for (auto& value : family[7].other) *value += detectable;
-    found += comparePaired(family, confidence)[7]->verdict == Verdict::disagree;
+    found += comparePaired(family, confidence)[7]->verdict == Verdict::fail;
   }
   // Three binomial errors; Holm's later steps can only help.
   EXPECT_NEAR(static_cast<double>(found) / repeats, 0.9, 3.0 * std::sqrt(0.09 / repeats));
@@ -214,11 +214,11 @@ TEST(FieldVerdict, FollowsItsRings) {
     c.verdict = verdict;
     return std::optional(c);
   };
-  const auto agree = ring(Verdict::agree), disagree = ring(Verdict::disagree);
+  const auto agree = ring(Verdict::pass), disagree = ring(Verdict::fail);
   const auto undecided = ring(Verdict::undecided);
   using Rings = std::vector<std::optional<PairedComparison>>;
-  EXPECT_EQ(fieldVerdict(Rings{agree, std::nullopt, agree}).verdict, Verdict::agree);
-  EXPECT_EQ(fieldVerdict(Rings{agree, disagree, undecided}).verdict, Verdict::disagree);
+  EXPECT_EQ(fieldVerdict(Rings{agree, std::nullopt, agree}).verdict, Verdict::pass);
+  EXPECT_EQ(fieldVerdict(Rings{agree, disagree, undecided}).verdict, Verdict::fail);
   EXPECT_EQ(fieldVerdict(Rings{agree, undecided}).verdict, Verdict::undecided);
   EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).verdict, Verdict::undecided);
   EXPECT_EQ(fieldVerdict(Rings{std::nullopt}).compared, 0);

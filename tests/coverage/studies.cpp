@@ -236,7 +236,7 @@ std::vector<Rate> disagreements(const Sample& sample, const std::string& leg, in
           bool anywhere = false;
           std::map<std::string, bool> inField;
           for (std::size_t k = 0; k < found.size(); ++k) {
-            const bool hit = found[k] && found[k]->verdict == Verdict::disagree;
+            const bool hit = found[k] && found[k]->verdict == Verdict::fail;
             anywhere |= hit;
             inField[family.field[k]] |= hit;
           }
@@ -308,7 +308,7 @@ std::vector<Rate> power(const Sample& sample, int group) {
           auto samples = grouped(family, true, order, first, first, group);
           for (auto& value : samples[k].other)
             if (value) *value += shift;
-          tally.add(comparePaired(samples, confidence)[k]->verdict == Verdict::disagree);
+          tally.add(comparePaired(samples, confidence)[k]->verdict == Verdict::fail);
         });
     rates.push_back(
         {"power", "again", family.field[k], family.ring[k], group, independent, tally.rate()});

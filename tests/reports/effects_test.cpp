@@ -110,9 +110,9 @@ TEST(EffectsReport, NotSignificant_HasAnIntervalThatContainsZero) {
   EXPECT_FALSE(has(text(), "beyond the margin"));
   // Beyond it only where that is shown, and in which ring.
   ChangedField& velocity = results.variants[1].changes.fields[0];
-  velocity.verdict = AgainstMargin::disagree;
+  velocity.verdict = Verdict::fail;
   EXPECT_TRUE(has(text(), "shown beyond the margin in another ring"));
-  velocity.rings[1].verdict = AgainstMargin::disagree;
+  velocity.rings[1].verdict = Verdict::fail;
   EXPECT_TRUE(has(text(), "ring 2; shown beyond the margin"));
 }
 

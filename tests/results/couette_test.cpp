@@ -135,7 +135,7 @@ TEST(CompareResults, RoundTrip) {
   ring.difference = -0.5;
   ring.scale = TestScale::logarithmic;
   ring.packings = 4;
-  ring.verdict = Verdict::agree;
+  ring.verdict = Verdict::pass;
   AgreementRow row;
   row.a = "one";
   row.b = "two";
@@ -200,9 +200,9 @@ TEST(EffectsResults, RoundTrip) {
   RingChange ring;
   ring.change = -0.5;
   ring.resolved = false;
-  ring.verdict = AgainstMargin::disagree;
+  ring.verdict = Verdict::fail;
   switched.changes = {
-      1, BarKind::withinRun, {{"spin", "rad/s", true, AgainstMargin::notTested, {ring}}}};
+      1, BarKind::withinRun, {{"spin", "rad/s", true, Verdict::notApplicable, {ring}}}};
   refused.effect = "rotation";
   refused.status = EngineStatus::refused;
   refused.reason = "cannot";

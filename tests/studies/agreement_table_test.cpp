@@ -62,10 +62,10 @@ TEST(AgreementTable, PairsPackingsByTheirIndex) {
   for (const int packing : {0, 1, 2, 3})
     runs.push_back(runOf("b", packing, "f", 10.0 * packing + 1.0));
   const auto table = agreementOfPair(withMargin("f", {1.5, false, "because", ""}), runs);
-  EXPECT_EQ(table[0].verdict, Verdict::agree);
+  EXPECT_EQ(table[0].verdict, Verdict::pass);
   EXPECT_NEAR(*ringOf(table).difference, 1.0, 1e-12);
   const auto strict = agreementOfPair(withMargin("f", {0.5, false, "because", ""}), runs);
-  EXPECT_EQ(strict[0].verdict, Verdict::disagree);
+  EXPECT_EQ(strict[0].verdict, Verdict::fail);
 }
 
 TEST(AgreementTable, RelativeMarginsAreTestedOnRatios) {
@@ -77,7 +77,7 @@ TEST(AgreementTable, RelativeMarginsAreTestedOnRatios) {
     runs.push_back(runOf("b", packing, "stress_rr", pressure * (1.1 + 0.001 * packing)));
   }
   const auto table = agreementOfPair(withMargin("stress_rr", {0.25, true, "because", ""}), runs);
-  EXPECT_EQ(table[0].verdict, Verdict::agree);
+  EXPECT_EQ(table[0].verdict, Verdict::pass);
   EXPECT_EQ(ringOf(table).scale, TestScale::logarithmic);
   // In the field's unit: 10 % of the mean 375, and the margin 25 % of it.
   EXPECT_NEAR(*ringOf(table).difference, 37.5, 1.0);
@@ -96,7 +96,7 @@ TEST(AgreementTable, TheSignOfAFieldDoesNotMatterToItsRatios) {
       runs.push_back(runOf("b", packing, "stress_rp", stress * (1.1 + 0.001 * packing)));
     }
     const auto table = agreementOfPair(withMargin("stress_rp", {0.25, true, "because", ""}), runs);
-    EXPECT_EQ(table[0].verdict, Verdict::agree);
+    EXPECT_EQ(table[0].verdict, Verdict::pass);
     turned[sign < 0.0] = ringOf(table);
   }
   EXPECT_EQ(turned[1].scale, TestScale::logarithmic);

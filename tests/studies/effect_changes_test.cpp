@@ -75,7 +75,7 @@ TEST(EffectChanges, AreToldApartUnderOneFamilyOfTests) {
   EXPECT_NEAR(none.smallest.value(), gsl_cdf_tdist_Qinv(0.05 / 2.0, 7.0) * error, 1e-12);
   EXPECT_NEAR(one.low.value(), 1.0 - one.smallest.value(), 1e-12);
   // Within the margin of 2 in both rings.
-  EXPECT_EQ(changes.fields[0].verdict, AgainstMargin::agree);
+  EXPECT_EQ(changes.fields[0].verdict, Verdict::pass);
 }
 
 /// The interval that is told leaves out 0 exactly where the change is told apart, whatever the
@@ -108,7 +108,7 @@ TEST(EffectChanges, TheIntervalTellsWhatTheVerdictTells) {
         EXPECT_EQ(ring.resolved.value(), leavesOut0) << ring.ring;
         (leavesOut0 ? resolved : open) += 1;
         // Beyond the margin is the larger claim of the same test.
-        EXPECT_TRUE(ring.verdict != AgainstMargin::disagree || ring.resolved == true);
+        EXPECT_TRUE(ring.verdict != Verdict::fail || ring.resolved == true);
       }
     }
   EXPECT_GT(resolved, 500);
