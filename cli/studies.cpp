@@ -107,10 +107,10 @@ std::string compareText(const CompareResults& results) {
     for (const LockstepRow& row : results.lockstep->rows)
       add(reports::describe(row, results.lockstep->rules));
   for (const SurrogateEngine& own : results.endpoints.surrogates) add(reports::describe(own));
-  std::map<Answer, int> answers;
+  std::map<Verdict, int> answers;
   for (const EndpointRow& row : results.endpoints.rows) {
     if (row.kind != PairKind::peer && row.kind != PairKind::closedForm) continue;
-    ++answers[row.answer];
+    ++answers[row.verdict];
     if (row.kind == PairKind::closedForm ||
         (row.a == results.engines.front().name && !results.nothingJudged))
       add(fmt::format("{:<16} {:<26} {}", row.b, row.endpoint, reports::describeAnswer(row)));
@@ -120,11 +120,10 @@ std::string compareText(const CompareResults& results) {
     add(reports::describe(looks));
   if (!results.nothingJudged)
     text += fmt::format("{} agree, {} borderline, {} disagree, {} undecided; ",
-                        answers[Answer::noDifference] + answers[Answer::smallDifference],
-                        answers[Answer::borderline], answers[Answer::disagree],
-                        answers[Answer::undecided]);
+                        answers[Verdict::pass], answers[Verdict::borderline],
+                        answers[Verdict::fail], answers[Verdict::undecided]);
   add(fmt::format("{} of {} runs failed",
-                  std::ranges::count(results.runs, RunStatus::failed, &FlowRun::status),
+                  std::ranges::count(results.runs, Status::failed, &FlowRun::status),
                   results.runs.size()));
   return text;
 }
@@ -148,8 +147,9 @@ std::string collideText(const CollideResults& results) {
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
 std::string effectText(const EffectVariant& variant) {
   const std::string head = fmt::format("{:<16} without {:<22} ", variant.engine, variant.effect);
-  if (variant.status != EngineStatus::ran)
-    return head + fmt::format("{}: {}\n", nameOf(variant.status), variant.reason);
+  if (variant.status != Status::finished)
+    return head +
+           fmt::format("{}: {}\n", nameOf(variant.status, engineStatusNames), variant.reason);
   int judged = 0, changed = 0;
   for (const ChangedField& field : variant.changes.fields)
     for (const RingChange& ring : field.rings) {

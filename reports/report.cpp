@@ -68,7 +68,7 @@ template <typename Results>
 ReportDigest write(const Results& results, Json document, const std::filesystem::path& dir) {
   const Report report = reportOf(results);
   makeDirectory(dir);
-  document["overview"] = toJson(report.overview);
+  document["overview"] = jsonOf(report.overview);
   writeFile(dir / "results.json", toText(document));
   for (const auto& [name, table] : report.tables) writeFile(dir / name, table);
   writeFile(dir / "summary.md", overviewMarkdown(report.overview, titleOf(report.head)));

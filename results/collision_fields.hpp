@@ -1,7 +1,7 @@
 #pragma once
 
+#include "adapters/worker/json.hpp"
 #include "results/collision.hpp"
-#include "results/engine_fields.hpp"
 #include "results/head.hpp"
 #include "results/json_fields.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/head.hpp"
 
 namespace crossgrain::inline results {

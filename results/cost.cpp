@@ -1,7 +1,6 @@
 #include "results/cost.hpp"
 
-#include "results/engine_fields.hpp"
-#include "results/flow_fields.hpp"
+#include "adapters/worker/json.hpp"
 
 namespace crossgrain::inline results {
 

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "results/collision_fields.hpp"
-#include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {
 

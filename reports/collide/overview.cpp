@@ -84,14 +84,14 @@ void look(Errors& errors, const CollisionCurve& curve, const CollisionQuantity& 
 /// @param besidePeer  of a mirror that runs beside its peer: it shows the effect of the peer's
 /// conventions
 OverviewCell errorCell(const Errors& errors, bool besidePeer) {
-  const CellState state = errors.own.share > 1.0 && !besidePeer ? CellState::bad
-                          : std::max(errors.own.share, errors.scene.share) > 1.0
-                              ? CellState::modelDifference
-                          : errors.any.share >= 0.0 ? CellState::good
-                                                    : CellState::notMeasured;
-  if (state == CellState::notMeasured) return {state, {}, "of its limit", {}, {}, {}};
-  const Extreme& shown = state == CellState::bad ? errors.own
-                         : state == CellState::modelDifference
+  const Verdict state = errors.own.share > 1.0 && !besidePeer ? Verdict::fail
+                        : std::max(errors.own.share, errors.scene.share) > 1.0
+                            ? Verdict::modelDifference
+                        : errors.any.share >= 0.0 ? Verdict::pass
+                                                  : Verdict::notMeasured;
+  if (state == Verdict::notMeasured) return {state, {}, "of its limit", {}, {}, {}};
+  const Extreme& shown = state == Verdict::fail ? errors.own
+                         : state == Verdict::modelDifference
                              ? (errors.scene.share > 1.0 ? errors.scene : errors.own)
                              : errors.any;
   return {state,       shown.share, "of its limit", shortly(shown.share) + " × limit",
@@ -107,7 +107,7 @@ void forCurves(const std::vector<CaseGroup>& groups, const std::string& engine, 
 }
 
 OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string& engine) {
-  OverviewCell cell{CellState::notMeasured, {}, "d or v_n", {}, {}, {}};
+  OverviewCell cell{Verdict::notMeasured, {}, "d or v_n", {}, {}, {}};
   forCurves(groups, engine,
             [&](const CollisionCurve& curve, const std::string& place, const std::string& anchor) {
               const auto deviation = ownDeviation(curve);
@@ -116,9 +116,9 @@ OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string&
               cell.shown = shortly(deviation);
               cell.words = place;
               cell.anchor = anchor;
-              cell.state = !curve.ownScheme->held   ? CellState::figure
-                           : *curve.ownScheme->held ? CellState::good
-                                                    : CellState::bad;
+              cell.verdict.reset();
+              if (const auto held = curve.ownScheme->held)
+                cell.verdict = *held ? Verdict::pass : Verdict::fail;
             });
   return cell;
 }
@@ -135,30 +135,30 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
             [&](const CollisionCurve& curve, const std::string&, const std::string&) {
               unknown += std::ranges::count(curve.points.status, PairStatus::noLimit);
             });
-  OverviewCell cell{CellState::notMeasured, {}, "sweeps", {}, {}, "matrix"};
+  OverviewCell cell{Verdict::notMeasured, {}, "sweeps", {}, {}, "matrix"};
   if (all.refused > 0) cell.words = fmt::format("{} refused", all.refused);
   if (all.failed > 0)
     cell.words += fmt::format("{}{} failed", cell.words.empty() ? "" : ", ", all.failed);
   if (all.judged() == 0) {
     if (all.failed > 0)
-      cell.state = CellState::bad;
+      cell.verdict = Verdict::fail;
     else if (all.refused > 0)
-      cell.state = CellState::notApplicable;
+      cell.verdict = Verdict::notApplicable;
     return cell;
   }
   cell.value = all.held;
   cell.shown = fmt::format("{} of {}", all.held, all.judged());
   if (unknown > 0) cell.shown += fmt::format(", {} points not judged", unknown);
   const int faults = (besidePeer ? 0 : all.beyondLimits) + all.failed;
-  cell.state = faults > 0                         ? CellState::bad
-               : all.model + all.beyondLimits > 0 ? CellState::modelDifference
-                                                  : CellState::good;
+  cell.verdict = faults > 0                         ? Verdict::fail
+                 : all.model + all.beyondLimits > 0 ? Verdict::modelDifference
+                                                    : Verdict::pass;
   return cell;
 }
 
 bool anyShown(const Overview& overview, std::size_t column) {
   return std::ranges::any_of(overview.rows, [&](const OverviewRow& row) {
-    return row.cells[column].state != CellState::notMeasured;
+    return row.cells[column].verdict != Verdict::notMeasured;
   });
 }
 

@@ -117,7 +117,7 @@ std::vector<const CollisionQuantity*> scoredIn(const CaseGroup& group) {
 Cell scoreCell(const std::optional<QuantityScore>& score) {
   if (!score) return absentText;
   Cell cell(shortly(score->max), {shortly(score->rms)});
-  if (score->held) cell.state = *score->held ? CellState::good : CellState::bad;
+  if (score->held) cell.verdict = *score->held ? Verdict::pass : Verdict::fail;
   cell.marked = score->held.has_value();
   return cell;
 }
@@ -127,15 +127,14 @@ Cell schemeCell(const std::optional<SchemeScore>& own) {
   if (!own) return "";
   if (!own->position) return absentText;
   Cell cell(shortly(std::max(*own->position, own->velocity.value_or(0.0))));
-  if (own->held) cell.state = *own->held ? CellState::good : CellState::bad;
+  if (own->held) cell.verdict = *own->held ? Verdict::pass : Verdict::fail;
   cell.marked = own->held.has_value();
   return cell;
 }
 
-CellState sweepState(SweepOutcome outcome) {
-  constexpr CellState states[] = {CellState::good,          CellState::modelDifference,
-                                  CellState::bad,           CellState::notMeasured,
-                                  CellState::notApplicable, CellState::bad};
+Verdict sweepState(SweepOutcome outcome) {
+  constexpr Verdict states[] = {Verdict::pass,        Verdict::modelDifference, Verdict::fail,
+                                Verdict::notMeasured, Verdict::notApplicable,   Verdict::fail};
   return states[static_cast<std::size_t>(outcome)];
 }
 
@@ -171,11 +170,10 @@ std::vector<ScoredBy> lawsOf(const CollisionCurve& curve) {
 
 }  // namespace
 
-CellState stateOf(const Tally& tally) {
-  if (tally.failed > 0 || tally.beyondLimits > 0) return CellState::bad;
-  if (tally.judged() == 0)
-    return tally.refused > 0 ? CellState::notApplicable : CellState::notMeasured;
-  return tally.model > 0 ? CellState::modelDifference : CellState::good;
+Verdict stateOf(const Tally& tally) {
+  if (tally.failed > 0 || tally.beyondLimits > 0) return Verdict::fail;
+  if (tally.judged() == 0) return tally.refused > 0 ? Verdict::notApplicable : Verdict::notMeasured;
+  return tally.model > 0 ? Verdict::modelDifference : Verdict::pass;
 }
 
 std::string headline(const Tally& tally) {

@@ -22,9 +22,9 @@ constexpr CheckPart checkParts[] = {
     {"collisions", "Collisions", "collisions",
      "Two-particle collisions compared with the declared law."}};
 
-CellState outcomeState(ConformanceOutcome outcome) {
-  constexpr CellState states[] = {CellState::good, CellState::bad, CellState::notApplicable,
-                                  CellState::bad};
+Verdict outcomeState(ConformanceOutcome outcome) {
+  constexpr Verdict states[] = {Verdict::pass, Verdict::fail, Verdict::notApplicable,
+                                Verdict::fail};
   return states[static_cast<std::size_t>(outcome)];
 }
 
@@ -46,20 +46,16 @@ OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) 
     passes += row.outcome == passed;
     if (isFault(row)) faults.push_back(row.name);
   }
-  OverviewCell cell{CellState::notMeasured, {}, "checks", {}, {}, ""};
+  OverviewCell cell{Verdict::notMeasured, {}, "checks", {}, {}, ""};
   if (asked == 0) return cell;
-  return {faults.empty() ? CellState::good : CellState::bad,
-          static_cast<double>(passes),
-          "checks",
-          fmt::format("{} of {}", passes, asked),
-          listedShortly(faults, 3),
-          part.name};
+  return {faults.empty() ? Verdict::pass : Verdict::fail, static_cast<double>(passes), "checks",
+          fmt::format("{} of {}", passes, asked),         listedShortly(faults, 3),    part.name};
 }
 
 OverviewCell notExaminedCell(const ConformanceResults& results) {
-  OverviewCell cell{CellState::notMeasured, {}, "capabilities", {}, {}, {}};
+  OverviewCell cell{Verdict::notMeasured, {}, "capabilities", {}, {}, {}};
   if (!results.declared) return cell;
-  cell.state = CellState::figure;
+  cell.verdict = std::nullopt;
   cell.value = static_cast<double>(results.notExamined.size());
   cell.shown = fmt::format("{} of {}", results.notExamined.size(), *results.declared);
   cell.words = listedShortly(results.notExamined, 3);
@@ -88,14 +84,10 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
 }
 
 std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
-  // In the order of ConformanceOutcome.
-  constexpr JUnitCase::Outcome outcomes[] = {JUnitCase::Outcome::passed, JUnitCase::Outcome::failed,
-                                             JUnitCase::Outcome::skipped,
-                                             JUnitCase::Outcome::error};
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
-    cases.push_back({results.engine.name + " " + row.part, row.name,
-                     outcomes[static_cast<std::size_t>(row.outcome)], row.detail, row.seconds});
+    cases.push_back({results.engine.name + " " + row.part, row.name, outcomeState(row.outcome),
+                     row.detail, row.seconds, row.outcome == brokeDown});
   return cases;
 }
 

@@ -236,16 +236,16 @@ std::string costToml(const CostResults& results) {
 namespace {
 
 OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
-  OverviewCell cell{CellState::notMeasured, {}, "s", {}, {}, "accuracy"};
+  OverviewCell cell{Verdict::notMeasured, {}, "s", {}, {}, "accuracy"};
   if (!cost || cost->verdict == CostVerdict::notMeasured) return cell;
   if (cost->verdict == CostVerdict::reached) {
-    cell.state = CellState::good;
+    cell.verdict = Verdict::pass;
     cell.value = cost->wallSeconds;
     cell.shown = shortDuration(cost->wallSeconds);
     cell.words = settingText(cost->knob, cost->setting);
     return cell;
   }
-  cell.state = cost->verdict == CostVerdict::undecided ? CellState::undecided : CellState::bad;
+  cell.verdict = cost->verdict == CostVerdict::undecided ? Verdict::undecided : Verdict::fail;
   cell.unit = "%";
   const CostPoint* point = pointAt(results, cost->point);
   const auto show = [&](double error, const std::string& measure) {
@@ -254,7 +254,7 @@ OverviewCell overviewCell(const CostResults& results, const CostCell* cost) {
     cell.words = measureText(withoutOwn(measure));
   };
   if (const CostModel* model = modelOf(results, *cost)) {
-    cell.state = CellState::modelDifference;
+    cell.verdict = Verdict::modelDifference;
     show(model->error, model->measure);
   } else if (point && point->counted()) {
     show(*point->counted(), point->measure);
@@ -333,8 +333,8 @@ namespace {
 
 /// A verdict's cell: its mark, its colour, and notes below.
 Cell verdictCell(CostVerdict verdict, std::string text, std::vector<std::string> notes) {
-  constexpr std::array states = {CellState::good, CellState::undecided, CellState::bad,
-                                 CellState::notMeasured};
+  constexpr std::array states = {Verdict::pass, Verdict::undecided, Verdict::fail,
+                                 Verdict::notMeasured};
   return {std::move(text), std::move(notes), states[static_cast<std::size_t>(verdict)], true};
 }
 
@@ -502,7 +502,7 @@ std::vector<std::string> costSentences(const CostResults& results) {
         readableDuration(std::ceil(*results.budgetForTheRest / 10.0) * 10.0));
   std::vector<std::string> sentences = {decidedText(results), counts + "."};
   for (const EngineRow& engine : results.engines)
-    if (engine.status == EngineStatus::refused)
+    if (engine.status == Status::refused)
       sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   return sentences;
 }

@@ -92,19 +92,19 @@ std::string rowText(const DiffRow& row, const LockstepRules& rules) {
   return text;
 }
 
-CellState stateOf(DiffVerdict verdict) {
-  if (verdict == DiffVerdict::notMeasured) return CellState::notMeasured;
-  if (verdict == DiffVerdict::undecided) return CellState::undecided;
-  return verdict == DiffVerdict::differs ? CellState::bad : CellState::good;
+Verdict stateOf(DiffVerdict verdict) {
+  if (verdict == DiffVerdict::notMeasured) return Verdict::notMeasured;
+  if (verdict == DiffVerdict::undecided) return Verdict::undecided;
+  return verdict == DiffVerdict::differs ? Verdict::fail : Verdict::pass;
 }
 
 OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
   if (row.forcesVerdict == DiffVerdict::differs && row.windowsVerdict != DiffVerdict::differs) {
     const double most = std::max({row.forces->normal, row.forces->tangential, row.forces->walls});
-    return {CellState::bad, 100.0 * most, "%", percentText(most), "reported forces", {}};
+    return {Verdict::fail, 100.0 * most, "%", percentText(most), "reported forces", {}};
   }
   OverviewCell cell{stateOf(row.windowsVerdict), {}, "%", {}, {}, {}};
-  if (cell.state == CellState::notMeasured) return cell;
+  if (cell.verdict == Verdict::notMeasured) return cell;
   cell.words = spaced(nameOf(row.windowsVerdict));
   if (row.windowsVerdict == DiffVerdict::sameBits) {
     cell.value = 0.0;
@@ -119,7 +119,7 @@ OverviewCell windowsCell(const DiffRow& row, const LockstepRules& rules) {
 
 OverviewCell collisionsCell(const DiffRow& row) {
   OverviewCell cell{stateOf(row.collisionsVerdict), {}, "%", {}, {}, {}};
-  if (cell.state == CellState::notMeasured) return cell;
+  if (cell.verdict == Verdict::notMeasured) return cell;
   if (row.collisions.empty()) {
     cell.value = 0.0;
     cell.shown = "same bits";
@@ -136,13 +136,13 @@ OverviewCell averagesCell(const DiffRow& row) {
   std::vector<const EndpointRow*> rows;
   for (const EndpointRow& endpoint : row.endpoints) rows.push_back(&endpoint);
   const EndpointRow* worst = worstOf(rows);
-  if (!worst) return {CellState::notMeasured, {}, "margins", {}, {}, {}};
+  if (!worst) return {Verdict::notMeasured, {}, "margins", {}, {}, {}};
   return endpointCell(*worst, false);
 }
 
 OverviewCell declaredCell(const DiffRow& row) {
   const std::size_t count = row.declared.size();
-  return {CellState::figure,
+  return {std::nullopt,
           static_cast<double>(count),
           "changes",
           fmt::format("{}", count),

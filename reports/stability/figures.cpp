@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/worker/json.hpp"
 #include "reports/common/engines.hpp"
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "reports/stability/table.hpp"
-#include "results/engine_fields.hpp"
 #include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"

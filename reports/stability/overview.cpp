@@ -108,16 +108,16 @@ FamilyTally familyTally(const StabilityResults& results, const std::string& engi
 }
 
 OverviewCell familyCell(const FamilyTally& tally) {
-  OverviewCell cell{CellState::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
+  OverviewCell cell{Verdict::notMeasured, {}, "stable runs", {}, {}, tally.anchor};
   if (!tally.worst) {
-    if (tally.refused > 0 && tally.notRun == 0) cell.state = CellState::notApplicable;
+    if (tally.refused > 0 && tally.notRun == 0) cell.verdict = Verdict::notApplicable;
     return cell;
   }
   cell.value = static_cast<double>(tally.stable);
   cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
   if (tally.notRun > 0) cell.words = fmt::format("{} not run", tally.notRun);
-  cell.state = stateOf(tally.worst->verdict);
-  if (cell.state != CellState::good) cell.words = spaced(tally.worst->name);
+  cell.verdict = stateOf(tally.worst->verdict);
+  if (cell.verdict != Verdict::pass) cell.words = spaced(tally.worst->name);
   return cell;
 }
 
@@ -217,14 +217,14 @@ bool areTransforms(const StabilityResults& results) {
 Overview stabilityOverview(const StabilityResults& results) {
   Overview overview;
   if (areTransforms(results))
-    overview.states = {{CellState::good, "the same, but for rounding"},
-                       {CellState::bad, "different"},
-                       {CellState::notApplicable, "cannot be done"}};
+    overview.states = {{Verdict::pass, "the same, but for rounding"},
+                       {Verdict::fail, "different"},
+                       {Verdict::notApplicable, "cannot be done"}};
   else
-    overview.states = {{CellState::good, "all stable"},
-                       {CellState::borderline, "some degraded"},
-                       {CellState::bad, "some unstable"},
-                       {CellState::notApplicable, "refused"}};
+    overview.states = {{Verdict::pass, "all stable"},
+                       {Verdict::borderline, "some degraded"},
+                       {Verdict::fail, "some unstable"},
+                       {Verdict::notApplicable, "refused"}};
   const std::vector<NamedFamily> all = familiesOf(results);
   for (const NamedFamily& family : all)
     overview.columns.push_back({family.name, family.asks, "matrix"});

@@ -192,8 +192,6 @@ std::string stabilityCsv(const StabilityResults& results) {
   return table;
 }
 
-using Outcome = JUnitCase::Outcome;
-
 /// "0.31 J against a limit of 0.1 J (why); reason"
 std::string limitInWords(const StabilityRun& run, const std::string& why) {
   std::string figure;
@@ -204,25 +202,29 @@ std::string limitInWords(const StabilityRun& run, const std::string& why) {
   return figure + (figure.empty() || run.reason.empty() ? "" : "; ") + run.reason;
 }
 
-Outcome junitOutcome(const StabilityRun& run) {
-  if (run.status == HardRunStatus::failed) return Outcome::error;
+/// A degraded run passes, and its message says so.
+Verdict junitVerdict(const StabilityRun& run) {
   switch (run.verdict) {
     case StabilityVerdict::unstable:
-      return Outcome::failed;
+      return Verdict::fail;
     case StabilityVerdict::notRun:
     case StabilityVerdict::refused:
-      return Outcome::skipped;
+      return Verdict::notMeasured;
     default:
-      return Outcome::passed;
+      return Verdict::pass;
   }
 }
 
 std::vector<JUnitCase> stabilityChecks(const StabilityResults& results) {
   std::vector<JUnitCase> cases;
   for (const StabilityRun& run : results.runs) {
-    JUnitCase one{junitGroup(run.name, run.variant), run.engine + ": " + run.measure,
-                  junitOutcome(run), "", junitSeconds(run.stats)};
-    if (one.outcome == Outcome::error || one.outcome == Outcome::skipped) {
+    JUnitCase one{junitGroup(run.name, run.variant),
+                  run.engine + ": " + run.measure,
+                  junitVerdict(run),
+                  "",
+                  junitSeconds(run.stats),
+                  run.status == HardRunStatus::failed};
+    if (one.broke || one.verdict == Verdict::notMeasured) {
       one.message = run.reason;
     } else if (run.verdict != StabilityVerdict::stable) {
       std::string why;

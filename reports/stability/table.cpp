@@ -6,9 +6,9 @@
 
 namespace crossgrain::reports {
 
-CellState stateOf(StabilityVerdict verdict) {
-  using enum CellState;
-  constexpr std::array states = {notMeasured, notApplicable, good, borderline, bad};
+Verdict stateOf(StabilityVerdict verdict) {
+  using enum Verdict;
+  constexpr std::array states = {notMeasured, notApplicable, pass, borderline, fail};
   return states.at(static_cast<std::size_t>(verdict));
 }
 

@@ -11,7 +11,7 @@
 namespace crossgrain::reports {
 
 /// How a verdict is shown: degraded as borderline, refused as not applicable.
-CellState stateOf(StabilityVerdict verdict);
+Verdict stateOf(StabilityVerdict verdict);
 
 /// All variants of one hard case.
 struct HardGroup {

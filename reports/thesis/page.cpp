@@ -8,7 +8,6 @@
 #include "reports/common/labels.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/common/overview_marks.hpp"
 #include "reports/common/page.hpp"
 #include "reports/common/sentences.hpp"
 #include "reports/thesis/report.hpp"
@@ -21,10 +20,10 @@ using Claims = std::vector<const ClaimRow*>;
 
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
-CellState stateOf(ClaimVerdict verdict) {
-  return verdict == ClaimVerdict::reproduced ? CellState::good
-         : verdict == ClaimVerdict::refuted  ? CellState::bad
-                                             : CellState::undecided;
+Verdict stateOf(ClaimVerdict verdict) {
+  return verdict == ClaimVerdict::reproduced ? Verdict::pass
+         : verdict == ClaimVerdict::refuted  ? Verdict::fail
+                                             : Verdict::undecided;
 }
 
 /// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
@@ -79,10 +78,10 @@ Names rowsOf(const ThesisResults& results) {
 }
 
 OverviewCell cellOf(const Claims& claims) {
-  OverviewCell cell{CellState::notApplicable, {}, {}, {}, {}, {}};
+  OverviewCell cell{Verdict::notApplicable, {}, {}, {}, {}, {}};
   if (claims.empty()) return cell;
   const ClaimRow& claim = *claims.front();
-  cell.state = stateOf(claim.verdict);
+  cell.verdict = stateOf(claim.verdict);
   cell.anchor = claim.id;
   // The figure that refutes a claim, or leaves it undecided; else the one that stands for it.
   auto figure = std::ranges::find(claim.figures, claim.verdict, &ClaimFigure::verdict);
@@ -316,7 +315,7 @@ void addSummary(Json& view, const ThesisResults& results) {
         each.accepted ? "is evaluated through its mirror" : "is not evaluated through its mirror",
         each.mirror, each.why));
   for (const ThesisRun& run : results.runs)
-    if (run.run.status == RunStatus::failed) sentences.push_back("Failed: " + run.run.reason);
+    if (run.run.status == Status::failed) sentences.push_back("Failed: " + run.run.reason);
   view["sentences"] = sentences;
 }
 
@@ -324,9 +323,9 @@ void addSummary(Json& view, const ThesisResults& results) {
 
 Overview thesisOverview(const ThesisResults& results) {
   Overview overview;
-  overview.states = {{CellState::good, "reproduced"},
-                     {CellState::bad, "refuted"},
-                     {CellState::notApplicable, "no claim of it"}};
+  overview.states = {{Verdict::pass, "reproduced"},
+                     {Verdict::fail, "refuted"},
+                     {Verdict::notApplicable, "no claim of it"}};
   for (const ClaimRow& claim : results.claims)
     if (std::ranges::find(overview.columns, claim.id, &OverviewColumn::name) ==
         overview.columns.end())

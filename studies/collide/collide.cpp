@@ -175,14 +175,14 @@ EngineRow rowOf(const EngineEntry& entry, const std::vector<Case>& variants,
   EngineRow row = engineRow(entry, "");
   // Refusing some variants is no failure; the curves say which.
   if (const std::string why = refusalReason(entry, variants, curves); !why.empty()) {
-    row.status = EngineStatus::refused;
+    row.status = Status::refused;
     row.reason = why;
   }
   for (const Case& setup : variants)
     if (const auto found = curves.find(idOf(entry, setup)); found != curves.end())
       for (const CollisionCurve& curve : found->second) {
         if (curve.status == SweepStatus::failed) {
-          row.status = EngineStatus::failed;
+          row.status = Status::failed;
           row.reason = curve.reason;
         }
         if (curve.effective) row.version = curve.effective->version;

@@ -327,7 +327,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   }
   for (const ConformanceRow& row : results.rows)
     if (row.outcome == ConformanceOutcome::brokeDown && results.engine.reason.empty()) {
-      results.engine.status = EngineStatus::failed;
+      results.engine.status = Status::failed;
       results.engine.reason = row.detail;
     }
   results.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

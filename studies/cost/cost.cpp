@@ -236,7 +236,7 @@ void addEngines(CostResults& results, const CostStudy& study) {
     for (const CostPoint& point : results.points)
       if (point.engine == engine.name && point.status == CostStatus::failed &&
           std::ranges::find(study.engineFailures, point.reason) != study.engineFailures.end()) {
-        engine.status = EngineStatus::failed;
+        engine.status = Status::failed;
         engine.reason = point.reason;
       }
 }

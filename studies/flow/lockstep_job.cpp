@@ -127,7 +127,7 @@ LockstepResults lockstep(const StudyWork& work, const LockstepOptions& own) {
   for (EngineRow& engine : results.engines)
     for (const LockstepRow& row : results.lockstep.rows)
       if (row.engine == engine.name && !row.failure.empty()) {
-        engine.status = EngineStatus::failed;
+        engine.status = Status::failed;
         engine.reason = row.failure;
       }
   return results;

@@ -6,7 +6,7 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/suitability.hpp"
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/lockstep.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/core/engine_access.hpp"

@@ -262,7 +262,7 @@ void diffEndpoints(DiffRow& row, const EngineEntry& entry, const Case& setup,
   if (before.endpoints.empty() || row.windowsVerdict == DiffVerdict::sameBits) return;
   const KeptEndpoints now = endpointsFrom(entry, setup, baseline.starts, timeStep(setup), progress);
   row.endpoints = endpointChanges(setup, before.endpoints, now, {before.name, row.engine});
-  if (std::ranges::count(row.endpoints, Answer::disagree, &EndpointRow::answer) > 0)
+  if (std::ranges::count(row.endpoints, Verdict::fail, &EndpointRow::verdict) > 0)
     row.verdict = DiffVerdict::differs;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/measures.hpp"

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <iterator>
 
+#include "adapters/worker/json.hpp"
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
-#include "results/engine_fields.hpp"
 #include "results/scene_picture.hpp"
 #include "results/schema.hpp"
 #include "results/stability.hpp"

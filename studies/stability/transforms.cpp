@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "studies/core/engine_access.hpp"

@@ -75,7 +75,7 @@ Outcome outcomeOfThesis(const ThesisResults& results, const CommandLine&,
                         const ThesisOptions& own) {
   Outcome outcome;
   for (const ThesisRun& run : results.runs)
-    if (run.run.status == RunStatus::failed) outcome.failures.push_back(run.run.reason);
+    if (run.run.status == Status::failed) outcome.failures.push_back(run.run.reason);
   if (!outcome.failures.empty())
     outcome.status = exitEngineFailed;
   else if (results.runs.empty())

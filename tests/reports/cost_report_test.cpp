@@ -31,7 +31,7 @@ CostResults byHand() {
   CostResults results;
   results.head.schema = schemaVersion;
   results.head.kind = kindCost;
-  results.engines = {{"a", "", "", "", EngineStatus::ran, ""}};
+  results.engines = {{"a", "", "", "", Status::finished, ""}};
   results.points = {of("t_c/10", 0.1, 0.1, 1.0), of("t_c/100", 0.01, 0.01, 10.0),
                     of("t_c/1", 1.0, 0.0, 0.1), of("float, slow", 0.01, 0.01, 20.0)};
   CostPoint& failed = results.points[2];
@@ -114,7 +114,7 @@ TEST(CostOverview, ModelError_IsAModelDifferenceAndTheOwnLimitIsNamed) {
   results.models = {{"a", CostKind::collision, "psi_f", 0.25, 0.24, 0.26}};
   results.cells = {own, scene};
   const OverviewCell cell = costOverview(results).rows[0].cells[0];
-  EXPECT_EQ(cell.state, CellState::modelDifference);
+  EXPECT_EQ(cell.verdict, Verdict::modelDifference);
   EXPECT_EQ(cell.shown, "25 % off");
   EXPECT_EQ(cell.words, "Ψ_f; its own law: t_c/10, 1.00 s");
   EXPECT_EQ(costText(results),

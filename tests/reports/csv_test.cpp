@@ -122,7 +122,7 @@ TEST(Csv, EndpointsHaveTheAnswerAndWhatItRestsOn) {
   EXPECT_EQ(endpointsCsv(results),
             head + "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,\n");
   results.endpoints.rows[0].reference = 200.0;
-  results.endpoints.rows[0].answer = Answer::smallDifference;
+  results.endpoints.rows[0].verdict = Verdict::pass;
   results.endpoints.rows[0].difference = 20.0;
   results.endpoints.rows[0].distance = 0.4;
   results.endpoints.rows[0].look = 2;

@@ -175,10 +175,10 @@ TEST(RevReport, NearnessToSlicing_DecidesTheMatrix) {
   ASSERT_EQ(overview.rows.size(), 1u);
   EXPECT_EQ(overview.rows[0].name, "volume fraction");
   EXPECT_EQ(overview.rows[0].cells[1].shown, "≥ 1 d");
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notMeasured);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::notMeasured);
   EXPECT_EQ(overview.conclusion[1], "Within 5 % of slicing in every field: centre from 1 d.");
   results.curves[1].mean[2] = 0.9;
-  EXPECT_EQ(revOverview(results).rows[0].cells[1].state, CellState::borderline);
+  EXPECT_EQ(revOverview(results).rows[0].cells[1].verdict, Verdict::borderline);
   // Under "near d" of the first method, and a dash where no width was there to
   // meet at.
   EXPECT_TRUE(has(textOf(reportOf(sample::revResults())), "| 0.95 (1 %) | –"));

@@ -90,10 +90,10 @@ CollideResults collideResults() {
   CollideResults results;
   results.head = resultsHead("collide", "figure-4-3");
   results.elapsed = 754.2;
-  results.engines = {
-      engineRow("grain", "the in-house engine"), engineRow("yade", "YADE's viscoelastic law"),
-      engineRow("box2d-impulse", "Box2D's own solver"),
-      engineRow("odd-one", awkward, "", EngineStatus::failed, "worker hung <120 s>")};
+  results.engines = {engineRow("grain", "the in-house engine"),
+                     engineRow("yade", "YADE's viscoelastic law"),
+                     engineRow("box2d-impulse", "Box2D's own solver"),
+                     engineRow("odd-one", awkward, "", Status::failed, "worker hung <120 s>")};
   results.variants = {variant("spring, tension cut", 0.47, 1.770),
                       variant("spring and dashpot", 0.055, 1.770)};
   results.variants[1].sticking.et0.reset();

@@ -124,10 +124,10 @@ CostResults costResults() {
   results.notes.clear();
   results.budget = 720.0;
   results.budgetForTheRest = 1396.0;
-  results.engines = {{"grain", "the in-house engine", "1.0", "", EngineStatus::ran, ""},
-                     {"yade", "YADE", "1.0", "", EngineStatus::ran, ""},
-                     {"box2d-penalty", "Box2D", "1.0", "", EngineStatus::ran, ""},
-                     {"box2d-impulse", "Box2D", "1.0", "", EngineStatus::refused, awkward}};
+  results.engines = {{"grain", "the in-house engine", "1.0", "", Status::finished, ""},
+                     {"yade", "YADE", "1.0", "", Status::finished, ""},
+                     {"box2d-penalty", "Box2D", "1.0", "", Status::finished, ""},
+                     {"box2d-impulse", "Box2D", "1.0", "", Status::refused, awkward}};
   results.references = {{CostKind::collision, "oracle", "10⁻¹²", 1e-11, "planar two-body problem"},
                         {CostKind::averages, "grain", "t_c/400", 0.001, awkward}};
   results.window = 0.8;

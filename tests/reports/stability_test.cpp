@@ -81,8 +81,8 @@ TEST(StabilityReport, WhatWasNotRun_IsNotAmongThePassed) {
   const StabilityResults results = transformsInTime();
   const Report report = reportOf(results);
   const Overview& overview = report.overview;
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::good);
-  EXPECT_EQ(overview.rows[0].cells[1].state, CellState::notMeasured);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::pass);
+  EXPECT_EQ(overview.rows[0].cells[1].verdict, Verdict::notMeasured);
   ASSERT_EQ(overview.conclusion.size(), 2u);
   EXPECT_EQ(overview.conclusion[0], "slow: 1 of 2 runs the same, 1 not run.");
   EXPECT_EQ(overview.conclusion[1],

@@ -83,7 +83,7 @@ TEST(ThesisFigures, CompactedResults_GiveTheSame) {
 TEST(ThesisFigures, NothingOfNoResults) {
   EXPECT_TRUE(thesisFigures({}).empty());
   ThesisResults unfinished = sample::thesisResults();
-  for (ThesisRun& run : unfinished.runs) run.run.status = RunStatus::failed;
+  for (ThesisRun& run : unfinished.runs) run.run.status = Status::failed;
   EXPECT_TRUE(thesisFigures(unfinished).empty());
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 ThesisResults twoClaims() {
   ThesisResults results;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   results.cases.resize(2);
   ThesisCase& setup = results.cases[0];
   setup.name = "nu-0.804";
@@ -101,16 +101,16 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   EXPECT_EQ(overview.columns[1].asks, "a zone is dilated");
   ASSERT_EQ(overview.rows.size(), 2u);
   EXPECT_EQ(overview.rows[0].name, "grain");
-  EXPECT_EQ(overview.rows[0].cells[0].state, CellState::notApplicable);
+  EXPECT_EQ(overview.rows[0].cells[0].verdict, Verdict::notApplicable);
   const OverviewCell& refuted = overview.rows[0].cells[1];
-  EXPECT_EQ(refuted.state, CellState::bad);
+  EXPECT_EQ(refuted.verdict, Verdict::fail);
   EXPECT_EQ(refuted.shown, "9.00\u00a0d");
   EXPECT_EQ(refuted.words, "C⁻¹ [4 … 7]; ✓ under wall spacing 7 mm");
   EXPECT_EQ(refuted.anchor, "C5");
-  EXPECT_EQ(overview.rows[0].cells[2].state, CellState::undecided);
+  EXPECT_EQ(overview.rows[0].cells[2].verdict, Verdict::undecided);
   EXPECT_EQ(overview.rows[1].name, "no engine");
   EXPECT_FALSE(overview.rows[1].isEngine);
-  EXPECT_EQ(overview.rows[1].cells[0].state, CellState::good);
+  EXPECT_EQ(overview.rows[1].cells[0].verdict, Verdict::pass);
   EXPECT_EQ(overview.rows[1].cells[0].shown, "");
 }
 

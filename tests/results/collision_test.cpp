@@ -40,7 +40,7 @@ CollideResults resultsOfOneCase() {
   CollideResults results;
   results.head.kind = "collide";
   results.elapsed = 2.5;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   CollisionVariant& variant = results.variants.emplace_back();
   variant.law = {{"tension", "cut"}, {"mu", 0.44}};
   variant.effects = {"friction"};

@@ -37,8 +37,8 @@ CostResults study() {
   results.elapsed = 12.5;
   results.effects = {"friction"};
   results.notes = {"a note"};
-  results.engines = {{"grain", "", "0.1.0", "", EngineStatus::ran, ""},
-                     {"yade", "", "", "", EngineStatus::failed, "gone"}};
+  results.engines = {{"grain", "", "0.1.0", "", Status::finished, ""},
+                     {"yade", "", "", "", Status::failed, "gone"}};
   results.cell.omega = 1.0;
   results.averaging.method = "slicing";
   results.rings.r = {0.1, 0.2};

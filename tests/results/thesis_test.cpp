@@ -12,7 +12,7 @@ ThesisResults resultsOfOneLeg() {
   ThesisResults results;
   results.head.kind = "thesis";
   results.elapsed = 12.5;
-  results.engines = {{"grain", "in-house", "1", "", EngineStatus::ran, ""}};
+  results.engines = {{"grain", "in-house", "1", "", Status::finished, ""}};
   results.surrogates = {{"other", "grain-as-other", true, 1e-9, 16, "same to rounding"}};
   results.rules = "[common]\n";
   results.collisions.emplace().head.kind = "collide";

@@ -151,7 +151,7 @@ TEST(ClaimRows, HowManyRunsCouldNotBeFittedIsSaid) {
 
 TEST(ClaimRows, RunsThatFailedAreNone) {
   ThesisResults results = world();
-  for (ThesisRun& run : results.runs) run.run.status = RunStatus::failed;
+  for (ThesisRun& run : results.runs) run.run.status = Status::failed;
   for (const ClaimRow& row : judged(results)) EXPECT_EQ(row.verdict, ClaimVerdict::undecided);
 }
 

@@ -20,10 +20,10 @@ Case judging() {
   return setup;
 }
 
-EndpointRow row(PairKind kind, int packings, Answer answer = Answer::undecided) {
+EndpointRow row(PairKind kind, int packings, Verdict answer = Verdict::undecided) {
   EndpointRow result;
   result.kind = kind;
-  result.answer = answer;
+  result.verdict = answer;
   result.packings = packings;
   return result;
 }
@@ -67,16 +67,16 @@ ExitStatus compared(const CompareResults& results, bool strict = false, bool qui
 TEST(CompareOutcome, VerdictsOfNamedEngines_Decide) {
   CompareResults results;
   EXPECT_EQ(compared(results), exitPassed);
-  const auto with = [&](PairKind kind, Answer answer) {
-    results.endpoints.rows = {row(kind, 8, Answer::noDifference), row(kind, 8, answer)};
+  const auto with = [&](PairKind kind, Verdict answer) {
+    results.endpoints.rows = {row(kind, 8, Verdict::pass), row(kind, 8, answer)};
     return std::pair(compared(results), compared(results, true));
   };
-  EXPECT_EQ(with(PairKind::peer, Answer::smallDifference), std::pair(exitPassed, exitPassed));
-  EXPECT_EQ(with(PairKind::peer, Answer::undecided), std::pair(exitPassed, exitFailed));
-  EXPECT_EQ(with(PairKind::peer, Answer::borderline), std::pair(exitPassed, exitFailed));
-  EXPECT_EQ(with(PairKind::peer, Answer::disagree), std::pair(exitFailed, exitFailed));
-  EXPECT_EQ(with(PairKind::closedForm, Answer::disagree), std::pair(exitFailed, exitFailed));
-  EXPECT_EQ(with(PairKind::mirrorModel, Answer::disagree), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::pass), std::pair(exitPassed, exitPassed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::undecided), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::borderline), std::pair(exitPassed, exitFailed));
+  EXPECT_EQ(with(PairKind::peer, Verdict::fail), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::closedForm, Verdict::fail), std::pair(exitFailed, exitFailed));
+  EXPECT_EQ(with(PairKind::mirrorModel, Verdict::fail), std::pair(exitPassed, exitPassed));
 }
 
 TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
@@ -89,8 +89,8 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   results.lockstep->rows.front().verdict = LockstepVerdict::differs;
   EXPECT_EQ(compared(results), exitFailed);
   results.lockstep.reset();
-  results.engines = {{"b", "", "", "", EngineStatus::refused, "cannot"},
-                     {"c", "", "", "", EngineStatus::refused, "was not named"}};
+  results.engines = {{"b", "", "", "", Status::refused, "cannot"},
+                     {"c", "", "", "", Status::refused, "was not named"}};
   EXPECT_EQ(compared(results), exitPassed);
   EXPECT_EQ(compared(results, true), exitFailed);
   AlarmRow alarm;
@@ -100,7 +100,7 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   results.endpoints.alarms.front().kind = PairKind::peer;
   EXPECT_EQ(compared(results), exitFailed);
   FlowRun run;
-  run.status = RunStatus::failed;
+  run.status = Status::failed;
   run.reason = "broke";
   results.runs = {run};
   EXPECT_EQ(compared(results), exitEngineFailed);
@@ -185,16 +185,16 @@ TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
 
 TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
   ScaleResults scaled;
-  scaled.points.emplace_back().status = EngineStatus::ran;
+  scaled.points.emplace_back().status = Status::finished;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitPassed);
-  scaled.points.front().status = EngineStatus::refused;
+  scaled.points.front().status = Status::refused;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitFailed);
-  scaled.points.front().status = EngineStatus::failed;
+  scaled.points.front().status = Status::failed;
   EXPECT_EQ(scaleStudy.outcome(scaled, {}, {}).status, exitEngineFailed);
   EffectsResults effects;
-  effects.variants.emplace_back().status = EngineStatus::refused;
+  effects.variants.emplace_back().status = Status::refused;
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitPassed);
-  effects.variants.front().status = EngineStatus::failed;
+  effects.variants.front().status = Status::failed;
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitEngineFailed);
   ConformanceResults conformance;
   for (const auto& [outcome, status] :

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/scene_picture.hpp"
 #include "results/stability.hpp"
 #include "stability/verdict.hpp"
