@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "results/collision_fields.hpp"
+#include "results/collision.hpp"
 #include "results/flow_fields.hpp"
 
 namespace crossgrain::inline results {

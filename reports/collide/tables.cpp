@@ -132,24 +132,18 @@ Cell schemeCell(const std::optional<SchemeScore>& own) {
   return cell;
 }
 
-CellState sweepState(SweepOutcome outcome) {
-  constexpr CellState states[] = {CellState::good,          CellState::modelDifference,
-                                  CellState::bad,           CellState::notMeasured,
-                                  CellState::notApplicable, CellState::bad};
-  return states[static_cast<std::size_t>(outcome)];
-}
-
-std::string sweepWord(SweepOutcome outcome) {
-  const char* const words[] = {"passed",     "model difference", "failed",
-                               "not judged", "refused",          "broke down"};
-  return words[static_cast<std::size_t>(outcome)];
+std::string sweepWord(const CollisionCurve& curve) {
+  const char* const words[] = {"refused", "not judged", "passed", "model difference",
+                               "",        "",           "failed"};
+  return curve.status == Status::failed ? "broke down"
+                                        : words[static_cast<std::size_t>(verdictOf(curve))];
 }
 
 /// Whether a sweep passed at a time step between the largest and the smallest of its engine: it
 /// adds nothing to those.
 bool passedBetween(const CollisionVariant& variant, const CollisionCurve& curve) {
   const auto dt = finite(curve.dt);
-  if (!dt || outcomeOf(curve) != SweepOutcome::held) return false;
+  if (!dt || verdictOf(curve) != Verdict::pass) return false;
   bool larger = false, smaller = false;
   for (const CollisionCurve* other : curvesOf(variant, curve.engine)) {
     larger = larger || finite(other->dt).value_or(*dt) > *dt;
@@ -175,14 +169,14 @@ CellState stateOf(const Tally& tally) {
   if (tally.failed > 0 || tally.beyondLimits > 0) return CellState::bad;
   if (tally.judged() == 0)
     return tally.refused > 0 ? CellState::notApplicable : CellState::notMeasured;
-  return tally.model > 0 ? CellState::modelDifference : CellState::good;
+  return tally.modelDifference > 0 ? CellState::modelDifference : CellState::good;
 }
 
 std::string headline(const Tally& tally) {
   if (tally.judged() == 0)
     return tally.failed > 0 ? "failed" : tally.refused > 0 ? "refused" : "not judged";
   std::string words = fmt::format("{} of {} passed", tally.held, tally.judged());
-  if (tally.model > 0) words += fmt::format(", {} ≠", tally.model);
+  if (tally.modelDifference > 0) words += fmt::format(", {} ≠", tally.modelDifference);
   if (tally.beyondLimits > 0) words += fmt::format(", {} ✗", tally.beyondLimits);
   return words;
 }
@@ -271,11 +265,10 @@ Table scoreTable(const CaseGroup& group) {
       for (const ScoredBy& law : lawsOf(curve)) {
         TableRow row;
         if (&law.score == &curve.score) {
-          const SweepOutcome outcome = outcomeOf(curve);
           row.cells = {variant->variant,
                        curve.engine,
                        dtOf(&curve),
-                       {sweepWord(outcome), {curve.reason}, sweepState(outcome), true},
+                       {sweepWord(curve), {curve.reason}, stateOf(verdictOf(curve)), true},
                        schemeCell(curve.ownScheme)};
         } else {
           row.cells.resize(5);

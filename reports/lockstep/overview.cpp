@@ -40,12 +40,12 @@ OverviewCell forcesCell(const LockstepRow& row) {
 
 OverviewCell termCell(const LockstepRow& row) {
   OverviewCell cell{CellState::notApplicable, {}, "%", {}, {}, evidence};
-  if (row.verdict == LockstepVerdict::notMeasured) cell.state = CellState::notMeasured;
+  if (row.verdict == Equivalence::notMeasured) cell.state = CellState::notMeasured;
   if (!row.term) {
-    if (row.verdict == LockstepVerdict::differs) cell.words = "no single term accounts for it";
+    if (row.verdict == Equivalence::differs) cell.words = "no single term accounts for it";
     return cell;
   }
-  cell.state = row.verdict == LockstepVerdict::differs ? CellState::bad : CellState::figure;
+  cell.state = row.verdict == Equivalence::differs ? CellState::bad : CellState::figure;
   cell.words = constantWords(row.term->name);
   if (!row.term->amount) return cell;
   cell.value = 100.0 * *row.term->amount;
@@ -68,9 +68,9 @@ std::string deviationOf(const LockstepFindings& findings) {
 std::string nextOf(const LockstepFindings& findings) {
   std::vector<std::string> differ, unmeasured, undecided;
   for (const LockstepRow& row : findings.rows) {
-    if (row.verdict == LockstepVerdict::undecided) undecided.push_back(row.engine);
+    if (row.verdict == Equivalence::undecided) undecided.push_back(row.engine);
     if (lockstepState(row, findings.rules) == CellState::bad) differ.push_back(row.engine);
-    if (row.verdict == LockstepVerdict::notMeasured) unmeasured.push_back(row.engine);
+    if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
     return fmt::format("Next: see the first contact at which {} differ, in the table below.",
@@ -87,19 +87,8 @@ std::string nextOf(const LockstepFindings& findings) {
 }  // namespace
 
 CellState lockstepState(const LockstepRow& row, const LockstepRules& rules) {
-  switch (row.verdict) {
-    case LockstepVerdict::sameToRounding:
-    case LockstepVerdict::sameToPrecision:
-    case LockstepVerdict::sameLaw:
-      return CellState::good;
-    case LockstepVerdict::differs:
-      return openInLaw(row, rules).empty() ? CellState::bad : CellState::borderline;
-    case LockstepVerdict::undecided:
-      return CellState::undecided;
-    case LockstepVerdict::notMeasured:
-      break;
-  }
-  return CellState::notMeasured;
+  const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
+  return stateOf(open ? Verdict::borderline : verdictOf(row.verdict));
 }
 
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
@@ -107,16 +96,16 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
     return {isMirror ? CellState::notApplicable : CellState::notMeasured,   {}, "%", {},
             isMirror ? "is a mirror itself" : "not compared with a mirror", {}};
   OverviewCell cell{lockstepState(*row, rules), {}, "%", {}, {}, evidence};
-  if (row->verdict == LockstepVerdict::notMeasured) {
+  if (row->verdict == Equivalence::notMeasured) {
     cell.words = row->reason;
     return cell;
   }
   cell.words = verdictWord(row->verdict);
-  if (row->verdict == LockstepVerdict::undecided) cell.words += ": " + row->reason;
-  if (row->verdict == LockstepVerdict::differs && cell.state == CellState::borderline)
+  if (row->verdict == Equivalence::undecided) cell.words += ": " + row->reason;
+  if (row->verdict == Equivalence::differs && cell.state == CellState::borderline)
     cell.words = "differs only where the law leaves the order of impacts open";
   // What would just have shown is what can be said of an engine that stays within its rounding.
-  const bool bounded = row->verdict == LockstepVerdict::sameToPrecision;
+  const bool bounded = row->verdict == Equivalence::sameToPrecision;
   const auto size = bounded ? row->resolution : row->equivalent;
   if (!size) return cell;
   cell.value = 100.0 * *size;
