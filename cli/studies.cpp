@@ -18,7 +18,7 @@
 #include "reports/report.hpp"
 #include "reports/scale/report.hpp"
 #include "reports/thesis/report.hpp"
-#include "results/collision_outcome.hpp"
+#include "results/collision.hpp"
 #include "studies/collide/collide.hpp"
 #include "studies/conformance/conformance.hpp"
 #include "studies/core/engine_access.hpp"
@@ -132,13 +132,13 @@ std::string collideText(const CollideResults& results) {
   std::map<std::string, int> refused;
   for (const CollisionVariant& variant : results.variants)
     for (const CollisionCurve& curve : variant.curves)
-      refused[curve.engine] += curve.status == SweepStatus::refused;
+      refused[curve.engine] += curve.status == Status::refused;
   std::string text;
   for (const auto& [engine, count] : refused)
     if (count > 0)
       text += fmt::format("{} does not have the law of {} sweeps; the report says why\n", engine,
                           count);
-  const CollideCount count = countOf(results);
+  const SweepCount count = countOf(results);
   return text +
          fmt::format("{} curves passed, {} differ by their model, {} failed, {} not judged\n",
                      count.held, count.modelDifference, count.beyondLimits, count.notJudged);
@@ -174,14 +174,13 @@ std::string verdictText(const StabilityRun& run) {
     figure =
         fmt::format("{} {:.3g} {}, limit {:.3g}", run.measure, *run.value, run.unit, run.limit);
   if (run.step) figure += fmt::format(", step {}", *run.step);
-  return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict), run.engine, run.name,
-                     run.variant.empty() ? "" : " ", run.variant, figure,
+  return fmt::format("{:<9} {:<16} {}{}{}: {}{}{}\n", nameOf(run.verdict, stabilityNames),
+                     run.engine, run.name, run.variant.empty() ? "" : " ", run.variant, figure,
                      figure.empty() || run.reason.empty() ? "" : "; ", run.reason);
 }
 
 /// One line for each engine and reason of what was not judged: nobody reads forty of them.
-std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict verdict,
-                         const char* word) {
+std::string unjudgedText(const std::vector<StabilityRun>& runs, Verdict verdict, const char* word) {
   std::map<std::pair<std::string, std::string>, int> count;
   for (const StabilityRun& run : runs)
     if (run.verdict == verdict) ++count[{run.engine, run.reason}];
@@ -194,18 +193,18 @@ std::string unjudgedText(const std::vector<StabilityRun>& runs, StabilityVerdict
 
 std::string stabilityText(const StabilityResults& results) {
   const std::vector<StabilityRun>& runs = results.runs;
-  const auto count = [&](StabilityVerdict verdict) {
+  const auto count = [&](Verdict verdict) {
     return std::ranges::count(runs, verdict, &StabilityRun::verdict);
   };
   std::string text;
   for (const StabilityRun& run : runs)
-    if (run.verdict > StabilityVerdict::stable) text += verdictText(run);
-  text += unjudgedText(runs, StabilityVerdict::refused, "refused");
-  text += unjudgedText(runs, StabilityVerdict::notRun, "not run");
-  const auto notRun = count(StabilityVerdict::notRun);
+    if (run.verdict > Verdict::pass) text += verdictText(run);
+  text += unjudgedText(runs, Verdict::notApplicable, "refused");
+  text += unjudgedText(runs, Verdict::notMeasured, "not run");
+  const auto notRun = count(Verdict::notMeasured);
   return text + fmt::format("{} stable, {} degraded, {} unstable, {} refused{}\n",
-                            count(StabilityVerdict::stable), count(StabilityVerdict::degraded),
-                            count(StabilityVerdict::unstable), count(StabilityVerdict::refused),
+                            count(Verdict::pass), count(Verdict::borderline), count(Verdict::fail),
+                            count(Verdict::notApplicable),
                             notRun == 0 ? "" : fmt::format(", {} not run", notRun));
 }
 
@@ -233,13 +232,12 @@ EngineEntry entryOf(const std::string& engine) {
 }
 
 void print(const ConformanceResults& results) {
-  using enum ConformanceOutcome;
   fmt::print("{}\n", reports::conformanceLead(results));
-  for (const auto outcome : {brokeDown, failed, skipped})
+  for (const auto outcome : {checkBrokeDown, checkFailed, checkSkipped})
     for (const ConformanceRow& row : results.rows)
       if (row.outcome == outcome) fmt::print("  {}\n", reports::conformanceSentence(row));
   for (const ConformanceRow& row : results.rows)
-    if (row.part == "lockstep" && row.outcome == passed) fmt::print("  {}\n", row.detail);
+    if (row.part == "lockstep" && row.outcome == checkPassed) fmt::print("  {}\n", row.detail);
   for (const std::string& line :
        {reports::conformanceNotExamined(results), reports::conformanceCause(results)})
     if (!line.empty()) fmt::print("{}\n", line);

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "results/collision_fields.hpp"
+#include "results/collision.hpp"
 
 namespace crossgrain::inline results {
 

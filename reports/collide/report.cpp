@@ -60,8 +60,9 @@ struct RowHead {
 std::string verdictCells(const CollisionCurve& curve) {
   const bool ran = curve.points.size() > 0;
   std::string cells = row(
-      std::string(nameOf(outcomeOf(curve))), std::string(ran ? nameOf(curve.score.verdict) : ""),
-      std::string(ran ? nameOf(declaredScore(curve).verdict) : ""), ownDeviation(curve));
+      outcomeName(curve), std::string(ran ? nameOf(curve.score.verdict, curveVerdictNames) : ""),
+      std::string(ran ? nameOf(declaredScore(curve).verdict, curveVerdictNames) : ""),
+      ownDeviation(curve));
   cells.pop_back();
   return cells;
 }
@@ -89,11 +90,9 @@ std::string collisionsCsv(const CollideResults& results) {
                          verdictCells(curve)};
       const CollisionPoints& points = curve.points;
       for (std::size_t k = 0; k < points.size(); ++k)
-        table += csvRow(head, points, variant.reference, k,
-                        std::string(k < points.status.size() ? nameOf(points.status[k]) : ""),
+        table += csvRow(head, points, variant.reference, k, points.status(k),
                         k < points.reason.size() ? points.reason[k] : "");
-      if (points.size() == 0)
-        table += csvRow(head, {}, {}, 0, std::string(nameOf(curve.status)), curve.reason);
+      if (points.size() == 0) table += csvRow(head, {}, {}, 0, curve.statusName(), curve.reason);
     }
   }
   return table;
@@ -182,15 +181,15 @@ JUnitCase judgedScheme(const SchemeScore& own, const std::string& sweep) {
 std::vector<JUnitCase> sweepCases(const CollisionVariant& variant, const CollisionCurve& curve) {
   const auto dt = finite(curve.dt);
   const std::string sweep = curve.engine + (dt ? fmt::format(", dt {:.4g} s", *dt) : std::string());
-  if (curve.status == SweepStatus::failed)
+  if (curve.status == Status::failed)
     return {{"", sweep, Verdict::notMeasured, curve.reason, 0.0, true}};
-  if (curve.status == SweepStatus::refused)
+  if (curve.status == Status::refused)
     return {{"", curve.engine, Verdict::notMeasured, curve.reason}};
   std::vector<JUnitCase> cases;
   for (const QuantityId quantity : judgedQuantities(variant))
     std::ranges::move(judgedSweep(curve, sweep, quantity), std::back_inserter(cases));
   if (ownDeviation(curve)) cases.push_back(judgedScheme(*curve.ownScheme, sweep));
-  if (curve.status == SweepStatus::incomplete)
+  if (!curve.allParted())
     cases.push_back({"", sweep + ": all pairs part", Verdict::fail, curve.reason});
   if (cases.empty())
     cases.push_back({"", sweep, Verdict::notMeasured, "not judged: the case has no limits"});

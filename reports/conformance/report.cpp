@@ -10,8 +10,6 @@ namespace crossgrain::reports {
 
 namespace {
 
-using enum ConformanceOutcome;
-
 struct CheckPart {
   const char *name, *title, *column, *asks;
 };
@@ -22,28 +20,21 @@ constexpr CheckPart checkParts[] = {
     {"collisions", "Collisions", "collisions",
      "Two-particle collisions compared with the declared law."}};
 
-Verdict outcomeState(ConformanceOutcome outcome) {
-  constexpr Verdict states[] = {Verdict::pass, Verdict::fail, Verdict::notApplicable,
-                                Verdict::fail};
-  return states[static_cast<std::size_t>(outcome)];
-}
-
-std::string outcomeWord(ConformanceOutcome outcome) {
-  const char* const words[] = {"passed", "failed", "skipped", "broke down"};
-  return words[static_cast<std::size_t>(outcome)];
+std::string outcomeWord(const ConformanceRow& row) {
+  return spaced(nameOf(row.outcome, checkNames));
 }
 
 bool isFault(const ConformanceRow& row) {
-  return row.outcome == failed || row.outcome == brokeDown;
+  return row.outcome.verdict == Verdict::fail;
 }
 
 OverviewCell partCell(const ConformanceResults& results, const CheckPart& part) {
   std::size_t asked = 0, passes = 0;
   std::vector<std::string> faults;
   for (const ConformanceRow& row : results.rows) {
-    if (row.part != part.name || row.outcome == skipped) continue;
+    if (row.part != part.name || row.outcome == checkSkipped) continue;
     ++asked;
-    passes += row.outcome == passed;
+    passes += row.outcome == checkPassed;
     if (isFault(row)) faults.push_back(row.name);
   }
   OverviewCell cell{Verdict::notMeasured, {}, "checks", {}, {}, ""};
@@ -72,7 +63,7 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
     (isFault(row) ? faults : others)
         .rows.push_back({{row.name,
                           row.what,
-                          {outcomeWord(row.outcome), {}, outcomeState(row.outcome), true},
+                          {outcomeWord(row), {}, stateOf(row.outcome.verdict), true},
                           row.detail + more}});
   }
   if (faults.rows.empty() && others.rows.empty()) return;
@@ -86,21 +77,23 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
 std::vector<JUnitCase> conformanceChecks(const ConformanceResults& results) {
   std::vector<JUnitCase> cases;
   for (const ConformanceRow& row : results.rows)
-    cases.push_back({results.engine.name + " " + row.part, row.name, outcomeState(row.outcome),
-                     row.detail, row.seconds, row.outcome == brokeDown});
+    cases.push_back({results.engine.name + " " + row.part, row.name, row.outcome.verdict,
+                     row.detail, row.seconds, row.outcome.status == Status::failed});
   return cases;
 }
 
 }  // namespace
 
 std::string conformanceLead(const ConformanceResults& results) {
-  const std::size_t asked = results.rows.size() - results.count(skipped);
+  const std::size_t asked = results.rows.size() - results.count(checkSkipped);
   std::string lead = fmt::format("{} ({}): {} of {} checks passed", results.engine.name,
-                                 results.engine.version, results.count(passed), asked);
-  if (const std::size_t count = results.count(failed)) lead += fmt::format(", {} failed", count);
-  if (const std::size_t count = results.count(brokeDown))
+                                 results.engine.version, results.count(checkPassed), asked);
+  if (const std::size_t count = results.count(checkFailed))
+    lead += fmt::format(", {} failed", count);
+  if (const std::size_t count = results.count(checkBrokeDown))
     lead += fmt::format(", it broke down in {}", count);
-  if (const std::size_t count = results.count(skipped)) lead += fmt::format(", {} skipped", count);
+  if (const std::size_t count = results.count(checkSkipped))
+    lead += fmt::format(", {} skipped", count);
   const std::size_t unseen = results.notExamined.size();
   if (results.declared && unseen > 0)
     lead += fmt::format(
@@ -116,12 +109,12 @@ std::string conformanceNotExamined(const ConformanceResults& results) {
 
 std::string conformanceCause(const ConformanceResults& results) {
   if (!results.cause.empty()) return "most likely: " + results.cause;
-  if (results.count(failed) == 0) return {};
+  if (results.count(checkFailed) == 0) return {};
   return "most likely: no single cause of those tried explains it";
 }
 
 std::string conformanceSentence(const ConformanceRow& row) {
-  std::string sentence = fmt::format("{}: {} ({})", outcomeWord(row.outcome), row.name, row.what);
+  std::string sentence = fmt::format("{}: {} ({})", outcomeWord(row), row.name, row.what);
   if (!row.detail.empty()) sentence += ": " + row.detail;
   if (row.faults > 1) sentence += fmt::format(" (and {} more)", row.faults - 1);
   return sentence;

@@ -99,7 +99,7 @@ bool disagrees(const CompareResults& results, const EngineRuns& engine) {
 const LockstepRow* differingRow(const CompareResults& results, const std::string& engine) {
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine && row.verdict == LockstepVerdict::differs) return &row;
+      if (row.engine == engine && row.verdict == Equivalence::differs) return &row;
   return nullptr;
 }
 

@@ -164,9 +164,9 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine) {
   if (!disagreementsWithMirror(results, engine.name).empty()) return false;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
-      if (row.engine == engine.name && row.verdict != LockstepVerdict::notMeasured &&
-          row.verdict != LockstepVerdict::undecided)
-        return row.verdict != LockstepVerdict::differs;
+      if (row.engine == engine.name && row.verdict != Equivalence::notMeasured &&
+          row.verdict != Equivalence::undecided)
+        return row.verdict != Equivalence::differs;
   const Endpoints& endpoints = results.endpoints.rows;
   const std::string& reference = results.engines.front().name;
   for (const EngineRow& mirror : results.engines) {

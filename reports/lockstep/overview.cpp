@@ -40,13 +40,13 @@ OverviewCell forcesCell(const LockstepRow& row) {
 
 OverviewCell termCell(const LockstepRow& row) {
   OverviewCell cell{Verdict::notApplicable, {}, "%", {}, {}, evidence};
-  if (row.verdict == LockstepVerdict::notMeasured) cell.verdict = Verdict::notMeasured;
+  if (row.verdict == Equivalence::notMeasured) cell.verdict = Verdict::notMeasured;
   if (!row.term) {
-    if (row.verdict == LockstepVerdict::differs) cell.words = "no single term accounts for it";
+    if (row.verdict == Equivalence::differs) cell.words = "no single term accounts for it";
     return cell;
   }
   cell.verdict.reset();
-  if (row.verdict == LockstepVerdict::differs) cell.verdict = Verdict::fail;
+  if (row.verdict == Equivalence::differs) cell.verdict = Verdict::fail;
   cell.words = constantWords(row.term->name);
   if (!row.term->amount) return cell;
   cell.value = 100.0 * *row.term->amount;
@@ -69,9 +69,9 @@ std::string deviationOf(const LockstepFindings& findings) {
 std::string nextOf(const LockstepFindings& findings) {
   std::vector<std::string> differ, unmeasured, undecided;
   for (const LockstepRow& row : findings.rows) {
-    if (row.verdict == LockstepVerdict::undecided) undecided.push_back(row.engine);
+    if (row.verdict == Equivalence::undecided) undecided.push_back(row.engine);
     if (lockstepState(row, findings.rules) == Verdict::fail) differ.push_back(row.engine);
-    if (row.verdict == LockstepVerdict::notMeasured) unmeasured.push_back(row.engine);
+    if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
     return fmt::format("Next: see the first contact at which {} differ, in the table below.",
@@ -88,19 +88,8 @@ std::string nextOf(const LockstepFindings& findings) {
 }  // namespace
 
 Verdict lockstepState(const LockstepRow& row, const LockstepRules& rules) {
-  switch (row.verdict) {
-    case LockstepVerdict::sameToRounding:
-    case LockstepVerdict::sameToPrecision:
-    case LockstepVerdict::sameLaw:
-      return Verdict::pass;
-    case LockstepVerdict::differs:
-      return openInLaw(row, rules).empty() ? Verdict::fail : Verdict::borderline;
-    case LockstepVerdict::undecided:
-      return Verdict::undecided;
-    case LockstepVerdict::notMeasured:
-      break;
-  }
-  return Verdict::notMeasured;
+  const bool open = row.verdict == Equivalence::differs && !openInLaw(row, rules).empty();
+  return open ? Verdict::borderline : verdictOf(row.verdict);
 }
 
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror) {
@@ -108,16 +97,16 @@ OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bo
     return {isMirror ? Verdict::notApplicable : Verdict::notMeasured,       {}, "%", {},
             isMirror ? "is a mirror itself" : "not compared with a mirror", {}};
   OverviewCell cell{lockstepState(*row, rules), {}, "%", {}, {}, evidence};
-  if (row->verdict == LockstepVerdict::notMeasured) {
+  if (row->verdict == Equivalence::notMeasured) {
     cell.words = row->reason;
     return cell;
   }
   cell.words = verdictWord(row->verdict);
-  if (row->verdict == LockstepVerdict::undecided) cell.words += ": " + row->reason;
-  if (row->verdict == LockstepVerdict::differs && cell.verdict == Verdict::borderline)
+  if (row->verdict == Equivalence::undecided) cell.words += ": " + row->reason;
+  if (row->verdict == Equivalence::differs && cell.verdict == Verdict::borderline)
     cell.words = "differs only where the law leaves the order of impacts open";
   // What would just have shown is what can be said of an engine that stays within its rounding.
-  const bool bounded = row->verdict == LockstepVerdict::sameToPrecision;
+  const bool bounded = row->verdict == Equivalence::sameToPrecision;
   const auto size = bounded ? row->resolution : row->equivalent;
   if (!size) return cell;
   cell.value = 100.0 * *size;

@@ -94,11 +94,11 @@ FamilyTally familyTally(const StabilityResults& results, const std::string& engi
       if (familyOf(variant->measure) != family) continue;
       const StabilityRun* run = runOf(results, engine, *variant);
       if (!run) continue;
-      tally.refused += run->verdict == StabilityVerdict::refused;
-      tally.notRun += run->verdict == StabilityVerdict::notRun;
+      tally.refused += run->verdict == Verdict::notApplicable;
+      tally.notRun += run->verdict == Verdict::notMeasured;
       if (!isJudged(run->verdict)) continue;
       ++tally.judged;
-      tally.stable += run->verdict == StabilityVerdict::stable;
+      tally.stable += run->verdict == Verdict::pass;
       if (!tally.worst || isWorse(*run, *tally.worst)) {
         tally.worst = run;
         tally.anchor = fmt::format("case_{}", g + 1);
@@ -128,10 +128,10 @@ std::string stableEngines(const StabilityResults& results) {
     std::size_t stable = 0, degraded = 0, unstable = 0, notRun = 0;
     for (const StabilityRun& run : results.runs) {
       if (run.engine != engine.name) continue;
-      stable += run.verdict == StabilityVerdict::stable;
-      degraded += run.verdict == StabilityVerdict::degraded;
-      unstable += run.verdict == StabilityVerdict::unstable;
-      notRun += run.verdict == StabilityVerdict::notRun;
+      stable += run.verdict == Verdict::pass;
+      degraded += run.verdict == Verdict::borderline;
+      unstable += run.verdict == Verdict::fail;
+      notRun += run.verdict == Verdict::notMeasured;
     }
     const std::size_t judged = stable + degraded + unstable;
     const std::size_t all = judged + notRun;
@@ -153,7 +153,7 @@ std::string differentTransforms(const StabilityResults& results) {
   for (const EngineRow& engine : results.engines) {
     std::vector<std::string> broken;
     for (const StabilityRun& run : results.runs)
-      if (run.engine == engine.name && run.verdict == StabilityVerdict::unstable)
+      if (run.engine == engine.name && run.verdict == Verdict::fail)
         broken.push_back(fmt::format("{} {}", spaced(run.name), run.variant));
     if (!broken.empty()) said.add(engine.name, listedShortly(broken, 3));
   }
@@ -172,7 +172,7 @@ std::string unstableCases(const StabilityResults& results) {
     std::vector<std::string> unstable;
     for (const HardGroup& group : hardGroups(results))
       if (const StabilityRun* run = worstRun(results, engine.name, group);
-          run && run->verdict == StabilityVerdict::unstable)
+          run && run->verdict == Verdict::fail)
         unstable.push_back(spaced(group.name));
     if (!unstable.empty()) said.add(engine.name, listedShortly(unstable, 3));
   }
@@ -184,24 +184,23 @@ std::string unstableCases(const StabilityResults& results) {
 }
 
 std::string stabilityNextStep(const StabilityResults& results) {
-  const auto has = [&](StabilityVerdict verdict) {
+  const auto has = [&](Verdict verdict) {
     return std::ranges::find(results.runs, verdict, &StabilityRun::verdict) != results.runs.end();
   };
   if (areTransforms(results)) {
-    if (has(StabilityVerdict::unstable))
+    if (has(Verdict::fail))
       return "Next: see after which step and by how much; what depends on how a scene is expressed "
              "comes from the engine.";
-    if (has(StabilityVerdict::notRun))
+    if (has(Verdict::notMeasured))
       return "Next: the same command with a larger --budget, for what was not run.";
-    if (has(StabilityVerdict::stable))
-      return "All transformations change no more than rounding does.";
+    if (has(Verdict::pass)) return "All transformations change no more than rounding does.";
   }
-  if (has(StabilityVerdict::unstable))
+  if (has(Verdict::fail))
     return "Next: avoid scenes like these with those engines, or see from which step on the limit "
            "is passed.";
-  if (has(StabilityVerdict::degraded))
+  if (has(Verdict::borderline))
     return "Next: see whether what is degraded is more than your scene can bear.";
-  if (has(StabilityVerdict::stable)) return "Nothing here speaks against any of these engines.";
+  if (has(Verdict::pass)) return "Nothing here speaks against any of these engines.";
   return "Nothing was judged: every run was refused.";
 }
 

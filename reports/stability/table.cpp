@@ -6,12 +6,6 @@
 
 namespace crossgrain::reports {
 
-Verdict stateOf(StabilityVerdict verdict) {
-  using enum Verdict;
-  constexpr std::array states = {notMeasured, notApplicable, pass, borderline, fail};
-  return states.at(static_cast<std::size_t>(verdict));
-}
-
 std::vector<HardGroup> hardGroups(const StabilityResults& results) {
   std::vector<HardGroup> groups;
   for (const HardCase& variant : results.cases) {

@@ -105,7 +105,7 @@ CollisionLimit collisionLimit(Engine& engine, const EngineEntry& entry, const Ca
       const CollisionCurve sweep = runSweep(engine, entry, collisionOf(*setup), timeStep(*setup),
                                             reference.starts, reference.oracle, /*watch=*/false);
       limit.setting = fmt::format("t_c/{:g}", std::round(costContactTime(*setup) / sweep.dt));
-      if (sweep.status != SweepStatus::finished)
+      if (!sweep.complete())
         return {limit.setting, {}, {}, {}, fmt::format("at {} {}", limit.setting, sweep.reason)};
       *numbers = endsOf(sweep.points);
     }
@@ -165,7 +165,7 @@ std::string failureOf(const CollisionCurve& sweep, const Case& pair, double dt) 
   const double ofLimit = dt / pairLimit(pair);
   const std::string limit =
       ofLimit > 1.0 ? fmt::format("{} (dt = {:.3g} · 2/ω): ", beyondLimit, ofLimit) : "";
-  if (sweep.status != SweepStatus::finished) return limit + sweep.reason;
+  if (!sweep.complete()) return limit + sweep.reason;
   double largest = 0.0;
   for (std::size_t k = 0; k < sweep.points.size(); ++k)
     if (const auto en = sweep.points.at(QuantityId::en, k))

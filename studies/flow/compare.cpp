@@ -151,7 +151,7 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
              (row.kind == PairKind::peer || row.kind == PairKind::closedForm);
     });
   };
-  const auto anyLockstep = [&](LockstepVerdict verdict) {
+  const auto anyLockstep = [&](Equivalence verdict) {
     return results.lockstep &&
            std::ranges::find(results.lockstep->rows, verdict, &LockstepRow::verdict) !=
                results.lockstep->rows.end();
@@ -166,10 +166,10 @@ Outcome outcomeOfCompare(const CompareResults& results, const CommandLine& line,
   outcome.failures.insert(outcome.failures.end(), refused.begin(), refused.end());
   // Another law than it declares is a disagreement, whatever averages make of it.
   const bool disagree =
-      any(Verdict::fail) || anyLockstep(LockstepVerdict::differs) ||
+      any(Verdict::fail) || anyLockstep(Equivalence::differs) ||
       std::ranges::count(results.endpoints.alarms, PairKind::peer, &AlarmRow::kind) > 0;
   const bool open = any(Verdict::undecided) || any(Verdict::borderline) || !refused.empty() ||
-                    anyLockstep(LockstepVerdict::undecided);
+                    anyLockstep(Equivalence::undecided);
   if (failed)
     outcome.status = exitEngineFailed;
   else if (disagree || (own.strict && open))

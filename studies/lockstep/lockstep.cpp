@@ -28,7 +28,7 @@ std::string noMirrorReason(const EngineEntry& entry, const Capabilities& can, co
 
 namespace {
 
-std::string describe(LockstepVerdict verdict) {
+std::string describe(Equivalence verdict) {
   std::string words(nameOf(verdict));
   std::ranges::replace(words, '_', ' ');
   return words;

@@ -10,7 +10,7 @@
 #include "cases/preparation.hpp"
 #include "cases/time_step.hpp"
 #include "reports/lockstep/text.hpp"
-#include "results/collision_fields.hpp"
+#include "results/collision.hpp"
 #include "results/run.hpp"
 #include "results/schema.hpp"
 #include "results/thesis.hpp"
@@ -155,9 +155,9 @@ void ThesisCampaign::compareWithMirrors(std::size_t starts) {
   for (ThesisSurrogate& surrogate : surrogates_) {
     const auto row = std::ranges::find(found.rows, surrogate.engine, &LockstepRow::engine);
     if (row == found.rows.end()) continue;
-    surrogate.accepted = row->failure.empty() && row->equivalent &&
-                         (row->verdict == LockstepVerdict::sameToRounding ||
-                          row->verdict == LockstepVerdict::sameLaw);
+    surrogate.accepted =
+        row->failure.empty() && row->equivalent &&
+        (row->verdict == Equivalence::sameToRounding || row->verdict == Equivalence::sameLaw);
     surrogate.equivalent = row->equivalent;
     surrogate.starts = row->starts;
     surrogate.why = row->failure.empty() ? reports::describe(*row, found.rules) : row->failure;

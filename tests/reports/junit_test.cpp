@@ -67,8 +67,7 @@ std::string junitOfCollide(const CollideResults& results) {
   return junitOf(reportOf(results));
 }
 
-StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,
-                             const std::string& reason) {
+StabilityResults hardResults(Status status, Verdict verdict, const std::string& reason) {
   StabilityRun run;
   run.engine = "grain";
   run.name = "pile";
@@ -90,8 +89,7 @@ StabilityResults hardResults(HardRunStatus status, StabilityVerdict verdict,
 }
 
 TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
-  StabilityResults results =
-      hardResults(HardRunStatus::finished, StabilityVerdict::unstable, "it slides");
+  StabilityResults results = hardResults(Status::finished, Verdict::fail, "it slides");
   results.runs.front().value = 0.25;
   const std::string xml = junitOfStability(results);
   EXPECT_NE(xml.find("classname=\"pile slow\" name=\"grain: drift\""), std::string::npos) << xml;
@@ -102,12 +100,10 @@ TEST(StabilityJunit, AFailureSaysFigureLimitAndReason) {
 }
 
 TEST(StabilityJunit, AnEngineThatBrokeDownIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(junitOfStability(
-                hardResults(HardRunStatus::failed, StabilityVerdict::unstable, "failed: signal 11"))
+  EXPECT_NE(junitOfStability(hardResults(Status::failed, Verdict::fail, "failed: signal 11"))
                 .find("<error message=\"failed: signal 11\"/>"),
             std::string::npos);
-  EXPECT_NE(junitOfStability(
-                hardResults(HardRunStatus::refused, StabilityVerdict::refused, "has no springs"))
+  EXPECT_NE(junitOfStability(hardResults(Status::refused, Verdict::notApplicable, "has no springs"))
                 .find("<skipped message=\"has no springs\"/>"),
             std::string::npos);
 }
@@ -122,13 +118,13 @@ CollideResults sweeps(std::vector<CollisionCurve> curves) {
   return results;
 }
 
-CollisionCurve curve(SweepStatus status, const std::optional<QuantityScore>& psi) {
+CollisionCurve curve(Status status, const std::optional<QuantityScore>& psi) {
   CollisionCurve curve;
   curve.engine = "grain";
   curve.dt = 2e-5;
   curve.status = status;
   curve.reason = "because";
-  curve.score.verdict = CurveVerdict::held;
+  curve.score.verdict = Verdict::pass;
   curve.score.of[QuantityId::psiF] = psi;
   curve.stats.emplace().wallSeconds = 0.25;
   return curve;
@@ -145,7 +141,7 @@ QuantityScore scoreOf(double max, const char* why = nullptr) {
 
 TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
   const std::string xml =
-      junitOfCollide(sweeps({curve(SweepStatus::finished, scoreOf(0.5, "the scheme"))}));
+      junitOfCollide(sweeps({curve(Status::finished, scoreOf(0.5, "the scheme"))}));
   EXPECT_NE(xml.find("<testcase classname=\"pair cut\" name=\"grain, dt 2e-05 s: psi_f\" "
                      "time=\"0.250\"><failure message=\"largest error 0.5 of the range against a "
                      "limit of 0.1 (the scheme)\"/></testcase>"),
@@ -155,7 +151,7 @@ TEST(CollideJunit, JudgesEachQuantityThatHasALimit) {
 }
 
 TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
-  CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.5));
+  CollisionCurve one = curve(Status::finished, scoreOf(0.5));
   one.declared.emplace().reference = DeclaredReference::oracle;
   one.declared->score.of[QuantityId::psiF] = scoreOf(0.05);
   const std::string model = junitOfCollide(sweeps({one}));
@@ -171,7 +167,7 @@ TEST(CollideJunit, AModelDifferenceIsNoFailureAndAFaultBehindItIs) {
 }
 
 TEST(CollideJunit, TheOwnSchemeIsACaseOfItsOwn) {
-  CollisionCurve one = curve(SweepStatus::finished, scoreOf(0.05));
+  CollisionCurve one = curve(Status::finished, scoreOf(0.05));
   SchemeScore& own = one.ownScheme.emplace();
   own.position = 1e-14;
   own.velocity = 3e-9;
@@ -191,27 +187,29 @@ TEST(CollideJunit, WhatWasNotJudgedIsNeverASuccess) {
   const QuantityScore held = scoreOf(0.05);
   // Of two sweeps only the first shows the quantity.
   const std::string missing = junitOfCollide(
-      sweeps({curve(SweepStatus::finished, held), curve(SweepStatus::finished, std::nullopt)}));
+      sweeps({curve(Status::finished, held), curve(Status::finished, std::nullopt)}));
   EXPECT_NE(missing.find("<skipped message=\"not measured"), std::string::npos) << missing;
-  const std::string none = junitOfCollide(sweeps({curve(SweepStatus::finished, std::nullopt)}));
+  const std::string none = junitOfCollide(sweeps({curve(Status::finished, std::nullopt)}));
   EXPECT_NE(none.find("<skipped message=\"not judged"), std::string::npos) << none;
-  const std::string apart = junitOfCollide(sweeps({curve(SweepStatus::incomplete, held)}));
+  CollisionCurve apartCurve = curve(Status::finished, held);
+  apartCurve.points.psi = {0.5};  // and no outcome
+  const std::string apart = junitOfCollide(sweeps({apartCurve}));
   EXPECT_NE(apart.find("all pairs part\" time=\"0.000\"><failure message=\"because\"/>"),
             std::string::npos)
       << apart;
 }
 
 TEST(CollideJunit, AnEngineThatFailedIsAnErrorAndARefusalIsSkipped) {
-  EXPECT_NE(junitOfCollide(sweeps({curve(SweepStatus::failed, std::nullopt)}))
+  EXPECT_NE(junitOfCollide(sweeps({curve(Status::failed, std::nullopt)}))
                 .find("<error message=\"because\"/>"),
             std::string::npos);
-  EXPECT_NE(junitOfCollide(sweeps({curve(SweepStatus::refused, std::nullopt)}))
+  EXPECT_NE(junitOfCollide(sweeps({curve(Status::refused, std::nullopt)}))
                 .find("<skipped message=\"because\"/>"),
             std::string::npos);
 }
 
 TEST(CollideJunit, QuantitiesAreInTheOrderOfTheirNames) {
-  CollisionCurve both = curve(SweepStatus::finished, scoreOf(0.05));
+  CollisionCurve both = curve(Status::finished, scoreOf(0.05));
   both.score.of[QuantityId::en] = both.score.of[QuantityId::psiF];
   const std::string xml = junitOfCollide(sweeps({both}));
   EXPECT_LT(xml.find(": e_n\""), xml.find(": psi_f\"")) << xml;

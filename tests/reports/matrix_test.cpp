@@ -150,11 +150,11 @@ CompareResults disagreeing() {
   return results;
 }
 
-LockstepRow lockstepRow(LockstepVerdict verdict) {
+LockstepRow lockstepRow(Equivalence verdict) {
   LockstepRow row;
   row.engine = "theirs";
   row.verdict = verdict;
-  row.equivalent = verdict == LockstepVerdict::differs ? 0.02 : 1e-5;
+  row.equivalent = verdict == Equivalence::differs ? 0.02 : 1e-5;
   return row;
 }
 
@@ -170,14 +170,14 @@ TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
 
   results.lockstep.emplace();
   results.lockstep->rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   const Overview same = compareOverview(results);
   EXPECT_EQ(shown(rowOf(same, "theirs").cells[0]), "good 0.0100 × limit");
   EXPECT_EQ(shown(rowOf(same, "theirs").cells[1]), "model_difference 3.00 margins");
   EXPECT_EQ(same.conclusion[1],
             "Causes of differences: theirs differs by the law that it declares.");
 
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep->rows = {lockstepRow(Equivalence::differs)};
   results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
   const Overview other = compareOverview(results);
   EXPECT_EQ(shown(rowOf(other, "theirs").cells[0]), "bad 20.0 × limit");
@@ -209,7 +209,7 @@ TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
 TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   EXPECT_TRUE(isModelDifference(results, results.engines[1]));
 
   addMirror(results, Verdict::fail);
@@ -339,7 +339,7 @@ TEST(CompareReport, TheTableHasTheMatrixMarkOfTheSameAnswer) {
   CompareResults results = disagreeing();
   results.lockstep.emplace();
   results.lockstep->rules.referencePerturbation = "kn";
-  results.lockstep->rows = {lockstepRow(LockstepVerdict::sameLaw)};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
   const std::string text = textOf(compareReport(results));
   EXPECT_TRUE(has(text, "≠ disagree by the declared law // 3.00 margins")) << text;
   EXPECT_FALSE(has(text, "| ✗ disagree"));
@@ -434,7 +434,7 @@ TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
         DeclaredScore& declared = curve.declared.emplace();
         declared.law = {{"tension", std::string("cut")}};
         declared.reference = DeclaredReference::oracle;
-        declared.score.verdict = CurveVerdict::held;
+        declared.score.verdict = Verdict::pass;
         QuantityScore& psi = declared.score.of[QuantityId::psiF].emplace();
         psi.max = 0.001;
         psi.limit = 0.01;
@@ -446,7 +446,7 @@ TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
   EXPECT_EQ(declared.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
   for (CollisionVariant& variant : results.variants)
     for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade" && curve.score.verdict == CurveVerdict::held)
+      if (curve.engine == "yade" && curve.score.verdict == Verdict::pass)
         curve.declared->law.clear();
   EXPECT_EQ(collideOverview(results).conclusion[1],
             "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
@@ -489,13 +489,13 @@ TEST(StabilityOverview, OfTransformsNamesWhatDiffers) {
       run.name = "cell";
       run.variant = variant;
       run.measure = measure;
-      run.verdict = StabilityVerdict::stable;
+      run.verdict = Verdict::pass;
       results.runs.push_back(run);
     }
   }
   EXPECT_TRUE(areTransforms(results));
   EXPECT_EQ(stabilityOverview(results).conclusion[0], "mine and theirs: both runs the same.");
-  results.runs[1].verdict = StabilityVerdict::unstable;
+  results.runs[1].verdict = Verdict::fail;
   const Overview overview = stabilityOverview(results);
   ASSERT_EQ(overview.columns.size(), 2u);
   EXPECT_EQ(shown(rowOf(overview, "theirs").cells[0]), "bad 0 of 1");
@@ -531,7 +531,7 @@ TEST(LockstepOverview, NamesTheDeviationFound) {
   LockstepResults results;
   results.engines = {{"theirs", "", "", "", Status::finished, ""}};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep.rows = {lockstepRow(LockstepVerdict::differs)};
+  results.lockstep.rows = {lockstepRow(Equivalence::differs)};
   results.lockstep.rows[0].term = NamedTerm{"kn", -0.02, 0.1};
   EXPECT_EQ(shown(lockstepOverview(results).rows[0].cells[0]), "bad 2.00 % of kₙ");
   results.lockstep.rows[0].term = NamedTerm{"mu", -0.02, 0.1};
@@ -547,10 +547,10 @@ TEST(DiffOverview, NamesWhatHasChanged) {
   results.rules.referencePerturbation = "kn";
   DiffRow same;
   same.engine = "one";
-  same.verdict = same.windowsVerdict = same.collisionsVerdict = DiffVerdict::sameBits;
+  same.verdict = same.windowsVerdict = same.collisionsVerdict = Equivalence::sameBits;
   DiffRow other = same;
   other.engine = "two";
-  other.verdict = other.collisionsVerdict = DiffVerdict::differs;
+  other.verdict = other.collisionsVerdict = Equivalence::differs;
   other.collisions = {{"case", "", "psi_f", 3, 9, 0.1, 0.05, 1.0, 0.1}};
   results.rows = {same, other};
   const Overview overview = diffOverview(results);

@@ -40,14 +40,13 @@ CollisionCurve curve(const std::string& name, double steps, double stick, double
     add(curve.points, QuantityId::en, 0.3408 + error / 5);
     add(curve.points, QuantityId::psiF,
         after(psi, stick, constant) + error * (0.4 + std::abs(std::sin(3 * psi))));
-    curve.points.status.push_back(PairStatus::parted);
   }
   QuantityScore& psi = curve.score.of[QuantityId::psiF].emplace();
   psi.max = error / 2;
   psi.rms = error / 4;
   psi.limit = 0.01;
   psi.held = psi.max <= *psi.limit;
-  curve.score.verdict = *psi.held ? CurveVerdict::held : CurveVerdict::beyondLimits;
+  curve.score.verdict = *psi.held ? Verdict::pass : Verdict::fail;
   return curve;
 }
 
@@ -100,7 +99,7 @@ CollideResults collideResults() {
   CollisionCurve& failed = results.variants[1].curves.emplace_back();
   failed.engine = "odd-one";
   failed.dt = 1e-5;
-  failed.status = SweepStatus::failed;
+  failed.status = Status::failed;
   failed.reason = "worker hung <120 s>";
   results.orders = {order("grain", {2.003, 0.012}, {{"4.36e-05", 0.0024}, {"2.18e-06", 6e-6}}),
                     order("yade", {1.01, {}}, {{"4.36e-05", 0.012}})};

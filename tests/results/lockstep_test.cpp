@@ -18,7 +18,7 @@ LockstepResults measured() {
   results.lockstep.starts = {{1, 0.25, 3.5}};
   LockstepRow row;
   row.engine = "yade";
-  row.verdict = LockstepVerdict::sameLaw;
+  row.verdict = Equivalence::sameLaw;
   row.equivalent = 1.2e-5;
   row.equivalentLow = 1e-5;
   row.readings = {{1.2e-5, 0.02, false}, {{}, 0.0, false}};

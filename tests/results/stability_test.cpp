@@ -15,7 +15,7 @@ StabilityRun passedItsLimit() {
   StabilityRun run;
   run.engine = "grain";
   run.name = "pile";
-  run.verdict = StabilityVerdict::degraded;
+  run.verdict = Verdict::borderline;
   run.value = 0.1;
   run.step = 120;
   run.time = 0.12;

@@ -82,11 +82,11 @@ TEST(CompareOutcome, VerdictsOfNamedEngines_Decide) {
 TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   CompareResults results;
   LockstepRow found;
-  found.verdict = LockstepVerdict::undecided;
+  found.verdict = Equivalence::undecided;
   results.lockstep.emplace().rows = {found};
   EXPECT_EQ(compared(results), exitPassed);
   EXPECT_EQ(compared(results, true), exitFailed);
-  results.lockstep->rows.front().verdict = LockstepVerdict::differs;
+  results.lockstep->rows.front().verdict = Equivalence::differs;
   EXPECT_EQ(compared(results), exitFailed);
   results.lockstep.reset();
   results.engines = {{"b", "", "", "", Status::refused, "cannot"},
@@ -122,20 +122,20 @@ TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
 }
 
 TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
-  const auto status = [](const std::vector<StabilityVerdict>& verdicts) {
+  const auto status = [](const std::vector<Verdict>& verdicts) {
     StabilityResults results;
-    for (const StabilityVerdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
+    for (const Verdict verdict : verdicts) results.runs.emplace_back().verdict = verdict;
     return stabilityStudy.outcome(results, {}, {}).status;
   };
-  using enum StabilityVerdict;
-  EXPECT_EQ(status({stable, degraded, refused, notRun}), exitPassed);
-  EXPECT_EQ(status({stable, unstable}), exitFailed);
-  EXPECT_EQ(status({refused, refused}), exitFailed);
-  EXPECT_EQ(status({refused, notRun}), exitFailed);
+  EXPECT_EQ(
+      status({Verdict::pass, Verdict::borderline, Verdict::notApplicable, Verdict::notMeasured}),
+      exitPassed);
+  EXPECT_EQ(status({Verdict::pass, Verdict::fail}), exitFailed);
+  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notApplicable}), exitFailed);
+  EXPECT_EQ(status({Verdict::notApplicable, Verdict::notMeasured}), exitFailed);
 }
 
-CollisionCurve curve(const std::string& engine, CurveVerdict verdict,
-                     SweepStatus status = SweepStatus::finished) {
+CollisionCurve curve(const std::string& engine, Verdict verdict, Status status = Status::finished) {
   CollisionCurve one;
   one.engine = engine;
   one.status = status;
@@ -150,23 +150,23 @@ TEST(CollideOutcome, FailedAndFellShortSweeps_Decide) {
     results.variants.emplace_back().curves = curves;
     return collideStudy.outcome(results, {}, {strict});
   };
-  const CollisionCurve good = curve("a", CurveVerdict::held);
+  const CollisionCurve good = curve("a", Verdict::pass);
   EXPECT_EQ(outcome({good}).status, exitPassed);
-  EXPECT_EQ(outcome({good, curve("b", CurveVerdict::beyondLimits)}).status, exitFailed);
-  EXPECT_TRUE(outcome({curve("a", CurveVerdict::notJudged)}).nothingJudged);
-  EXPECT_EQ(outcome({curve("a", CurveVerdict::notJudged)}).status, exitFailed);
+  EXPECT_EQ(outcome({good, curve("b", Verdict::fail)}).status, exitFailed);
+  EXPECT_TRUE(outcome({curve("a", Verdict::notMeasured)}).nothingJudged);
+  EXPECT_EQ(outcome({curve("a", Verdict::notMeasured)}).status, exitFailed);
   // True to the law that it declares, short of the scene's: only --strict asks for that.
-  CollisionCurve model = curve("b", CurveVerdict::beyondLimits);
-  model.declared.emplace().score.verdict = CurveVerdict::held;
+  CollisionCurve model = curve("b", Verdict::fail);
+  model.declared.emplace().score.verdict = Verdict::pass;
   EXPECT_EQ(outcome({good, model}).status, exitPassed);
   EXPECT_EQ(outcome({good, model}, true).status, exitFailed);
-  const CollisionCurve broken = curve("b", CurveVerdict::notJudged, SweepStatus::failed);
+  const CollisionCurve broken = curve("b", Verdict::notMeasured, Status::failed);
   EXPECT_EQ(outcome({good, broken, broken}).status, exitEngineFailed);
   EXPECT_EQ(outcome({good, broken, broken}).failures, std::vector<std::string>{"b broke"});
 }
 
 TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
-  const auto status = [](LockstepVerdict verdict, const char* failure = "", bool strict = false) {
+  const auto status = [](Equivalence verdict, const char* failure = "", bool strict = false) {
     LockstepResults results;
     LockstepRow& found = results.lockstep.rows.emplace_back();
     found.verdict = verdict;
@@ -175,12 +175,12 @@ TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
     own.strict = strict;
     return lockstepStudy.outcome(results, {}, own).status;
   };
-  EXPECT_EQ(status(LockstepVerdict::sameLaw), exitPassed);
-  EXPECT_EQ(status(LockstepVerdict::differs), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::undecided), exitPassed);
-  EXPECT_EQ(status(LockstepVerdict::undecided, "", true), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::notMeasured), exitFailed);
-  EXPECT_EQ(status(LockstepVerdict::notMeasured, "broke"), exitEngineFailed);
+  EXPECT_EQ(status(Equivalence::sameLaw), exitPassed);
+  EXPECT_EQ(status(Equivalence::differs), exitFailed);
+  EXPECT_EQ(status(Equivalence::undecided), exitPassed);
+  EXPECT_EQ(status(Equivalence::undecided, "", true), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured, "broke"), exitEngineFailed);
 }
 
 TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
@@ -198,17 +198,15 @@ TEST(ScaleEffectsAndConformanceOutcome, Failures_AreEngineFailures) {
   EXPECT_EQ(effectsStudy.outcome(effects, {}, {}).status, exitEngineFailed);
   ConformanceResults conformance;
   for (const auto& [outcome, status] :
-       {std::pair(ConformanceOutcome::skipped, exitFailed),
-        std::pair(ConformanceOutcome::passed, exitPassed),
-        std::pair(ConformanceOutcome::failed, exitFailed),
-        std::pair(ConformanceOutcome::brokeDown, exitEngineFailed)}) {
+       {std::pair(checkSkipped, exitFailed), std::pair(checkPassed, exitPassed),
+        std::pair(checkFailed, exitFailed), std::pair(checkBrokeDown, exitEngineFailed)}) {
     conformance.rows.emplace_back().outcome = outcome;
     EXPECT_EQ(outcomeOf(conformance).status, status);
   }
 }
 
 TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
-  const auto status = [](DiffVerdict verdict, const char* failure = "") {
+  const auto status = [](Equivalence verdict, const char* failure = "") {
     DiffResults results;
     DiffRow& found = results.rows.emplace_back();
     found.verdict = verdict;
@@ -216,10 +214,10 @@ TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
     found.reason = "why";
     return outcomeOf(results).status;
   };
-  EXPECT_EQ(status(DiffVerdict::sameBits), exitPassed);
-  EXPECT_EQ(status(DiffVerdict::differs), exitFailed);
-  EXPECT_EQ(status(DiffVerdict::notMeasured), exitFailed);
-  EXPECT_EQ(status(DiffVerdict::differs, "broke"), exitEngineFailed);
+  EXPECT_EQ(status(Equivalence::sameBits), exitPassed);
+  EXPECT_EQ(status(Equivalence::differs), exitFailed);
+  EXPECT_EQ(status(Equivalence::notMeasured), exitFailed);
+  EXPECT_EQ(status(Equivalence::differs, "broke"), exitEngineFailed);
 }
 
 }  // namespace
