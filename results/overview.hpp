@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "support/verdict.hpp"
+
 /// What a report answers at a glance: a matrix of engines and questions, and what follows from it.
 namespace crossgrain::inline results {
 
@@ -24,6 +26,28 @@ constexpr auto namesOf(CellState) {
   return std::array<std::string_view, 8>{"good",         "model_difference", "borderline",
                                          "bad",          "undecided",        "figure",
                                          "not_measured", "not_applicable"};
+}
+
+/// How a verdict is shown.
+constexpr CellState stateOf(Verdict verdict) {
+  using enum Verdict;
+  switch (verdict) {
+    case pass:
+      return CellState::good;
+    case modelDifference:
+      return CellState::modelDifference;
+    case borderline:
+      return CellState::borderline;
+    case undecided:
+      return CellState::undecided;
+    case fail:
+      return CellState::bad;
+    case notApplicable:
+      return CellState::notApplicable;
+    case notMeasured:
+      break;
+  }
+  return CellState::notMeasured;
 }
 
 /// One answer: a mark and one number.

@@ -136,10 +136,9 @@ struct ThesisRun {
   }
 };
 
-enum class ClaimVerdict { reproduced, refuted, undecided };
-constexpr auto namesOf(ClaimVerdict) {
-  return std::array<std::string_view, 3>{"reproduced", "refuted", "undecided"};
-}
+/// What files and reports call a claim's verdict.
+inline constexpr support::EnumNames<Verdict, 3> claimVerdictNames{
+    {{Verdict::pass, "reproduced"}, {Verdict::fail, "refuted"}, {Verdict::undecided, "undecided"}}};
 
 /// One number that a claim's verdict rests on, beside what the thesis says it should be.
 struct ClaimFigure {
@@ -148,7 +147,7 @@ struct ClaimFigure {
   std::optional<double> value, standardError;  ///< over packings
   std::optional<double> low, high;             ///< what the rule asks for; absent: no bound there
   std::string key = {};                        ///< the rule's name of it: "exponent_rp"
-  std::optional<ClaimVerdict> verdict = {};    ///< absent: reported, not judged
+  std::optional<Verdict> verdict = {};         ///< absent: reported, not judged
 
   void fields(auto& io) {
     io("name", name);
@@ -158,7 +157,7 @@ struct ClaimFigure {
     io("low", low);
     io("high", high);
     io("key", key);
-    io("verdict", verdict);
+    io("verdict", verdict, claimVerdictNames);
   }
 };
 
@@ -170,7 +169,7 @@ struct ClaimRow {
   std::string mirror;          ///< whose runs stand for the engine's, too; empty: the engine's own
   std::string interpretation;  ///< "wall spacing 2.5 mm, as printed"
   std::vector<ClaimFigure> figures;  ///< the first is the one that the table shows
-  ClaimVerdict verdict = ClaimVerdict::undecided;
+  Verdict verdict = Verdict::undecided;
   std::string why;  ///< the reason, by rule, with the numbers
   /// Of a refuted claim: why it fails, or where it would hold, as far as that was found.
   std::vector<std::string> reasons;
@@ -184,7 +183,7 @@ struct ClaimRow {
     io("carrier", mirror, aName);
     io("reading", interpretation);
     io("figures", figures);
-    io("verdict", verdict);
+    io("verdict", verdict, claimVerdictNames);
     io("why", why);
     io("reasons", reasons);
     io("legs", cases);

@@ -21,10 +21,8 @@ using Claims = std::vector<const ClaimRow*>;
 
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
-CellState stateOf(ClaimVerdict verdict) {
-  return verdict == ClaimVerdict::reproduced ? CellState::good
-         : verdict == ClaimVerdict::refuted  ? CellState::bad
-                                             : CellState::undecided;
+std::string wordOf(Verdict verdict) {
+  return std::string(nameOf(verdict, claimVerdictNames));
 }
 
 /// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
@@ -89,7 +87,7 @@ OverviewCell cellOf(const Claims& claims) {
   if (figure == claim.figures.end()) figure = claim.figures.begin();
   if (figure != claim.figures.end()) cell.words = withBounds(figure->name, *figure);
   for (const ClaimRow* other : claims)
-    if (other->verdict != claim.verdict && other->verdict != ClaimVerdict::undecided) {
+    if (other->verdict != claim.verdict && other->verdict != Verdict::undecided) {
       cell.words += fmt::format("{}{} under {}", cell.words.empty() ? "" : "; ",
                                 lookOf(stateOf(other->verdict)).mark, other->interpretation);
       break;  // the table has the others
@@ -105,16 +103,15 @@ std::string onEngine(const std::string& engine) {
   return engine == noEngine ? "without any engine" : "on " + engine;
 }
 
-std::size_t countOf(const Claims& claims, ClaimVerdict verdict) {
+std::size_t countOf(const Claims& claims, Verdict verdict) {
   return static_cast<std::size_t>(
       std::ranges::count(claims, verdict, [](const ClaimRow* claim) { return claim->verdict; }));
 }
 
 /// "18 reproduced, 5 refuted, 4 undecided"
 std::string countsText(const Claims& claims) {
-  return fmt::format(
-      "{} reproduced, {} refuted, {} undecided", countOf(claims, ClaimVerdict::reproduced),
-      countOf(claims, ClaimVerdict::refuted), countOf(claims, ClaimVerdict::undecided));
+  return fmt::format("{} reproduced, {} refuted, {} undecided", countOf(claims, Verdict::pass),
+                     countOf(claims, Verdict::fail), countOf(claims, Verdict::undecided));
 }
 
 /// Which are refuted, and whether a reason is known.
@@ -125,7 +122,7 @@ std::string refutedText(const ThesisResults& results) {
   for (const std::string& engine : rowsOf(results)) {
     Names ids;
     for (const ClaimRow* claim : firstClaims(results, engine)) {
-      if (claim->verdict != ClaimVerdict::refuted) continue;
+      if (claim->verdict != Verdict::fail) continue;
       ids.push_back(claim->id);
       unexplained += claim->reasons.empty();
     }
@@ -148,7 +145,7 @@ std::string nextStep(const ThesisResults& results) {
   });
   std::size_t undecided = 0;
   for (const std::string& engine : rowsOf(results))
-    undecided += countOf(firstClaims(results, engine), ClaimVerdict::undecided);
+    undecided += countOf(firstClaims(results, engine), Verdict::undecided);
   if (undecided == 0) return "Nothing is left to decide by these rules.";
   if (left > 0)
     return fmt::format(
@@ -183,11 +180,9 @@ Json claimRows(const ThesisResults& results, const Illustrations& shown) {
                          {"unit", figure.unit},
                          {"bounds", boundsText(figure)}});
     for (const std::string& reason : claim.reasons) reasons.push_back(mathHtml(reason));
-    if (claim.verdict == ClaimVerdict::refuted && reasons.empty())
+    if (claim.verdict == Verdict::fail && reasons.empty())
       reasons.push_back("No reason was found.");
-    constexpr const char* classes[] = {"agree", "disagree", "undecided"};
-    constexpr const char* marks[] = {"✓", "✗", "?"};
-    const auto verdict = static_cast<std::size_t>(claim.verdict);
+    const CellLook look = lookOf(stateOf(claim.verdict));
     rows.push_back({{"id", claim.id},
                     {"first", first},
                     {"claim", first ? mathHtml(claim.claim) : ""},
@@ -195,8 +190,8 @@ Json claimRows(const ThesisResults& results, const Illustrations& shown) {
                     {"mirror", claim.mirror},
                     {"interpretation", claim.interpretation},
                     {"figures", figures},
-                    {"verdict", fmt::format("{} {}", marks[verdict], nameOf(claim.verdict))},
-                    {"class", classes[verdict]},
+                    {"verdict", fmt::format("{} {}", look.mark, wordOf(claim.verdict))},
+                    {"class", std::string(look.cssClass)},
                     {"why", mathHtml(claim.why)},
                     {"reasons", reasons},
                     {"cases", fmt::format("{}", fmt::join(claim.cases, ", "))},
@@ -380,7 +375,7 @@ std::string claimsText(const ThesisResults& results) {
                       first.unit.empty() ? "" : " ", first.unit),
           first);
     }
-    text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, nameOf(claim.verdict),
+    text += fmt::format("{:<4} {:<10} {:<16} {}; {}\n", claim.id, wordOf(claim.verdict),
                         claim.engine, figure, claim.interpretation);
   }
   for (const std::string& note : results.notes) text += note + "\n";
@@ -393,11 +388,11 @@ std::string claimsCsv(const ThesisResults& results) {
       "reasons\n";
   for (const ClaimRow& claim : results.claims) {
     const auto line = [&](const ClaimFigure& figure) {
-      table += row(claim.id, claim.engine, claim.mirror, claim.interpretation, figure.name,
-                   figure.value, figure.standardError, figure.low, figure.high, figure.unit,
-                   std::string(nameOf(claim.verdict)), claim.why,
-                   figure.verdict ? std::string(nameOf(*figure.verdict)) : std::string(),
-                   fmt::format("{}", fmt::join(claim.reasons, " ")));
+      table +=
+          row(claim.id, claim.engine, claim.mirror, claim.interpretation, figure.name, figure.value,
+              figure.standardError, figure.low, figure.high, figure.unit, wordOf(claim.verdict),
+              claim.why, figure.verdict ? wordOf(*figure.verdict) : std::string(),
+              fmt::format("{}", fmt::join(claim.reasons, " ")));
     };
     for (const ClaimFigure& figure : claim.figures) line(figure);
     if (claim.figures.empty()) line({});

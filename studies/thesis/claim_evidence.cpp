@@ -124,17 +124,16 @@ RunSet ClaimScope::timed() const {
   return all;
 }
 
-ClaimVerdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence,
-                     int figures) {
+Verdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence, int figures) {
   const auto half = estimate.half(confidence);
-  if (!half) return ClaimVerdict::undecided;
+  if (!half) return Verdict::undecided;
   const double x = estimate.value;
   if ((!band.low || x - *half >= *band.low) && (!band.high || x + *half <= *band.high))
-    return ClaimVerdict::reproduced;
+    return Verdict::pass;
   const double wide = *estimate.half(1.0 - (1.0 - confidence) / std::max(figures, 1));
   const bool below = band.low && x + wide < *band.low;
   const bool above = band.high && x - wide > *band.high;
-  return below || above ? ClaimVerdict::refuted : ClaimVerdict::undecided;
+  return below || above ? Verdict::fail : Verdict::undecided;
 }
 
 std::optional<int> runsToDecide(const ClaimBand& band, const Estimate& estimate,
@@ -174,20 +173,20 @@ void Evidence::restsOn(const std::vector<CaseRun>& runs) {
   runs_.insert(runs_.end(), runs.begin(), runs.end());
 }
 
-ClaimVerdict Evidence::verdictOf(const ClaimBand& band) const {
+Verdict Evidence::verdictOf(const ClaimBand& band) const {
   const auto entry = entries_.find(band.name);
-  if (entry == entries_.end() || !entry->second.estimate) return ClaimVerdict::undecided;
+  if (entry == entries_.end() || !entry->second.estimate) return Verdict::undecided;
   return placeIn(band, *entry->second.estimate, scope_.common("confidence"),
                  scope_.rule.judgedFigures());
 }
 
-std::string Evidence::describe(const ClaimBand& band, ClaimVerdict verdict) const {
+std::string Evidence::describe(const ClaimBand& band, Verdict verdict) const {
   const Entry& entry = entries_.at(band.name);
   if (!entry.estimate) return fmt::format("{}: {}", band.label, entry.missing);
   const std::string text =
       fmt::format("{} is {}", band.label, valueText(band, *entry.estimate, entry.of));
-  if (verdict == ClaimVerdict::reproduced) return text + ", " + bandText(band);
-  if (verdict == ClaimVerdict::refuted) return text + ", not " + bandText(band);
+  if (verdict == Verdict::pass) return text + ", " + bandText(band);
+  if (verdict == Verdict::fail) return text + ", not " + bandText(band);
   const auto n = runsToDecide(band, *entry.estimate, scope_.common("confidence"));
   return text + ", which does not show whether it is " + bandText(band) +
          (n ? fmt::format("; about {} runs would", *n) : "");
@@ -205,7 +204,7 @@ ClaimRow Evidence::row() const {
   std::set<std::string> cases;
   for (const CaseRun& at : runs_) cases.insert(at.setup->name);
   row.cases.assign(cases.begin(), cases.end());
-  std::map<ClaimVerdict, std::vector<std::string>> sentences;
+  std::map<Verdict, std::vector<std::string>, std::greater<>> sentences;  // most severe first
   for (const ClaimBand& band : rule.figures) {
     ClaimFigure& figure = row.figures.emplace_back();
     figure.name = band.label;
@@ -219,18 +218,15 @@ ClaimRow Evidence::row() const {
       figure.standardError = entry->second.estimate->standardError;
     }
     if (!band.judged()) continue;
-    const ClaimVerdict verdict = verdictOf(band);
+    const Verdict verdict = verdictOf(band);
     figure.verdict = verdict;
     sentences[verdict].push_back(describe(band, verdict));
   }
-  using enum ClaimVerdict;
-  row.verdict = !sentences[refuted].empty()     ? refuted
-                : !sentences[undecided].empty() ? undecided
-                                                : reproduced;
   std::vector<std::string> parts;
-  for (const ClaimVerdict verdict : {refuted, undecided, reproduced})
-    if (!sentences[verdict].empty())
-      parts.push_back(fmt::format("{}: {}.", nameOf(verdict), fmt::join(sentences[verdict], "; ")));
+  for (const auto& [verdict, own] : sentences)
+    parts.push_back(
+        fmt::format("{}: {}.", nameOf(verdict, claimVerdictNames), fmt::join(own, "; ")));
+  row.verdict = sentences.begin()->first;  // a rule has a figure with a band
   row.why = fmt::format("{}", fmt::join(parts, " "));
   if (!runs_.empty())
     row.why +=

@@ -61,8 +61,7 @@ struct ClaimScope {
 /// - refuted: its interval at 1 − (1 − confidence)/figures lies outside, so that a claim of so many
 ///   judged figures is refuted by chance no more often than one figure is;
 /// - undecided: neither, or there is no error.
-ClaimVerdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence,
-                     int figures);
+Verdict placeIn(const ClaimBand& band, const Estimate& estimate, double confidence, int figures);
 
 /// Runs that it would take for the interval to leave the edge that it lies across, if their scatter
 /// stays as it is; absent where no number of them does, or the error is not over runs.
@@ -91,8 +90,8 @@ class Evidence {
     std::size_t of = 0;
   };
 
-  ClaimVerdict verdictOf(const ClaimBand& band) const;
-  std::string describe(const ClaimBand& band, ClaimVerdict verdict) const;
+  Verdict verdictOf(const ClaimBand& band) const;
+  std::string describe(const ClaimBand& band, Verdict verdict) const;
 
   const ClaimScope& scope_;
   std::map<std::string, Entry> entries_;

@@ -44,14 +44,14 @@ ThesisResults twoClaims() {
   refuted.engine = "grain";
   refuted.interpretation = "default";
   refuted.figures = {{"C⁻¹", "d", 9.0, 0.5, 4.0, 7.0}, {"ν₀", "", 0.84, {}, {}, 0.87}};
-  refuted.figures[0].verdict = ClaimVerdict::refuted;
-  refuted.verdict = ClaimVerdict::refuted;
+  refuted.figures[0].verdict = Verdict::fail;
+  refuted.verdict = Verdict::fail;
   refuted.why = "it is 9, not 4 to 7";
   refuted.plot = "figure 6.5";
   refuted.reasons = {"Impacts dilate it."};
   results.claims = {refuted, refuted};
   results.claims.back().interpretation = "wall spacing 7 mm";
-  results.claims.back().verdict = ClaimVerdict::reproduced;
+  results.claims.back().verdict = Verdict::pass;
   ClaimRow& open = results.claims.emplace_back();
   open.id = "C6";
   open.engine = "grain";
@@ -90,7 +90,7 @@ TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
   ClaimRow model = results.claims.front();
   model.engine = "-";
   model.id = "C1";
-  model.verdict = ClaimVerdict::reproduced;
+  model.verdict = Verdict::pass;
   model.figures.front().value.reset();
   results.claims.insert(results.claims.begin(), model);
   // The figure that refutes it is shown, not the first.
