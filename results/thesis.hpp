@@ -67,37 +67,31 @@ struct ThesisSpan {
   std::optional<double> velocityAtWheel;        ///< v_φ/(ΩR_i) of the innermost ring [-]
   std::optional<double> kineticEnergy;          ///< [J]
   std::optional<double> maxOverlap, meanOverlap;  ///< [m]
-
-  void fields(auto& io) {
-    io("from", from);
-    io("to", to);
-    io("outer_pressure", outerPressure);
-    io("wheel_torque", wheelTorque);
-    io("wheel_contacts", wheelContacts);
-    io("wheel_touched", wheelTouched);
-    io("coordination", coordination);
-    io("volume_fraction_at_wheel", volumeFractionAtWheel);
-    io("volume_fraction_outside", volumeFractionOutside);
-    io("velocity_at_wheel", velocityAtWheel);
-    io("kinetic_energy", kineticEnergy);
-    io("max_overlap", maxOverlap);
-    io("mean_overlap", meanOverlap);
-  }
 };
-using SpanNumber = std::optional<double> ThesisSpan::*;
 
-/// All numbers of a span, in the order of history.csv.
-inline constexpr std::array<SpanNumber, 11> spanNumbers = {&ThesisSpan::outerPressure,
-                                                           &ThesisSpan::wheelTorque,
-                                                           &ThesisSpan::wheelContacts,
-                                                           &ThesisSpan::wheelTouched,
-                                                           &ThesisSpan::coordination,
-                                                           &ThesisSpan::volumeFractionAtWheel,
-                                                           &ThesisSpan::volumeFractionOutside,
-                                                           &ThesisSpan::velocityAtWheel,
-                                                           &ThesisSpan::kineticEnergy,
-                                                           &ThesisSpan::maxOverlap,
-                                                           &ThesisSpan::meanOverlap};
+/// All numbers of a span with their names in files, in the order of history.csv.
+struct SpanNumber {
+  std::string_view name;
+  std::optional<double> ThesisSpan::*of;
+};
+inline constexpr SpanNumber spanNumbers[] = {
+    {"outer_pressure", &ThesisSpan::outerPressure},
+    {"wheel_torque", &ThesisSpan::wheelTorque},
+    {"wheel_contacts", &ThesisSpan::wheelContacts},
+    {"wheel_touched", &ThesisSpan::wheelTouched},
+    {"coordination", &ThesisSpan::coordination},
+    {"volume_fraction_at_wheel", &ThesisSpan::volumeFractionAtWheel},
+    {"volume_fraction_outside", &ThesisSpan::volumeFractionOutside},
+    {"velocity_at_wheel", &ThesisSpan::velocityAtWheel},
+    {"kinetic_energy", &ThesisSpan::kineticEnergy},
+    {"max_overlap", &ThesisSpan::maxOverlap},
+    {"mean_overlap", &ThesisSpan::meanOverlap}};
+
+void fields(auto& io, ThesisSpan& span) {
+  io("from", span.from);
+  io("to", span.to);
+  for (const SpanNumber& number : spanNumbers) io(number.name.data(), span.*number.of);
+}
 
 /// Averages over rings of another width than the case's.
 struct RingAverages {

@@ -430,16 +430,15 @@ std::string claimsCsv(const ThesisResults& results) {
 }
 
 std::string historyCsv(const ThesisResults& results) {
-  std::string table =
-      "leg,engine,packing,from_rotation,to_rotation,outer_pressure,wheel_torque,wheel_contacts,"
-      "wheel_touched,coordination,volume_fraction_at_wheel,volume_fraction_outside,"
-      "velocity_at_wheel,kinetic_energy,max_overlap,mean_overlap\n";
+  std::string table = "leg,engine,packing,from_rotation,to_rotation";
+  for (const SpanNumber& number : spanNumbers) table += fmt::format(",{}", number.name);
+  table += "\n";
   for (const ThesisRun& run : results.runs)
     for (const ThesisSpan& span : run.history) {
       std::string line = row(run.setup, run.engine, static_cast<std::size_t>(run.packing),
                              finite(span.from), finite(span.to));
       line.pop_back();
-      for (const SpanNumber number : spanNumbers) line += "," + cell(span.*number);
+      for (const SpanNumber& number : spanNumbers) line += "," + cell(span.*number.of);
       table += line + "\n";
     }
   return table;
