@@ -115,7 +115,7 @@ std::size_t columnOf(Overview& overview, const OverviewColumn& question) {
 }
 
 /// How many questions came out so, and in which reports.
-struct Tally {
+struct StateTally {
   std::size_t answered = 0;
   std::vector<std::string> places;  ///< reports, each once
 
@@ -185,7 +185,7 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
   using enum Verdict;
   Overview overview;
   overview.rowsAre = "report";
-  Tally passed, differs, failed, undecidedOnes;
+  StateTally passed, differs, failed, undecidedOnes;
   for (const SiteReport& report : reports) {
     const Overview& its = report.digest.overview;
     const OverviewRow* const own = rowOf(its, engine);
@@ -207,7 +207,7 @@ Overview engineOverview(const std::vector<SiteReport>& reports, const std::strin
     overview.rows.push_back(std::move(row));
   }
   for (OverviewRow& row : overview.rows) row.cells.resize(overview.columns.size(), {notApplicable});
-  const auto say = [&](const char* what, const Tally& tally) {
+  const auto say = [&](const char* what, const StateTally& tally) {
     if (tally.answered > 0 && overview.conclusion.size() < 3)
       overview.conclusion.push_back(fmt::format("{}: {} ({}).", what,
                                                 counted(tally.answered, "question"),

@@ -197,7 +197,7 @@ CostPoint ownPoint(CostPoint point, const std::vector<CollisionCurve>& sweeps, Q
   if (!point.ran()) return point;
   const auto ends = own.ends.find(name);
   if (ends == own.ends.end()) {
-    point.status = CostStatus::refused;
+    point.status = Status::refused;
     point.reason = fmt::format("its own limit of small steps was not found: {}", own.reason);
     return point;
   }
@@ -229,7 +229,7 @@ std::vector<CostPoint> measureCollision(Engine& engine, const EngineEntry& entry
   countWork(point, first.stats->steps, first.stats->contactEvaluations);
   for (const CollisionCurve& each : sweeps)
     if (point.reason.empty()) point.reason = failureOf(each, pair, first.dt);
-  if (!point.reason.empty()) point.status = CostStatus::failed;
+  if (!point.reason.empty()) point.status = Status::failed;
   const SweepTime time = shortestSweep(engine, entry, pair, dt, reference.starts,
                                        std::max(first.stats->wallSeconds, 1e-6));
   point.wallSeconds = time.wall;

@@ -80,7 +80,7 @@ Outcome outcomeOfThesis(const ThesisResults& results, const CommandLine&,
     outcome.status = exitEngineFailed;
   else if (results.runs.empty())
     return notJudged("no run was finished");
-  else if (own.strict && std::ranges::find(results.claims, ClaimVerdict::undecided,
+  else if (own.strict && std::ranges::find(results.claims, Verdict::undecided,
                                            &ClaimRow::verdict) != results.claims.end())
     outcome.status = exitFailed;
   return outcome;
