@@ -282,11 +282,8 @@ TEST(LedgerTerms, PotentialOfAColumn) {
   setup.gravityX = 1.0;
   setup.gravityY = -9.81;
   for (int k = 0; k < 5; ++k) test::addDisk(setup.disks, 0.5, 4e-3 + 7.6e-3 * k, 0.0, 0.0, 0.0);
-  Wall floor;
-  floor.planes = {{0.0, 0.0, 0.0, 1.0}, {0.5 + test::smallRadius, 0.0, -1.0, 0.0}};
-  floor.motion = [](double) { return WallState{}; };
-  floor.moves = false;
-  setup.walls.push_back(floor);
+  setup.walls.push_back(
+      test::standing({{0.0, 0.0, 0.0, 1.0}, {0.5 + test::smallRadius, 0.0, -1.0, 0.0}}));
   double potential = 0.0, scale = 0.0;
   const EnergyLedger end = ledgerOf(setup, 1.0, [&](const Simulation& s) {
     potential = 0.0;
@@ -309,13 +306,10 @@ TEST(LedgerTerms, WorkOfAPlaneThatCompresses) {
   setup.law.kn = test::thesis.kn;
   setup.dt = 1e-5;
   test::addDisk(setup.disks, test::smallRadius, 0.0, 0.0, 0.0, 0.0);
-  Wall fixed, press;
-  fixed.planes = {{0.0, 0.0, 1.0, 0.0}};
-  fixed.motion = [](double) { return WallState{}; };
-  fixed.moves = false;
+  Wall press;
   press.planes = {{2.0 * test::smallRadius, 0.0, -1.0, 0.0}};
   press.motion = [](double t) { return WallState{.x = -1e-4 * t, .vx = -1e-4}; };
-  setup.walls = {fixed, press};
+  setup.walls = {test::standing({{0.0, 0.0, 1.0, 0.0}}), press};
   const double way = 1e-4 * 1.0;
   double pushed = 0.0;
   const EnergyLedger end = ledgerOf(

@@ -231,25 +231,4 @@ TEST(EmptyLists, AStepMustBeLongerThanNothing) {
   }
 }
 
-TEST(CoincidentCentres, AreAnErrorAndNotARunOnWithoutANumber) {
-  for (const Precision precision : {Precision::float64, Precision::float32}) {
-    grain::Setup setup;
-    setup.law = test::thesisLaw();
-    setup.dt = 4e-5;
-    setup.precision = precision;
-    for (int k = 0; k < 2; ++k) test::addDisk(setup.disks, 0.1, 0.2, 0.0, 0.0, 0.0);
-    for (const double maxOverlap : {1.0, 0.0}) {
-      setup.maxOverlap = maxOverlap;
-      try {
-        const Simulation simulation(setup);
-        FAIL() << "no exception";
-      } catch (const std::runtime_error& error) {
-        const std::string why = error.what();
-        EXPECT_EQ(why.rfind("disk 0 and disk 1 overlap by 0.0074 m", 0), 0u) << why;
-        EXPECT_NE(why.find("at (0.1, 0.2) m, t = 0 s"), std::string::npos) << why;
-      }
-    }
-  }
-}
-
 }  // namespace

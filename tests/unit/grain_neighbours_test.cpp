@@ -193,22 +193,6 @@ TEST_P(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
   EXPECT_GT(farPairs().size(), 0u);
 }
 
-TEST(NeighboursOfASimulation, TheSkinChangesTimeOnly) {
-  const auto run = [](double skin) {
-    grain::Setup setup = test::crowd(8, 9, 4e-5);
-    setup.skin = skin;
-    grain::Simulation simulation(std::move(setup));
-    simulation.advance(1000);
-    return simulation;
-  };
-  const auto thin = run(0.02 * test::smallRadius), thick = run(1.5 * test::smallRadius);
-  EXPECT_GT(thin.neighbours().rebuilds, 2 * thick.neighbours().rebuilds);
-  for (std::size_t i = 0; i < thin.movingCount(); ++i) {
-    EXPECT_EQ(thin.x(i), thick.x(i));
-    EXPECT_EQ(thin.spin(i), thick.spin(i));
-  }
-}
-
 TEST(NeighboursOfASimulation, ADiskThatIsNotFiniteIsNamedByItsNumber) {
   grain::Setup setup = test::crowd(8, 9, 4e-5);
   setup.disks.vx[17] = std::numeric_limits<double>::quiet_NaN();

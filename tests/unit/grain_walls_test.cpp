@@ -9,23 +9,21 @@ namespace {
 using namespace grain;
 using namespace crossgrain::test;
 
-Wall fixedFloor() {
-  Wall floor;
-  floor.planes = {{0.0, 0.0, 0.0, 1.0}};
-  floor.motion = [](double) { return WallState{}; };
-  return floor;
+/// A disk that its weight has sunk into a floor, x at v [m/s].
+grain::Setup onAFloor(double v, double dt) {
+  grain::Setup setup;
+  setup.law = thesisLaw();
+  setup.dt = dt;
+  setup.gravityY = -9.81;
+  const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
+  addDisk(setup.disks, 0.0, smallRadius - sink, v, 0.0, 0.0);
+  setup.walls.push_back(standing({{0.0, 0.0, 0.0, 1.0}}));
+  return setup;
 }
 
 TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 4e-5;
-  setup.gravityY = -9.81;
-  const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
-  addDisk(setup.disks, 0.0, smallRadius - sink, 0.0, 0.0, 0.0);
-  setup.walls.push_back(fixedFloor());
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 10000; ++step) simulation.step();
+  const double sink = smallMass * 9.81 / thesis.kn;
+  const Simulation simulation = advanced(onAFloor(0.0, 4e-5), 10000);
   EXPECT_NEAR(simulation.y(0), smallRadius - sink, 1e-15);
   EXPECT_NEAR(simulation.wallLoad(0).fy, -smallMass * 9.81, 1e-12);
   ASSERT_EQ(simulation.contacts().size(), 1u);
@@ -36,14 +34,7 @@ TEST(GrainWalls, ADiskAtRestOnAPlaneWeighsOnIt) {
 TEST(GrainWalls, ASlidingDiskRollsInTheEndAtTwoThirdsOfItsSpeed) {
   // Friction acts at the contact only, so L about it is kept: m v a = m v' a + ½ m a² ω', v' = −ω'
   // a.
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 2e-5;
-  setup.gravityY = -9.81;
-  addDisk(setup.disks, 0.0, smallRadius - smallMass * 9.81 / thesis.kn, 0.3, 0.0, 0.0);
-  setup.walls.push_back(fixedFloor());
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 20000; ++step) simulation.step();
+  const Simulation simulation = advanced(onAFloor(0.3, 2e-5), 20000);
   EXPECT_NEAR(simulation.velocityX(0), 0.2, 1e-4);  // the sunk contact: δ/a = 2e-3 of the arm
   EXPECT_NEAR(simulation.spin(0), -0.2 / smallRadius, 1e-4 / smallRadius);
 }
@@ -104,8 +95,7 @@ TEST(GrainWalls, AShrinkingRingMovesItsDisksInward) {
   setup.dt = 1e-3;
   addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
   setup.walls.push_back(ring);
-  Simulation simulation(std::move(setup));
-  for (int step = 0; step < 100; ++step) simulation.step();
+  const Simulation simulation = advanced(std::move(setup), 100);
   EXPECT_NEAR(simulation.y(1), -0.095, 1e-15);
 }
 
