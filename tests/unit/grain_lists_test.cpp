@@ -170,7 +170,7 @@ TEST_P(Lists, FindTheDisksOfAWallThatSlowsDown) {
 TEST_P(Lists, FindTheDisksOfAWallThatBrakesToAStop) {
   // In n steps from the speed v. The last disks are within half a step's way of where it stops.
   const double dt = 1e-4, v = 0.1;
-  for (int n = 4; n < 40; ++n) {
+  for (int n = 4; n < 40; n += 5) {
     Wall wall;
     const double end = n * dt;
     wall.motion = [=](double t) {

@@ -79,42 +79,6 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   EXPECT_NEAR(load.torque, -(px * fy - py * fx), 1e-15 * std::abs(fx));
 }
 
-TEST(GrainWalls, AShrinkingRingMovesItsDisksInward) {
-  Wall ring;
-  ring.diskX = {0.0};
-  ring.diskY = {-0.1};
-  ring.diskRadius = {1e-3};
-  ring.motion = [](double t) {
-    WallState now;
-    now.radialShift = -0.05 * t;
-    now.radialVelocity = -0.05;
-    return now;
-  };
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 1e-3;
-  addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
-  setup.walls.push_back(ring);
-  const Simulation simulation = advanced(std::move(setup), 100);
-  EXPECT_NEAR(simulation.y(1), -0.095, 1e-15);
-}
-
-TEST(GrainBottom, StopsADiskAfterTheTimeThatItsFrictionTakes) {
-  // v = v₀ − µ g t once the plate's spring has slipped: 0.0103 m/s takes 53 s with µ = 2e-5. Here
-  // µ = 0.02 and 53 ms.
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.bottom = thesisBottom<Bottom>(0.02);
-  setup.dt = 1e-5;
-  addDisk(setup.disks, 0.0, 0.0, 0.0103, 0.0, 0.0);
-  Simulation simulation(std::move(setup));
-  const double stop = 0.0103 / (0.02 * 9.81);
-  while (simulation.time() < 0.5 * stop) simulation.step();
-  EXPECT_NEAR(simulation.velocityX(0), 0.5 * 0.0103, 1e-3 * 0.0103);
-  while (simulation.time() < 3.0 * stop) simulation.step();
-  EXPECT_NEAR(simulation.velocityX(0), 0.0, 0.01 * 0.0103);  // caught by the spring, swinging out
-}
-
 TEST(GrainBottom, BrakesSpinAndNeverDrivesIt) {
   const BottomConstants<double> plate(thesisBottom<Bottom>(), 1e-5);
   double springX = 0.0, springY = 0.0;
