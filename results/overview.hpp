@@ -4,11 +4,7 @@
 #include <string>
 #include <vector>
 
-<<<<<<< HEAD
 #include "results/json_fields.hpp"
-=======
-#include "support/verdict.hpp"
->>>>>>> m-s1
 
 /// What a report answers at a glance: a matrix of engines and questions, and what follows from it.
 namespace crossgrain::inline results {
@@ -19,28 +15,6 @@ inline std::string cellWord(std::optional<Verdict> verdict) {
   if (verdict == Verdict::pass) return "good";
   if (verdict == Verdict::fail) return "bad";
   return verdict ? std::string(nameOf(*verdict)) : "figure";
-}
-
-/// How a verdict is shown.
-constexpr CellState stateOf(Verdict verdict) {
-  using enum Verdict;
-  switch (verdict) {
-    case pass:
-      return CellState::good;
-    case modelDifference:
-      return CellState::modelDifference;
-    case borderline:
-      return CellState::borderline;
-    case undecided:
-      return CellState::undecided;
-    case fail:
-      return CellState::bad;
-    case notApplicable:
-      return CellState::notApplicable;
-    case notMeasured:
-      break;
-  }
-  return CellState::notMeasured;
 }
 
 /// One answer: a mark and one number.

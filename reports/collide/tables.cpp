@@ -267,7 +267,7 @@ Table scoreTable(const CaseGroup& group) {
           row.cells = {variant->variant,
                        curve.engine,
                        dtOf(&curve),
-                       {sweepWord(curve), {curve.reason}, stateOf(verdictOf(curve)), true},
+                       {sweepWord(curve), {curve.reason}, verdictOf(curve), true},
                        schemeCell(curve.ownScheme)};
         } else {
           row.cells.resize(5);

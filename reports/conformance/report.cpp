@@ -63,7 +63,7 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
     (isFault(row) ? faults : others)
         .rows.push_back({{row.name,
                           row.what,
-                          {outcomeWord(row), {}, stateOf(row.outcome.verdict), true},
+                          {outcomeWord(row), {}, row.outcome.verdict, true},
                           row.detail + more}});
   }
   if (faults.rows.empty() && others.rows.empty()) return;

@@ -27,7 +27,7 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
   for (const auto& [verdict, name] : stabilityNames) {
     Curve& tiles =
         panel.curves.emplace_back(Curve{std::string(name),
-                                        {std::string(lookOf(stateOf(verdict)).plot), 5, false},
+                                        {std::string(lookOf(verdict).plot), 5, false},
                                         Draw::tiles,
                                         {},
                                         1.0});

@@ -116,7 +116,7 @@ OverviewCell familyCell(const FamilyTally& tally) {
   cell.value = static_cast<double>(tally.stable);
   cell.shown = fmt::format("{} of {}", tally.stable, tally.judged);
   if (tally.notRun > 0) cell.words = fmt::format("{} not run", tally.notRun);
-  cell.verdict = stateOf(tally.worst->verdict);
+  cell.verdict = tally.worst->verdict;
   if (cell.verdict != Verdict::pass) cell.words = spaced(tally.worst->name);
   return cell;
 }

@@ -46,7 +46,7 @@ Cell runCell(const StabilityRun* run) {
   if (run->step && run->verdict != Verdict::pass)
     notes.push_back("from step " + readableCount(stepOf(*run)));
   if (!run->value) notes.push_back(shortReason(*run));
-  return {runWord(*run), std::move(notes), stateOf(run->verdict), true};
+  return {runWord(*run), std::move(notes), run->verdict, true};
 }
 
 /// Every verdict of an engine in a case at a glance: "3 of 4 stable".
@@ -171,7 +171,7 @@ Table scoreTable(const StabilityResults& results) {
     table.rows.push_back({{run.engine,
                            spaced(run.name),
                            run.variant,
-                           {runWord(run), {}, stateOf(run.verdict), true},
+                           {runWord(run), {}, run.verdict, true},
                            spaced(run.measure),
                            valueOf(run),
                            readableSetting(finite(run.limit)),

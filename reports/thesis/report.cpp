@@ -8,11 +8,6 @@
 #include "reports/common/csv_row.hpp"
 #include "reports/common/numbers.hpp"
 #include "reports/common/overview.hpp"
-<<<<<<< HEAD:reports/thesis/page.cpp
-#include "reports/common/page.hpp"
-=======
-#include "reports/common/overview_marks.hpp"
->>>>>>> m-s1:reports/thesis/report.cpp
 #include "reports/common/sentences.hpp"
 #include "reports/thesis/report.hpp"
 
@@ -24,15 +19,8 @@ using Claims = std::vector<const ClaimRow*>;
 
 constexpr const char* noEngine = "-";  ///< a claim's engine where none takes part
 
-<<<<<<< HEAD:reports/thesis/page.cpp
-Verdict stateOf(ClaimVerdict verdict) {
-  return verdict == ClaimVerdict::reproduced ? Verdict::pass
-         : verdict == ClaimVerdict::refuted  ? Verdict::fail
-                                             : Verdict::undecided;
-=======
 std::string wordOf(Verdict verdict) {
   return std::string(nameOf(verdict, claimVerdictNames));
->>>>>>> m-s1:reports/thesis/report.cpp
 }
 
 /// What a rule asks of a figure: "0.791 … 0.796", "≥ 0.5"; empty: nothing.
@@ -344,14 +332,9 @@ Names notesOf(const ThesisResults& results) {
         each.accepted ? "is evaluated through its mirror" : "is not evaluated through its mirror",
         each.mirror, each.why));
   for (const ThesisRun& run : results.runs)
-<<<<<<< HEAD:reports/thesis/page.cpp
-    if (run.run.status == Status::failed) sentences.push_back("Failed: " + run.run.reason);
-  view["sentences"] = sentences;
-=======
-    if (run.run.status == RunStatus::failed) notes.push_back("Failed: " + run.run.reason);
+    if (run.run.status == Status::failed) notes.push_back("Failed: " + run.run.reason);
   notes.insert(notes.end(), results.notes.begin(), results.notes.end());
   return nonEmpty(std::move(notes));
->>>>>>> m-s1:reports/thesis/report.cpp
 }
 
 }  // namespace

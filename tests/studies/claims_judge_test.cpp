@@ -151,13 +151,8 @@ TEST(ClaimRows, HowManyRunsCouldNotBeFittedIsSaid) {
 
 TEST(ClaimRows, RunsThatFailedAreNone) {
   ThesisResults results = world();
-<<<<<<< HEAD
   for (ThesisRun& run : results.runs) run.run.status = Status::failed;
-  for (const ClaimRow& row : judged(results)) EXPECT_EQ(row.verdict, ClaimVerdict::undecided);
-=======
-  for (ThesisRun& run : results.runs) run.run.status = RunStatus::failed;
   for (const ClaimRow& row : judged(results)) EXPECT_EQ(row.verdict, Verdict::undecided);
->>>>>>> m-s1
 }
 
 // One seed gives one packing: two cases that follow it for different times are one sample.

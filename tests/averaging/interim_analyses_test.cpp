@@ -1,10 +1,13 @@
 #include "averaging/interim_analyses.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "averaging/pocock.hpp"
 
 namespace crossgrain {
 namespace {
@@ -87,14 +90,11 @@ TEST(InterimSettings, KeepWhatIsDecidedAndGoOnWithTheRest) {
   EXPECT_EQ(open.packings, 24);
 }
 
-TEST(InterimSettings, SayNothingBeforeTheFirst) {
+TEST(InterimSettings, SayNothingBeforeTheFirst_AndCountLostPackings) {
   const InterimPlan plan = interimPlanAt(8, 4, 0.05);
   EXPECT_FALSE(answersAfterInterims(std::vector{differing(alternating(7, 0.0, 0.1))}, plan, 7)
                    .front()
                    .has_value());
-}
-
-TEST(InterimSettings, CountPackingsThatOneEngineLost) {
   PairedSample sample = differing(alternating(8, 0.0, 0.1));
   sample.other[3].reset();
   sample.other[5].reset();
@@ -220,6 +220,28 @@ TEST(InterimSettings, ChanceOfOneAsFarIsStudentsOverAllTests) {
   EXPECT_NEAR(chanceOfOneAsFar(2.3646242510102997, 1.0, 7, 1), 0.05, 1e-9);
   EXPECT_NEAR(chanceOfOneAsFar(-2.0 * 2.3646242510102997, 2.0, 7, 4), 0.2, 1e-9);
   EXPECT_EQ(chanceOfOneAsFar(0.1, 1.0, 7, 9), 1.0);
+}
+
+/// Jennison and Turnbull (2000), Table 2.1: the constant C_P(looks, α) of two-sided tests. Far from
+/// 0 only one side counts, so that one side at α/2 has the same.
+TEST(Pocock, HasThePublishedConstants) {
+  const auto constant = [](int looks, double alpha) {
+    return gsl_cdf_ugaussian_Qinv(pocockLevel(looks, alpha / 2.0));
+  };
+  EXPECT_NEAR(constant(2, 0.10), 1.875, 1.5e-3);
+  EXPECT_NEAR(constant(3, 0.10), 1.992, 1.5e-3);
+  EXPECT_NEAR(constant(4, 0.10), 2.067, 1.5e-3);
+  EXPECT_NEAR(constant(5, 0.10), 2.122, 1.5e-3);
+  EXPECT_NEAR(constant(2, 0.05), 2.178, 1e-3);
+  EXPECT_NEAR(constant(4, 0.05), 2.361, 1e-3);
+  EXPECT_NEAR(constant(5, 0.05), 2.413, 1e-3);
+  EXPECT_NEAR(constant(4, 0.01), 2.939, 1e-3);
+}
+
+TEST(Pocock, OneLookIsTheTestItself) {
+  EXPECT_EQ(pocockLevel(1, 0.05), 0.05);
+  EXPECT_GT(pocockLevel(2, 0.05), 0.025);
+  EXPECT_LT(pocockLevel(8, 0.05), pocockLevel(4, 0.05));
 }
 
 }  // namespace
