@@ -4,7 +4,7 @@
 
 #include "adapters/engine.hpp"
 #include "results/collision_score.hpp"
-#include "results/engine_fields.hpp"
+#include "adapters/worker/json.hpp"
 #include "results/engine_row.hpp"
 #include "results/head.hpp"
 

@@ -78,7 +78,7 @@ OverviewCell cellOf(const Claims& claims) {
   OverviewCell cell{Verdict::notApplicable, {}, {}, {}, {}, {}};
   if (claims.empty()) return cell;
   const ClaimRow& claim = *claims.front();
-  cell.verdict = stateOf(claim.verdict);
+  cell.verdict = claim.verdict;
   cell.anchor = claim.id;
   // The figure that refutes a claim, or leaves it undecided; else the one that stands for it.
   auto figure = std::ranges::find(claim.figures, claim.verdict, &ClaimFigure::verdict);
@@ -87,7 +87,7 @@ OverviewCell cellOf(const Claims& claims) {
   for (const ClaimRow* other : claims)
     if (other->verdict != claim.verdict && other->verdict != Verdict::undecided) {
       cell.words += fmt::format("{}{} under {}", cell.words.empty() ? "" : "; ",
-                                lookOf(stateOf(other->verdict)).mark, other->interpretation);
+                                lookOf(other->verdict).mark, other->interpretation);
       break;  // the table has the others
     }
   if (figure == claim.figures.end() || !finite(figure->value)) return cell;
@@ -184,7 +184,7 @@ Table claimTable(const ThesisResults& results) {
     table.rows.push_back(
         {{first ? Cell(claim.id, {claim.claim}) : Cell(),
           Cell(claim.engine, {claim.mirror.empty() ? "" : "and runs of " + claim.mirror}),
-          Cell(wordOf(claim.verdict), {}, stateOf(claim.verdict), true),
+          Cell(wordOf(claim.verdict), {}, claim.verdict, true),
           Cell("", std::move(figures)), Cell(claim.why, std::move(remarks))},
          "",
          first ? claim.id : ""});

@@ -109,7 +109,7 @@ TEST_P(Conformance, Engine_AllChecks_PassOrSkipAsExpected) {
           << ", not: " << row.detail;
     } else {
       EXPECT_EQ(row.outcome, checkPassed)
-          << row.name << " (" << nameOf(row.outcome) << "): " << row.detail
+          << row.name << " (" << nameOf(row.outcome, checkNames) << "): " << row.detail
           << fmt::format(" ({} faults)", row.faults);
     }
   }
