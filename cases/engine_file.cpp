@@ -18,7 +18,6 @@
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"
 #include "support/input_file.hpp"
-#include "support/program.hpp"
 
 namespace crossgrain::inline cases {
 

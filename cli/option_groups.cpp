@@ -11,8 +11,8 @@
 #include "cases/engine_file.hpp"
 #include "studies/core/mirrors.hpp"
 #include "support/bad_input.hpp"
-#include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
