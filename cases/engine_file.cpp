@@ -193,8 +193,6 @@ EngineEntry engineOfCommand(const std::string& text) {
   return entryOf(name, "of the command line", std::move(call));
 }
 
-namespace fs = std::filesystem;
-
 std::vector<fs::path> installedEngineFiles() {
   std::vector<fs::path> files;
   std::error_code none;
