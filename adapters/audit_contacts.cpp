@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/audit.hpp"
 #include "adapters/audit_geometry.hpp"
 #include "adapters/near_pairs.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "adapters/audit_basis.hpp"
+#include "adapters/audit.hpp"
 
 namespace crossgrain {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "adapters/audit.hpp"
 #include "adapters/audit_geometry.hpp"
 
 namespace crossgrain {
@@ -69,9 +68,7 @@ struct VelocityDoubt {
     std::vector<Vec2> sum(centre.size(), Vec2::Zero());
     std::vector<double> sizes(centre.size());
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-      const Vec2& n = contacts.normal[k];
-      const Vec2 force =
-          contacts.normalForce[k] * n + contacts.tangentialForce[k] * perpendicular(n);
+      const Vec2 force = contacts.force(k);
       for (const auto& [id, sign] : {std::pair(contacts.i[k], 1.0), {contacts.j[k], -1.0}}) {
         sum[static_cast<std::size_t>(id)] += sign * force;
         sizes[static_cast<std::size_t>(id)] += force.norm();

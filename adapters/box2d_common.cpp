@@ -56,12 +56,9 @@ SceneLimits box2dLimits() {
 }
 
 SettingSpec lengthUnitSetting() {
-  return {"length_unit",
-          0.0,
-          "m",
+  return {"length_unit", 0.0, "m",
           "Box2D's unit of length, in which its constants are; 0: the power of two nearest to a "
-          "fifth of the smallest radius",
-          {}};
+          "fifth of the smallest radius"};
 }
 
 double numberSetting(const Settings& settings, const std::vector<SettingSpec>& specs,

@@ -1,19 +1,21 @@
-#include "adapters/box2d_impulse.hpp"
-
 #include <box2d/b2_common.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <span>
-#include <stdexcept>
+#include <utility>
 
 #include "adapters/box2d.hpp"
-#include "adapters/engine_entry.hpp"
+#include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
+#include "adapters/stopwatch.hpp"
 #include "adapters/suitability.hpp"
+#include "engines/box2d/impulse_world.hpp"
 
 namespace crossgrain {
 
@@ -69,191 +71,197 @@ std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Mo
   return deviations;
 }
 
+/// Box2D's own solver for rigid disks, extended by tangential restitution (see
+/// engines/box2d/impulse_world.hpp). A soft law is run as the rigid one that restores as much, pair
+/// by pair: that is a deviation.
+///
+/// Forces are impulses divided by the time in which they acted: the last step for instant
+/// contacts, and the time since the last accumulated snapshot for accumulated ones. Before the
+/// first step there are none, so contacts and wall forces are absent.
+class Box2dImpulse : public Engine {
+ public:
+  Capabilities capabilities() const override {
+    Capabilities can;
+    can.version = box2dVersion();
+    for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    // The plate's spring and dashpot are a soft law, for which the step of rigid contacts is too
+    // long.
+    can.effects[Effect::bottomFriction] = Support::never;
+    can.effects[Effect::bottomSpinFriction] = Support::never;
+    // What a soft law has of these is folded into e_n and e_t0.
+    can.effects[Effect::tangentialSpring] = Support::never;
+    can.effects[Effect::tangentialDamping] = Support::never;
+    can.lawOptions = {{"normal", {"rigid"}},
+                      {"lever_arm", {"overlap_middle"}},
+                      {"velocity_arm", {"lever_arm"}},
+                      {"plane_arm", {"middle"}}};
+    can.precisions = {Precision::float32};
+    can.accumulatedContacts = true;
+    can.settings = {
+        {"dt", 5e-4, "s", "time step; 0: the case's"},
+        lengthUnitSetting(),
+        {"impact_speed", 0.005, "m/s",
+         "contacts that begin more slowly get no tangential restitution: the position solver moves "
+         "enduring ones apart by up to Box2D's slop, and slop/dt is of this order"},
+        {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
+        {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true}};
+    can.limits = box2dLimits();
+    return can;
+  }
+
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    const std::vector<SettingSpec> specs = capabilities().settings;
+    const auto number = [&](const std::string& name) {
+      return numberSetting(settings, specs, name);
+    };
+    const auto passes = [&](const std::string& name) { return static_cast<int>(number(name)); };
+    if (scene.bottom && scene.bottom->mu > 0.0) throw UnsupportedScene("has no bottom_friction");
+    if (scene.law.stiffens())
+      throw UnsupportedScene(
+          "has rigid contacts, normal = \"rigid\"; they can stand for normal = \"linear\", whose "
+          "restitutions are the same at every speed");
+    if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
+      throw UnsupportedScene("can stand in for a linear law with damper = \"constant\" only");
+    const double dt = number("dt") > 0.0 ? number("dt") : scene.dt;
+    const box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
+
+    disks_ = scene.disks;
+    law_ = scene.law;
+    known_.clear();
+    world_.emplace(
+        model,
+        box2d_granular::ImpulseOptions{
+            friction(law_), [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
+            number("impact_speed"), passes("velocity_iterations"), passes("position_iterations")});
+    rotation_ = model.rotation;
+    spins_ = effectsOf(scene).contains(Effect::friction);
+    stopwatch_ = {};
+
+    EffectiveParameters effective;
+    effective.dt = dt;
+    effective.precision = "float";
+    effective.integrator = "semi_implicit_euler with sequential impulses";
+    effective.velocityLag = 0.5 * effective.dt;
+    effective.effects = simulatedEffects(capabilities(), scene);
+    effective.pairs = pairTable(scene, [&](double reducedMass) {
+      const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
+      const Restitution used =
+          restitutionOf({1.0 / reducedMass, (1.0 + (rotation_ ? 1.0 / q : 0.0)) / reducedMass});
+      ContactLaw law;
+      law.normal = NormalLaw::rigid;
+      law.mu = friction(law_);
+      law.en = used.normal;
+      law.et0 = used.tangential;
+      return coefficientsOf(law);
+    });
+    effective.deviations = deviationsOf(scene, model, effective.pairs);
+    if (world_->restSpeed() > 0.0)
+      effective.deviations.push_back({"restitution_threshold", world_->restSpeed(), "m/s",
+                                      "impacts slower than what gravity gives in two steps do not "
+                                      "rebound"});
+    return effective;
+  }
+
+  double advance(double t) override {
+    const auto wanted = std::llround(t / world_->dt());
+    const Stopwatch::Lap lap(stopwatch_);
+    while (static_cast<long long>(world_->steps()) < wanted) world_->step();
+    return world_->time();
+  }
+
+  Snapshot snapshot(ContactReport report) override {
+    const box2d_granular::Members& members = world_->members();
+    Snapshot snapshot = kinematicSnapshot(members, world_->time(), spins_);
+    const bool accumulated = report == ContactReport::accumulated;
+    const std::uint64_t steps =
+        accumulated ? world_->sumSteps() : std::min<std::uint64_t>(1, world_->steps());
+    if (steps == 0) return snapshot;
+
+    const double interval = static_cast<double>(steps) * world_->dt();
+    snapshot.contactInterval = interval;
+    const std::span<const WallImpulse> onWalls =
+        accumulated ? world_->wallSums() : world_->lastWallImpulses();
+    for (std::size_t b = 0; b < onWalls.size(); ++b) {
+      snapshot.bodies[b].force = toVec2((1.0 / interval) * onWalls[b].linear);
+      snapshot.bodies[b].torque = onWalls[b].angular / interval;
+    }
+    if (report == ContactReport::instant)
+      snapshot.contacts = contactsFrom(world_->lastImpulses(), interval, members);
+    if (accumulated) {
+      snapshot.contacts = contactsFrom(world_->sums(), interval, members);
+      world_->clearSums();
+    }
+    return snapshot;
+  }
+
+  Stats stats() const override {
+    return {world_->steps(),
+            world_->contactEvaluations(),
+            stopwatch_.wallSeconds,
+            stopwatch_.cpuSeconds,
+            {{"impacts", static_cast<double>(world_->impacts())}}};
+  }
+
+ private:
+  /// What disk i and disk or wall j use.
+  Restitution restitution(std::int32_t i, std::int32_t j) {
+    PairInertia pair;
+    for (const std::int32_t id : {i, j}) {
+      const auto k = static_cast<std::size_t>(id);
+      if (k >= disks_.size()) continue;  // walls are infinitely heavy
+      pair.normal += 1.0 / disks_.mass[k];
+      pair.tangential += 1.0 / disks_.mass[k];
+      if (rotation_) pair.tangential += disks_.radius[k] * disks_.radius[k] / disks_.inertia[k];
+    }
+    return restitutionOf(pair);
+  }
+
+  Restitution restitutionOf(const PairInertia& pair) {
+    if (law_.normal == NormalLaw::rigid) return {law_.en, law_.et0};
+    const auto [known, isNew] = known_.try_emplace({pair.normal, pair.tangential});
+    if (isNew) known->second = box2d_granular::rigidEquivalent(box2dSoftLaw(law_), pair);
+    return known->second;
+  }
+
+  Disks disks_;
+  ContactLaw law_;
+  /// Restitutions of a soft law, by what the contact feels of the two.
+  std::map<std::pair<double, double>, box2d_granular::Restitution> known_;
+  std::optional<box2d_granular::ImpulseWorld> world_;
+  bool rotation_ = false;
+  bool spins_ = false;  ///< whether any force asks for them
+  Stopwatch stopwatch_;
+};
+
 }  // namespace
 
 std::unique_ptr<Engine> makeBox2dImpulse() {
   return std::make_unique<Box2dImpulse>();
 }
 
-Capabilities Box2dImpulse::capabilities() const {
-  Capabilities can;
-  can.version = box2dVersion();
-  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
-  // The plate's spring and dashpot are a soft law, for which the step of rigid contacts is too
-  // long.
-  can.effects[Effect::bottomFriction] = Support::never;
-  can.effects[Effect::bottomSpinFriction] = Support::never;
-  // What a soft law has of these is folded into e_n and e_t0.
-  can.effects[Effect::tangentialSpring] = Support::never;
-  can.effects[Effect::tangentialDamping] = Support::never;
-  can.lawOptions = {{"normal", {"rigid"}},
-                    {"lever_arm", {"overlap_middle"}},
-                    {"velocity_arm", {"lever_arm"}},
-                    {"plane_arm", {"middle"}}};
-  can.precisions = {Precision::float32};
-  can.accumulatedContacts = true;
-  can.settings = {
-      {"dt", 5e-4, "s", "time step; 0: the case's", {}},
-      lengthUnitSetting(),
-      {"impact_speed",
-       0.005,
-       "m/s",
-       "contacts that begin more slowly get no tangential restitution: the position solver moves "
-       "enduring ones apart by up to Box2D's slop, and slop/dt is of this order",
-       {}},
-      {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
-      {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true}};
-  can.limits = box2dLimits();
-  return can;
-}
-
-EffectiveParameters Box2dImpulse::load(const Scene& scene, const Settings& settings) {
-  const std::vector<SettingSpec> specs = capabilities().settings;
-  const auto number = [&](const std::string& name) { return numberSetting(settings, specs, name); };
-  const auto passes = [&](const std::string& name) { return static_cast<int>(number(name)); };
-  if (scene.bottom && scene.bottom->mu > 0.0) throw UnsupportedScene("has no bottom_friction");
-  if (scene.law.stiffens())
-    throw UnsupportedScene(
-        "has rigid contacts, normal = \"rigid\"; they can stand for normal = \"linear\", whose "
-        "restitutions are the same at every speed");
-  if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
-    throw UnsupportedScene("can stand in for a linear law with damper = \"constant\" only");
-  const double dt = number("dt") > 0.0 ? number("dt") : scene.dt;
-  const box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
-
-  disks_ = scene.disks;
-  law_ = scene.law;
-  known_.clear();
-  world_.emplace(
-      model,
-      box2d_granular::ImpulseOptions{
-          friction(law_), [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
-          number("impact_speed"), passes("velocity_iterations"), passes("position_iterations")});
-  rotation_ = model.rotation;
-  spins_ = effectsOf(scene).contains(Effect::friction);
-  stopwatch_ = {};
-
-  EffectiveParameters effective;
-  effective.dt = dt;
-  effective.precision = "float";
-  effective.integrator = "semi_implicit_euler with sequential impulses";
-  effective.velocityLag = 0.5 * effective.dt;
-  effective.effects = simulatedEffects(capabilities(), scene);
-  effective.pairs = pairTable(scene, [&](double reducedMass) {
-    const double q = disks_.inertia[0] / (disks_.mass[0] * disks_.radius[0] * disks_.radius[0]);
-    const Restitution used =
-        restitutionOf({1.0 / reducedMass, (1.0 + (rotation_ ? 1.0 / q : 0.0)) / reducedMass});
-    ContactLaw law;
-    law.normal = NormalLaw::rigid;
-    law.mu = friction(law_);
-    law.en = used.normal;
-    law.et0 = used.tangential;
-    return coefficientsOf(law);
-  });
-  effective.deviations = deviationsOf(scene, model, effective.pairs);
-  if (world_->restSpeed() > 0.0)
-    effective.deviations.push_back({"restitution_threshold", world_->restSpeed(), "m/s",
-                                    "impacts slower than what gravity gives in two steps do not "
-                                    "rebound"});
-  return effective;
-}
-
-Restitution Box2dImpulse::restitution(std::int32_t i, std::int32_t j) {
-  PairInertia pair;
-  for (const std::int32_t id : {i, j}) {
-    const auto k = static_cast<std::size_t>(id);
-    if (k >= disks_.size()) continue;  // walls are infinitely heavy
-    pair.normal += 1.0 / disks_.mass[k];
-    pair.tangential += 1.0 / disks_.mass[k];
-    if (rotation_) pair.tangential += disks_.radius[k] * disks_.radius[k] / disks_.inertia[k];
-  }
-  return restitutionOf(pair);
-}
-
-Restitution Box2dImpulse::restitutionOf(const PairInertia& pair) {
-  if (law_.normal == NormalLaw::rigid) return {law_.en, law_.et0};
-  const auto [known, isNew] = known_.try_emplace({pair.normal, pair.tangential});
-  if (isNew) known->second = box2d_granular::rigidEquivalent(box2dSoftLaw(law_), pair);
-  return known->second;
-}
-
-double Box2dImpulse::advance(double t) {
-  const auto wanted = std::llround(t / world_->dt());
-  const Stopwatch::Lap lap(stopwatch_);
-  while (static_cast<long long>(world_->steps()) < wanted) world_->step();
-  return world_->time();
-}
-
-Snapshot Box2dImpulse::snapshot(ContactReport report) {
-  const box2d_granular::Members& members = world_->members();
-  Snapshot snapshot = kinematicSnapshot(members, world_->time(), spins_);
-  const bool accumulated = report == ContactReport::accumulated;
-  const std::uint64_t steps =
-      accumulated ? world_->sumSteps() : std::min<std::uint64_t>(1, world_->steps());
-  if (steps == 0) return snapshot;
-
-  const double interval = static_cast<double>(steps) * world_->dt();
-  snapshot.contactInterval = interval;
-  const std::span<const WallImpulse> onWalls =
-      accumulated ? world_->wallSums() : world_->lastWallImpulses();
-  for (std::size_t b = 0; b < onWalls.size(); ++b) {
-    snapshot.bodies[b].force = toVec2((1.0 / interval) * onWalls[b].linear);
-    snapshot.bodies[b].torque = onWalls[b].angular / interval;
-  }
-  if (report == ContactReport::instant)
-    snapshot.contacts = contactsFrom(world_->lastImpulses(), interval, members);
-  if (accumulated) {
-    snapshot.contacts = contactsFrom(world_->sums(), interval, members);
-    world_->clearSums();
-  }
-  return snapshot;
-}
-
-Stats Box2dImpulse::stats() const {
-  return {world_->steps(),
-          world_->contactEvaluations(),
-          stopwatch_.wallSeconds,
-          stopwatch_.cpuSeconds,
-          {{"impacts", static_cast<double>(world_->impacts())}}};
-}
-
 EngineEntry box2dImpulseEngine() {
-  return {"box2d-impulse",
-          "Box2D's impulse solver, with tangential restitution",
-          makeBox2dImpulse,
-          {},
-          {},
-          ""};
+  return {"box2d-impulse", "Box2D's impulse solver, with tangential restitution", makeBox2dImpulse};
 }
 
 EngineEntry box2dImpulseMirror() {
-  const auto make = [] {
-    return makeGrainMirror({{"normal", {"rigid"}},
-                            {"integrator", {"semi_implicit_euler"}},
-                            {"damping_velocity", {"lagged"}},
-                            {"lever_arm", {"overlap_middle"}},
-                            {"velocity_arm", {"lever_arm"}},
-                            {"plane_arm", {"middle"}}});
-  };
-  return {"grain-as-box2d-impulse",
-          "the in-house engine with impulses, as Box2D's solver has them for two disks",
-          make,
-          {},
-          {},
-          "box2d-impulse",
-          {"rigid"}};
+  return mirrorEntry("grain-as-box2d-impulse",
+                     "the in-house engine with impulses, as Box2D's solver has them for two disks",
+                     "box2d-impulse", {"rigid"},
+                     {{"normal", {"rigid"}},
+                      {"integrator", {"semi_implicit_euler"}},
+                      {"damping_velocity", {"lagged"}},
+                      {"lever_arm", {"overlap_middle"}},
+                      {"velocity_arm", {"lever_arm"}},
+                      {"plane_arm", {"middle"}}});
 }
 
 /// In the quick cell Box2D's solver holds about 16 times the pressure of the soft law. A stiffer
 /// law is no mirror proper, so it stands for its peer in no scene and runs only where it is named.
 EngineEntry stiffGrainEngine() {
-  return {"grain-stiff",
-          "the in-house engine with contacts 25 times as stiff, towards rigid ones",
-          [] { return makeStiffGrain(25.0); },
-          {},
-          {},
-          "box2d-impulse",
-          {}};
+  return {.name = "grain-stiff",
+          .summary = "the in-house engine with contacts 25 times as stiff, towards rigid ones",
+          .make = [] { return makeStiffGrain(25.0); },
+          .mirrors = "box2d-impulse"};
 }
 
 }  // namespace crossgrain

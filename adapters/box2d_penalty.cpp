@@ -1,134 +1,140 @@
-#include "adapters/box2d_penalty.hpp"
-
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "adapters/box2d.hpp"
-#include "adapters/engine_entry.hpp"
+#include "adapters/box2d_common.hpp"
 #include "adapters/grain.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
+#include "adapters/stopwatch.hpp"
+#include "engines/box2d/penalty_world.hpp"
 
 namespace crossgrain {
+
+namespace {
+
+/// The scene's soft law on Box2D's broad phase and contact life (see
+/// engines/box2d/penalty_world.hpp for what remains Box2D's). Positions, velocities, spins and
+/// contacts of a snapshot all belong to the same time.
+class Box2dPenalty : public Engine {
+ public:
+  Capabilities capabilities() const override {
+    Capabilities can;
+    can.version = box2dVersion();
+    for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
+    can.lawOptions = {{"normal", {"linear"}},
+                      {"damper", {"constant"}},
+                      {"spring_update", {"after", "before"}},
+                      {"lever_arm", {"radius", "contact_point"}},
+                      {"velocity_arm", {"lever_arm"}},
+                      {"plane_arm", {"surface"}},
+                      {"damping_velocity", {"lagged"}},
+                      {"integrator", {"semi_implicit_euler"}}};
+    can.precisions = {Precision::float64};
+    can.slidingFlags = true;
+    can.settings = {{"dt", 0.0, "s", "time step; 0: the case's"}, lengthUnitSetting()};
+    can.limits = box2dLimits();
+    return can;
+  }
+
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    if (scene.law.normal != NormalLaw::linear)
+      throw UnsupportedScene("has only normal = \"linear\"");
+    if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
+      throw UnsupportedScene("has only damper = \"constant\"");
+    const std::vector<SettingSpec> specs = capabilities().settings;
+    const double dt = numberSetting(settings, specs, "dt");
+    const box2d_granular::Model model =
+        box2dModel(scene, dt > 0.0 ? dt : scene.dt, numberSetting(settings, specs, "length_unit"));
+    std::optional<box2d_granular::Plate> plate;
+    if (scene.bottom && scene.bottom->mu > 0.0)
+      plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
+               scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
+    world_.emplace(model, box2dSoftLaw(scene.law), plate);
+    spins_ = effectsOf(scene).contains(Effect::friction);
+    stopwatch_ = {};
+
+    EffectiveParameters effective;
+    effective.dt = model.dt;
+    effective.precision = "double";
+    effective.integrator = "semi_implicit_euler";
+    effective.velocityLag = 0.5 * effective.dt;
+    effective.effects = effectsOf(scene);
+    effective.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
+    return effective;
+  }
+
+  double advance(double t) override {
+    const auto wanted = std::llround(t / world_->dt());
+    const Stopwatch::Lap lap(stopwatch_);
+    while (static_cast<long long>(world_->steps()) < wanted) world_->step();
+    return world_->time();
+  }
+
+  Snapshot snapshot(ContactReport report) override {
+    if (report == ContactReport::accumulated)
+      throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
+    Snapshot snapshot = kinematicSnapshot(world_->members(), world_->time(), spins_);
+    const std::vector<box2d_granular::WallLoad> loads = world_->wallLoads();
+    for (std::size_t b = 0; b < loads.size(); ++b) {
+      snapshot.bodies[b].force = toVec2(loads[b].force);
+      snapshot.bodies[b].torque = loads[b].torque;
+    }
+    if (report == ContactReport::instant) snapshot.contacts = contacts();
+    snapshot.energies = {world_->kineticEnergy(), world_->elasticEnergy()};
+    return snapshot;
+  }
+
+  Stats stats() const override {
+    return {world_->steps(),
+            world_->contactEvaluations(),
+            stopwatch_.wallSeconds,
+            stopwatch_.cpuSeconds,
+            {{"close_pairs", static_cast<double>(world_->contacts().size())}}};
+  }
+
+ private:
+  Contacts contacts() const {
+    Contacts contacts;
+    for (const box2d_granular::SoftContact& contact : world_->contacts()) {
+      if (!contact.touching) continue;
+      contacts.i.push_back(contact.i);
+      contacts.j.push_back(contact.j);
+      contacts.normal.push_back(toVec2(contact.geometry.normal));
+      contacts.overlap.push_back(contact.geometry.overlap);
+      contacts.normalForce.push_back(contact.force.normal);
+      contacts.tangentialForce.push_back(contact.force.tangential);
+      contacts.sliding.push_back(contact.force.sliding);
+    }
+    return contacts;
+  }
+
+  std::optional<box2d_granular::PenaltyWorld> world_;
+  bool spins_ = false;  ///< whether any force asks for them
+  Stopwatch stopwatch_;
+};
+
+}  // namespace
 
 std::unique_ptr<Engine> makeBox2dPenalty() {
   return std::make_unique<Box2dPenalty>();
 }
 
-Capabilities Box2dPenalty::capabilities() const {
-  Capabilities can;
-  can.version = box2dVersion();
-  for (const Effect effect : allEffects) can.effects[effect] = Support::optional;
-  can.lawOptions = {{"normal", {"linear"}},
-                    {"damper", {"constant"}},
-                    {"spring_update", {"after", "before"}},
-                    {"lever_arm", {"radius", "contact_point"}},
-                    {"velocity_arm", {"lever_arm"}},
-                    {"plane_arm", {"surface"}},
-                    {"damping_velocity", {"lagged"}},
-                    {"integrator", {"semi_implicit_euler"}}};
-  can.precisions = {Precision::float64};
-  can.slidingFlags = true;
-  can.settings = {{"dt", 0.0, "s", "time step; 0: the case's", {}}, lengthUnitSetting()};
-  can.limits = box2dLimits();
-  return can;
-}
-
-EffectiveParameters Box2dPenalty::load(const Scene& scene, const Settings& settings) {
-  if (scene.law.normal != NormalLaw::linear) throw UnsupportedScene("has only normal = \"linear\"");
-  if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
-    throw UnsupportedScene("has only damper = \"constant\"");
-  const std::vector<SettingSpec> specs = capabilities().settings;
-  const double dt = numberSetting(settings, specs, "dt");
-  const box2d_granular::Model model =
-      box2dModel(scene, dt > 0.0 ? dt : scene.dt, numberSetting(settings, specs, "length_unit"));
-  std::optional<box2d_granular::Plate> plate;
-  if (scene.bottom && scene.bottom->mu > 0.0)
-    plate = {scene.bottom->mu,   scene.bottom->kb,      scene.bottom->gb,
-             scene.bottom->tauM, scene.bottom->gravity, scene.bottom->spin};
-  world_.emplace(model, box2dSoftLaw(scene.law), plate);
-  spins_ = effectsOf(scene).contains(Effect::friction);
-  stopwatch_ = {};
-
-  EffectiveParameters effective;
-  effective.dt = model.dt;
-  effective.precision = "double";
-  effective.integrator = "semi_implicit_euler";
-  effective.velocityLag = 0.5 * effective.dt;
-  effective.effects = effectsOf(scene);
-  effective.pairs = pairTable(scene, [&](double) { return coefficientsOf(scene.law); });
-  return effective;
-}
-
-double Box2dPenalty::advance(double t) {
-  const auto wanted = std::llround(t / world_->dt());
-  const Stopwatch::Lap lap(stopwatch_);
-  while (static_cast<long long>(world_->steps()) < wanted) world_->step();
-  return world_->time();
-}
-
-Snapshot Box2dPenalty::snapshot(ContactReport report) {
-  if (report == ContactReport::accumulated)
-    throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
-  Snapshot snapshot = kinematicSnapshot(world_->members(), world_->time(), spins_);
-  const std::vector<box2d_granular::WallLoad> loads = world_->wallLoads();
-  for (std::size_t b = 0; b < loads.size(); ++b) {
-    snapshot.bodies[b].force = toVec2(loads[b].force);
-    snapshot.bodies[b].torque = loads[b].torque;
-  }
-  if (report == ContactReport::instant) snapshot.contacts = contacts();
-  snapshot.energies = {world_->kineticEnergy(), world_->elasticEnergy()};
-  return snapshot;
-}
-
-Contacts Box2dPenalty::contacts() const {
-  Contacts contacts;
-  for (const box2d_granular::SoftContact& contact : world_->contacts()) {
-    if (!contact.touching) continue;
-    contacts.i.push_back(contact.i);
-    contacts.j.push_back(contact.j);
-    contacts.normal.push_back(toVec2(contact.geometry.normal));
-    contacts.overlap.push_back(contact.geometry.overlap);
-    contacts.normalForce.push_back(contact.force.normal);
-    contacts.tangentialForce.push_back(contact.force.tangential);
-    contacts.sliding.push_back(contact.force.sliding);
-  }
-  return contacts;
-}
-
-Stats Box2dPenalty::stats() const {
-  return {world_->steps(),
-          world_->contactEvaluations(),
-          stopwatch_.wallSeconds,
-          stopwatch_.cpuSeconds,
-          {{"close_pairs", static_cast<double>(world_->contacts().size())}}};
-}
-
 EngineEntry box2dPenaltyEngine() {
-  return {"box2d-penalty",
-          "the scene's soft law on Box2D's collision detection",
-          makeBox2dPenalty,
-          {},
-          {},
-          ""};
+  return {"box2d-penalty", "the scene's soft law on Box2D's collision detection", makeBox2dPenalty};
 }
 
 EngineEntry box2dPenaltyMirror() {
-  const auto make = [] {
-    return makeGrainMirror({{"integrator", {"semi_implicit_euler"}},
-                            {"damping_velocity", {"lagged"}},
-                            {"spring_update", {"after", "before"}},
-                            {"lever_arm", {"radius", "contact_point"}},
-                            {"velocity_arm", {"lever_arm"}},
-                            {"plane_arm", {"surface"}}});
-  };
-  return {"grain-as-box2d-penalty",
-          "the in-house engine with the penalty engine's conventions",
-          make,
-          {},
-          {},
-          "box2d-penalty",
-          {"linear"}};
+  return mirrorEntry("grain-as-box2d-penalty",
+                     "the in-house engine with the penalty engine's conventions", "box2d-penalty",
+                     {"linear"},
+                     {{"integrator", {"semi_implicit_euler"}},
+                      {"damping_velocity", {"lagged"}},
+                      {"spring_update", {"after", "before"}},
+                      {"lever_arm", {"radius", "contact_point"}},
+                      {"velocity_arm", {"lever_arm"}},
+                      {"plane_arm", {"surface"}}});
 }
 
 }  // namespace crossgrain

@@ -165,6 +165,9 @@ struct ContactLaw {
   bool springs() const {
     return tangential == TangentialLaw::spring || tangential == TangentialLaw::springDashpot;
   }
+  bool dashpots() const {
+    return tangential == TangentialLaw::viscous || tangential == TangentialLaw::springDashpot;
+  }
 
   bool operator==(const ContactLaw&) const = default;
 };

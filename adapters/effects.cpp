@@ -20,12 +20,10 @@ Effects effectsOf(const Scene& scene) {
     call(law.mu > 0.0, Effect::friction);
   } else {
     const bool friction = law.tangential != TangentialLaw::none && law.mu > 0.0;
-    const bool dashpot =
-        law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::springDashpot;
     call(law.gn > 0.0, Effect::normalDamping);
     call(friction, Effect::friction);
     call(friction && law.springs() && law.kt > 0.0, Effect::tangentialSpring);
-    call(friction && dashpot && law.gt > 0.0, Effect::tangentialDamping);
+    call(friction && law.dashpots() && law.gt > 0.0, Effect::tangentialDamping);
   }
   call(effects.contains(Effect::friction) && scene.rotation, Effect::rotation);
 

@@ -3,33 +3,14 @@
 #include <array>
 #include <string_view>
 
+#include "engines/grain/ledger.hpp"
+
 namespace crossgrain {
 
-/// Where the energy of a scene is and where it went since load(), term by term [J]. Velocities are
-/// those of the snapshot's time.
-struct EnergyLedger {
-  double initial = 0.0;  ///< the five states below, added up, at load
-
-  // States.
-  double kinetic = 0.0;            ///< ½ m v² + ½ J ω² of the disks
-  double elasticNormal = 0.0;      ///< ∫ f_el dδ of the contacts' normal springs
-  double elasticTangential = 0.0;  ///< ½ k_t ξ², ξ being what carries the force of this time
-  double potential = 0.0;  ///< −m g·(x − x₀), x₀ the disks' mean position at load: may be < 0
-  double plateSprings = 0.0;  ///< ½ k_b ξ_b² of the springs with the plate
-
-  // Summed since load; > 0 brings energy in.
-  double workOfWalls = 0.0;         ///< of walls on the disks
-  double gainedByConvention = 0.0;  ///< by springs that grow without being stretched: set to the
-                                    ///< bound where they slip, or stiffer as the overlap grows
-
-  // Summed since load; > 0 takes energy out.
-  double lostNormalDamping = 0.0;  ///< by normal forces beyond their springs'; of rigid contacts
-                                   ///< by the impulse
-  double lostTangentialDamping = 0.0;  ///< by tangential forces beyond their springs', sticking
-  double lostSliding = 0.0;            ///< at the Coulomb bound
-  double lostBottom = 0.0;             ///< to the plate: dashpot, sliding, brake of the spin
-  double lostRelease = 0.0;            ///< tangential springs still stretched when a contact ends
-};
+/// Where the energy of a scene is and where it went since load(), term by term [J]: five states,
+/// what came in (> 0 brings energy in), and losses (> 0 takes it out); engines/grain/ledger.hpp has
+/// what each of them is. Velocities are those of the snapshot's time.
+using EnergyLedger = grain::EnergyLedger;
 
 /// One term by its name in files; `sign` is that in residual().
 struct LedgerTerm {

@@ -26,7 +26,7 @@ struct SettingSpec {
   SettingValue defaultValue;  ///< its alternative is the setting's type
   std::string unit;
   std::string doc;
-  std::vector<std::string> choices;  ///< of a string setting; empty: any
+  std::vector<std::string> choices = {};  ///< of a string setting; empty: any
   // Of a number.
   double least = 0.0, most = std::numeric_limits<double>::infinity();
   bool whole = false;
@@ -138,8 +138,11 @@ class Engine {
   /// scene with the same settings there, from where it goes on to the bit.
   /// Capabilities::checkpoints says which engines can.
   /// @throws EngineFailure if the file cannot be written, or is none of this engine and scene
-  virtual void checkpoint(const std::filesystem::path& file);
-  virtual void restore(const std::filesystem::path& file);
+  virtual void checkpoint(const std::filesystem::path&) { throw EngineFailure(noCheckpoints); }
+  virtual void restore(const std::filesystem::path&) { throw EngineFailure(noCheckpoints); }
+
+ private:
+  static constexpr const char* noCheckpoints = "this engine has no checkpoints";
 };
 
 }  // namespace crossgrain

@@ -15,13 +15,13 @@ struct EngineEntry {
   std::string name;
   std::string summary;  ///< one line for `crossgrain engines`
   /// Makes the engine in the calling process; empty for engines that are programs of their own.
-  std::function<std::unique_ptr<Engine>()> make;
+  std::function<std::unique_ptr<Engine>()> make = {};
   /// The worker program; empty: `crossgrain __serve NAME`.
-  std::function<ProgramCall()> command;
+  std::function<ProgramCall()> command = {};
   /// Why it cannot be run here, one line; empty if it can.
-  std::function<std::string()> missing;
+  std::function<std::string()> missing = {};
   /// A mirror is the in-house engine set to a peer's conventions: that peer's name, else empty.
-  std::string mirrors;
+  std::string mirrors = {};
   /// Of a mirror: the normal laws (lawOptionValue) of scenes in which it stands for that peer.
   std::vector<std::string> mirrorsNormal = {};
   /// What the engine's settings are where the case says nothing.

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "adapters/declared_law.hpp"
-#include "adapters/engine_entry.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/pair_table.hpp"
 #include "adapters/stopwatch.hpp"
@@ -103,24 +102,6 @@ grain::Setup setupOf(const Scene& scene) {
 
 namespace {
 
-EnergyLedger translate(const grain::EnergyLedger& from) {
-  EnergyLedger to;
-  to.initial = from.initial;
-  to.kinetic = from.kinetic;
-  to.elasticNormal = from.elasticNormal;
-  to.elasticTangential = from.elasticTangential;
-  to.potential = from.potential;
-  to.plateSprings = from.plateSprings;
-  to.workOfWalls = from.workOfWalls;
-  to.gainedByConvention = from.gainedByConvention;
-  to.lostNormalDamping = from.lostNormalDamping;
-  to.lostTangentialDamping = from.lostTangentialDamping;
-  to.lostSliding = from.lostSliding;
-  to.lostBottom = from.lostBottom;
-  to.lostRelease = from.lostRelease;
-  return to;
-}
-
 class GrainEngine : public Engine {
  public:
   GrainEngine(LawConventionSets conventions, double stiffness)
@@ -140,7 +121,7 @@ class GrainEngine : public Engine {
     can.checkpoints = true;
     can.energyLedger = true;
     can.settings = {
-        {"dt", 0.0, "s", "time step; 0: the case's", {}},
+        {"dt", 0.0, "s", "time step; 0: the case's"},
         {"stiffness",
          stiffness_,
          "-",
@@ -148,12 +129,9 @@ class GrainEngine : public Engine {
          {},
          1e-9,
          1e9},
-        {"skin", 0.0, "m", "of the Verlet lists; 0: tuned while it runs", {}},
-        {"max_overlap",
-         1.0,
-         "-",
-         "of two disks, in units of the smaller radius: a run with a deeper one ends; 0: any",
-         {}},
+        {"skin", 0.0, "m", "of the Verlet lists; 0: tuned while it runs"},
+        {"max_overlap", 1.0, "-",
+         "of two disks, in units of the smaller radius: a run with a deeper one ends; 0: any"},
         {"threads",
          1.0,
          "-",
@@ -252,8 +230,7 @@ class GrainEngine : public Engine {
     if (report == ContactReport::accumulated)
       throw std::invalid_argument("accumulated contacts: see Capabilities::accumulatedContacts");
     snapshot.energies = {now.kineticEnergy(), now.elasticEnergy()};
-    if (const grain::EnergyLedger* ledger = now.energyLedger())
-      snapshot.ledger = translate(*ledger);
+    if (const EnergyLedger* ledger = now.energyLedger()) snapshot.ledger = *ledger;
     return snapshot;
   }
 
@@ -340,6 +317,15 @@ std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions) {
   return std::make_unique<GrainEngine>(std::move(conventions), 1.0);
 }
 
+EngineEntry mirrorEntry(std::string name, std::string summary, std::string peer,
+                        std::vector<std::string> normals, LawConventionSets conventions) {
+  return {.name = std::move(name),
+          .summary = std::move(summary),
+          .make = [conventions = std::move(conventions)] { return makeGrainMirror(conventions); },
+          .mirrors = std::move(peer),
+          .mirrorsNormal = std::move(normals)};
+}
+
 std::unique_ptr<Engine> makeStiffGrain(double factor) {
   return std::make_unique<GrainEngine>(LawConventionSets{}, factor);
 }
@@ -352,7 +338,7 @@ void beginUnderWay(Engine& inHouse, const Contacts& contacts) {
 }
 
 EngineEntry grainEngine() {
-  return {"grain", "in-house: soft disks, every convention an option", makeGrain, {}, {}, ""};
+  return {"grain", "in-house: soft disks, every convention an option", makeGrain};
 }
 
 }  // namespace crossgrain

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine_entry.hpp"
 #include "engines/grain/setup.hpp"
 
 namespace crossgrain {
@@ -24,6 +24,10 @@ using LawConventionSets = std::map<std::string, std::vector<std::string>>;
 /// between the scene's law and the peer is the model's; where it does not, somebody's
 /// implementation is at fault.
 std::unique_ptr<Engine> makeGrainMirror(LawConventionSets conventions);
+
+/// Its entry. @param normals  EngineEntry::mirrorsNormal
+EngineEntry mirrorEntry(std::string name, std::string summary, std::string peer,
+                        std::vector<std::string> normals, LawConventionSets conventions);
 
 /// The in-house engine with contacts `factor` times as stiff, for peers with rigid ones: k_n and
 /// k_t grow by it, γ_n and γ_t by its root, so that restitutions stay, and the time step shrinks by

@@ -1,11 +1,8 @@
-#include "adapters/lammps.hpp"
-
 #include <filesystem>
 
-#include "adapters/engine_entry.hpp"
 #include "adapters/grain.hpp"
-#include "adapters/worker_script.hpp"
-#include "support/program.hpp"
+#include "support/data_folder.hpp"
+#include "support/files.hpp"
 
 namespace crossgrain {
 namespace {
@@ -14,12 +11,6 @@ namespace {
 std::string python() {
   const std::filesystem::path ofDebian = "/usr/bin/python3";
   return std::filesystem::exists(ofDebian) ? ofDebian.string() : "python3";
-}
-
-}  // namespace
-
-ProgramCall lammpsCommand() {
-  return std::vector<std::string>{python(), workerScript("lammps").string()};
 }
 
 std::string lammpsMissing() {
@@ -32,33 +23,35 @@ std::string lammpsMissing() {
   return workerScriptMissing("lammps");
 }
 
+}  // namespace
+
+/// Python executes engines/lammps/worker.py, which calls LAMMPS' C library and speaks the worker
+/// protocol.
 EngineEntry lammpsEngine() {
-  return {"lammps",
-          "LAMMPS, pair_style granular with Hooke's or Hertz' law, in two dimensions",
-          {},
-          lammpsCommand,
-          lammpsMissing,
-          ""};
+  return {.name = "lammps",
+          .summary = "LAMMPS, pair_style granular with Hooke's or Hertz' law, in two dimensions",
+          .command =
+              [] {
+                return ProgramCall({python(), workerScript("lammps").string()});
+              },
+          .missing = lammpsMissing};
 }
 
 /// pair_style granular with linear_history or mindlin, and fix nve/sphere
 /// (engines/lammps/README.md).
 EngineEntry lammpsMirror() {
-  const auto make = [] {
-    return makeGrainMirror({{"tension", {"allow"}},
-                            {"coulomb_bound", {"magnitude"}},
-                            {"dashpot", {"inside"}},
-                            {"spring_reset", {"spring_only"}},
-                            {"spring_update", {"before"}},
-                            {"lever_arm", {"overlap_middle"}},
-                            {"velocity_arm", {"radius"}},
-                            {"plane_arm", {"radius"}},
-                            {"damping_velocity", {"lagged"}},
-                            {"integrator", {"position_verlet"}}});
-  };
-  return {
-      "grain-as-lammps",  "the in-house engine with LAMMPS' conventions", make, {}, {}, "lammps",
-      {"linear", "hertz"}};
+  return mirrorEntry("grain-as-lammps", "the in-house engine with LAMMPS' conventions", "lammps",
+                     {"linear", "hertz"},
+                     {{"tension", {"allow"}},
+                      {"coulomb_bound", {"magnitude"}},
+                      {"dashpot", {"inside"}},
+                      {"spring_reset", {"spring_only"}},
+                      {"spring_update", {"before"}},
+                      {"lever_arm", {"overlap_middle"}},
+                      {"velocity_arm", {"radius"}},
+                      {"plane_arm", {"radius"}},
+                      {"damping_velocity", {"lagged"}},
+                      {"integrator", {"position_verlet"}}});
 }
 
 }  // namespace crossgrain

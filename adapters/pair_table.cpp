@@ -11,8 +11,6 @@ PairCoefficients coefficientsOf(const ContactLaw& law) {
   PairCoefficients row;
   const bool soft = law.soft();
   const bool friction = law.mu > 0.0 && (!soft || law.tangential != TangentialLaw::none);
-  const bool dashpot =
-      law.tangential == TangentialLaw::springDashpot || law.tangential == TangentialLaw::viscous;
   if (soft) {
     row.kn = law.kn;
     row.gn = law.gn;
@@ -23,7 +21,7 @@ PairCoefficients coefficientsOf(const ContactLaw& law) {
   row.mu = law.mu;
   if (!soft) row.et0 = law.et0;
   if (soft && law.springs()) row.kt = law.kt;
-  if (soft && dashpot) row.gt = law.gt;
+  if (soft && law.dashpots()) row.gt = law.gt;
   return row;
 }
 

@@ -30,6 +30,13 @@ std::size_t Scene::planeCount() const {
   return count;
 }
 
+std::vector<double> Scene::radii() const {
+  std::vector<double> all = disks.radius;
+  for (const WallBody& body : bodies)
+    all.insert(all.end(), body.diskRadius.begin(), body.diskRadius.end());
+  return all;
+}
+
 std::string nameOfId(const Scene& scene, std::size_t id) {
   const std::size_t disks = scene.disks.size();
   if (id < disks) return fmt::format("disk {}", id);

@@ -67,6 +67,7 @@ struct Scene {
 
   std::size_t wallDiskCount() const;
   std::size_t planeCount() const;
+  std::vector<double> radii() const;  ///< of the disks, then of the wall disks [m]
 };
 
 /// "disk 3", "wall disk 12", "plane 0": what an id is, each kind counted from 0.

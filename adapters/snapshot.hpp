@@ -28,6 +28,10 @@ struct Contacts {
   std::vector<std::uint8_t> sliding;    ///< 1 where the Coulomb bound holds; may be empty: unknown
 
   std::size_t size() const { return i.size(); }
+  /// On the first of the two [N].
+  Vec2 force(std::size_t k) const {
+    return normalForce[k] * normal[k] + tangentialForce[k] * perpendicular(normal[k]);
+  }
 };
 
 /// State of one wall body and what the disks do to it.

@@ -14,12 +14,9 @@ struct AllDisks {
   std::vector<Vec2> position;
   std::vector<double> radius;
 
-  explicit AllDisks(const Scene& scene)
-      : position(scene.disks.position), radius(scene.disks.radius) {
-    for (const WallBody& body : scene.bodies) {
+  explicit AllDisks(const Scene& scene) : position(scene.disks.position), radius(scene.radii()) {
+    for (const WallBody& body : scene.bodies)
       position.insert(position.end(), body.diskPosition.begin(), body.diskPosition.end());
-      radius.insert(radius.end(), body.diskRadius.begin(), body.diskRadius.end());
-    }
   }
 };
 

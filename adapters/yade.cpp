@@ -1,11 +1,10 @@
-#include "adapters/yade.hpp"
-
-#include "adapters/engine_entry.hpp"
 #include "adapters/grain.hpp"
-#include "adapters/worker_script.hpp"
-#include "support/program.hpp"
+#include "support/data_folder.hpp"
+#include "support/files.hpp"
 
 namespace crossgrain {
+namespace {
+
 ProgramCall yadeCommand() {
   // Without display, leave when the script ends, one thread: sums in one order.
   return std::vector<std::string>{"yade", "-n", "-x", "-j1", workerScript("yade").string()};
@@ -17,30 +16,32 @@ std::string yadeMissing() {
   return workerScriptMissing("yade");
 }
 
+}  // namespace
+
+/// YADE executes engines/yade/worker.py, which speaks the worker protocol.
 EngineEntry yadeEngine() {
-  return {"yade",      "YADE, its viscoelastic and Hertz-Mindlin laws on spheres kept in a plane",
-          {},          yadeCommand,
-          yadeMissing, ""};
+  return {.name = "yade",
+          .summary = "YADE, its viscoelastic and Hertz-Mindlin laws on spheres kept in a plane",
+          .command = yadeCommand,
+          .missing = yadeMissing};
 }
 
 /// Law2_ScGeom_ViscElPhys_Basic or Law2_ScGeom_MindlinPhys_Mindlin, which share its conventions,
 /// and NewtonIntegrator (engines/yade/README.md).
 EngineEntry yadeMirror() {
-  const auto make = [] {
-    return makeGrainMirror({{"tension", {"cut"}},
-                            {"coulomb_bound", {"compression"}},
-                            {"dashpot", {"outside"}},
-                            {"spring_reset", {"total"}},
-                            {"spring_update", {"before"}},
-                            {"lever_arm", {"overlap_middle"}},
-                            {"velocity_arm", {"lever_arm"}},
-                            {"plane_arm", {"surface"}},
-                            {"history", {"force"}},
-                            {"damping_velocity", {"lagged"}},
-                            {"integrator", {"position_verlet"}}});
-  };
-  return {"grain-as-yade",    "the in-house engine with YADE's conventions", make, {}, {}, "yade",
-          {"linear", "hertz"}};
+  return mirrorEntry("grain-as-yade", "the in-house engine with YADE's conventions", "yade",
+                     {"linear", "hertz"},
+                     {{"tension", {"cut"}},
+                      {"coulomb_bound", {"compression"}},
+                      {"dashpot", {"outside"}},
+                      {"spring_reset", {"total"}},
+                      {"spring_update", {"before"}},
+                      {"lever_arm", {"overlap_middle"}},
+                      {"velocity_arm", {"lever_arm"}},
+                      {"plane_arm", {"surface"}},
+                      {"history", {"force"}},
+                      {"damping_velocity", {"lagged"}},
+                      {"integrator", {"position_verlet"}}});
 }
 
 }  // namespace crossgrain

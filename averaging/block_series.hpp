@@ -19,27 +19,35 @@ class BlockSeries {
   static constexpr std::size_t mostBlocks = 512;
 
   /// @param width numbers per sample
-  explicit BlockSeries(std::size_t width) : width_(width), partial_(width, 0.0) {}
+  explicit BlockSeries(std::size_t width, std::size_t most = mostBlocks)
+      : width_(width), most_(most), partial_(width, 0.0) {}
 
   /// @pre sample has `width` numbers
   void add(std::span<const double> sample);
+  /// The same number by number: what is added to a column belongs to the sample that then ends.
+  double& now(std::size_t column) { return partial_[column]; }
+  void endSample();
 
   std::size_t samples() const { return blocks() * blockLength_ + inPartial_; }
   std::size_t blocks() const { return width_ == 0 ? 0 : sums_.size() / width_; }
   std::size_t blockLength() const { return blockLength_; }
 
-  /// Mean of one block. @pre block < blocks()
+  /// Sum over one block, and its mean. @pre block < blocks()
+  std::span<const double> sums(std::size_t block) const {
+    return std::span(sums_).subspan(block * width_, width_);
+  }
   double blockMean(std::size_t block, std::size_t column) const {
     return sums_[block * width_ + column] / static_cast<double>(blockLength_);
   }
 
-  /// Means over all samples. @pre samples() > 0
+  /// Sums over all samples, and their means. @pre samples() > 0
+  std::vector<double> sums() const;
   std::vector<double> means() const;
 
  private:
   void mergePairs();
 
-  std::size_t width_;
+  std::size_t width_, most_;
   std::size_t blockLength_ = 1;
   std::size_t inPartial_ = 0;
   std::vector<double> partial_;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "averaging/contact_rule.hpp"
@@ -14,7 +14,6 @@ namespace crossgrain::inline averaging {
 
 namespace {
 
-constexpr std::size_t mostBlocks = 32;
 constexpr std::size_t fewestBlocks = 8;
 
 // In units of the wheel's surface: a disk can at most be a little faster than that for long.
@@ -43,7 +42,7 @@ std::size_t directionSlot(double x, double y) {
   return slot + 1;
 }
 
-double sumOf(const std::vector<double>& values) {
+double sumOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -55,35 +54,19 @@ std::size_t Bins::slot(double value) const {
   return static_cast<std::size_t>(std::min(bin, static_cast<double>(count))) + 1;
 }
 
-void BlockedCounts::count(std::size_t slot) {
-  current_[slot] += 1.0;
-}
-
-void BlockedCounts::endSnapshot() {
-  if (++inBlock_ < perBlock_) return;
-  blocks_.push_back(std::exchange(current_, std::vector<double>(current_.size())));
-  inBlock_ = 0;
-  if (blocks_.size() < mostBlocks) return;
-  for (std::size_t b = 0; b < mostBlocks / 2; ++b)
-    std::ranges::transform(blocks_[2 * b], blocks_[2 * b + 1], blocks_[b].begin(), std::plus());
-  blocks_.resize(mostBlocks / 2);
-  perBlock_ *= 2;
-}
-
 BlockedCounts::Fractions BlockedCounts::fractions() const {
   Fractions result;
-  result.mean = current_;  // counts, until they are divided
-  for (const auto& block : blocks_)
-    std::ranges::transform(result.mean, block, result.mean.begin(), std::plus());
+  result.mean = series_.sums();  // counts, until they are divided
   result.total = sumOf(result.mean);
   if (result.total == 0.0) return result;
   for (double& fraction : result.mean) fraction /= result.total;
-  const double n = static_cast<double>(blocks_.size());
-  if (blocks_.size() < fewestBlocks) return result;
+  const auto n = static_cast<double>(series_.blocks());
+  if (series_.blocks() < fewestBlocks) return result;
   // A fraction is a ratio of two sums: its error comes from count − fraction·total, block by block.
   const double perBlock = result.total / n;
   result.standardError.assign(result.mean.size(), 0.0);
-  for (const auto& block : blocks_) {
+  for (std::size_t b = 0; b < series_.blocks(); ++b) {
+    const std::span<const double> block = series_.sums(b);
     const double total = sumOf(block);
     for (std::size_t k = 0; k < block.size(); ++k) {
       const double residual = (block[k] - result.mean[k] * total) / perBlock;

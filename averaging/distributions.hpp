@@ -6,6 +6,7 @@
 
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
+#include "averaging/block_series.hpp"
 #include "averaging/rings.hpp"
 
 namespace crossgrain::inline averaging {
@@ -26,15 +27,14 @@ struct Bins {
   }
 };
 
-/// Counts of equal events in slots over time, in at most 32 blocks of equally many snapshots: when
-/// all are full, neighbours become one. Memory does not grow with the run; there are far more slots
-/// than BlockSeries has columns, hence fewer blocks.
+/// Counts of equal events in slots over time, in at most 32 blocks of equally many snapshots: there
+/// are far more slots than other series have columns, hence fewer blocks.
 class BlockedCounts {
  public:
-  explicit BlockedCounts(std::size_t slots) : current_(slots, 0.0) {}
+  explicit BlockedCounts(std::size_t slots) : series_(slots, 32) {}
 
-  void count(std::size_t slot);
-  void endSnapshot();
+  void count(std::size_t slot) { series_.now(slot) += 1.0; }
+  void endSnapshot() { series_.endSample(); }
 
   struct Fractions {
     std::vector<double> mean;           ///< of all counts, per slot
@@ -44,9 +44,7 @@ class BlockedCounts {
   Fractions fractions() const;
 
  private:
-  std::vector<double> current_;             ///< of the block that is not full
-  std::size_t perBlock_ = 1, inBlock_ = 0;  ///< snapshots
-  std::vector<std::vector<double>> blocks_;
+  BlockSeries series_;
 };
 
 /// One distribution of a run. With two axes cells go first along the first.

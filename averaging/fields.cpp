@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
-#include "averaging/field_formulas.hpp"
 #include "averaging/rings.hpp"
 
 namespace crossgrain::inline averaging {
@@ -45,7 +45,114 @@ Linear BinView::overRadius(const Linear& x) const {
 namespace {
 
 using Bin = const BinView&;
-using formulas::azimuthalVelocity;
+
+/// Those of the thesis that take more than a line of the table: tensors of one bin [N/m², but for
+/// fabric: 1].
+namespace formulas {
+
+using enum Moment;
+
+/// Of the moving disks alone
+LinearTensor movingStress(Bin bin) {
+  return {bin.perVolume(stressRR), bin.perVolume(stressRP), bin.perVolume(stressPR),
+          bin.perVolume(stressPP)};
+}
+
+/// With the wall disks' part
+LinearTensor stress(Bin bin) {
+  const LinearTensor moving = movingStress(bin);
+  return {moving.rr + bin.perVolume(wallStressRR), moving.rp + bin.perVolume(wallStressRP),
+          moving.pr + bin.perVolume(wallStressPR), moving.pp + bin.perVolume(wallStressPP)};
+}
+
+LinearTensor dynamicStress(Bin bin) {
+  const Linear mixed = bin.perVolume(dynamicRP);
+  return {bin.perVolume(dynamicRR), mixed, mixed, bin.perVolume(dynamicPP)};
+}
+
+LinearTensor fabric(Bin bin) {
+  const Linear mixed = bin.perVolume(fabricRP);
+  return {bin.perVolume(fabricRR), mixed, mixed, bin.perVolume(fabricPP)};
+}
+
+/// σ_fluct = Σ w m (v − u)⊗(v − u)/V with u = Σ w m v/Σ w m the bin's mean velocity, which is the
+/// dynamic stress less ρ u⊗u.
+LinearTensor fluctuationStress(Bin bin) {
+  const LinearTensor whole = dynamicStress(bin);
+  const Linear density = bin.perVolume(mass);
+  const Linear r = bin.perVolume(momentumR);
+  const Linear p = bin.perVolume(momentumP);
+  const Linear mixed = whole.rp - r * p / density;
+  return {whole.rr - r * r / density, mixed, mixed, whole.pp - p * p / density};
+}
+
+/// The micro-mechanical stress with the terms in ω̇ and ω² (Lätzel 2003, section 7.3, derived anew:
+/// README.md): sym σ + the dynamic stress.
+LinearTensor fullStress(Bin bin) {
+  const LinearTensor still = stress(bin);
+  const LinearTensor moved = dynamicStress(bin);
+  const Linear mixed = 0.5 * (still.rp + still.pr) + moved.rp;
+  return {still.rr + moved.rr, mixed, mixed, still.pp + moved.pp};
+}
+
+/// ε = (πh/V) Σ w Σ_c Δ⊗l · F⁻¹, Δ = δ n^c (Lätzel 2003, Eq. 7.88 with prefactor 1, such that equal
+/// overlaps δ of equal disks give (δ/a) I).
+LinearTensor strain(Bin bin) {
+  const double factor = std::numbers::pi * bin.height();
+  const Linear mixed = factor * bin.perVolume(overlapRP);
+  const LinearTensor overlaps = {factor * bin.perVolume(overlapRR), mixed, mixed,
+                                 factor * bin.perVolume(overlapPP)};
+  return overlaps * inverse(fabric(bin));
+}
+
+/// E = tr σ/tr ε, of the moving disks
+Linear bulkModulus(Bin bin) {
+  return trace(movingStress(bin)) / trace(strain(bin));
+}
+
+/// G = dev σ/dev ε, of the moving disks
+Linear shearModulus(Bin bin) {
+  return deviator(movingStress(bin)) / deviator(strain(bin));
+}
+
+/// k_n tr F/2πh, what E would be in mean field.
+Linear meanFieldModulus(Bin bin) {
+  return bin.kn() / (2.0 * std::numbers::pi * bin.height()) * trace(fabric(bin));
+}
+
+/// σ = ε₀ E [I + G* ε₁ R(φ) diag(1, −1) Rᵀ(φ)] (Lätzel 2003, Eqs. 7.105–7.109) with ε₀ = tr ε/2,
+/// ε₁ = dev ε/tr ε, G* = G/E, φ = (φ_ε + φ_F)/2 and E = k_n tr F/2πh.
+LinearTensor predictedStress(Bin bin) {
+  const double pi = std::numbers::pi;
+  const LinearTensor deformation = strain(bin);
+  const Linear pressure = 0.5 * trace(deformation) * meanFieldModulus(bin);
+  const Linear anisotropy =
+      shearModulus(bin) / bulkModulus(bin) * deviator(deformation) / trace(deformation);
+  // Axes are directions without a sign: of φ_ε and φ_ε ± π the one nearest to φ_F.
+  const Linear ofFabric = axis(fabric(bin));
+  Linear ofStrain = axis(deformation);
+  ofStrain.value -= pi * std::round((ofStrain.value - ofFabric.value) / pi);
+  const Linear twice = ofStrain + ofFabric;
+  const Linear along = pressure * anisotropy * cos(twice);
+  const Linear mixed = pressure * anisotropy * sin(twice);
+  return {pressure + along, mixed, mixed, pressure - along};
+}
+
+/// (κ_zr, κ_zφ) = (πh/V) Σ w Σ_c (l × Δ)_z l · F⁻¹ (Lätzel 2003, section 8.2), Δ = δ n^c + ξ s with
+/// ξ = −f_t/k_t: the spring that holds f_t alone.
+std::pair<Linear, Linear> curvature(Bin bin) {
+  const double factor = std::numbers::pi * bin.height() / bin.kt();
+  const LinearTensor perFabric = inverse(fabric(bin));
+  const Linear r = factor * bin.perVolume(coupleR);
+  const Linear p = factor * bin.perVolume(coupleP);
+  return {r * perFabric.rr + p * perFabric.pr, r * perFabric.rp + p * perFabric.pp};
+}
+
+Linear azimuthalVelocity(Bin bin) {
+  return bin[velocityP] / bin[volume];
+}
+
+}  // namespace formulas
 
 /// Fourier coefficient k of the outward normals' density p(α) = (1 + Σ a_k cos kα + b_k sin kα)/2π:
 /// twice the mean of cos kα or sin kα over contacts, weighted with the disk's volume.

@@ -38,15 +38,15 @@ constexpr double largestExtrapolation = 10.0;
 /// A law y = Σ_k c_k g_k(x; q), linear but for the shape q. The best of a grid of q starts the fit.
 struct Law {
   std::vector<std::string> names;
-  std::vector<double> periods;
+  double lastPeriod = 0.0;     ///< of the last parameter, > 0: an angle
   std::vector<double> shapes;  ///< the grid, rising; a fit that leaves it has not found q
   std::size_t shapeIndex;      ///< of q among the parameters
   std::function<std::vector<double>(double x, double q)> basis;
   std::function<std::vector<double>(const std::vector<double>& c, double q)> parameters;
   std::function<double(const std::vector<double>& p, double x)> value;
-  bool constantIsNull;  ///< no signal means y = const rather than y = 0
+  bool constantIsNull = false;  ///< no signal means y = const rather than y = 0
   /// Of a law that decays from x = 0: how far, in units of x, and by how much.
-  std::function<double(const std::vector<double>&p)> length, amplitude;
+  std::function<double(const std::vector<double>&p)> length = {}, amplitude = {};
 };
 
 std::vector<double> geometric(double from, double to, int count) {
@@ -161,7 +161,7 @@ std::string objection(const Law& law, const WeightedPoints& points,
                       const NonlinearSolution& solution, const Fit& fit) {
   for (const FitParameter& p : fit.parameters)
     if (!determined(p)) return fmt::format("the points do not determine {}", p.name);
-  if (law.periods.back() > 0.0)
+  if (law.lastPeriod > 0.0)
     for (std::size_t k = 0; k + 1 < law.names.size(); ++k)
       if (const double both = std::abs(solution.correlationWithLast[k]); both > inseparable)
         return fmt::format("the points do not separate {} from {} (correlation {:.3f})",
@@ -210,8 +210,9 @@ Fit fitLaw(const Law& law, std::span<const FitPoint> given) {
   const double perDof = fit.chi2 / fit.dof;
   const double scale = std::sqrt(points.weighted ? std::max(perDof, 1.0) : perDof);
   for (std::size_t k = 0; k < unknowns; ++k)
-    fit.parameters.push_back(
-        {law.names[k], solution.parameters[k], scale * solution.standardErrors[k], law.periods[k]});
+    fit.parameters.push_back({law.names[k], solution.parameters[k],
+                              scale * solution.standardErrors[k],
+                              k + 1 < unknowns ? 0.0 : law.lastPeriod});
   fit.reason = objection(law, points, solution, fit);
   fit.converged = fit.reason.empty();
   return fit;
@@ -251,57 +252,73 @@ void makeCanonical(Fit& fit) {
 }  // namespace
 
 Fit fitPowerLaw(std::span<const FitPoint> points) {
-  Law law{{"A", "p"}, {0.0, 0.0}, {}, 1, {}, {}, {}, false, {}, {}};
-  for (int k = -40; k <= 20; ++k) law.shapes.push_back(0.25 * k);
-  law.basis = [](double x, double p) { return std::vector{std::pow(x, p)}; };
-  law.parameters = [](const auto& c, double p) { return std::vector{c[0], p}; };
-  law.value = [](const auto& p, double x) { return p[0] * std::pow(x, p[1]); };
+  std::vector<double> exponents;
+  for (int k = -40; k <= 20; ++k) exponents.push_back(0.25 * k);
+  const Law law{.names = {"A", "p"},
+                .shapes = exponents,
+                .shapeIndex = 1,
+                .basis = [](double x, double p) { return std::vector{std::pow(x, p)}; },
+                .parameters =
+                    [](const auto& c, double p) {
+                      return std::vector{c[0], p};
+                    },
+                .value = [](const auto& p, double x) { return p[0] * std::pow(x, p[1]); }};
   return fitLaw(law, inRange(points, [](double x) { return x > 0.0; }));
 }
 
 Fit fitVelocityDecay(std::span<const FitPoint> points) {
-  Law law{{"A", "B"}, {0.0, 0.0}, geometric(0.05, 50.0, 61), 1, {}, {}, {}, false, {}, {}};
-  law.basis = [](double x, double b) { return std::vector{std::exp(-x / b)}; };
-  law.parameters = [](const auto& c, double b) { return std::vector{c[0], b}; };
-  law.value = [](const auto& p, double x) { return p[0] * std::exp(-x / p[1]); };
-  law.length = [](const auto& p) { return p[1]; };
-  law.amplitude = [](const auto& p) { return p[0]; };
+  const Law law{.names = {"A", "B"},
+                .shapes = geometric(0.05, 50.0, 61),
+                .shapeIndex = 1,
+                .basis = [](double x, double b) { return std::vector{std::exp(-x / b)}; },
+                .parameters =
+                    [](const auto& c, double b) {
+                      return std::vector{c[0], b};
+                    },
+                .value = [](const auto& p, double x) { return p[0] * std::exp(-x / p[1]); },
+                .length = [](const auto& p) { return p[1]; },
+                .amplitude = [](const auto& p) { return p[0]; }};
   return fitLaw(law, inRange(points, [](double x) { return x > 0.0 && x < 6.0; }));
 }
 
 Fit fitDilation(std::span<const FitPoint> points) {
-  Law law{
-      {"nu0", "B", "C"}, {0.0, 0.0, 0.0}, geometric(0.02, 20.0, 61), 2, {}, {}, {}, true, {}, {}};
-  law.basis = [](double x, double c) { return std::vector{1.0, -std::exp(-c * x)}; };
-  law.parameters = [](const auto& c, double shape) { return std::vector{c[0], c[1], shape}; };
-  law.value = [](const auto& p, double x) { return p[0] - p[1] * std::exp(-p[2] * x); };
-  law.length = [](const auto& p) { return 1.0 / p[2]; };
-  law.amplitude = [](const auto& p) { return p[1]; };
+  const Law law{.names = {"nu0", "B", "C"},
+                .shapes = geometric(0.02, 20.0, 61),
+                .shapeIndex = 2,
+                .basis =
+                    [](double x, double c) {
+                      return std::vector{1.0, -std::exp(-c * x)};
+                    },
+                .parameters =
+                    [](const auto& c, double shape) {
+                      return std::vector{c[0], c[1], shape};
+                    },
+                .value = [](const auto& p, double x) { return p[0] - p[1] * std::exp(-p[2] * x); },
+                .constantIsNull = true,
+                .length = [](const auto& p) { return 1.0 / p[2]; },
+                .amplitude = [](const auto& p) { return p[1]; }};
   return fitLaw(law, inRange(points, [](double x) { return x >= 0.5 && x <= 8.5; }));
 }
 
 Fit fitSpinOscillation(std::span<const FitPoint> points) {
-  Law law{{"A", "B", "phi"},
-          {0.0, 0.0, 2.0 * pi},
-          geometric(0.02, 20.0, 61),
-          1,
-          {},
-          {},
-          {},
-          false,
-          {},
-          {}};
-  law.basis = [](double x, double b) {
-    return std::vector{std::exp(-b * x) * std::cos(pi * x), -std::exp(-b * x) * std::sin(pi * x)};
-  };
-  law.parameters = [](const auto& c, double b) {
-    return std::vector{std::hypot(c[0], c[1]), b, std::atan2(c[1], c[0])};
-  };
-  law.value = [](const auto& p, double x) {
-    return p[0] * std::exp(-p[1] * x) * std::cos(pi * x + p[2]);
-  };
-  law.length = [](const auto& p) { return 1.0 / p[1]; };
-  law.amplitude = [](const auto& p) { return p[0]; };
+  const Law law{
+      .names = {"A", "B", "phi"},
+      .lastPeriod = 2.0 * pi,
+      .shapes = geometric(0.02, 20.0, 61),
+      .shapeIndex = 1,
+      .basis =
+          [](double x, double b) {
+            return std::vector{std::exp(-b * x) * std::cos(pi * x),
+                               -std::exp(-b * x) * std::sin(pi * x)};
+          },
+      .parameters =
+          [](const auto& c, double b) {
+            return std::vector{std::hypot(c[0], c[1]), b, std::atan2(c[1], c[0])};
+          },
+      .value = [](const auto& p,
+                  double x) { return p[0] * std::exp(-p[1] * x) * std::cos(pi * x + p[2]); },
+      .length = [](const auto& p) { return 1.0 / p[1]; },
+      .amplitude = [](const auto& p) { return p[0]; }};
   Fit fit = fitLaw(law, points);
   makeCanonical(fit);
   return fit;

@@ -125,11 +125,9 @@ std::optional<double> radialPressure(const Scene& scene, const Snapshot& snapsho
     if (!ids.contain(static_cast<std::size_t>(contacts.j[c]))) continue;
     const auto i = static_cast<std::size_t>(contacts.i[c]);
     const Vec2& n = contacts.normal[c];
-    const Vec2 onDisk =
-        contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
     const Vec2 outward =
         (snapshot.position.at(i) - scene.disks.radius.at(i) * n - centre).normalized();
-    force -= onDisk.dot(outward);
+    force -= contacts.force(c).dot(outward);
   }
   return force / (2.0 * std::numbers::pi * radius * height);
 }

@@ -41,11 +41,6 @@ Vec2 turnedBack(const Vec2& a, const Vec2& b) {
   return turned(a, Vec2(b.x(), -b.y()));
 }
 
-Vec2 forceOnFirst(const Contacts& contacts, std::size_t c) {
-  const Vec2& n = contacts.normal[c];
-  return contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
-}
-
 void requireLength(const char* what, std::size_t got, std::size_t wanted) {
   if (got != wanted)
     throw std::invalid_argument(
@@ -62,13 +57,11 @@ void distribute(const Moments& moments, const BinFractions& fractions, std::vect
 MomentSums::MomentSums(std::shared_ptr<const Coordinates> coordinates,
                        const std::vector<Weight>& weights, const Scene& scene, bool countWallDisks)
     : coordinates_(std::move(coordinates)),
-      radius_(scene.disks.radius),
+      radius_(scene.radii()),
       mass_(scene.disks.mass),
       inertia_(scene.disks.inertia),
       planes_(scene.planeCount()),
       countWallDisks_(countWallDisks) {
-  for (const WallBody& body : scene.bodies)
-    radius_.insert(radius_.end(), body.diskRadius.begin(), body.diskRadius.end());
   for (const Weight& weight : weights) sharings_.emplace_back(*coordinates_, weight);
 }
 
@@ -127,7 +120,7 @@ void MomentSums::addWalls(const Snapshot& snapshot, Partition& partition,
     if (j < mass_.size() || j >= radius_.size() || !transmits(contacts, c)) continue;
     const Vec2& n = contacts.normal[c];
     const double a = radius_[j];
-    add(a * a * contacts.tangentialForce[c] * n, a * forceOnFirst(contacts, c) * n.transpose(),
+    add(a * a * contacts.tangentialForce[c] * n, a * contacts.force(c) * n.transpose(),
         Vec2::UnitX(), partition.ofDisk(snapshot.position[i], radius_[i]));
   }
 }
@@ -137,7 +130,7 @@ void MomentSums::addBranches(const Snapshot& snapshot, Partition& partition,
   const Contacts& contacts = *snapshot.contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Vec2& n = contacts.normal[c];
-    const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();
+    const Eigen::Matrix2d forceNormal = contacts.force(c) * n.transpose();
     for (const bool first : {true, false}) {
       const auto p = static_cast<std::size_t>(first ? contacts.i[c] : contacts.j[c]);
       if (p >= radius_.size()) continue;  // a plane
@@ -196,7 +189,7 @@ void MomentSums::sumContacts(const Contacts& contacts) {
     if (!transmits(contacts, c)) continue;
     const Vec2& n = contacts.normal[c];
     // Disk i has f and l = −a n, disk j has −f and l = +a n: the same −f⊗l but for the radius.
-    const Eigen::Matrix2d forceNormal = forceOnFirst(contacts, c) * n.transpose();
+    const Eigen::Matrix2d forceNormal = contacts.force(c) * n.transpose();
     const Vec2 two = turned(n, n), four = turned(two, two), six = turned(four, two);
     const double overlap = contacts.overlap[c];
     double side = -1.0;  // l = side · a n; (l × f)_z = −a f_t on both sides

@@ -41,19 +41,16 @@ std::optional<WallBalance> outerWallBalance(const Rings& rings, const Scene& sce
   const double width = rings.outerRadius() - low;
   const double volume = rings.ringVolume(rings.count() - 1);
   const std::size_t disks = scene.disks.size();
-  std::vector<double> wallRadius;
-  for (const WallBody& body : scene.bodies)
-    wallRadius.insert(wallRadius.end(), body.diskRadius.begin(), body.diskRadius.end());
+  const std::vector<double> radius = scene.radii();
 
   double radial = 0.0, moment = 0.0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Vec2& n = contacts.normal[c];
-    const Vec2 onFirst =
-        contacts.normalForce[c] * n + contacts.tangentialForce[c] * perpendicular(n);
+    const Vec2 onFirst = contacts.force(c);
     for (const bool first : {true, false}) {
       const auto p = static_cast<std::size_t>(first ? contacts.i[c] : contacts.j[c]);
-      if (p >= disks + wallRadius.size()) continue;  // a plane
-      const double a = p < disks ? scene.disks.radius[p] : wallRadius[p - disks];
+      if (p >= radius.size()) continue;  // a plane
+      const double a = radius[p];
       const Vec2 x = p < disks ? snapshot.position.at(p) : snapshot.wallPosition.at(p - disks);
       if (x.norm() + a < low) continue;
       // −f⊗l is the same on both sides: f and l change their signs together.

@@ -1,7 +1,10 @@
 #include "cases/collision_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace crossgrain::inline cases {
 
@@ -90,6 +93,31 @@ Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& start
     }
   }
   return scene;
+}
+
+std::vector<NamedPair> pairsOf(const Case& setup) {
+  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup)}};
+  const Particles& p = setup.particles;
+  struct Kind {
+    const char* name;
+    double radius, mass;
+    double inertia(double factor) const { return factor * mass * radius * radius; }
+  };
+  std::vector<Kind> kinds;
+  if (p.small > 0 || p.file) kinds.push_back({"small", p.smallRadius, p.smallMass});
+  if (p.large > 0 || p.file) kinds.push_back({"large", p.largeRadius, p.largeMass});
+  const std::size_t disks = kinds.size();
+  kinds.push_back({"wall", setup.cell.wallRadius, std::numeric_limits<double>::infinity()});
+  std::vector<NamedPair> pairs;
+  for (std::size_t i = 0; i < disks; ++i)
+    for (std::size_t j = i; j < kinds.size(); ++j) {
+      const Kind &one = kinds[i], &two = kinds[j];
+      pairs.push_back({fmt::format("{}-{}", one.name, two.name),
+                       {{one.radius, two.radius},
+                        {one.mass, two.mass},
+                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}}});
+    }
+  return pairs;
 }
 
 }  // namespace crossgrain::inline cases

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "adapters/scene.hpp"
@@ -20,5 +21,15 @@ std::vector<CollisionStart> collisionStarts(const Case& setup);
 /// moving as motionBefore() says. With a wall disk k is on the right of the one plane, normal +x,
 /// that all meet; the plane moves, and the disks move as said with respect to it.
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt);
+
+/// A kind of pair that a case brings together: "small-large", "large-wall", "i-j".
+struct NamedPair {
+  std::string name;
+  CollidingPair bodies;
+};
+
+/// Of a cell's disks with each other and with wall disks; of a collision its two bodies.
+/// @pre no assembly
+std::vector<NamedPair> pairsOf(const Case& setup);
 
 }  // namespace crossgrain::inline cases

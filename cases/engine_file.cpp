@@ -18,7 +18,6 @@
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"
 #include "support/input_file.hpp"
-#include "support/program.hpp"
 
 namespace crossgrain::inline cases {
 
@@ -193,8 +192,6 @@ EngineEntry engineOfCommand(const std::string& text) {
   call.stamp = stampOf(call, {});
   return entryOf(name, "of the command line", std::move(call));
 }
-
-namespace fs = std::filesystem;
 
 std::vector<fs::path> installedEngineFiles() {
   std::vector<fs::path> files;

@@ -122,14 +122,6 @@ void checkPreparation(const Reader& preparation, const Case& c) {
   preparation.check(why.empty(), "dt", "{}", why);
 }
 
-/// A plate without friction is none.
-void readPlate(Reader& root, Case& c) {
-  Reader bottom = root.section("bottom");
-  if (!root.has("bottom")) return;
-  readBottom(bottom, c.bottom.emplace());
-  if (c.bottom->mu == 0.0) c.bottom.reset();
-}
-
 void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader cell = root.section("cell");
   Reader particles = root.section("particles");
@@ -139,7 +131,7 @@ void readCouette(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader cost = root.section("cost");
   readCell(cell, c.cell);
   readParticles(particles, c.cell, c.particles);
-  readPlate(root, c);
+  readBottom(root, c.bottom);
   readPreparation(preparation, c.preparation);
   readAveraging(averaging, c, c.averaging);
   readInterims(looks, c.looks);
@@ -156,7 +148,7 @@ void readAssemblyCase(Reader& root, Reader& law, Reader& run, Case& c) {
   Reader preparation = root.section("preparation");
   Reader average = root.section("average");
   Reader looks = root.section("looks");
-  readPlate(root, c);
+  readBottom(root, c.bottom);
   readAssembly(assembly, c.assembly);
   readPackings(preparation, c);
   readInterims(looks, c.looks);

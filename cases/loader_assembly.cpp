@@ -126,8 +126,7 @@ DiskGroup readDisks(Reader in) {
 }
 
 /// The keys of [[assembly.walls]].
-struct WallsInput : WallGroup {
-  Plane plane;
+struct WallsInput : WallGroup, Plane, Motion {
   Vec2 first = Vec2::Zero();  ///< position of the first wall disk
   std::vector<Vec2> places = {Vec2::Zero()};
   std::vector<double> box;
@@ -141,33 +140,21 @@ const Section<WallsInput>& wallsKeys() {
        .note = "Each a body of its own.",
        .isList = true},
       withArrangements<W>(
-          {keyOf<W>(
-               "point", [](W& w) -> Vec2& { return w.plane.point; }, anyNumber("m"), "of a plane")
-               .listed("–"),
-           keyOf<W>(
-               "normal", [](W& w) -> Vec2& { return w.plane.normal; }, Range{},
-               "of a plane; it points to the free side")
+          {key("point", &Plane::point, anyNumber("m"), "of a plane").listed("–"),
+           key("normal", &Plane::normal, Range{}, "of a plane; it points to the free side")
                .listed("–"),
            key("box", &W::box, anyNumber("m"),
                "[left, bottom, right, top]: four planes around a room"),
            key("position", &W::first, anyNumber("m"), "[x, y] of the (first) wall disk")
                .listed("–"),
            key("radius", &W::radius, positive("m"), "of wall disks").listed("–"),
-           keyOf<W>(
-               "velocity", [](W& w) -> Vec2& { return w.motion.velocity; }, anyNumber("m/s"),
-               "it travels")
-               .listed("–"),
-           keyOf<W>(
-               "amplitude", [](W& w) -> Vec2& { return w.motion.amplitude; }, anyNumber("m"),
+           key("velocity", &Motion::velocity, anyNumber("m/s"), "it travels").listed("–"),
+           key("amplitude", &Motion::amplitude, anyNumber("m"),
                "or it swings: amplitude [x, y] times sin(frequency t)")
                .listed("–"),
-           keyOf<W>(
-               "frequency", [](W& w) -> double& { return w.motion.frequency; }, positive("rad/s"),
-               "of that")
+           key("frequency", &Motion::frequency, positive("rad/s"), "of that")
                .listed("with `amplitude`"),
-           keyOf<W>(
-               "omega", [](W& w) -> double& { return w.motion.angularVelocity; },
-               anyNumber("rad/s"), "or it turns about a centre")
+           key("omega", &Motion::angularVelocity, anyNumber("rad/s"), "or it turns about a centre")
                .listed("–"),
            key("centre", &W::centre, anyNumber("m"), "of that")}));
   return section;
@@ -188,7 +175,8 @@ WallGroup readWalls(Reader in) {
   WallsInput wall;
   wallsKeys().read(in, wall);
   checkArrangement(in);
-  setMotion(in, wall.motion);
+  setMotion(in, wall);
+  wall.motion = wall;
   if (const std::vector<double>& box = wall.box; !box.empty()) {
     in.check(box.size() == 4 && box[2] > box[0] && box[3] > box[1], "box",
              "must be [left, bottom, right, top] in m");
@@ -198,8 +186,8 @@ WallGroup readWalls(Reader in) {
   if (in.has("point") != in.has("normal"))
     in.failMissing(in.has("point") ? "normal" : "point", "a plane has both");
   if (in.has("normal")) {
-    in.check(!wall.plane.normal.isZero(0.0), "normal", "must not be zero");
-    wall.planes.push_back({wall.plane.point, wall.plane.normal.normalized()});
+    in.check(!wall.normal.isZero(0.0), "normal", "must not be zero");
+    wall.planes.push_back({wall.point, wall.normal.normalized()});
   }
   if (in.has("position") != in.has("radius"))
     in.failMissing(in.has("position") ? "radius" : "position", "wall disks have both");

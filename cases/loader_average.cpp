@@ -87,12 +87,9 @@ void readRegion(Reader& in, Case& c) {
 }
 
 /// The keys of [[endpoints]].
-struct EndpointInput : MarginInput {
-  std::string name, quantity, per, at = "mean";
-  std::optional<int> disk;
+struct EndpointInput : OwnEndpoint, MarginInput {
   double time = 0.0, reaches = 0.0;
-  std::vector<double> between;
-  std::optional<double> expected;
+  std::vector<double> part;  ///< [from, to]
 };
 
 const Section<EndpointInput>& endpointsKeys() {
@@ -105,31 +102,31 @@ const Section<EndpointInput>& endpointsKeys() {
                "margin is compared by its ratio to the reference, whose values need one sign; any "
                "other by the difference.",
        .isList = true},
-      {need("name", &E::name, any, "as `case.name`; no two are alike"),
-       need("quantity", &E::quantity, any,
+      {need("name", &OwnEndpoint::name, any, "as `case.name`; no two are alike"),
+       need("quantity", &OwnEndpoint::quantity, any,
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
-       key("disk", &E::disk, between(0, mostDisks),
+       key("disk", &OwnEndpoint::disk, between(0, mostDisks),
            "of which `quantity` is `x`, `y`, `velocity_x`, `velocity_y` or `spin`; from 0"),
-       key("per", &E::per, any,
+       key("per", &OwnEndpoint::per, any,
            "another quantity of the same kind and unit, that it is divided by"),
        special<E>(
            {"at", "–", "\"mean\"", "", "what is made of the quantity: see Endpoints of assemblies"},
            [](Reader& in, const std::string& key, E&) { in.take(key); }),
        key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value at that time of a run")
            .listed("–"),
-       special<E>(
-           {"reaches", "the quantity's", "–", "", "instead of `at`: when it first has this value"},
-           [](Reader& in, const std::string& key, E& e) { in.read(key, e.reaches, anyNumber()); }),
-       key("between", &E::between, atLeast(0.0, "s"),
+       key("reaches", &E::reaches, anyNumber(), "instead of `at`: when it first has this value")
+           .listed("–", "the quantity's"),
+       key("between", &E::part, atLeast(0.0, "s"),
            "[from, to]: the part of a run that `at` or `reaches` sees")
            .listed("all that is averaged"),
-       special<E>(
-           {"expected", "the endpoint's", "–", "", "its value by a closed form"},
-           [](Reader& in, const std::string& key, E& e) { in.read(key, e.expected, anyNumber()); }),
-       key("relative", &E::relative, positive(), "of the reference's value, or of `expected`")
+       key("expected", &OwnEndpoint::expected, anyNumber(), "its value by a closed form")
+           .listed("–", "the endpoint's"),
+       key("relative", &MarginInput::relative, positive(),
+           "of the reference's value, or of `expected`")
            .listed("one of the two"),
-       key("absolute", &E::absolute, positive(), "").listed("one of the two", "the endpoint's"),
-       need("why", &E::why, Sentence{"must give the reason"}, "the reason")});
+       key("absolute", &MarginInput::absolute, positive(), "")
+           .listed("one of the two", "the endpoint's"),
+       need("why", &MarginInput::why, Sentence{"must give the reason"}, "the reason")});
   return section;
 }
 
@@ -184,7 +181,7 @@ void setReduction(Reader& in, const EndpointInput& input, const Region& region, 
   for (const char* const key : {"time", "reaches", "between"})
     if (isField && in.has(key)) in.fail(key, "is of a run over time, not of a field");
   if (in.has("between")) {
-    const std::vector<double>& part = input.between;
+    const std::vector<double>& part = input.part;
     in.check(part.size() == 2 && part[0] < part[1], "between", "must be [from, to] in s");
     in.check(given != "time", "between", "and time: a time needs none");
     endpoint.between = {part[0], part[1]};
@@ -271,15 +268,10 @@ OwnEndpoint readEndpoint(Reader& in, const Case& c, Margin& margin) {
   const Region& region = c.average->region;
   EndpointInput input;
   endpointsKeys().read(in, input);
-  OwnEndpoint endpoint;
-  endpoint.name = input.name;
-  endpoint.quantity = input.quantity;
-  endpoint.per = input.per;
-  endpoint.disk = input.disk;
-  endpoint.expected = input.expected;
-  if (input.disk) {
+  OwnEndpoint endpoint = input;
+  if (endpoint.disk) {
     const auto last = static_cast<int>(disksOf(c.assembly)) - 1;
-    in.check(*input.disk <= last, "disk", "must be in [0, {}]", last);
+    in.check(*endpoint.disk <= last, "disk", "must be in [0, {}]", last);
   }
   const Quantity quantity = endpoint.disk ? quantityOfDisk(in, endpoint.quantity)
                                           : quantityOf(in, "quantity", endpoint.quantity, region);

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -25,27 +23,11 @@ void refuseRemoved(const Reader& in) {
               "bounds averages or measures chaos");
 }
 
-Names kindNames() {
-  Names names;
-  for (const CostKind kind : costKinds) names.push_back(toString(kind));
-  return names;
-}
-
 std::vector<Key<Cost>> costTable() {
   const Range steps = above(0.5);
+  constexpr auto kinds = namesOf(CostKind{});
   return {
-      special<Cost>(
-          {"kinds", "", "all three", valuesOf(kindNames()), "of error"},
-          [](Reader& in, const std::string& key, Cost& cost) {
-            const Names all = kindNames();
-            Names names = all;
-            in.read(key, names, all);
-            if (!in.has(key)) return;
-            cost.kinds.clear();
-            for (const std::string& name : names)
-              cost.kinds.push_back(
-                  costKinds[static_cast<std::size_t>(std::ranges::find(all, name) - all.begin())]);
-          }),
+      key("kinds", &Cost::kinds, Names(kinds.begin(), kinds.end()), "of error").listed("all three"),
       key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
           .listed("all"),
       key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),

@@ -241,8 +241,11 @@ void readLaw(Reader& in, ContactLaw& contact, bool ofTwoBodies) {
   contact = input;
 }
 
-void readBottom(Reader& in, BottomPlate& plate) {
-  bottomKeys().read(in, plate);
+void readBottom(Reader& root, std::optional<BottomPlate>& plate) {
+  Reader in = root.section("bottom");
+  if (!root.has("bottom")) return;
+  bottomKeys().read(in, plate.emplace());
+  if (plate->mu == 0.0) plate.reset();
 }
 
 }  // namespace crossgrain::inline cases

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -75,6 +76,16 @@ void convert(const Value& value, Enum& target, const Names& names) {
   convert(value, name, names);
   for (std::size_t k = 0; k < names.size(); ++k)
     if (names[k] == name) target = static_cast<Enum>(k);
+}
+/// A list of different ones, or one; may be empty.
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void convert(const Value& value, std::vector<Enum>& target, const Names& names) {
+  Names chosen;
+  convert(value, chosen, names);
+  target.clear();
+  for (const std::string& name : chosen)
+    target.push_back(static_cast<Enum>(std::ranges::find(names, name) - names.begin()));
 }
 template <typename T, typename... Allowed>
 void convert(const Value& value, std::optional<T>& target, const Allowed&... allowed) {

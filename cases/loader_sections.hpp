@@ -27,7 +27,8 @@ std::vector<SectionInfo> averageSections();    ///< [average] …, [[endpoints]]
 
 /// @param ofTwoBodies  in a collision, whose bodies may be of two materials
 void readLaw(Reader& in, ContactLaw& law, bool ofTwoBodies);
-void readBottom(Reader& in, BottomPlate& bottom);
+/// [bottom]; a plate without friction is none.
+void readBottom(Reader& root, std::optional<BottomPlate>& bottom);
 void readCell(Reader& in, Cell& cell);
 /// @param cell  read already: its area and height make numbers and masses
 void readParticles(Reader& in, const Cell& cell, Particles& particles);

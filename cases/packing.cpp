@@ -19,7 +19,6 @@
 #include "support/files.hpp"
 #include "support/fingerprint.hpp"
 #include "support/hdf5_file.hpp"
-#include "support/hdf5_trial.hpp"
 #include "support/input_file.hpp"
 #include "support/nearest.hpp"
 

@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::string_view reasonWanted = "must give the reason";
 
-void readOptional(Reader& in, const char* key, std::optional<double>& value) {
-  in.take(key);  // known, whether or not it is there
-  if (in.has(key)) in.read(key, value.emplace(), Range{});
-}
-
 /// Those named, in the order named; another one is an unknown key, a missing one is missing.
 std::vector<ClaimNumber> readNumbers(Reader in, const std::vector<std::string>& names) {
   std::vector<ClaimNumber> numbers;
@@ -40,8 +35,8 @@ ClaimBand readBand(Reader in, const std::string& name) {
   band.name = name;
   in.requireText("label", band.label, "must say what it is");
   in.read("unit", band.unit);
-  readOptional(in, "low", band.low);
-  readOptional(in, "high", band.high);
+  in.read("low", band.low, Range{});
+  in.read("high", band.high, Range{});
   in.requireText("why", band.why, reasonWanted);
   in.finish();
   if (band.low && band.high && !(*band.low < *band.high))
@@ -122,8 +117,8 @@ ReasonCondition readCondition(Reader in, const std::string& claim, const ClaimRu
   for (const ClaimBand& band : rules.of(condition.claim).figures) figures.push_back(band.name);
   in.require("figure", condition.figure, figures);
   if (!in.has("above") && !in.has("below")) in.failMissing("above", "or below: when it holds");
-  readOptional(in, "above", condition.above);
-  readOptional(in, "below", condition.below);
+  in.read("above", condition.above, Range{});
+  in.read("below", condition.below, Range{});
   in.finish();
   return condition;
 }

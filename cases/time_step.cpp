@@ -137,14 +137,6 @@ Deepest deepest(const ContactLaw& law, const Impact& impact) {
   return {1.5 * law.kn * width, law.kt * width};
 }
 
-/// γ that multiplies the velocity [kg/s].
-double dampingOf(const ContactLaw& law, double constant, double stiffness, double reducedMass) {
-  if (law.damper == Damper::viscoelastic) return constant * stiffness;
-  if (law.damper == Damper::critical)
-    return constant * std::sqrt(reducedMass * std::max(stiffness, 0.0));
-  return constant;
-}
-
 /// A term of the law as an oscillator.
 struct Oscillator {
   double stiffness, damping, mass;  ///< [N/m, kg/s, kg]
@@ -222,12 +214,11 @@ std::optional<PairStepLimit> pairStepLimit(const Case& setup,
                          term.damping, term.mass};
   };
   PairStepLimit least = limitOf(
-      "normal",
-      {stiffness.normal, dampingOf(law, law.gn, stiffness.normal, pair.normal), pair.normal});
-  const bool dashpot =
-      law.tangential == TangentialLaw::viscous || law.tangential == TangentialLaw::springDashpot;
+      "normal", {stiffness.normal, dampingOf(law.damper, law.gn, stiffness.normal, pair.normal),
+                 pair.normal});
   const double kt = law.springs() ? stiffness.tangential : 0.0;
-  const double gt = dashpot ? dampingOf(law, law.gt, stiffness.tangential, pair.normal) : 0.0;
+  const double gt =
+      law.dashpots() ? dampingOf(law.damper, law.gt, stiffness.tangential, pair.normal) : 0.0;
   const PairStepLimit tangential =
       limitOf("tangential", {kt, gt, pair.tangential, signOf(law.conventions)});
   if (tangential.dt < least.dt) least = tangential;

@@ -22,8 +22,14 @@ namespace fs = std::filesystem;
 
 constexpr double mostStarts = 1000.0;
 
-int keep(const CommandLine& line, const std::string& out, const std::optional<double>& given,
-         bool endpoints) {
+struct KeepOptions {
+  std::string out;
+  std::optional<double> starts;
+  bool endpoints = false;
+};
+
+int keep(const CommandLine& line, const KeepOptions& own) {
+  const auto& [out, given, endpoints] = own;
   const std::size_t starts =
       given        ? static_cast<std::size_t>(wholeNumberOf("--starts", *given, 1.0, mostStarts))
       : line.quick ? quickLockstepStarts
@@ -76,15 +82,13 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
   addPackings(app, line);
   addQuiet(app, line);
-  const auto out = std::make_shared<std::string>();
-  addArgument(app, "--out", *out, "file for it, which must not be there", "FILE");
-  const auto starts = std::make_shared<std::optional<double>>();
-  addNumber(app, "--starts", *starts,
+  const auto own = std::make_shared<KeepOptions>();
+  addArgument(app, "--out", own->out, "file for it, which must not be there", "FILE");
+  addNumber(app, "--starts", own->starts,
             "states of the flow to start from; 8 unless given, 4 with --quick");
-  const auto endpoints = std::make_shared<bool>(false);
-  addFlag(app, "--endpoints", *endpoints,
+  addFlag(app, "--endpoints", own->endpoints,
           "also runs and averages from every start, as compare does, and keeps the endpoints");
-  return [&line, out, starts, endpoints] { return keep(line, *out, *starts, *endpoints); };
+  return [&line, own] { return keep(line, *own); };
 }
 
 Action declareDiff(CLI::App& app, CommandLine& line) {

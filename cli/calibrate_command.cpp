@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "adapters/law_options.hpp"
@@ -27,12 +27,12 @@ namespace {
 constexpr double stepsPerContact = 50.0;
 constexpr double softOverlap = 0.01;  // of the smaller radius
 
-void printConstant(const char* key, double value, const char* unit) {
-  fmt::print("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
+std::string constant(const char* key, double value, const char* unit) {
+  return fmt::format("{:<46} # {}\n", fmt::format("{} = {}", key, value), unit);
 }
 
-void note(const std::string& label, const std::string& value) {
-  fmt::print("#   {:<50} {}\n", label, value);
+std::string note(const std::string& label, const std::string& value) {
+  return fmt::format("#   {:<50} {}\n", label, value);
 }
 
 std::string number(std::optional<double> value, const char* unit = "") {
@@ -43,135 +43,109 @@ double smallerRadius(const CollidingPair& pair) {
   return std::min(pair.radius[0], pair.radius[1]);
 }
 
-void warnIfSoft(double overlap) {
-  if (overlap > softOverlap)
-    fmt::print(
-        "# warning: soft: δ_max is {:.2g} of the radius; closed forms freeze the normal, and "
-        "contacts of disks are meant to be < {}\n",
-        overlap, softOverlap);
+std::string softWarning(double overlap) {
+  if (overlap <= softOverlap) return {};
+  return fmt::format(
+      "# warning: soft: δ_max is {:.2g} of the radius; closed forms freeze the normal, and "
+      "contacts of disks are meant to be < {}\n",
+      overlap, softOverlap);
 }
 
-constexpr std::array<std::string_view, 6> alwaysPrinted = {
-    "normal", "tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"};
-
-/// Of Hertz' law E and ν of two equal bodies with these k_n and k_t, as the loader's setHertz() has
-/// them: k_t/k_n = 3 (1 − ν)/(2 − ν), k_n = 2/3 E/(1 − ν²). Any ν serves without a spring.
-void printStiffness(const ContactLaw& law) {
+std::string stiffnessText(const ContactLaw& law) {
   if (law.normal == NormalLaw::hertz) {
-    const double ratio = law.kt / law.kn;
-    const double poisson =
-        law.kt > 0.0 ? std::clamp((3.0 - 2.0 * ratio) / (3.0 - ratio), 0.0, 0.5) : 0.0;
-    printConstant("young", 1.5 * law.kn * (1.0 - poisson * poisson),
-                  "Pa, of each of two equal bodies");
-    printConstant("poisson", poisson, "-");
-  } else if (law.normal == NormalLaw::polynomial) {
-    printConstant("k2", law.kn, "N/m^2");
-    printConstant("k3", law.kn3, "N/m^3");
-  } else {
-    printConstant("kn", law.kn, "N/m");
+    const HertzMaterial material = hertzMaterial(law);
+    return constant("young", material.young, "Pa, of each of two equal bodies") +
+           constant("poisson", material.poisson, "-");
   }
+  if (law.normal == NormalLaw::polynomial)
+    return constant("k2", law.kn, "N/m^2") + constant("k3", law.kn3, "N/m^3");
+  return constant("kn", law.kn, "N/m");
 }
 
 /// Where e_t0 is not known, or not all there is to know.
-void printRemarks(const ContactLaw& law, const ImpliedImpact& is) {
+std::string remarks(const ContactLaw& law, const ImpliedImpact& is) {
+  std::string text;
   if (law.tangential != TangentialLaw::none && !is.et0)
-    fmt::print(
-        "# e_t0 and what follows from it are known for coulomb_bound = \"compression\" only\n");
+    text = "# e_t0 and what follows from it are known for coulomb_bound = \"compression\" only\n";
   if (is.firstTouchSticksToPsi)
-    fmt::print("# e_t0 holds up to |Ψ_i| = µ γ_n/γ_t = {:.6g} only (spring_reset = \"total\")\n",
-               *is.firstTouchSticksToPsi);
+    text += fmt::format(
+        "# e_t0 holds up to |Ψ_i| = µ γ_n/γ_t = {:.6g} only (spring_reset = \"total\")\n",
+        *is.firstTouchSticksToPsi);
+  return text;
 }
 
 /// The law as a [law] table that a case can take, every line that is not TOML a comment.
 /// @param asked  what it was made from, for the head
-void printLaw(const ContactLaw& law, const std::string& asked) {
-  fmt::print("# {}\n[law]\n", asked);
+std::string lawText(const ContactLaw& law, const std::string& asked) {
+  constexpr std::array<std::string_view, 6> alwaysPrinted = {
+      "normal", "tension", "tangential", "coulomb_bound", "spring_reset", "spring_update"};
+  std::string text = fmt::format("# {}\n[law]\n", asked);
   for (const LawOption& option : lawOptions()) {
     const bool asLoaded = option.get(law) == option.get(ContactLaw{});
     const bool always = std::ranges::find(alwaysPrinted, option.name) != alwaysPrinted.end();
     if (mattersTo(law, option.name) && (always || !asLoaded))
-      fmt::print("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
+      text += fmt::format("{} = \"{}\"\n", option.name, lawOptionValue(law, option.name));
   }
-  printStiffness(law);
   const char* const damping = law.damper == Damper::constant       ? "kg/s"
                               : law.damper == Damper::viscoelastic ? "s"
                                                                    : "-";
-  printConstant("gn", law.gn, damping);
-  if (law.tangential == TangentialLaw::none) return;
-  if (law.mu > 0.0)
-    printConstant("mu", law.mu, "-");
-  else
-    fmt::print("# mu = …   a case needs it; not given\n");
-  if (law.kt > 0.0 && law.normal != NormalLaw::hertz) printConstant("kt", law.kt, "N/m");
+  text += stiffnessText(law) + constant("gn", law.gn, damping);
+  if (law.tangential == TangentialLaw::none) return text;
+  text += law.mu > 0.0 ? constant("mu", law.mu, "-") : "# mu = …   a case needs it; not given\n";
+  if (law.kt > 0.0 && law.normal != NormalLaw::hertz) text += constant("kt", law.kt, "N/m");
   if (law.gt > 0.0 || law.tangential == TangentialLaw::springDashpot)
-    printConstant("gt", law.gt, damping);
+    text += constant("gt", law.gt, damping);
+  return text;
 }
 
 /// What the law means for one pair, as comments. @param vn  of an impact, for its overlap [m/s]
-void printImpact(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn) {
+std::string impactText(const ContactLaw& law, const CollidingPair& pair, std::optional<double> vn) {
   const ImpliedImpact is = impliedImpact(law, pair);
   const ReducedPair two = reduced(pair);
   const bool cut = law.conventions.tension == Tension::cut;
-  fmt::print("\n# implied (normal frozen: slow impacts)\n");
-  note("reduced mass m12, K = 1 + m12 Σ a²/J",
-       fmt::format("{}, {}", number(two.mass, "kg"), number(two.K)));
-  note("e_n", fmt::format("{:.6g}, with tension {}: {:.6g}", cut ? is.enCut : is.enAllowed,
-                          cut ? "allowed" : "cut", cut ? is.enAllowed : is.enCut));
-  note("contact time t_c", number(is.contactTime, "s"));
-  note("suggested dt = t_c/50", number(is.contactTime / stepsPerContact, "s"));
-  if (cut) note("π/ω, which steps_per_contact counts from", number(is.halfPeriod, "s"));
-  note("ω, γ_n over critical",
-       fmt::format("{}, {}", number(is.omega, "rad/s"), number(is.dampingRatio)));
+  std::string text = "\n# implied (normal frozen: slow impacts)\n";
+  const auto add = [&](const std::string& label, const std::string& value) {
+    text += note(label, value);
+  };
+  add("reduced mass m12, K = 1 + m12 Σ a²/J", number(two.mass, "kg") + ", " + number(two.K));
+  add("e_n", fmt::format("{:.6g}, with tension {}: {:.6g}", cut ? is.enCut : is.enAllowed,
+                         cut ? "allowed" : "cut", cut ? is.enAllowed : is.enCut));
+  add("contact time t_c", number(is.contactTime, "s"));
+  add("suggested dt = t_c/50", number(is.contactTime / stepsPerContact, "s"));
+  if (cut) add("π/ω, which steps_per_contact counts from", number(is.halfPeriod, "s"));
+  add("ω, γ_n over critical", number(is.omega, "rad/s") + ", " + number(is.dampingRatio));
   if (law.tangential != TangentialLaw::none) {
-    note("e_t0 without slip", number(is.et0));
+    add("e_t0 without slip", number(is.et0));
     if (law.kt > 0.0) {
-      note("ω_t, γ_t over critical",
-           fmt::format("{}, {}", number(is.omegaT, "rad/s"), number(is.dampingRatioT)));
-      note("kt/kn", number(law.kt / law.kn));
+      add("ω_t, γ_t over critical", number(is.omegaT, "rad/s") + ", " + number(is.dampingRatioT));
+      add("kt/kn", number(law.kt / law.kn));
     }
-    note("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
-    note("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
+    add("sliding: Ψ_i − Ψ_f = K (1 + e_cut) µ", number(is.slidingConstant));
+    add("sticking ends at Ψ* = K (1 + e_cut) µ/(1 + e_t0)", number(is.stickingEndsAtPsi));
   }
   const double radius = smallerRadius(pair);
-  note("δ_max reaches 1 % of the smaller radius at v_n",
-       number(softOverlap * radius / is.overlapPerSpeed, "m/s"));
-  printRemarks(law, is);
-  if (!vn) return;
+  add("δ_max reaches 1 % of the smaller radius at v_n",
+      number(softOverlap * radius / is.overlapPerSpeed, "m/s"));
+  text += remarks(law, is);
+  if (!vn) return text;
   const double overlap = *vn * is.overlapPerSpeed;
-  note(fmt::format("δ_max, δ_max/a at v_n = {} m/s", *vn),
-       fmt::format("{}, {}", number(overlap, "m"), number(overlap / radius)));
-  warnIfSoft(overlap / radius);
+  add(fmt::format("δ_max, δ_max/a at v_n = {} m/s", *vn),
+      number(overlap, "m") + ", " + number(overlap / radius));
+  return text + softWarning(overlap / radius);
 }
 
-struct NamedPair {
-  std::string name;
-  CollidingPair bodies;
-};
-
-/// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
-/// @throws std::invalid_argument where the pair does not part
-std::vector<CollisionEnd> headOnImpacts(const ContactLaw& law, const std::vector<NamedPair>& pairs,
-                                        double speed) {
-  ContactLaw normal = law;
-  normal.tangential = TangentialLaw::none;
-  std::vector<CollisionEnd> ends;
-  for (const auto& [name, bodies] : pairs)
-    ends.push_back(oracleOutcome(normal, bodies, {0.0, speed}));
-  return ends;
-}
-
-/// A table as comments: the first column to the left, the others to the right.
-void printTable(const std::vector<std::pair<const char*, int>>& columns,
-                const std::vector<std::vector<std::string>>& rows) {
-  const auto printRow = [&](const auto& textOf) {
-    std::string line = "#";
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      line += k == 0 ? fmt::format(" {:<{}}", textOf(k), columns[k].second)
-                     : fmt::format(" {:>{}}", textOf(k), columns[k].second);
-    fmt::print("{}\n", line);
-  };
-  printRow([&](std::size_t k) { return std::string(columns[k].first); });
-  for (const auto& row : rows) printRow([&](std::size_t k) { return row[k]; });
+/// As comments: the first column to the left, the others to the right.
+/// @param rows  the names of the columns first; further cells than there are widths are left out
+std::string table(const std::vector<int>& widths,
+                  const std::vector<std::vector<std::string>>& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += fmt::format("# {:<{}}", row[0], widths[0]);
+    for (std::size_t k = 1; k < widths.size(); ++k)
+      text += fmt::format(" {:>{}}", row[k], widths[k]);
+    text += '\n';
+  }
+  return text;
 }
 
 std::string digits4(double value) {
@@ -182,45 +156,35 @@ std::string decimals4(std::optional<double> value) {
   return value ? fmt::format("{:.4f}", *value) : "-";
 }
 
-/// Of the ends of head-on impacts one row for each pair.
-void printStiffeningPairs(const std::vector<NamedPair>& pairs,
-                          const std::vector<CollisionEnd>& ends, double speed) {
-  fmt::print("\n# implied, at v_n = {:.6g} m/s\n", speed);
+/// What a head-on impact does to each pair under a law that stiffens. @param speed  v_n [m/s]
+/// @throws std::invalid_argument where the pair does not part
+std::string stiffeningPairsText(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                                double speed) {
+  ContactLaw normal = law;
+  normal.tangential = TangentialLaw::none;
   double largest = 0.0;
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const ReducedPair two = reduced(pairs[k].bodies);
-    const double time = *ends[k].duration;
-    const double overlap = *ends[k].maxOverlap / smallerRadius(pairs[k].bodies);
+  std::vector<std::vector<std::string>> rows = {
+      {"pair", "m12 [kg]", "K", "e_n", "t_c [s]", "t_c/50 [s]", "δ_max/a"}};
+  for (const auto& [name, bodies] : pairs) {
+    const CollisionEnd end = oracleOutcome(normal, bodies, {0.0, speed});
+    const ReducedPair two = reduced(bodies);
+    const double overlap = *end.maxOverlap / smallerRadius(bodies);
     largest = std::max(largest, overlap);
-    rows.push_back({pairs[k].name, digits4(two.mass), digits4(two.K), decimals4(ends[k].en),
-                    digits4(time), digits4(time / stepsPerContact),
+    rows.push_back({name, digits4(two.mass), digits4(two.K), decimals4(end.en),
+                    digits4(*end.duration), digits4(*end.duration / stepsPerContact),
                     fmt::format("{:.2g}", overlap)});
   }
-  printTable({{"pair", 12},
-              {"m12 [kg]", 11},
-              {"K", 8},
-              {"e_n", 9},
-              {"t_c [s]", 11},
-              {"t_c/50 [s]", 11},
-              {"δ_max/a", 9}},
-             rows);
-  warnIfSoft(largest);
+  return fmt::format("\n# implied, at v_n = {:.6g} m/s\n", speed) +
+         table({12, 11, 8, 9, 11, 11, 9}, rows) + softWarning(largest);
 }
 
 /// One row for each pair, of the linear law.
-void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
-                std::optional<double> vn) {
-  fmt::print("\n# implied (normal frozen: slow impacts){}\n",
-             pairs.size() > 1 && law.gn > 0.0 && law.damper != Damper::critical
-                 ? "; the constants are the same for all pairs, so restitutions are not"
-                 : "");
-  std::vector<std::pair<const char*, int>> columns = {
-      {"pair", 12},    {"m12 [kg]", 11}, {"K", 8},       {"e_n allow", 9}, {"e_n cut", 9},
-      {"t_c [s]", 11}, {"e_t0", 9},      {"sliding", 9}, {"Ψ*", 9},        {"t_c/50 [s]", 11}};
-  if (vn) columns.emplace_back("δ_max/a", 9);
+std::string pairsText(const ContactLaw& law, const std::vector<NamedPair>& pairs,
+                      std::optional<double> vn) {
   double largest = 0.0;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<std::string>> rows = {{"pair", "m12 [kg]", "K", "e_n allow", "e_n cut",
+                                                 "t_c [s]", "e_t0", "sliding", "Ψ*", "t_c/50 [s]",
+                                                 "δ_max/a"}};
   for (const auto& [name, bodies] : pairs) {
     const ImpliedImpact is = impliedImpact(law, bodies);
     const ReducedPair two = reduced(bodies);
@@ -231,9 +195,14 @@ void printPairs(const ContactLaw& law, const std::vector<NamedPair>& pairs,
                     decimals4(is.slidingConstant), decimals4(is.stickingEndsAtPsi),
                     digits4(is.contactTime / stepsPerContact), fmt::format("{:.2g}", overlap)});
   }
-  printTable(columns, rows);
-  printRemarks(law, impliedImpact(law, pairs.front().bodies));
-  warnIfSoft(largest);
+  std::vector<int> widths = {12, 11, 8, 9, 9, 11, 9, 9, 9, 11};
+  if (vn) widths.push_back(9);
+  return fmt::format("\n# implied (normal frozen: slow impacts){}\n",
+                     pairs.size() > 1 && law.gn > 0.0 && law.damper != Damper::critical
+                         ? "; the constants are the same for all pairs, so restitutions are not"
+                         : "") +
+         table(widths, rows) + remarks(law, impliedImpact(law, pairs.front().bodies)) +
+         softWarning(largest);
 }
 
 /// What was asked: wanted values, or constants, or a case file (CommandLine::inputs), and the pair
@@ -291,13 +260,6 @@ const Number* firstGiven(const Request& request, Part part) {
   return nullptr;
 }
 
-void checkRanges(const Request& request) {
-  for (const Number& number : numbers())
-    if (const auto value = request.*number.member; value && !number.range.contains(*value))
-      throw BadInput(
-          fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
-}
-
 double need(std::optional<double> value, const char* option, const char* why) {
   if (!value) throw BadInput(fmt::format("{} is missing: {}", option, why));
   return *value;
@@ -353,20 +315,19 @@ std::string setNormal(ContactLaw& law, const Request& request, double en, double
 
 /// Two options that say the same thing may say different things.
 void refuseContradictions(const Request& request) {
-  const auto refuse = [](const char* wanted, bool isWanted, const char* constant, bool isGiven,
-                         const char* why) {
-    if (isWanted && isGiven)
-      throw BadInput(fmt::format("{} and {}: {}; leave one of them out", wanted, constant, why));
-  };
   const bool en = request.en.has_value(), et = request.et0.has_value();
-  refuse("--tc", request.contactTime.has_value(), "--kn", request.kn.has_value(),
-         "with e_n each gives the other");
-  refuse("--en", en, "--gn", request.gn.has_value(), "e_n gives gn");
-  refuse("--et", et, "--kt", request.kt.has_value(), "e_t0 gives kt and gt");
-  refuse("--et", et, "--gt", request.gt.has_value(), "e_t0 gives kt and gt");
+  const bool kn = request.kn.has_value(), time = request.contactTime.has_value();
+  const std::tuple<const char*, const char*, bool, const char*> pairs[] = {
+      {"--tc", "--kn", time && kn, "with e_n each gives the other"},
+      {"--en", "--gn", en && request.gn, "e_n gives gn"},
+      {"--et", "--kt", et && request.kt, "e_t0 gives kt and gt"},
+      {"--et", "--gt", et && request.gt, "e_t0 gives kt and gt"}};
+  for (const auto& [wanted, constant, both, why] : pairs)
+    if (both)
+      throw BadInput(fmt::format("{} and {}: {}; leave one of them out", wanted, constant, why));
 }
 
-int fromWanted(const Request& request) {
+std::string fromWanted(const Request& request) {
   const CollidingPair pair = askedPair(request);
   const double en = need(request.en, "--en", "the normal restitution wanted");
   ContactLaw law = startOfLaw(request);
@@ -385,18 +346,11 @@ int fromWanted(const Request& request) {
       throw BadInput("--et is missing: a law with friction has a tangential restitution");
     law.tangential = TangentialLaw::none;
   }
-  printLaw(law, fmt::format("{}; {}", asked, describe(pair, request)));
-  printImpact(law, pair, request.vn);
-  return exitPassed;
+  return lawText(law, fmt::format("{}; {}", asked, describe(pair, request))) +
+         impactText(law, pair, request.vn);
 }
 
-TangentialLaw tangentialLaw(const ContactLaw& law) {
-  if (law.kt > 0.0) return law.gt > 0.0 ? TangentialLaw::springDashpot : TangentialLaw::spring;
-  if (law.gt > 0.0) return TangentialLaw::viscous;
-  return law.mu > 0.0 ? TangentialLaw::coulomb : TangentialLaw::none;
-}
-
-int fromConstants(const Request& request) {
+std::string fromConstants(const Request& request) {
   if (request.tangential) throw BadInput("--tangential: --kt and --gt already say which law it is");
   const CollidingPair pair = askedPair(request);
   ContactLaw law = startOfLaw(request);
@@ -404,39 +358,13 @@ int fromConstants(const Request& request) {
   law.gn = need(request.gn, "--gn", "an undamped law says 0 [kg/s]; or --en, if kn is wanted");
   law.kt = request.kt.value_or(0.0);
   law.gt = request.gt.value_or(0.0);
-  law.tangential = tangentialLaw(law);
+  law.tangential = tangentialLawOf(law);
   const double critical = 2.0 * std::sqrt(law.kn * reduced(pair).mass);
   if (!(law.gn < critical))
     throw BadInput(
         fmt::format("--gn = {}: must be < {:.6g} kg/s, critical for this pair", law.gn, critical));
-  printLaw(law, fmt::format("these constants; {}", describe(pair, request)));
-  printImpact(law, pair, request.vn);
-  return exitPassed;
-}
-
-std::vector<NamedPair> pairsOf(const Case& setup) {
-  if (setup.kind == CaseKind::collision) return {{"i-j", collidingPair(setup)}};
-  const Particles& p = setup.particles;
-  struct Kind {
-    const char* name;
-    double radius, mass;
-    double inertia(double factor) const { return factor * mass * radius * radius; }
-  };
-  std::vector<Kind> kinds;
-  if (p.small > 0 || p.file) kinds.push_back({"small", p.smallRadius, p.smallMass});
-  if (p.large > 0 || p.file) kinds.push_back({"large", p.largeRadius, p.largeMass});
-  const std::size_t disks = kinds.size();
-  kinds.push_back({"wall", setup.cell.wallRadius, std::numeric_limits<double>::infinity()});
-  std::vector<NamedPair> pairs;
-  for (std::size_t i = 0; i < disks; ++i)
-    for (std::size_t j = i; j < kinds.size(); ++j) {
-      const Kind &one = kinds[i], &two = kinds[j];
-      pairs.push_back({fmt::format("{}-{}", one.name, two.name),
-                       {{one.radius, two.radius},
-                        {one.mass, two.mass},
-                        {one.inertia(p.inertiaFactor), two.inertia(p.inertiaFactor)}}});
-    }
-  return pairs;
+  return lawText(law, fmt::format("these constants; {}", describe(pair, request))) +
+         impactText(law, pair, request.vn);
 }
 
 /// Of an impact under a law that stiffens [m/s].
@@ -446,7 +374,7 @@ double speedOf(const Case& setup, const Request& request) {
                                            : std::abs(setup.cell.omega) * setup.cell.innerRadius;
 }
 
-int fromCase(const CommandLine& line, const Request& request) {
+std::string fromCase(const CommandLine& line, const Request& request) {
   for (const Number& number : numbers())
     if (number.part >= Part::body && request.*number.member && number.member != &Request::vn)
       throw BadInput(fmt::format("{}: the case file says it", number.option));
@@ -461,32 +389,25 @@ int fromCase(const CommandLine& line, const Request& request) {
     if (setup.law.normal == NormalLaw::rigid)
       throw BadInput(fmt::format("{}: its law is rigid, which is given by e_n and e_t0 themselves",
                                  file.string()));
-  // All that may fail comes before what is printed.
-  std::vector<std::vector<CollisionEnd>> impacts;
+  std::string text;
   if (const auto keys = keysWithoutUse(cases.front(), "calibrate"); !keys.empty())
-    fmt::print("# not used: {}\n", fmt::join(keys, ", "));
+    text = fmt::format("# not used: {}\n", fmt::join(keys, ", "));
   for (const Case& setup : cases) {
-    impacts.emplace_back();
-    if (setup.law.stiffens())
-      impacts.back() = headOnImpacts(setup.law, pairsOf(setup), speedOf(setup, request));
-    else
-      for (const NamedPair& pair : pairsOf(setup)) impliedImpact(setup.law, pair.bodies);
+    if (&setup != &cases.front()) text += '\n';
+    if (cases.size() > 1) text += fmt::format("# variant {}\n", setup.variant);
+    text += lawText(setup.law, file.filename().string());
+    text += setup.law.stiffens()
+                ? stiffeningPairsText(setup.law, pairsOf(setup), speedOf(setup, request))
+                : pairsText(setup.law, pairsOf(setup), request.vn);
   }
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    const Case& setup = cases[k];
-    if (cases.size() > 1) fmt::print("# variant {}\n", setup.variant);
-    printLaw(setup.law, file.filename().string());
-    if (setup.law.stiffens())
-      printStiffeningPairs(pairsOf(setup), impacts[k], speedOf(setup, request));
-    else
-      printPairs(setup.law, pairsOf(setup), request.vn);
-    if (k + 1 < cases.size()) fmt::print("\n");
-  }
-  return exitPassed;
+  return text;
 }
 
 int calibrate(const CommandLine& line, const Request& request) {
-  checkRanges(request);
+  for (const Number& number : numbers())
+    if (const auto value = request.*number.member; value && !number.range.contains(*value))
+      throw BadInput(
+          fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
   refuseContradictions(request);
   const Number* wanted = firstGiven(request, Part::wanted);
   // A stiffness may be wanted, too.
@@ -496,9 +417,12 @@ int calibrate(const CommandLine& line, const Request& request) {
     throw BadInput(
         "calibrate takes one of: wanted values (--en, --et, --tc or --kn), constants (--kn, --gn, "
         "--kt, --gt), a case file; see crossgrain calibrate --help");
-  if (ofCase) return fromCase(line, request);
-  if (!line.overrides.empty()) throw BadInput("--set changes a case file, and there is none");
-  return wanted ? fromWanted(request) : fromConstants(request);
+  if (!ofCase && !line.overrides.empty())
+    throw BadInput("--set changes a case file, and there is none");
+  fmt::print("{}", ofCase   ? fromCase(line, request)
+                   : wanted ? fromWanted(request)
+                            : fromConstants(request));
+  return exitPassed;
 }
 
 Action declareCalibrate(CLI::App& app, CommandLine& line) {

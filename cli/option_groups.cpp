@@ -11,8 +11,8 @@
 #include "cases/engine_file.hpp"
 #include "studies/core/mirrors.hpp"
 #include "support/bad_input.hpp"
-#include "support/comma_list.hpp"
 #include "support/data_folder.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
@@ -80,10 +80,6 @@ void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& 
   app.add_option(name, texts, what)->type_name(type)->allow_extra_args(false);
 }
 
-void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other) {
-  app.get_option(one)->excludes(app.get_option(other));
-}
-
 void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
                int least, int most) {
   CLI::Option* inputs = app.add_option(name, line.inputs, what)->type_name("FILE");
@@ -135,6 +131,20 @@ void addSelection(CLI::App& app, CommandLine& line) {
           "TEXT");
 }
 
+void addQuiet(CLI::App& app, CommandLine& line) {
+  app.add_flag("--quiet", line.run.quiet, "no progress");
+}
+
+void addPackings(CLI::App& app, CommandLine& line) {
+  app.add_option("--seed", line.seed, "preparation.seed of the case")
+      ->type_name("N")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
+  app.add_flag("--quick", line.quick, "a short version, to see that everything works");
+}
+
+namespace {
+
+/// Of all commands that leave results.
 void addResults(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
   app.add_option("--out", line.run.out,
@@ -147,23 +157,9 @@ void addResults(CLI::App& app, CommandLine& line) {
   app.add_flag("--json", line.json, "print the path of results.json only, for scripts");
 }
 
-void addSnapshots(CLI::App& app, CommandLine& line) {
-  app.add_option("snapshots", line.snapshots, "HDF5 file of snapshots")
-      ->type_name("FILE")
-      ->required();
-  addCase(app, line, "case file: the cell, the law, how to average");
-  addResults(app, line);
-}
-
-void addRun(CLI::App& app, CommandLine& line, const char* usual) {
-  addRunInTurn(app, line, usual);
-  constexpr int mostJobs = 4096;
-  app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
-      ->type_name("N")
-      ->check(wholeNumber(1, mostJobs));
-}
-
-void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
+/// Of all commands that run engines. @param usual  engine where none is named; null: they must be
+/// @param jobs  not of a command that times one engine at a time
+void addRun(CLI::App& app, CommandLine& line, const char* usual, bool jobs) {
   addEngines(app, line, usual);
   addResults(app, line);
   addQuiet(app, line);
@@ -171,28 +167,30 @@ void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual) {
                "say what would run, and what is finished; compute and write nothing");
   app.add_flag_function(
       "--resume", [](std::int64_t) {}, "load what is finished in --out: what happens anyway");
-}
-
-void addQuiet(CLI::App& app, CommandLine& line) {
-  app.add_flag("--quiet", line.run.quiet, "no progress");
-}
-
-void addPackings(CLI::App& app, CommandLine& line) {
-  app.add_option("--seed", line.seed, "preparation.seed of the case")
+  if (!jobs) return;
+  constexpr int mostJobs = 4096;
+  app.add_option("--jobs", line.run.jobs, "engines side by side (default: one per core)")
       ->type_name("N")
-      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()));
-  app.add_flag("--quick", line.quick, "a short version, to see that everything works");
+      ->check(wholeNumber(1, mostJobs));
 }
+
+}  // namespace
 
 void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
               const std::vector<StudyOption>& own, const std::vector<Exclusion>& exclusions) {
   using Input = SharedOptions::Input;
-  if (takes.input == Input::snapshots) addSnapshots(app, line);
+  if (takes.input == Input::snapshots) {
+    app.add_option("snapshots", line.snapshots, "HDF5 file of snapshots")
+        ->type_name("FILE")
+        ->required();
+    addCase(app, line, "case file: the cell, the law, how to average");
+    addResults(app, line);
+  }
   if (takes.input == Input::oneCase) addCase(app, line, takes.inputIs);
   if (takes.input == Input::anyCases) addInputs(app, line, "case", takes.inputIs, 0, anyNumber);
   if (takes.selection) addSelection(app, line);
   const char* const usual = takes.inHouse ? engineRegistry().front().name.c_str() : nullptr;
-  if (takes.engines) (takes.jobs ? addRun : addRunInTurn)(app, line, usual);
+  if (takes.engines) addRun(app, line, usual, takes.jobs);
   if (takes.packings) addPackings(app, line);
   for (const StudyOption& option : own) {
     if (auto* const* flag = std::get_if<bool*>(&option.value))
@@ -202,7 +200,7 @@ void addStudy(CLI::App& app, CommandLine& line, const SharedOptions& takes,
     else
       addNumber(app, option.name, *std::get<std::optional<double>*>(option.value), option.what);
   }
-  for (const auto& [one, other] : exclusions) excludeEachOther(app, one, other);
+  for (const auto& [one, other] : exclusions) app.get_option(one)->excludes(app.get_option(other));
 }
 
 }  // namespace crossgrain::inline cli

@@ -29,8 +29,6 @@ void addTexts(CLI::App& app, const std::string& name, std::vector<std::string>& 
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
                  const std::string& type = "TEXT");
 
-/// For options that the command has already.
-void excludeEachOther(CLI::App& app, const std::string& one, const std::string& other);
 /// @}
 
 /// All that a study takes.
@@ -56,19 +54,6 @@ void addCase(CLI::App& app, CommandLine& line, const std::string& what = "case f
 
 /// -k: which of the cases.
 void addSelection(CLI::App& app, CommandLine& line);
-
-/// Of all commands that leave results: --set, --out, --fresh, --json.
-void addResults(CLI::App& app, CommandLine& line);
-
-/// Of all commands that average a file of snapshots: the file, the case, results.
-void addSnapshots(CLI::App& app, CommandLine& line);
-
-/// Of all commands that run engines: --engines, results, --jobs, --quiet, --dry-run, --resume.
-/// @param usual  engine where none is named; null: they must be
-void addRun(CLI::App& app, CommandLine& line, const char* usual = nullptr);
-
-/// The same without --jobs: of a command that times one engine at a time.
-void addRunInTurn(CLI::App& app, CommandLine& line, const char* usual = nullptr);
 
 void addQuiet(CLI::App& app, CommandLine& line);
 

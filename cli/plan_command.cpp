@@ -14,7 +14,7 @@
 #include "studies/core/study_cases.hpp"
 #include "studies/plan/job_plan.hpp"
 #include "support/bad_input.hpp"
-#include "support/comma_list.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline cli {
 

@@ -1,13 +1,16 @@
-#include "cli/program.hpp"
-
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gsl/gsl_errno.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -16,7 +19,9 @@
 #include "cli/command.hpp"
 #include "studies/core/run_store.hpp"
 #include "support/bad_input.hpp"
+#include "support/files.hpp"
 #include "support/input_file.hpp"
+#include "support/interrupt.hpp"
 #include "support/json_text.hpp"
 #include "support/nearest.hpp"
 
@@ -160,8 +165,9 @@ void requireKnownCommand(const std::string& name) {
     throw BadInput(fmt::format("there is no command '{}'{}", name, suggestion(name, names)));
 }
 
-}  // namespace
-
+/// Parses a command line against the table of commands and does what it says.
+/// @returns an ExitStatus @throws BadInput for a command line that cannot be understood, and
+/// whatever its command throws
 int runProgram(int argc, char** argv) {
   for (int k = 1; k < argc; ++k)
     if (!isUtf8(argv[k]))
@@ -205,4 +211,53 @@ int runProgram(int argc, char** argv) {
   return actions[static_cast<std::size_t>(asked - commands().begin())]();
 }
 
+/// Where standard input, output or error is closed, the next file to be opened would take its
+/// number, and be read or written in its place.
+void fillStandardDescriptors() {
+  for (const int descriptor : {0, 1, 2})
+    if (::fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY));
+}
+
+/// What is still in the buffer may not find a place. A reader that has seen enough (`| head`) ends
+/// the program without a word, by SIGPIPE.
+void flushOutput() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    throw std::system_error(errno, std::generic_category(), "standard output");
+}
+
+/// Every way to end, as one line on standard error and the status that goes with it.
+int runAndExplain(int argc, char** argv) {
+  const auto explain = [](const std::exception& error, int status) {
+    fmt::print(stderr, "crossgrain: {}\n", BadInput(error.what()).what());  // in one line
+    return status;
+  };
+  try {
+    const int status = runProgram(argc, argv);
+    flushOutput();
+    return status;
+  } catch (const Interrupted& error) {
+    return explain(error, exitInterrupted);
+  } catch (const BadInput& error) {
+    return explain(error, exitBadInput);
+  } catch (const UnsupportedScene& error) {
+    return explain(error, exitBadInput);
+  } catch (const EngineFailure& error) {
+    return explain(error, exitEngineFailed);
+  } catch (const OutputError& error) {
+    // A folder that cannot be written is the user's to change; that the disk is full is not.
+    return explain(error, error.noRoom ? exitEngineFailed : exitBadInput);
+  } catch (const std::exception& error) {
+    return explain(error, exitBadInput);
+  }
+}
+
+}  // namespace
 }  // namespace crossgrain::inline cli
+
+int main(int argc, char** argv) {
+  gsl_set_error_handler_off();  // GSL's own would abort; its status codes are looked at
+  crossgrain::fillStandardDescriptors();
+  crossgrain::catchInterrupts();
+  return crossgrain::runAndExplain(argc, argv);
+}

@@ -19,7 +19,6 @@
 #include "support/files.hpp"
 #include "support/folder_lock.hpp"
 #include "support/json_text.hpp"
-#include "support/program.hpp"
 
 namespace crossgrain::inline cli {
 

@@ -113,6 +113,19 @@ void calibrateTangential(ContactLaw& law, double et0, const ReducedPair& pair) {
   law.gt = 2.0 * pair.mass / pair.K * eta;
 }
 
+HertzMaterial hertzMaterial(const ContactLaw& law) {
+  const double ratio = law.kt / law.kn;
+  const double poisson =
+      law.kt > 0.0 ? std::clamp((3.0 - 2.0 * ratio) / (3.0 - ratio), 0.0, 0.5) : 0.0;
+  return {1.5 * law.kn * (1.0 - poisson * poisson), poisson};
+}
+
+TangentialLaw tangentialLawOf(const ContactLaw& law) {
+  if (law.kt > 0.0) return law.gt > 0.0 ? TangentialLaw::springDashpot : TangentialLaw::spring;
+  if (law.gt > 0.0) return TangentialLaw::viscous;
+  return law.mu > 0.0 ? TangentialLaw::coulomb : TangentialLaw::none;
+}
+
 double stickingRestitution(double etaT, double undamped, double t) {
   const double square = undamped * undamped - etaT * etaT;
   const double decay = etaT * t;

@@ -46,6 +46,18 @@ void calibrateDamping(ContactLaw& law, double en, double kn, double reducedMass)
 ///         other laws
 void calibrateTangential(ContactLaw& law, double et0, const ReducedPair& pair);
 
+/// E [Pa] and ν of two equal bodies.
+struct HertzMaterial {
+  double young, poisson;
+};
+
+/// Of two equal bodies with the k_n and k_t of Hertz' law: k_t/k_n = 3 (1 − ν)/(2 − ν),
+/// k_n = 2/3 E/(1 − ν²). Any ν serves without a spring: 0.
+HertzMaterial hertzMaterial(const ContactLaw& law);
+
+/// The simplest tangential law that has those of k_t, γ_t and µ that are > 0.
+TangentialLaw tangentialLawOf(const ContactLaw& constants);
+
 /// What a law means for a pair.
 struct ImpliedImpact {
   double enAllowed, enCut;       ///< e_n with tension and without [-]

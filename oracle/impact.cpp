@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_integration.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -9,15 +10,17 @@
 
 namespace crossgrain::inline oracle {
 
+double dampingOf(Damper damper, double constant, double stiffness, double reducedMass) {
+  if (damper == Damper::viscoelastic) return constant * stiffness;
+  if (damper == Damper::critical)
+    return constant * std::sqrt(reducedMass * std::max(stiffness, 0.0));
+  return constant;
+}
+
 ContactLaw withConstantDampers(ContactLaw law, double reducedMass) {
   if (law.normal != NormalLaw::linear) return law;
-  const auto used = [&](double constant, double stiffness) {
-    if (law.damper == Damper::viscoelastic) return constant * stiffness;
-    if (law.damper == Damper::critical) return constant * std::sqrt(reducedMass * stiffness);
-    return constant;
-  };
-  law.gn = used(law.gn, law.kn);
-  law.gt = used(law.gt, law.kt);
+  law.gn = dampingOf(law.damper, law.gn, law.kn, reducedMass);
+  law.gt = dampingOf(law.damper, law.gt, law.kt, reducedMass);
   law.damper = Damper::constant;
   return law;
 }

@@ -1,5 +1,7 @@
 #include "support/data_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <system_error>
 
@@ -21,6 +23,18 @@ fs::path hereOrInstalled(const fs::path& path) {
   if (path.empty() || *path.begin() != "cases" || fs::exists(path, unknown)) return path;
   const fs::path installed = dataFolder() / path;
   return fs::exists(installed, unknown) ? installed : path;
+}
+
+fs::path workerScript(const std::string& engine) {
+  return dataFolder() / "engines" / engine / "worker.py";
+}
+
+std::string workerScriptMissing(const std::string& engine) {
+  const fs::path script = workerScript(engine);
+  if (fs::exists(script)) return {};
+  return fmt::format(
+      "there is no {}; set CROSSGRAIN_DATA to the folder that holds engines/{}/worker.py",
+      script.string(), engine);
 }
 
 }  // namespace crossgrain::inline support

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace crossgrain::inline support {
 
@@ -13,5 +14,10 @@ std::filesystem::path dataFolder();
 /// A path in cases/ that is not here is meant to be the one of dataFolder(): cases/hard works from
 /// anywhere. All others stay as they are.
 std::filesystem::path hereOrInstalled(const std::filesystem::path& path);
+
+/// engines/ENGINE/worker.py of dataFolder().
+std::filesystem::path workerScript(const std::string& engine);
+/// One line if it is not there; empty if it is.
+std::string workerScriptMissing(const std::string& engine);
 
 }  // namespace crossgrain::inline support

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <span>
+#include <sstream>
 
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
@@ -115,6 +117,19 @@ std::optional<std::string> readFile(const std::filesystem::path& file, std::size
   std::string text;
   if (!readPieces(file, most, [&](std::string_view piece) { text += piece; })) return std::nullopt;
   return text;
+}
+
+bool isProgram(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
+}
+
+bool isOnPath(const std::string& program) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (isProgram(std::filesystem::path(folder) / program)) return true;
+  return false;
 }
 
 }  // namespace crossgrain::inline support

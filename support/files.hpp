@@ -53,4 +53,10 @@ bool readPieces(const std::filesystem::path& file, std::size_t most,
 std::optional<std::string> readFile(const std::filesystem::path& file,
                                     std::size_t most = longestText);
 
+/// Whether a file is there that this user may execute.
+bool isProgram(const std::filesystem::path& path);
+
+/// Whether a program of that name is in one of PATH's folders.
+bool isOnPath(const std::string& program);
+
 }  // namespace crossgrain::inline support

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace crossgrain::inline support {
 
@@ -24,5 +25,15 @@ std::string fileFault(const std::filesystem::path& path);
 /// " (did you mean cases/quick.toml?)": the file that is nearest to one that is not there, or the
 /// first files of a folder; empty if there is none. Only files that end alike are looked at.
 std::string nearestFile(const std::filesystem::path& path, const std::string& extension);
+
+/// What stands between commas, empty parts too: "a,,b" is three parts, "" is one.
+inline std::vector<std::string> commaList(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0, comma = 0; comma != std::string::npos; from = comma + 1) {
+    comma = list.find(',', from);
+    parts.push_back(list.substr(from, comma - from));
+  }
+  return parts;
+}
 
 }  // namespace crossgrain::inline support

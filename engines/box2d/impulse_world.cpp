@@ -100,7 +100,7 @@ void ImpulseWorld::actBeforeTheKick(const Touching& touch) {
   const std::size_t w = members_.wallOf(touch.j);
   const Vector arm = touch.point - members_.pose[w].centre;
   const auto along = [&](const Motion& wall, Vector at) {
-    return dot(wall.velocity + wall.spin * perpendicular(at), touch.normal);
+    return dot(wall.velocity + wall.spin * turned(at), touch.normal);
   };
   // Of a wall disk the centre goes round; its surface only slides past when it spins.
   const Vector radius = members_.isPlane(touch.j)
@@ -131,7 +131,7 @@ void ImpulseWorld::harvest() {
     if (!members_.isWall(touch.j)) continue;
     const std::size_t w = members_.wallOf(touch.j);
     const Vector onWall =
-        -impulse.normal * touch.normal + -impulse.tangential * perpendicular(touch.normal);
+        -impulse.normal * touch.normal + -impulse.tangential * turned(touch.normal);
     const Vector arm = touch.point - members_.pose[w].centre;
     for (auto* load : {&lastOnWalls_[w], &sumOnWalls_[w]}) {
       load->linear = load->linear + onWall;

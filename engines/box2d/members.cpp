@@ -39,7 +39,7 @@ void Members::place(std::size_t w, const Pose& at) {
   for (std::size_t k = 0; k < reference.disk.size(); ++k) {
     const Vector arm = turned(at.angle, reference.disk[k]);
     position[reference.firstDisk + k] = at.centre + arm;
-    velocity[reference.firstDisk + k] = at.velocity + at.spin * perpendicular(arm);
+    velocity[reference.firstDisk + k] = at.velocity + at.spin * turned(arm);
     spin[reference.firstDisk + k] = at.spin;
   }
   for (std::size_t k = 0; k < reference.planes.size(); ++k)

@@ -1,42 +1,14 @@
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <vector>
 
+#include "engines/cpp/crossgrain_vector.hpp"
+
 namespace box2d_granular {
 
-/// A vector in the plane of motion (SI units, laboratory frame).
-struct Vector {
-  double x = 0.0, y = 0.0;
-};
-
-inline Vector operator+(Vector a, Vector b) {
-  return {a.x + b.x, a.y + b.y};
-}
-inline Vector operator-(Vector a, Vector b) {
-  return {a.x - b.x, a.y - b.y};
-}
-inline Vector operator*(double factor, Vector a) {
-  return {factor * a.x, factor * a.y};
-}
-inline double dot(Vector a, Vector b) {
-  return a.x * b.x + a.y * b.y;
-}
-/// z component of a × b.
-inline double cross(Vector a, Vector b) {
-  return a.x * b.y - a.y * b.x;
-}
-/// z × a: a turned by +90°.
-inline Vector perpendicular(Vector a) {
-  return {-a.y, a.x};
-}
-
-/// v turned by an angle [rad].
-inline Vector turned(double angle, Vector v) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x - s * v.y, s * v.x + c * v.y};
-}
+using crossgrain_worker::turned;
+using crossgrain_worker::Vector;
 
 struct Disk {
   double radius = 0.0;   ///< [m]

@@ -118,7 +118,7 @@ Vector PenaltyWorld::footOnPlane(const SoftContact& contact) const {
 /// Velocity of a plane where a disk touches it.
 Vector PenaltyWorld::planeVelocity(const SoftContact& contact) const {
   const Pose& pose = members_.pose[members_.wallOf(contact.j)];
-  return pose.velocity + pose.spin * perpendicular(footOnPlane(contact) - pose.centre);
+  return pose.velocity + pose.spin * turned(footOnPlane(contact) - pose.centre);
 }
 
 template <bool Damped, Tangential T>
@@ -141,12 +141,12 @@ void PenaltyWorld::addContactForces() {
     Levers lever{};
     if constexpr (T != Tangential::none) {
       lever = levers(contact);
-      vt = dot(v, perpendicular(n)) - lever.i * members_.spin[i];
+      vt = dot(v, turned(n)) - lever.i * members_.spin[i];
       if (!plane) vt -= lever.j * members_.spin[j];
     }
     contact.force = contactForce<Damped, T>(law_, overlap, dot(v, n), vt, contact.spring, dt_);
 
-    const Vector onI = contact.force.normal * n + contact.force.tangential * perpendicular(n);
+    const Vector onI = contact.force.normal * n + contact.force.tangential * turned(n);
     const bool wall = members_.isWall(contact.j);
     force_[i] = force_[i] + onI;
     if (!wall) force_[j] = force_[j] - onI;
@@ -163,7 +163,7 @@ std::vector<WallLoad> PenaltyWorld::wallLoads() const {
     if (!contact.touching || !members_.isWall(contact.j)) continue;
     const std::size_t w = members_.wallOf(contact.j);
     const Vector n = contact.geometry.normal;
-    const Vector onWall = -contact.force.normal * n - contact.force.tangential * perpendicular(n);
+    const Vector onWall = -contact.force.normal * n - contact.force.tangential * turned(n);
     const Vector at = members_.isPlane(contact.j)
                           ? footOnPlane(contact)
                           : members_.position[static_cast<std::size_t>(contact.j)];

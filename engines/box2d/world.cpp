@@ -143,7 +143,7 @@ void World::place(PlaneBody& plane) {
 
 void World::moveWall(std::size_t w, Vector velocity, double spin) {
   const auto move = [&](b2Body& body, Vector at) {
-    body.SetLinearVelocity(toUnits(velocity + spin * perpendicular(at - pose_[w].centre)));
+    body.SetLinearVelocity(toUnits(velocity + spin * turned(at - pose_[w].centre)));
     body.SetAngularVelocity(static_cast<float>(spin));
   };
   move(*walls_[w], pose_[w].centre);

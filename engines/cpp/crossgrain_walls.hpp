@@ -5,32 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
-namespace crossgrain_worker {
+#include "crossgrain_vector.hpp"
 
-struct Vector {
-  double x = 0.0, y = 0.0;
-};
-inline Vector operator+(Vector a, Vector b) {
-  return {a.x + b.x, a.y + b.y};
-}
-inline Vector operator-(Vector a, Vector b) {
-  return {a.x - b.x, a.y - b.y};
-}
-inline Vector operator*(double s, Vector a) {
-  return {s * a.x, s * a.y};
-}
-inline double dot(Vector a, Vector b) {
-  return a.x * b.x + a.y * b.y;
-}
-inline double cross(Vector a, Vector b) {
-  return a.x * b.y - a.y * b.x;
-}
-/// z × a
-inline Vector turned(Vector a) {
-  return {-a.y, a.x};
-}
+namespace crossgrain_worker {
 
 struct Plane {
   Vector point, normal;

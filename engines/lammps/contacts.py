@@ -14,21 +14,24 @@ def pair_rows(lammps):
     return np.column_stack([ids, lammps.local_compute("pairs", 3).reshape(-1, 3)])
 
 
-def contacts_of_rows(rows, made, position):
-    """Of two atoms: i < j, normal from j to i, overlap, forces on i."""
+def pair_geometry(rows, made, position):
+    """Of two atoms: i < j, normal from j to i, overlap; 1 where the first of the row is i, else -1."""
     ids = rows[:, :2].astype(int) - 1
-    force, x, y = rows[:, 2:].T
-    # LAMMPS' tangential force is that on the first of the two.
-    forward = ids[:, 0] < ids[:, 1]
-    sign = np.where(forward, 1.0, -1.0)
+    sign = np.where(ids[:, 0] < ids[:, 1], 1.0, -1.0)
     i, j = ids.min(axis=1), ids.max(axis=1)
     apart = position[i] - position[j]
     distance = np.hypot(apart[:, 0], apart[:, 1])
-    normal = apart / distance[:, None]
-    tangent = turned(normal)
-    tangential = sign * (x * tangent[:, 0] + y * tangent[:, 1])
     overlap = made.radius[i] + made.radius[j] - distance
-    return i, j, normal, overlap, force, tangential
+    return i, j, apart / distance[:, None], overlap, sign
+
+
+def contacts_of_rows(rows, made, position):
+    """Of two atoms: i < j, normal from j to i, overlap, forces on i."""
+    i, j, normal, overlap, sign = pair_geometry(rows, made, position)
+    force, x, y = rows[:, 2:].T
+    # LAMMPS' tangential force is that on the first of the two.
+    tangent = turned(normal)
+    return i, j, normal, overlap, force, sign * (x * tangent[:, 0] + y * tangent[:, 1])
 
 
 def read_plane_contacts(made, bodies, position, on_planes):

@@ -6,8 +6,8 @@ import time
 import numpy as np
 from build import Scene, check
 from contacts import contacts_of_rows, pair_rows, read_plane_contacts
-from crossgrain_answers import effects_called, effects_without_bottom, setting
-from crossgrain_walls import Body
+from crossgrain_answers import at, effects_called, effects_without_bottom, setting, stats
+from crossgrain_walls import bodies_of
 from law import DAMPERS, KINDS, NORMALS, Law
 from library import Lammps
 
@@ -83,10 +83,7 @@ class Engine:
     def take(self, scene, arrays, settings):
         """All of a scene that LAMMPS need not know of."""
         self.law = self.Law(scene["law"])
-        self.bodies = [
-            Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
-            for b, body in enumerate(scene["bodies"])
-        ]
+        self.bodies = bodies_of(scene, arrays)
         self.check(scene, self.bodies, arrays)
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = np.array(scene["gravity"])
@@ -183,12 +180,6 @@ class Engine:
         now, n = steps * self.dt, self.disks
         position, force, torque = of_all("position"), of_all("force"), of_all("torque")
         on_planes = [of_all(f"on_plane.{k}") for k in range(self.made.planes)]
-        snapshot = {
-            "position_time": now,
-            "velocity_time": now,
-            "contact_time": now,
-            "contact_interval": 0.0,
-        }
         arrays = {
             "position": ("f64", position[:n]),
             "velocity": ("f64", of_all("velocity")[:n]),
@@ -199,11 +190,8 @@ class Engine:
         if report == "instant":
             rows = np.concatenate([part["pairs"] for part in parts])
             arrays.update(self.contacts(rows, position, on_planes))
-        snapshot["bodies"] = [
-            self.body_snapshot(body, now, position, force, torque, on_planes)
-            for body in self.bodies
-        ]
-        return snapshot, arrays
+        bodies = [self.body_snapshot(b, now, position, force, torque, on_planes) for b in self.bodies]
+        return at(now, bodies), arrays
 
     def contacts(self, rows, position, on_planes):
         of_pairs = self.contacts_of_rows(rows, position)
@@ -244,11 +232,5 @@ class Engine:
         }
 
     def stats(self):
-        return {
-            "steps": self.steps,
-            "contact_evaluations": self.evaluations,
-            "wall_seconds": self.wall_seconds,
-            "cpu_seconds": self.cpu_seconds,
-            "counters": {},
-        }
+        return stats(self.steps, self.evaluations, self.wall_seconds, self.cpu_seconds)
 

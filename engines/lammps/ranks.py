@@ -17,10 +17,9 @@ import threading
 import time
 
 import crossgrain_worker
+import numpy as np
 from crossgrain_worker import Failed, Unsupported
-from rank_arrays import from_arrays
 
-MOST = 1024
 PATIENCE = 120  # s that ranks have to begin
 RANK = os.path.join(os.path.dirname(os.path.abspath(__file__)), "rank.py")
 
@@ -36,6 +35,18 @@ OPEN_MPI = {
     # A rank that waits gives its core away: where others need it, a step may take ten times as long without.
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
+
+# Components of each of a rank's arrays; all others are of vectors in the plane.
+COLUMNS = {"ids": 1, "spin": 1, "torque": 1, "pairs": 5}
+
+
+def part_of(arrays):
+    """What a rank saw (Engine.part), from the arrays that it answers with."""
+    part = {}
+    for name, values in arrays.items():
+        columns = COLUMNS.get(name, 2)
+        part[name] = np.reshape(values, (-1, columns)) if columns > 1 else values
+    return part
 
 
 def count_of(settings):
@@ -238,7 +249,7 @@ class Front:
             replies = self.ranks.ask_all([request | {"file": file} for file in files])
             self.of_first(replies)
             parts = [
-                from_arrays(crossgrain_worker.read_arrays(file, reply["arrays"]))
+                part_of(crossgrain_worker.read_arrays(file, reply["arrays"]))
                 for file, reply in zip(files, replies)
             ]
         finally:

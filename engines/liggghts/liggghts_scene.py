@@ -4,7 +4,7 @@ import ctypes
 
 import build
 import numpy as np
-from contacts import turned
+from contacts import pair_geometry, turned
 from library import ARRAY, LOCAL, Lammps
 
 SHARED = "libliggghts.so.3"
@@ -104,18 +104,12 @@ def contacts_of_rows(rows, made, position):
     LIGGGHTS evaluates its law anew when it is asked. A spring that was set to the bound is not over it then, so it
     would show the dashpot beside it, which did not act: there the force is the spring's alone."""
     law = made.law
-    ids = rows[:, :2].astype(int) - 1
+    i, j, normal, overlap, sign = pair_geometry(rows, made, position)
     force = rows[:, 3:5]  # on the first of the two
-    sign = np.where(ids[:, 0] < ids[:, 1], 1.0, -1.0)[:, None]
-    i, j = ids.min(axis=1), ids.max(axis=1)
-    apart = position[i] - position[j]
-    distance = np.hypot(apart[:, 0], apart[:, 1])
-    normal = apart / distance[:, None]
     tangent = turned(normal)
-    pressing = sign[:, 0] * (force * normal).sum(axis=1)
-    tangential = sign[:, 0] * (force * tangent).sum(axis=1)
+    pressing = sign * (force * normal).sum(axis=1)
+    tangential = sign * (force * tangent).sum(axis=1)
     if law.friction:
-        of_spring = -law.kt * sign[:, 0] * (rows[:, 6:8] * tangent).sum(axis=1)
+        of_spring = -law.kt * sign * (rows[:, 6:8] * tangent).sum(axis=1)
         tangential = np.where(law.sliding(pressing, of_spring), of_spring, tangential)
-    overlap = made.radius[i] + made.radius[j] - distance
     return i, j, normal, overlap, pressing, tangential

@@ -24,6 +24,23 @@ def setting(name, default, unit, doc, **limits):
     return {"name": name, "default": default, "unit": unit, "doc": doc, "choices": []} | limits
 
 
+def stats(steps, evaluations, wall, cpu, **counters):
+    """The answer to `stats`: steps done, contacts evaluated, and seconds of `advance` alone."""
+    return {
+        "steps": steps,
+        "contact_evaluations": evaluations,
+        "wall_seconds": wall,
+        "cpu_seconds": cpu,
+        "counters": counters,
+    }
+
+
+def at(time, bodies, interval=0.0):
+    """Of `snapshot`: all of it of one time."""
+    times = {f"{name}_time": time for name in ("position", "velocity", "contact")}
+    return times | {"contact_interval": interval, "bodies": bodies}
+
+
 def demand_linear(law, kinds):
     """Of `load`: the linear law with a tangential part of one of those kinds.
 

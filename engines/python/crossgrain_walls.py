@@ -5,6 +5,14 @@ import math
 import numpy as np
 
 
+def bodies_of(scene, arrays):
+    """Of `load`: the scene's wall bodies."""
+    return [
+        Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
+        for b, body in enumerate(scene["bodies"])
+    ]
+
+
 class Body:
     """A rigid body of wall disks and planes at any time. Lists of vectors are (n, 2) arrays."""
 

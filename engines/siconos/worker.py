@@ -12,8 +12,8 @@ sys.path.insert(0, os.path.join(HERE, "..", "python"))
 sys.dont_write_bytecode = True
 
 import numpy as np
-from crossgrain_answers import setting
-from crossgrain_walls import Body
+from crossgrain_answers import at, setting, stats
+from crossgrain_walls import bodies_of
 from crossgrain_worker import Unsupported, serve
 from rigid_law import RigidLaw
 from world import World, version
@@ -51,10 +51,7 @@ class Siconos:
         self.disks, self.mass = scene["disks"], arrays["disks.mass"]
         self.friction = law.friction > 0
         self.rotation = self.friction and scene["rotation"]
-        self.bodies = [
-            Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
-            for b, body in enumerate(scene["bodies"])
-        ]
+        self.bodies = bodies_of(scene, arrays)
         self.owner = [b for b, body in enumerate(self.bodies) for _ in body.disk_radius]
         self.owner += [b for b, body in enumerate(self.bodies) for _ in body.planes]
         self.plane_numbers = [p for body in self.bodies for p in range(len(body.planes))]
@@ -223,8 +220,7 @@ class Siconos:
             arrays.update(self.contact_arrays(sums["pairs"], interval, position, walls))
             if contacts == "accumulated":
                 self.sums = self.no_sums()
-        times = {"position_time": t, "velocity_time": t, "contact_time": t}
-        return times | {"contact_interval": interval, "bodies": bodies}, arrays
+        return at(t, bodies, interval), arrays
 
     def contact_arrays(self, pairs, interval, position, walls):
         """Mean forces over the interval, with the geometry of now."""
@@ -240,13 +236,8 @@ class Siconos:
         }
 
     def stats(self):
-        return {
-            "steps": self.world.steps,
-            "contact_evaluations": self.evaluations,
-            "wall_seconds": self.wall,
-            "cpu_seconds": self.cpu,
-            "counters": {"not_solved": float(self.world.unsolved)},
-        }
+        not_solved = float(self.world.unsolved)
+        return stats(self.world.steps, self.evaluations, self.wall, self.cpu, not_solved=not_solved)
 
 
 serve(Siconos())

@@ -23,8 +23,8 @@ from yade import O, utils
 import build
 import crossgrain_worker
 from contacts import read_contacts, xy, z
-from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting
-from crossgrain_walls import Body
+from crossgrain_answers import demand_plain_walls, effects_called, effects_without_bottom, setting, stats
+from crossgrain_walls import bodies_of
 from law import representative_pairs
 from mindlin import Mindlin
 from viscoelastic import Viscoelastic
@@ -85,10 +85,7 @@ class Yade:
         if normal not in LAWS:
             raise crossgrain_worker.Unsupported(f'has normal = {" | ".join(LAWS)}, not "{normal}"')
         self.law = LAWS[normal](scene["law"])
-        self.bodies = [
-            Body(body, arrays[f"bodies.{b}.disk_position"], arrays[f"bodies.{b}.disk_radius"])
-            for b, body in enumerate(scene["bodies"])
-        ]
+        self.bodies = bodies_of(scene, arrays)
         demand_plain_walls(scene, self.bodies)
         self.dt = settings.get("dt", 0.0) or scene["dt"]
         self.gravity = scene["gravity"]
@@ -265,13 +262,7 @@ class Yade:
         return snapshot
 
     def stats(self):
-        return {
-            "steps": self.steps,
-            "contact_evaluations": self.evaluations,
-            "wall_seconds": self.wall_seconds,
-            "cpu_seconds": self.cpu_seconds,
-            "counters": {},
-        }
+        return stats(self.steps, self.evaluations, self.wall_seconds, self.cpu_seconds)
 
 
 close_yades_servers()

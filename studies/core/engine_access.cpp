@@ -8,7 +8,6 @@
 #include <iterator>
 
 #include "adapters/audit.hpp"
-#include "adapters/audit_basis.hpp"
 #include "adapters/law_options.hpp"
 #include "adapters/start_check.hpp"
 #include "cases/case_keys.hpp"

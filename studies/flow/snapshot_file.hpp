@@ -39,7 +39,7 @@ class SnapshotFile {
 };
 
 /// All of such a file can be read: HDF5 itself does not get over every damaged one
-/// (support/hdf5_trial.hpp). To be asked before a file of anybody's is opened.
+/// (support/hdf5_file.hpp). To be asked before a file of anybody's is opened.
 /// @throws BadInput as SnapshotReader, or that the file is damaged
 void requireReadable(const std::filesystem::path& file, const Case& setup);
 

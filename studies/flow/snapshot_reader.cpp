@@ -8,7 +8,7 @@
 #include "results/snapshot_layout.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "support/bad_input.hpp"
-#include "support/hdf5_trial.hpp"
+#include "support/hdf5_file.hpp"
 
 namespace crossgrain::inline studies {
 namespace {

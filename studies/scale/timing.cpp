@@ -10,7 +10,7 @@
 #include "studies/core/engine_access.hpp"
 #include "studies/core/engine_running.hpp"
 #include "support/bad_input.hpp"
-#include "support/comma_list.hpp"
+#include "support/input_file.hpp"
 
 namespace crossgrain::inline studies {
 

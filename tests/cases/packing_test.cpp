@@ -13,7 +13,6 @@
 
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
-#include "support/hdf5_trial.hpp"
 #include "support/random.hpp"
 
 namespace {

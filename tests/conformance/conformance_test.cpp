@@ -158,7 +158,7 @@ int serveEngine(const std::string& name) {
 
 int main(int argc, char** argv) {
   using namespace crossgrain::test;
-  gsl_set_error_handler_off();  // as in cli/main.cpp
+  gsl_set_error_handler_off();  // as in cli/program.cpp
   if (argc == 3 && std::string_view(argv[1]) == "__serve") return serveEngine(argv[2]);
   if (argc == 3 && std::string_view(argv[1]) == "--write-tests")
     return writeTests(argv[0], argv[2]);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapters/registry.hpp"
 #include "adapters/worker/worker_engine.hpp"
-#include "adapters/yade.hpp"
 #include "tests/support/laws.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -61,14 +61,14 @@ inline Scene crowdedScene(const ContactLaw& law = emptyScene().law) {
 class YadeWorker : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    if (yadeMissing().empty()) engine_ = startYade("yade");
+    if (findEngine("yade")->missing().empty()) engine_ = startYade("yade");
   }
   static void TearDownTestSuite() {
     engine_.reset();
     std::filesystem::remove_all(scratch());
   }
   void SetUp() override {
-    if (!engine_) GTEST_SKIP() << yadeMissing();
+    if (!engine_) GTEST_SKIP() << findEngine("yade")->missing();
   }
 
   /// Of this process alone: others may run at the same time.
@@ -77,7 +77,8 @@ class YadeWorker : public ::testing::Test {
            ("crossgrain-yade-" + std::to_string(getpid()));
   }
   static std::unique_ptr<WorkerEngine> startYade(const std::string& name) {
-    return std::make_unique<WorkerEngine>(name, yadeCommand(), scratch() / name, 120.0);
+    return std::make_unique<WorkerEngine>(name, findEngine("yade")->command(), scratch() / name,
+                                          120.0);
   }
 
   static inline std::unique_ptr<WorkerEngine> engine_;
