@@ -108,39 +108,12 @@ std::string decidedText(const CostResults& results) {
                      fmt::join(parts, " and "));
 }
 
-}  // namespace
-
-std::string costCsv(const CostResults& results) {
-  std::string table =
-      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
-      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
-      "equivalent,bound\n";
-  std::vector<bool> onFront(results.points.size(), false);
-  for (const Front& front : results.fronts)
-    for (const std::size_t place : front.points)
-      if (front.engine.empty() && place < onFront.size()) onFront[place] = true;
-  for (std::size_t k = 0; k < results.points.size(); ++k) {
-    const CostPoint& point = results.points[k];
-    table += row(point.engine, point.setting, point.dt, point.error, toString(point.kind),
-                 point.wallSeconds, point.cpuSeconds, point.steps, point.contactEvaluations,
-                 std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob,
-                 point.measure, point.statistical, point.systematic, point.referenceError,
-                 point.stepsPerContact,
-                 !point.ran() ? ""
-                 : onFront[k] ? "yes"
-                              : "no",
-                 point.intervalLow, point.intervalHigh, "", "");
-  }
-  return table;
-}
-
-std::string costText(const CostResults& results) {
-  return fmt::format("{}\n{} ran, {} failed, {} refused, {} not measured\n", decidedText(results),
+/// What became of the points.
+std::string countsText(const CostResults& results) {
+  return fmt::format("{} ran, {} failed, {} refused, {} not measured",
                      results.count(Status::finished), results.count(Status::failed),
                      results.count(Status::refused), results.count(Status::notRun));
 }
-
-namespace {
 
 std::string asToml(const Advice& one, const CostResults& results) {
   std::string text = fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target,
@@ -172,6 +145,34 @@ std::string asToml(const Advice& one, const CostResults& results) {
 }
 
 }  // namespace
+
+std::string costCsv(const CostResults& results) {
+  std::string table =
+      "engine,setting,dt_s,error,error_kind,wall_s,cpu_s,steps,contact_evaluations,status,reason,"
+      "knob,measure,statistical,systematic,reference_error,steps_per_contact,on_front,low,high,"
+      "equivalent,bound\n";
+  std::vector<bool> onFront(results.points.size(), false);
+  for (const Front& front : results.fronts)
+    for (const std::size_t place : front.points)
+      if (front.engine.empty() && place < onFront.size()) onFront[place] = true;
+  for (std::size_t k = 0; k < results.points.size(); ++k) {
+    const CostPoint& point = results.points[k];
+    table += row(point.engine, point.setting, point.dt, point.error, toString(point.kind),
+                 point.wallSeconds, point.cpuSeconds, point.steps, point.contactEvaluations,
+                 std::string(nameOf(point.status, costStatusNames)), point.reason, point.knob,
+                 point.measure, point.statistical, point.systematic, point.referenceError,
+                 point.stepsPerContact,
+                 !point.ran() ? ""
+                 : onFront[k] ? "yes"
+                              : "no",
+                 point.intervalLow, point.intervalHigh, "", "");
+  }
+  return table;
+}
+
+std::string costText(const CostResults& results) {
+  return decidedText(results) + "\n" + countsText(results) + "\n";
+}
 
 std::string costToml(const CostResults& results) {
   std::string text;
@@ -432,10 +433,7 @@ Table referenceTable(const CostResults& results) {
 
 /// What became of the points, and which engines refused.
 std::vector<std::string> costSentences(const CostResults& results) {
-  std::string counts = fmt::format("{} points: {} ran, {} failed, {} refused, {} not measured",
-                                   results.points.size(), results.count(Status::finished),
-                                   results.count(Status::failed), results.count(Status::refused),
-                                   results.count(Status::notRun));
+  std::string counts = fmt::format("{} points: {}", results.points.size(), countsText(results));
   if (results.count(Status::notRun) > 0 && results.budgetForTheRest)
     counts += fmt::format(
         ", for they did not fit into the budget of {}; they would with --resume and a budget of "
@@ -457,23 +455,28 @@ constexpr std::array whatErrorsAre = {
     "Profiles and fitted numbers of a sheared cell, against a reference on the same packings: the "
     "mean paired difference, in units of the profile's largest value."};
 
-void addSections(Report& report, const CostResults& results) {
-  const auto section = [&](const std::string& id, const std::string& title) -> Section& {
-    return report.section(id, title);
-  };
-  section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
+}  // namespace
+
+Report reportOf(const CostResults& results) {
+  Report report{{results.head, results.engines, costOverview(results)}};
+  report.elapsed = results.elapsed;
+  report.notes = costSentences(results);
+  std::ranges::copy(results.notes, std::back_inserter(report.notes));
+  report.figures = costFigures(results);
+  report.tables = {{"cost.csv", costCsv(results)}};
+  report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
       accuracyTable(results)};
   for (const CostKind kind : kindsIn(results.points))
-    section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
+    report.section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
         Paragraph{whatErrorsAre[static_cast<std::size_t>(kind)]},
         drawingsOf(report.figures, "cost_" + toString(kind))};
   const auto addTable = [&](const std::string& id, const std::string& title, Table table) {
-    if (!table.rows.empty()) section(id, title).blocks = {std::move(table)};
+    if (!table.rows.empty()) report.section(id, title).blocks = {std::move(table)};
   };
   addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
-  section("reading", "How to read it").blocks = {List{
+  report.section("reading", "How to read it").blocks = {List{
       {{"Three kinds of error",
         "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of the "
         "same piece of work; those of different kinds cannot be compared."},
@@ -487,19 +490,7 @@ void addSections(Report& report, const CostResults& results) {
         "have a systematic part, which belongs to the setting, and a statistical part, which falls "
         "with the root of the simulated time and of the number of packings. Packings scatter them "
         "by more than most settings change them."}}}};
-  section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
-}
-
-}  // namespace
-
-Report reportOf(const CostResults& results) {
-  Report report{{results.head, results.engines, costOverview(results)}};
-  report.elapsed = results.elapsed;
-  report.notes = costSentences(results);
-  std::ranges::copy(results.notes, std::back_inserter(report.notes));
-  report.figures = costFigures(results);
-  addSections(report, results);
-  report.tables = {{"cost.csv", costCsv(results)}};
+  report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
   return report;
 }
 
