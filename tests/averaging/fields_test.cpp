@@ -14,14 +14,10 @@ namespace crossgrain {
 namespace {
 
 using test::Instant;
+using test::twoRings;
 using test::valueOf;
 
 constexpr double pi = std::numbers::pi;
-
-/// Two rings 1–2 m and 2–3 m of height 0.5 m.
-Rings twoRings() {
-  return {1.0, 3.0, 2, 0.5, 0.2};
-}
 
 /// Disk 0 in ring 0 and disk 1 in ring 1, on the x axis, pushing on each other with 5 N; disk 1
 /// also pushes disk 0 along −y with 2 N. Radii differ: each disk has its own branch.
@@ -90,8 +86,7 @@ TEST(Fields, DirectionsAreTakenAtEachDisksOwnAngle) {
 Instant beside(double disk, double wallDisk) {
   Instant cell;
   cell.addDisk({disk, 0.0}, 0.2);
-  cell.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(wallDisk, 0.0)}, {0.1}, {}, {}});
-  cell.snapshot.wallPosition = {Vec2(wallDisk, 0.0)};
+  cell.addWall("wheel", {Vec2(wallDisk, 0.0)}, 0.1);
   cell.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);  // force on the disk (5, 2)
   return cell;
 }
@@ -165,8 +160,7 @@ TEST(Fields, FabricTraceIsVolumeFractionTimesCoordination) {
 TEST(Fields, WallDisksCountOnlyWhenAskedFor) {
   Instant instant;
   instant.addDisk({1.5, 0.0}, 0.1);
-  instant.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(0.0, 1.5)}, {0.2}, {}, {}});
-  instant.snapshot.wallPosition = {Vec2(0.0, 1.5)};
+  instant.addWall("wheel", {Vec2(0.0, 1.5)}, 0.2);
   const Rings rings = twoRings();
   const auto without = test::momentsOf(rings, instant);
   const auto with = test::momentsOf(rings, instant, WeightMethod::slicing, true);

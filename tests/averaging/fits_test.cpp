@@ -152,7 +152,7 @@ TEST(Fits, RingsAsWideAsADiskLeaveTheSpinsPhaseOpen) {
   }
 }
 
-TEST(Fits, TooFewPointsSaySo) {
+TEST(Fits, TooFewPointsOrAFlatProfile_AreNoLaw) {
   for (const LawUnderTest& law : laws()) {
     auto points = pointsOf(law, 0.0, 1, false);
     points.resize(2);
@@ -161,12 +161,9 @@ TEST(Fits, TooFewPointsSaySo) {
     EXPECT_NE(fit.reason.find("points in range"), std::string::npos) << fit.reason;
     EXPECT_FALSE(law.fit({}).converged);
   }
-}
-
-TEST(Fits, AFlatProfileHasNoDilation) {
-  std::vector<FitPoint> points;
-  for (int k = 0; k < 8; ++k) points.push_back({0.5 + k, 0.8, std::nullopt});
-  EXPECT_FALSE(fitDilation(points).converged);
+  std::vector<FitPoint> flat;
+  for (int k = 0; k < 8; ++k) flat.push_back({0.5 + k, 0.8, std::nullopt});
+  EXPECT_FALSE(fitDilation(flat).converged);
 }
 
 TEST(Fits, RangesAreThoseOfTheThesis) {
@@ -203,14 +200,8 @@ TEST(Fits, SpinScaleIsOneForRolling) {
   EXPECT_NEAR(spinScale(rings, 0.1) * rolling, 1.0, 1e-15);
 }
 
-/// A fit with an objection, whose reason has these words.
-void expectRefused(const Fit& fit, const std::string& words) {
-  EXPECT_FALSE(fit.converged);
-  EXPECT_NE(fit.reason.find(words), std::string::npos) << fit.reason;
-}
-
 std::vector<FitPoint> curve(const std::function<double(double)>& y, int count, double noise,
-                            std::optional<double> error) {
+                            double error) {
   std::mt19937_64 generator(3);
   std::normal_distribution<double> normal;
   std::vector<FitPoint> points;
@@ -221,40 +212,33 @@ std::vector<FitPoint> curve(const std::function<double(double)>& y, int count, d
   return points;
 }
 
-TEST(Fits, AStraightLineIsNoDecay) {
-  // ν = 0.7 + 0.01 r̃ is the limit of large B and small C: only BC = 0.01 is there to be seen.
-  expectRefused(fitDilation(curve([](double x) { return 0.7 + 0.01 * x; }, 20, 1e-4, 1e-4)), "");
-  const Fit bent =
-      fitDilation(curve([](double x) { return 0.8 - 0.2 * std::exp(-x / 12.0); }, 40, 1e-6, 1e-6));
-  expectRefused(bent, "beyond the range 8 of the points");
-  expectRefused(
-      fitVelocityDecay(curve([](double x) { return 0.9 * std::exp(-x / 30.0); }, 40, 1e-6, 1e-6)),
-      "beyond the range");
-  EXPECT_TRUE(
-      fitDilation(curve([](double x) { return 0.8 - 0.2 * std::exp(-x / 4.0); }, 40, 1e-6, 1e-6))
-          .converged);
+/// 0.8 − C exp(−r̃/B), known to 1e-6.
+std::vector<FitPoint> dilation(double C, double B, int count) {
+  return curve([=](double x) { return 0.8 - C * std::exp(-x / B); }, count, 1e-6, 1e-6);
 }
 
-TEST(Fits, ADecayWithinHalfASpacingIsNotSeen) {
-  // Twenty points are 0.42 apart.
-  expectRefused(
-      fitDilation(curve([](double x) { return 0.8 - 20.0 * std::exp(-x / 0.1); }, 20, 1e-5, 1e-5)),
-      "below half the spacing");
-}
-
-TEST(Fits, AnAmplitudeFarBeyondThePointsIsNone) {
-  // The first point is at 0.5: with a length of 0.18 the curve is 16 times as high at 0.
-  expectRefused(
-      fitDilation(curve([](double x) { return 0.8 - 3.0 * std::exp(-x / 0.18); }, 80, 1e-6, 1e-6)),
-      "times the");
-}
-
-TEST(Fits, PointsThatFollowAnotherCurveAreNotDescribedByThisOne) {
+TEST(Fits, CurvesThatALawDoesNotDescribe_AreRefusedWithTheReason) {
   // Layers at the wall, as in a small cell: an oscillation that the exponential runs through.
   const auto layered = [](double x) {
     return 0.8 - 0.3 * std::exp(-x) + 0.05 * std::cos(2.0 * pi * x);
   };
-  expectRefused(fitDilation(curve(layered, 20, 0.0, 1e-3)), "χ²/dof");
+  const auto slow = [](double x) { return 0.9 * std::exp(-x / 30.0); };
+  // ν = 0.7 + 0.01 r̃ is the limit of large B and small C: only BC = 0.01 is there to be seen.
+  const auto line = [](double x) { return 0.7 + 0.01 * x; };
+  const std::pair<Fit, const char*> refused[] = {
+      {fitDilation(curve(line, 20, 1e-4, 1e-4)), ""},
+      {fitDilation(dilation(0.2, 12.0, 40)), "beyond the range 8 of the points"},
+      {fitVelocityDecay(curve(slow, 40, 1e-6, 1e-6)), "beyond the range"},
+      // Twenty points are 0.42 apart.
+      {fitDilation(dilation(20.0, 0.1, 20)), "below half the spacing"},
+      // The first point is at 0.5: with a length of 0.18 the curve is 16 times as high at 0.
+      {fitDilation(dilation(3.0, 0.18, 80)), "times the"},
+      {fitDilation(curve(layered, 20, 0.0, 1e-3)), "χ²/dof"}};
+  for (const auto& [fit, words] : refused) {
+    EXPECT_FALSE(fit.converged) << words;
+    EXPECT_NE(fit.reason.find(words), std::string::npos) << fit.reason;
+  }
+  EXPECT_TRUE(fitDilation(dilation(0.2, 4.0, 40)).converged);
   EXPECT_TRUE(fitDilation(curve(layered, 20, 0.0, 2e-2)).converged);
 }
 

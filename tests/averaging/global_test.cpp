@@ -19,15 +19,9 @@ Instant cell() {
   Instant instant;
   instant.addDisk({1.5, 0.0}, 0.25, 2.0, {3.0, 4.0}, 2.0);
   instant.addDisk({2.0, 0.0}, 0.25, 1.0, {0.0, 1.0}, 0.0);
-  instant.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.15, 0.0)}, {0.1}, {}, {}});
-  instant.scene.bodies.push_back({"ring",
-                                  Vec2::Zero(),
-                                  {Vec2(2.35, 0.0), Vec2(-2.35, 0.0)},
-                                  {0.1, 0.1},
-                                  {Plane{Vec2(0.0, -3.0), Vec2(0.0, 1.0)}},
-                                  {}});
-  instant.snapshot.wallPosition = {Vec2(1.15, 0.0), Vec2(2.35, 0.0), Vec2(-2.35, 0.0)};
-  instant.snapshot.bodies.resize(2);
+  instant.addWall("wheel", {Vec2(1.15, 0.0)}, 0.1);
+  instant.addWall("ring", {Vec2(2.35, 0.0), Vec2(-2.35, 0.0)}, 0.1);
+  instant.scene.bodies[1].planes = {Plane{Vec2(0.0, -3.0), Vec2(0.0, 1.0)}};
   instant.snapshot.bodies[0].torque = -0.6;
   instant.addContact(0, 1, {-1.0, 0.0}, 7.0, 0.0);
   instant.addContact(0, 2, {1.0, 0.0}, 9.0, 0.0);
@@ -107,6 +101,23 @@ TEST(DrivingTorque, IsWhatTheWheelDoesToTheDisks) {
   const Instant instant = cell();
   EXPECT_EQ(drivingTorque(instant.scene, instant.snapshot, "wheel"), 0.6);
   EXPECT_FALSE(drivingTorque(instant.scene, instant.snapshot, "ring"));
+}
+
+TEST(ContactsOf, CountsThoseOfOneBodyThatCarryAForce) {
+  Instant instant = cell();
+  const auto contacts = [&](const char* body) {
+    return contactsOf(instant.scene, instant.snapshot, body);
+  };
+  instant.addContact(1, 4, {-1.0, 0.0}, 5.0, 1.0);
+  EXPECT_EQ(contacts("wheel"), 1.0);
+  EXPECT_EQ(contacts("ring"), 2.0);
+  instant.addContact(0, 2, {1.0, 0.0}, 0.0, 0.0);  // listed, and transmits nothing
+  EXPECT_EQ(contacts("wheel"), 1.0);
+  // A wheel that nobody knows the disks of touches an unknown number, not none.
+  instant.scene.bodies.push_back({"axle", Vec2::Zero(), {}, {}, {}, {}});
+  EXPECT_FALSE(contacts("axle"));
+  instant.snapshot.contacts.reset();
+  EXPECT_FALSE(contacts("wheel"));
 }
 
 }  // namespace

@@ -125,13 +125,7 @@ Instant diskOnAFloor() {
   Instant instant;
   instant.addDisk({0.3, 1.2}, 1.0);
   instant.addDisk({-0.4, 3.1}, 1.0);
-  WallBody floor;
-  floor.name = "floor";
-  for (const double x : {-1.0, 0.0, 1.0}) floor.diskPosition.push_back({x, 0.0});
-  floor.diskRadius.assign(3, 0.4);
-  instant.scene.bodies = {floor};
-  instant.snapshot.bodies.emplace_back();
-  instant.snapshot.wallPosition = floor.diskPosition;
+  instant.addWall("floor", {{-1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}}, 0.4);
   instant.addContact(0, 1, Vec2(0.7, -1.9).normalized(), 3.0, 0.5);
   instant.addContact(0, 3, Vec2(0.3, 1.2).normalized(), 4.0, -0.7);
   instant.addContact(0, 4, Vec2(-0.7, 1.2).normalized(), 2.0, 0.3);

@@ -13,14 +13,11 @@ namespace crossgrain {
 namespace {
 
 using test::Instant;
+using test::twoRings;
 using test::valueOf;
 
 constexpr double pi = std::numbers::pi;
 constexpr SpringConstants springs{test::thesis.kn, test::thesis.kt};
-
-Rings twoRings() {
-  return {1.0, 3.0, 2, 0.5, 0.2};
-}
 
 /// randomInstant with overlaps, undamped forces that belong to them, and springs.
 Instant elasticInstant(std::uint64_t seed) {
@@ -89,9 +86,7 @@ TEST(Moduli, ByHand) {
   constexpr double a = 0.2, kn = 1000.0;
   Instant cross;
   cross.addDisk({1.5, 0.0}, a);
-  cross.scene.bodies.push_back(
-      {"wheel", Vec2::Zero(), {Vec2(1.2, 0.0), Vec2(1.5, 0.3)}, {0.1, 0.1}, {}, {}});
-  cross.snapshot.wallPosition = {Vec2(1.2, 0.0), Vec2(1.5, 0.3)};
+  cross.addWall("wheel", {Vec2(1.2, 0.0), Vec2(1.5, 0.3)}, 0.1);
   cross.addContact(0, 1, {1.0, 0.0}, kn * 3e-6, 0.0);
   cross.addContact(0, 2, {0.0, -1.0}, kn * 1e-6, 0.0);
   cross.snapshot.contacts->overlap = {3e-6, 1e-6};
@@ -144,8 +139,7 @@ TEST(CoupleStress, ByHandAndAgainstCurvature) {
   // +a_w² f_t/V.
   Instant disk;
   disk.addDisk({1.5, 0.0}, 0.2);
-  disk.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.2, 0.0)}, {0.1}, {}, {}});
-  disk.snapshot.wallPosition = {Vec2(1.2, 0.0)};
+  disk.addWall("wheel", {Vec2(1.2, 0.0)}, 0.1);
   disk.addContact(0, 1, {1.0, 0.0}, 5.0, 2.0);
   const Rings two = twoRings();
   EXPECT_NEAR(valueOf("couple_stress_zr", two, test::momentsOf(two, disk), 0),
@@ -278,18 +272,16 @@ TEST(ContactDirections, ASquareHasOrderFourAndAHexagonOrderSix) {
   for (const int n : {4, 6}) {
     Instant star;
     star.addDisk({0.0, 1.5}, 0.2);
-    WallBody wheel{"wheel", Vec2::Zero(), {}, {}, {}, {}};
+    std::vector<Vec2> around;
     constexpr double first = 0.3;
     for (int j = 0; j < n; ++j) {
       // e_r = ŷ at the disk: α counts from there.
       const double angle = pi / 2.0 + first + 2.0 * pi * j / n;
       const Vec2 outward(std::cos(angle), std::sin(angle));
-      wheel.diskPosition.push_back(star.snapshot.position[0] + 0.3 * outward);
-      wheel.diskRadius.push_back(0.1);
+      around.push_back(star.snapshot.position[0] + 0.3 * outward);
       star.addContact(0, j + 1, -outward, 1.0, 0.0);
     }
-    star.scene.bodies = {wheel};
-    star.snapshot.wallPosition = wheel.diskPosition;
+    star.addWall("wheel", around, 0.1);
     const Rings rings = twoRings();
     const auto moments = test::momentsOf(rings, star);
     const auto field = [&](const char* name) { return valueOf(name, rings, moments, 0); };

@@ -14,10 +14,7 @@ namespace crossgrain {
 namespace {
 
 using test::Instant;
-
-Rings twoRings() {
-  return {1.0, 3.0, 2, 0.5, 0.2};
-}
+using test::twoRings;
 
 const Profile& find(const std::vector<Profile>& profiles, const std::string& field) {
   for (const Profile& profile : profiles)
@@ -116,20 +113,6 @@ TEST(Profiles, SnapshotsOfOneAverageMustHoldTheSame) {
   instant.snapshot.contacts.reset();
   EXPECT_THROW(accumulator.add(instant.snapshot), std::invalid_argument);
   EXPECT_EQ(accumulator.snapshots(), 1u);
-}
-
-TEST(Profiles, MethodsMeetWhereRingsAreWideAndOverflowIsExposed) {
-  const Instant instant = test::randomInstant(10, 2900);
-  ProfileAccumulator accumulator(test::thesisRings(), {WeightMethod::slicing, WeightMethod::centre},
-                                 instant.scene);
-  accumulator.add(instant.snapshot);
-  const auto profiles = accumulator.profiles();
-  EXPECT_EQ(profiles.size(), 2 * fieldTable().size());
-  double volume[2] = {0.0, 0.0};
-  for (std::size_t method = 0; method < 2; ++method)
-    for (const Moments& bin : accumulator.meanMoments(method))
-      volume[method] += at(bin, Moment::volume);
-  EXPECT_NEAR(volume[0] / volume[1], 1.0, 1e-12);
 }
 
 }  // namespace

@@ -108,27 +108,5 @@ TEST(InertialNumber, ByHand) {
   EXPECT_FALSE(inertialNumber(cell(), std::vector{v}, 200.0));
 }
 
-TEST(ContactsOf, CountsThoseOfOneBody) {
-  Instant instant;
-  instant.addDisk({1.5, 0.0}, 0.25);
-  instant.addDisk({2.0, 0.0}, 0.25);
-  instant.scene.bodies.push_back({"wheel", Vec2::Zero(), {Vec2(1.15, 0.0)}, {0.1}, {}, {}});
-  instant.scene.bodies.push_back(
-      {"ring", Vec2::Zero(), {Vec2(2.35, 0.0), Vec2(-2.35, 0.0)}, {0.1, 0.1}, {}, {}});
-  instant.addContact(0, 1, {-1.0, 0.0}, 7.0, 0.0);
-  instant.addContact(0, 2, {1.0, 0.0}, 9.0, 0.0);
-  instant.addContact(1, 3, {-1.0, 0.0}, 5.0, 1.0);
-  instant.addContact(1, 4, {-1.0, 0.0}, 5.0, 1.0);
-  EXPECT_EQ(contactsOf(instant.scene, instant.snapshot, "wheel"), 1.0);
-  EXPECT_EQ(contactsOf(instant.scene, instant.snapshot, "ring"), 2.0);
-  instant.addContact(0, 2, {1.0, 0.0}, 0.0, 0.0);  // listed, and transmits nothing
-  EXPECT_EQ(contactsOf(instant.scene, instant.snapshot, "wheel"), 1.0);
-  // A wheel that nobody knows the disks of touches an unknown number, not none.
-  instant.scene.bodies.push_back({"axle", Vec2::Zero(), {}, {}, {}, {}});
-  EXPECT_FALSE(contactsOf(instant.scene, instant.snapshot, "axle"));
-  instant.snapshot.contacts.reset();
-  EXPECT_FALSE(contactsOf(instant.scene, instant.snapshot, "wheel"));
-}
-
 }  // namespace
 }  // namespace crossgrain

@@ -15,6 +15,10 @@ Rings thesisRings(int count) {
   return {0.1032, 0.2524, count, 0.006, 0.0074};
 }
 
+Rings twoRings() {
+  return {1.0, 3.0, 2, 0.5, 0.2};
+}
+
 Instant::Instant() {
   scene.name = "instant";
   snapshot.spin.emplace();
@@ -27,6 +31,16 @@ void Instant::addDisk(const Vec2& position, double radius, double mass, const Ve
   snapshot.position.push_back(position);
   snapshot.velocity.push_back(velocity);
   snapshot.spin->push_back(spin);
+}
+
+void Instant::addWall(const std::string& name, const std::vector<Vec2>& places, double radius) {
+  WallBody body;
+  body.name = name;
+  body.diskPosition = places;
+  body.diskRadius.assign(places.size(), radius);
+  scene.bodies.push_back(body);
+  snapshot.bodies.emplace_back();
+  snapshot.wallPosition.insert(snapshot.wallPosition.end(), places.begin(), places.end());
 }
 
 void Instant::addContact(std::int32_t i, std::int32_t j, const Vec2& normal, double normalForce,
@@ -54,13 +68,7 @@ Instant randomInstant(std::uint64_t seed, int disks) {
                     large ? largeMass : smallMass, 0.1 * Vec2(normal(generator), normal(generator)),
                     normal(generator));
   }
-  WallBody body;
-  body.name = "wheel";
-  body.diskPosition = {Vec2(0.1032, 0.0), Vec2(-0.1032, 0.0)};
-  body.diskRadius = {wallRadius, wallRadius};
-  instant.scene.bodies.push_back(body);
-  instant.snapshot.bodies.emplace_back();
-  instant.snapshot.wallPosition = body.diskPosition;
+  instant.addWall("wheel", {Vec2(0.1032, 0.0), Vec2(-0.1032, 0.0)}, wallRadius);
   std::uniform_int_distribution<std::int32_t> anyDisk(0, disks - 1);
   for (int c = 0; c < disks; ++c) {
     const std::int32_t i = anyDisk(generator);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "adapters/scene.hpp"
@@ -15,6 +16,9 @@ namespace crossgrain::test {
 /// The thesis' cell: R_i, R_o, h and d in metres, 20 rings.
 Rings thesisRings(int count = 20);
 
+/// Two rings 1–2 m and 2–3 m of height 0.5 m; d = 0.2 m.
+Rings twoRings();
+
 /// A scene and one instant of it, grown disk by disk and contact by contact.
 struct Instant {
   Scene scene;
@@ -23,6 +27,8 @@ struct Instant {
   Instant();
   void addDisk(const Vec2& position, double radius, double mass = 1.0,
                const Vec2& velocity = Vec2::Zero(), double spin = 0.0);
+  /// A body of wall disks of one radius, which stands still.
+  void addWall(const std::string& name, const std::vector<Vec2>& places, double radius);
   /// normal from j to i, as in Contacts
   void addContact(std::int32_t i, std::int32_t j, const Vec2& normal, double normalForce,
                   double tangentialForce);

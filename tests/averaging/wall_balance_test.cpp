@@ -29,16 +29,12 @@ Rings ringsOfWidth(double width) {
 /// A ring of wall disks, `count` of them from the angle 0 on, numbered after the disks.
 Instant walled(int count) {
   Instant instant;
-  WallBody ring;
-  ring.name = "outside";
+  std::vector<Vec2> places;
   for (int k = 0; k < count; ++k) {
     const double phi = 2.0 * pi * k / count;
-    ring.diskPosition.emplace_back(outerRadius * std::cos(phi), outerRadius * std::sin(phi));
-    ring.diskRadius.push_back(wallRadius);
+    places.emplace_back(outerRadius * std::cos(phi), outerRadius * std::sin(phi));
   }
-  instant.scene.bodies = {ring};
-  instant.snapshot.wallPosition = ring.diskPosition;
-  instant.snapshot.bodies = {BodySnapshot{}};
+  instant.addWall("outside", places, wallRadius);
   return instant;
 }
 

@@ -3,15 +3,18 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <barrier>
 #include <chrono>
 #include <map>
+#include <thread>
+#include <vector>
 
 #include "adapters/grain.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
+#include "engines/grain/simulation.hpp"
 #include "tests/bench/packings_option.hpp"
-#include "tests/bench/stream.hpp"
-#include "tests/bench/traffic.hpp"
 
 namespace crossgrain::bench {
 namespace {
@@ -21,6 +24,80 @@ using grain::Setup;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The stream test.
+
+constexpr std::size_t streamLength = std::size_t{1} << 24;
+constexpr int streamPasses = 30;
+
+double measureStream(int threads) {
+  std::vector<double> a(streamLength), b(streamLength, 1.0), c(streamLength, 2.0);
+  std::vector<Clock::time_point> time;
+  std::barrier pass(threads, [&time]() noexcept { time.push_back(Clock::now()); });
+  time.reserve(streamPasses + 1);
+  const auto work = [&](int thread) {
+    const std::size_t begin = streamLength * static_cast<std::size_t>(thread) / threads;
+    const std::size_t end = streamLength * static_cast<std::size_t>(thread + 1) / threads;
+    pass.arrive_and_wait();
+    for (int k = 0; k < streamPasses; ++k) {
+      const double factor = 3.0 + k;  // so that no pass is the one before
+      for (std::size_t i = begin; i < end; ++i) a[i] = b[i] + factor * c[i];
+      pass.arrive_and_wait();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int thread = 1; thread < threads; ++thread) others.emplace_back(work, thread);
+    work(0);
+  }
+  double best = 1e9;
+  for (std::size_t k = 1; k < time.size(); ++k)
+    best = std::min(best, std::chrono::duration<double>(time[k] - time[k - 1]).count());
+  return 3.0 * sizeof(double) * streamLength / best;
+}
+
+/// What memory gives to the loop a[i] = b[i] + s c[i] (triad; McCalpin 1995) on arrays of 128 MiB,
+/// far beyond the caches, counted as there: 24 bytes an element, without the read that a write
+/// brings about. The best of some passes [byte/s]. Measured once per number of threads.
+double streamBandwidth(int threads) {
+  static std::map<int, double> known;
+  if (!known.contains(threads)) known[threads] = measureStream(threads);
+  return known[threads];
+}
+
+/// Bytes that one step without new lists moves between core and memory when nothing of it fits a
+/// cache: every array once per pass over it, read and write counted apart, the read that a write
+/// brings about not counted, as in the stream test. Partners of a disk are taken to be in cache:
+/// disks are near each other in memory if they are in space.
+struct Traffic {
+  double perDisk = 0.0, perPair = 0.0;  ///< [byte]; pairs are the near ones
+
+  double perStep(double disks, double pairs) const { return perDisk * disks + perPair * pairs; }
+};
+
+/// The model for the step of engines/grain, pass by pass: `setup` says which arrays there are.
+Traffic stepTraffic(const Setup& setup) {
+  const bool single = setup.precision == grain::Precision::float32;
+  const double real = single ? 4.0 : 8.0;
+  const bool spins = setup.law.friction() && setup.rotation;
+  const bool velocities = setup.law.friction() || setup.law.gn > 0.0;
+  const bool predict = setup.law.damping == grain::Damping::predicted &&
+                       setup.integrator != grain::Integrator::semiImplicitEuler;
+  Traffic traffic;
+  const auto disk = [&](int reads, int writes) { traffic.perDisk += real * (reads + writes); };
+
+  disk(10, 6);                          // motion: x, v, f, 1/m, x chosen, allowance → x, v, f
+  if (predict) disk(0, 2);              //         → u
+  if (spins) disk(3, predict ? 3 : 2);  //         ω, M, 1/J → ω, M, u_ω
+  if (setup.bottom) disk(4, 2);         //         plate: m, a, ξ_b → ξ_b
+  disk(5, 2);                           // pairs: x, a, f → f
+  if (velocities) disk(2, 0);           //        u
+  if (spins) disk(2, 1);                //        u_ω, M → M
+  traffic.perPair += 8;                 //        i, j
+  if (setup.law.springs()) traffic.perPair += 2 * real;  // ξ → ξ
+  if (single) traffic.perPair += 8;                      //        origin of i − origin of j
+  return traffic;
 }
 
 /// One set of effects: the thesis' law, changed.

@@ -28,6 +28,33 @@ TEST(Box2dPenalty, RestitutionWithTensionAndCut) {
   }
 }
 
+TEST(Box2dPenalty, KeepsMomentumAndWithContactPointArmsAngularMomentum) {
+  Scene scene;
+  scene.law = box2dLaw();
+  scene.law.conventions.leverArm = LeverArm::contactPoint;
+  scene.dt = 4e-5;
+  addDisk(scene, smallRadius, smallMass, Vec2(0, 0), Vec2(0.1, 0.02), 8.0);
+  addDisk(scene, largeRadius, largeMass, Vec2(8.3e-3, 2e-3), Vec2(-0.05, 0), -3.0);
+  const auto momentum = [&](const Snapshot& at) {
+    return Vec2(smallMass * at.velocity[0] + largeMass * at.velocity[1]);
+  };
+  const auto angular = [&](const Snapshot& at) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 2; ++i)
+      sum += scene.disks.mass[i] * cross(at.position[i], at.velocity[i]) +
+             scene.disks.inertia[i] * (*at.spin)[i];
+    return sum;
+  };
+  const auto engine = makeBox2dPenalty();
+  const Snapshot before = runTo(*engine, scene, 0.0);
+  engine->advance(0.02);
+  const Snapshot after = engine->snapshot(ContactReport::none);
+  EXPECT_GT((after.velocity[0] - before.velocity[0]).norm(), 0.05);  // they did collide
+  EXPECT_NEAR((momentum(after) - momentum(before)).norm(), 0.0, 1e-13 * momentum(before).norm());
+  // x × v of the semi-implicit Euler scheme is exact for central forces; 1e-12: rounding.
+  EXPECT_NEAR(angular(after), angular(before), 1e-12 * std::abs(angular(before)));
+}
+
 TEST(Box2dPenalty, ContactsAndWallForcesAreThoseOfTheMoment) {
   Scene scene;
   scene.law = box2dLaw();

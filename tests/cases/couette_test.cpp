@@ -56,11 +56,14 @@ TEST(Couette, Holes_AreGapsBetweenWallDisks) {
   }
 }
 
-TEST(Couette, Preparation_FillsTheCell) {
+TEST(Couette, Preparation_FillsTheCell_RepeatsAndDiffersByIndex) {
   const Case setup = quickCell();
   const auto engine = makeGrain();
   double last = 0.0;
-  const Packing packing = preparePacking(setup, 0, 4e-5, *engine, [&](double f) { last = f; });
+  const auto prepared = [&](int index) {
+    return preparePacking(setup, index, 4e-5, *engine, [&](double f) { last = f; });
+  };
+  const Packing packing = prepared(0);
   EXPECT_EQ(last, 1.0);
   ASSERT_EQ(packing.disks.size(), 220u);
   EXPECT_EQ(std::ranges::count(packing.disks.radius, test::largeRadius), 30);
@@ -71,6 +74,12 @@ TEST(Couette, Preparation_FillsTheCell) {
   // Ω·(shrink time + 0.01 rotations), to the steps that make up that time.
   EXPECT_NEAR(packing.wheelAngle, 0.1 + 0.01 * 2.0 * std::numbers::pi, 4e-5);
   EXPECT_NO_THROW(checkStart(couetteScene(setup, packing, 4e-5), setup.particles, "here"));
+  const Packing again = prepared(0), other = prepared(1);
+  EXPECT_EQ(packing.disks.position, again.disks.position);
+  EXPECT_EQ(packing.disks.spin, again.disks.spin);
+  EXPECT_EQ(packing.hash, again.hash);
+  EXPECT_NE(packing.disks.position, other.disks.position);
+  EXPECT_NE(packing.hash, other.hash);
 }
 
 TEST(Couette, PreparationDt_MakesPackingsIndependentOfTheRun) {
@@ -97,20 +106,6 @@ TEST(Couette, PreparationTime) {
   EXPECT_NEAR(preparationSteps(setup), 4070.8, 0.1);
   setup.preparation.dt = 8e-5;
   EXPECT_NEAR(preparationSteps(setup), 2035.4, 0.1);
-}
-
-TEST(Couette, Packings_DifferByIndex_AndRepeat) {
-  const Case setup = quickCell();
-  const auto engine = makeGrain();
-  const auto nothing = [](double) {};
-  const Packing one = preparePacking(setup, 0, 4e-5, *engine, nothing);
-  const Packing again = preparePacking(setup, 0, 4e-5, *engine, nothing);
-  const Packing other = preparePacking(setup, 1, 4e-5, *engine, nothing);
-  EXPECT_EQ(one.disks.position, again.disks.position);
-  EXPECT_EQ(one.disks.spin, again.disks.spin);
-  EXPECT_EQ(one.hash, again.hash);
-  EXPECT_NE(one.disks.position, other.disks.position);
-  EXPECT_NE(one.hash, other.hash);
 }
 
 /// Another engine prepares what the case lets it, and a setting of it makes another packing.
@@ -150,13 +145,6 @@ TEST(Couette, PackingHash_ChangesWithEveryInput) {
   EXPECT_EQ(hash, changed([](Case& c) { c.averaging.rings = 40; }));
 }
 
-TEST(Couette, Lattice_WithoutRoom_IsBadInput) {
-  Case setup = quickCell();
-  setup.preparation.dilation = 1.0;
-  const auto engine = makeGrain();
-  EXPECT_THROW(preparePacking(setup, 0, 4e-5, *engine, [](double) {}), BadInput);
-}
-
 TEST(Couette, BadStart_NamesTheDisks) {
   const Case setup = quickCell();
   Packing packing;
@@ -178,6 +166,9 @@ TEST(Couette, BadStart_NamesTheDisks) {
       "= 0.2 of the small radius allows (0.00074 m)");
   packing.disks.position[7] = packing.disks.position[3];
   EXPECT_EQ(message(), "my.h5: disk 3 and disk 7 have the same centre");
+  Case crowded = setup;  // the lattice that packings begin with has no room
+  crowded.preparation.dilation = 1.0;
+  EXPECT_THROW(preparePacking(crowded, 0, 4e-5, *makeGrain(), [](double) {}), BadInput);
 }
 
 }  // namespace

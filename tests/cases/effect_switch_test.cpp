@@ -98,6 +98,10 @@ TEST(EffectSwitch, Without_KeepsOtherConstants) {
   EXPECT_EQ(off(switches, "double_precision").run.precision, Precision::float32);
   EXPECT_EQ(off(switches, "bottom_spin_friction").bottom->mu, base.bottom->mu);
   EXPECT_FALSE(off(switches, "rotation").particles.rotation);
+  for (const auto& [left, effect] :
+       {std::pair(thesisCase({"law.tangential=spring", "law.gt=0"}), Effect::tangentialSpring),
+        std::pair(thesisCase({"law.tangential=viscous", "law.kt=0"}), Effect::tangentialDamping)})
+    EXPECT_EQ(without(left, effect)->without.law.tangential, TangentialLaw::coulomb);
 }
 
 TEST(EffectSwitch, Fragment_MakesTheSameCase) {
@@ -116,16 +120,6 @@ TEST(EffectSwitch, NoRotation_DropsSpins) {
   EXPECT_EQ(couetteScene(base, packing, 1e-5).disks.spin, std::vector<double>{7.0});
   const auto blocked = without(base, Effect::rotation);
   EXPECT_EQ(couetteScene(blocked->without, packing, 1e-5).disks.spin, std::vector<double>{0.0});
-}
-
-TEST(EffectSwitch, TangentialLaws_Simplify) {
-  Case setup = thesisCase({"law.tangential=spring", "law.gt=0"});
-  EXPECT_EQ(without(setup, Effect::tangentialSpring)->without.law.tangential,
-            TangentialLaw::coulomb);
-  EXPECT_FALSE(without(setup, Effect::tangentialDamping));
-  setup = thesisCase({"law.tangential=viscous", "law.kt=0"});
-  EXPECT_EQ(without(setup, Effect::tangentialDamping)->without.law.tangential,
-            TangentialLaw::coulomb);
 }
 
 }  // namespace

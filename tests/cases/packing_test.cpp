@@ -148,15 +148,6 @@ TEST(RandomStreams, SameOnEveryMachine) {
   EXPECT_EQ(drawn(7, 0).front(), gsl_rng_uniform(plain.get()));
 }
 
-TEST(Packing, Hash_DiffersBySeedAndIndex) {
-  Case one = kinds(), two = kinds();
-  one.cell = two.cell = {0.1, 0.2, 0.001, 0.003, 0.006, 1.0};
-  one.preparation.seed = 1;
-  two.preparation.seed = 2;
-  EXPECT_NE(packingHash(one, 1, 1e-5), packingHash(two, 0, 1e-5));
-  EXPECT_NE(packingHash(one, 1, 1e-5), packingHash(two, 1, 1e-5));
-}
-
 TEST(Packing, UserFile_NeedsRadiiAndPositionsOnly) {
   {
     Hdf5File out = Hdf5File::create(file("user.h5"));

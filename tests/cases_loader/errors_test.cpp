@@ -3,7 +3,7 @@
 // makes beyond its table. Laws: law_errors_test.cpp.
 #include <sys/stat.h>
 
-#include "bad_cases.hpp"
+#include "files.hpp"
 
 namespace crossgrain::test {
 namespace {

@@ -44,13 +44,6 @@ TEST_F(Keys, Defaults_AreThoseOfTheTypes) {
   EXPECT_EQ(info("averaging", "confidence").values, "(0, 1)");
 }
 
-TEST_F(Keys, UnknownKey_ListsAllOfItsSection) {
-  std::ofstream("case.toml") << soundCase << "[bottom]\nzzzzzzzzzzzzzzzzzzzz = 1\n";
-  EXPECT_EQ(messageOf("case.toml"),
-            "case.toml:25:1: unknown key bottom.zzzzzzzzzzzzzzzzzzzz (there are: mu, kb, gb, "
-            "tau_m, gravity, spin)");
-}
-
 TEST_F(Keys, InlineTables_AreInTheMeaning) {
   const auto asked = [](const std::string& text) {
     std::ofstream("case.toml") << text;

@@ -1,5 +1,5 @@
 // Bad input as in errors_test.cpp, of laws.
-#include "bad_cases.hpp"
+#include "files.hpp"
 
 namespace crossgrain::test {
 namespace {

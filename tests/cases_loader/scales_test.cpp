@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "bad_cases.hpp"
+#include "files.hpp"
 #include "cases/couette.hpp"
 #include "cases/time_step.hpp"
 #include "tests/support/thesis.hpp"

@@ -122,6 +122,18 @@ TEST_P(Neighbours, SpringsFollowTheirDisksWhenTheseAreRenumbered) {
   EXPECT_GT(kept, 100u);
 }
 
+TEST_P(Neighbours, AreCollectedAnewOnceADiskUsedUpHalfTheSkin) {
+  scatter(50, 10.0, 50);
+  const std::size_t rebuilds = lists->skin().rebuilds();
+  travel.assign(50, 0.0);  // leaves the least allowance, 1e-4 of the smallest radius
+  position[17].y += 0.5 * fixedSkin - 2e-4;
+  update();
+  EXPECT_EQ(lists->skin().rebuilds(), rebuilds);
+  position[17].y += 2e-4;
+  update();
+  EXPECT_EQ(lists->skin().rebuilds(), rebuilds + 1);
+}
+
 TEST_P(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
   scatter(50, 10.0, 50);
   position[0].x = 1e9;
