@@ -8,7 +8,7 @@
 
 #include "reports/thesis/drawing.hpp"
 #include "reports/thesis/report.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
@@ -106,16 +106,6 @@ TEST(RegimeMap, TheLongestRunOfAPackingStandsForIt) {
   EXPECT_TRUE(rows[5].starts_with("20,1,0,"));
 }
 
-TEST(RegimeMap, IsATableToo) {
-  const std::string csv = regimeMapCsv(fourDensities());
-  EXPECT_TRUE(has(csv,
-                  "engine,group,nu,after_rotations,packings,carry,wheel_contacts,"
-                  "wheel_contacts_stderr,outer_pressure,outer_pressure_stderr,critical_nu,"
-                  "critical_nu_stderr\n"));
-  EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",0.796,5,2,1,5.25,4.75,50.5,49.5,,\n"));
-  EXPECT_TRUE(has(csv, "engine,\"default, Ω = 0.1 /s\",,1,8,8,,,,,,\n"));
-}
-
 TEST(RegimeMap, SentencesSayWhereTheWheelHasContacts) {
   const auto figures = mapFigures(fourDensities());
   const auto contacts = std::ranges::find(figures, "map_contacts", &Figure::name);
@@ -192,31 +182,6 @@ TEST(RegimeMap, WiderRingsArePutTogetherOfNarrowOnes) {
   const double r7 = 0.1032 + 7.5 * width;
   const double upper = (ring(6) * r6 + ring(7) * r7) / (r6 + r7);
   EXPECT_TRUE(std::abs(slices[1].y - lower) < 1e-12 || std::abs(slices[1].y - upper) < 1e-12);
-}
-
-/// Figure 4.3 of sweeps made by hand.
-TEST(RegimeMap, CollisionsAreDrawnByLaw) {
-  ThesisResults results;
-  CollideResults& collisions = results.collisions.emplace();
-  for (const char* const law : {"coulomb", "spring"}) {
-    CollisionVariant& variant = collisions.variants.emplace_back();
-    variant.law["tangential"] = std::string(law);
-    variant.law["tension"] = std::string("cut");
-    variant.law["mu"] = 0.44;
-    CollisionCurve& curve = variant.curves.emplace_back();
-    curve.engine = "engine";
-    curve.stepsPerContact = 50.0;
-    curve.points.psi = {0.5, 3.0};
-    curve.points.vn = {0.01, 0.01};
-    curve.points.columns[QuantityId::psiF] = {{law == std::string("spring") ? -0.4 : 0.0, 1.2}};
-    curve.points.columns[QuantityId::en] = {{0.34, 0.34}};
-  }
-  const auto figures = collisionFigures(results);
-  ASSERT_EQ(1u, figures.size());
-  EXPECT_EQ("figure_4_3", figures[0].name);
-  ASSERT_EQ(1u, figures[0].panels.size());  // tension was not allowed in any
-  EXPECT_TRUE(has(figures[0].caption, "tension cut, engine, spring: lowest Ψ_f −0.400, e_n 0.340"));
-  EXPECT_TRUE(collisionFigures({}).empty());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "reports/site/history.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -64,16 +64,6 @@ TEST(SiteOverview, HasTheMostSevereAnswerOfEachReport) {
                 "Undecided: ours in compare quick; each report has what would decide."}));
   EXPECT_EQ(siteOverview({reports[2]}).conclusion,
             std::vector<std::string>{"All passed or decided: ours."});
-}
-
-TEST(SiteOverview, TellsReportsOfOneNameApart) {
-  using enum CellState;
-  std::vector<SiteReport> reports = {siteReportOf("collide", good, bad),
-                                     siteReportOf("collide", good, bad)};
-  reports[1].folder = "again";
-  const Overview overview = siteOverview(reports);
-  EXPECT_EQ(overview.columns[0].name, "collide quick (collide)");
-  EXPECT_EQ(overview.columns[1].name, "collide quick (again)");
 }
 
 TEST(EngineOverview, HasTheAnswersOfEachReportWithTheWayToThem) {
@@ -219,20 +209,6 @@ TEST(Site, HasAnIndexThatLeadsToEachReport) {
   EXPECT_TRUE(std::filesystem::exists(site / "one-2/stability.csv"));
   EXPECT_FALSE(has(index, "{{"));
   EXPECT_TRUE(has(readFile(site / "summary.md").value(), "# crossgrain: 2 reports"));
-}
-
-TEST(Site, ShowsTheHistoryOfACase) {
-  const TemporaryFolder folder;
-  const auto site = folder.path() / "site";
-  StabilityResults before = sample::stabilityResults(), now = before;
-  before.head.version = "0.1.0";
-  now.head.version = "0.2.0";
-  now.head.build = "abc";
-  writeSite({{"a/before", toJson(before)}, {"b/now", toJson(now)}}, site);
-  const std::string index = readFile(site / "index.html").value();
-  EXPECT_TRUE(has(index, "<h2 id=\"history\">"));
-  EXPECT_TRUE(has(index, "<a href=\"now/report.html\">"));
-  EXPECT_TRUE(has(index, "No answer changed from the first to the last."));
 }
 
 }  // namespace

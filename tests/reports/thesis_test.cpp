@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -72,17 +72,6 @@ TEST(ThesisTables, HoldEveryFigureOfEveryClaim) {
       "C5,grain,,wall spacing 7 mm,ν₀,0.84,,,0.87,,reproduced,\"it is 9, not 4 to "
       "7\",,Impacts dilate it.\n"
       "C6,grain,,,,,,,,,undecided,no runs,,\n");
-}
-
-TEST(ThesisTables, HoldEveryRotation) {
-  const std::string table = historyCsv(twoClaims());
-  EXPECT_TRUE(has(table, "\nnu-0.804,grain,0,0,1,200,,50,,,,,,,,\n"));
-  EXPECT_TRUE(has(table, "\nnu-0.804,grain,0,1,2,6,,,,,,,,,,\n"));
-}
-
-TEST(ThesisTables, ClaimsText_IsALineEach) {
-  EXPECT_EQ(claimsText(twoClaims()).substr(0, claimsText(twoClaims()).find('\n')),
-            "C5   refuted    grain            C⁻¹: 9.00\u00a0±\u00a00.50 d [4 … 7]; default");
 }
 
 TEST(ThesisOverview, HasEveryClaimUnderItsFirstInterpretation) {
