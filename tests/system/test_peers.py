@@ -193,7 +193,7 @@ class Lammps(Peer):
             for program in pathlib.Path("/usr/bin").iterdir():
                 if not program.name.startswith("mpi"):
                     (pathlib.Path(folder) / program.name).symlink_to(program)
-            done = self.compare(TWO, "--quiet", engines="lammps", env={"PATH": folder})
+            done = self.compare(TWO, "--quiet", engines="lammps", out=self.folder / "other", env={"PATH": folder})
         self.assert_one_error(done, BAD_INPUT, "ranks = 2", "mpirun", "openmpi-bin")
 
     def snapshots_of(self, ranks):

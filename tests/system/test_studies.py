@@ -187,7 +187,7 @@ class Baseline(StudyTest):
         self.assertRegex(done.stdout, r"averages from 4 starts:[\s\S]*\n    pressure +disagree: [0-9.]+ margins")
 
     def test_collisions(self):
-        self.keep("grain", case=COLLISION)
+        self.keep("grain", "--set=collision.psi=[0.5, 2.0]", case=COLLISION)
         self.assertRegex(self.diff("grain").stdout, r"figure-4-3, 0 starts[\s\S]*same bits")
         done = self.diff("grain", "--set=law.gn=0.2")
         self.assert_status(done, FELL_SHORT)
