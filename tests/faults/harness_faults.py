@@ -21,7 +21,7 @@ import reading
 
 tests = {"averaging": "planted_averaging_tests", "oracle": "planted_oracle_tests"}
 independent = planted_faults.project / "tests/system/independent_averages.py"
-sound = 1e-10  # of a field's largest value, as in tests/system/test_independent.py
+sound = 1e-10  # of a field's largest value, as in tests/system/test_average.py
 seconds = 300
 
 

@@ -28,9 +28,20 @@ namespace crossgrain::test {
 /// "hertz-radius"      its law of Hertz lacks √R₁₂ (of the first pair, in SI units)
 /// "impulse-planes"    impulses restore 0.8 e_n where there are planes
 /// "impulse-sizes"     the same where disks are of several sizes
-EngineEntry misbehavingEntry(const std::string& mischief, std::uint64_t step);
+inline EngineEntry misbehavingEntry(const std::string& mischief, std::uint64_t step) {
+  EngineEntry entry;
+  entry.name = mischief;
+  entry.summary = "misbehaves on purpose";
+  entry.command = [=] {
+    return std::vector<std::string>{CROSSGRAIN_MISBEHAVING, mischief, std::to_string(step)};
+  };
+  return entry;
+}
 
 /// Those that end a run; the others go on as if nothing were.
-const std::vector<std::string>& fatalMischiefs();
+inline const std::vector<std::string>& fatalMischiefs() {
+  static const std::vector<std::string> all = {"nan", "hang", "exit", "crash", "garbage", "short"};
+  return all;
+}
 
 }  // namespace crossgrain::test

@@ -1,14 +1,19 @@
-#include "tests/misbehaving/misbehaving_engine.hpp"
-
+// A worker that misbehaves on purpose: entries.hpp says how.
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "adapters/engine.hpp"
 #include "adapters/grain.hpp"
+#include "adapters/worker/serve.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -45,7 +50,33 @@ Scene otherwise(const std::string& mischief, Scene scene) {
   return scene;
 }
 
-}  // namespace
+/// Hands everything on to another engine, and misbehaves from a step on: entries.hpp says how.
+class MisbehavingEngine final : public Engine {
+ public:
+  MisbehavingEngine(std::unique_ptr<Engine> engine, std::string mischief, std::uint64_t step)
+      : engine_(std::move(engine)), mischief_(std::move(mischief)), step_(step) {}
+
+  Capabilities capabilities() const override;
+  EffectiveParameters load(const Scene& scene, const Settings& settings) override;
+  double advance(double t) override;
+  Snapshot snapshot(ContactReport contacts) override;
+  Stats stats() const override;
+  void checkpoint(const std::filesystem::path& file) override;
+  void restore(const std::filesystem::path& file) override;
+
+ private:
+  /// Begins anew from here with that part of the friction; the springs stay or are lost.
+  void beginAnew(double friction, bool springs);
+
+  std::unique_ptr<Engine> engine_;
+  std::string mischief_;
+  std::uint64_t step_;
+  double dt_ = 0.0;
+  Scene scene_;
+  std::uint64_t stepsBehind_ = 0;
+  double behind_ = 0.0;         ///< time at which the engine was loaded anew [s]
+  std::vector<double> turned_;  ///< what bodies had turned by then [rad]
+};
 
 Capabilities MisbehavingEngine::capabilities() const {
   Capabilities can = engine_->capabilities();
@@ -132,4 +163,17 @@ Snapshot MisbehavingEngine::snapshot(ContactReport contacts) {
   return snapshot;
 }
 
+}  // namespace
 }  // namespace crossgrain::test
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs(
+        "usage: misbehaving_engine MISCHIEF STEP, as a worker: tests/misbehaving/entries.hpp\n",
+        stderr);
+    return 2;
+  }
+  crossgrain::test::MisbehavingEngine engine(crossgrain::makeGrain(), argv[1],
+                                             std::stoull(argv[2]));
+  return crossgrain::serve(engine);
+}

@@ -9,7 +9,7 @@
 #include "reports/render/gnuplot.hpp"
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -49,16 +49,6 @@ TEST(Axes, HoldThePanelsLine) {
   EXPECT_EQ(yRangeOf(panelWith({1e-30, 1.0}, 1e-12, true)), "1e-12:1");
   // A linear axis is gnuplot's choice, bounded so that the line is within.
   EXPECT_EQ(yRangeOf(panelWith({1.0, 2.0}, 3.5, false)), "*<3.5:3.5<*");
-}
-
-TEST(Axes, OfTheStabilityFiguresHoldTheLimitThatTheCaptionNames) {
-  int named = 0;
-  for (const Figure& figure : stabilityFigures(sample::stabilityResults())) {
-    if (!has(figure.caption, "the grey line is the limit")) continue;
-    ++named;
-    ASSERT_TRUE(figure.panels[0].level);
-  }
-  EXPECT_GT(named, 0);
 }
 
 using NumberList = std::vector<std::optional<double>>;
@@ -124,35 +114,6 @@ TEST(EnergyFigure, PartsAddUpToAllThatWasLost) {
   }
   for (const char* named : {"stiffness, which follows the overlap", "all that was lost"})
     EXPECT_TRUE(has(figure->caption, named)) << named;
-}
-
-TEST(EnergyFigure, NamesThePartsThatAreThere) {
-  CollideResults results = energies();
-  results.variants.erase(results.variants.begin());  // rigid disks: what was lost, and no parts
-  const auto figures = collideFigures(results);
-  const auto figure = std::ranges::find(figures, "collision_1_energy", &Figure::name);
-  ASSERT_NE(figure, figures.end());
-  EXPECT_TRUE(has(figure->caption, "all that was lost"));
-  for (const char* absent : {"sliding", "dashpot", "stiffness"})
-    EXPECT_FALSE(has(figure->caption.substr(0, figure->caption.find(" Lines:")), absent)) << absent;
-}
-
-TEST(CollideFigure, MarksPointsWithoutALimitAndNamesOnlyWhatItDraws) {
-  CollideResults results = sample::collideResults();
-  const auto captionOf = [](const CollideResults& of) {
-    return collideFigures(of).front().caption;
-  };
-  EXPECT_FALSE(has(captionOf(results), "Red squares"));
-  EXPECT_TRUE(has(captionOf(results), "Dashed grey"));
-  results.variants[0].noLimit = {{0.5, 1e-4, -0.2, "it jumps"}};
-  EXPECT_TRUE(has(captionOf(results), "Red squares"));
-  for (CollisionVariant& variant : results.variants) {
-    variant.slidingConstant.reset();
-    variant.sticking.et0.reset();
-    variant.oracle = {};
-  }
-  EXPECT_FALSE(has(captionOf(results), "Dashed grey"));
-  EXPECT_FALSE(has(captionOf(results), "Grey: the oracle"));
 }
 
 }  // namespace

@@ -152,28 +152,5 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   EXPECT_EQ(costToml(results), "");
 }
 
-TEST(CostReport, Texts_OfSettingsAndMeasures) {
-  EXPECT_EQ(settingText("integrator", "velocity_verlet, t_c/50"), "velocity verlet, t_c/50");
-  EXPECT_EQ(settingText("precision", "float"), "precision float");
-  EXPECT_EQ(settingText("effect:friction", "without friction"), "without friction");
-  EXPECT_EQ(settingText("skin", "skin = 0.001"), "skin = 0.001");
-  EXPECT_EQ(measureText("psi_f_own"), "Ψ_f, own limit");
-  EXPECT_EQ(measureText("position_rms_grain"), "positions, compared with grain");
-}
-
-TEST(CostReport, Text_HasVerdictsReasonsAndFragments) {
-  const Report report = reportOf(sample::costResults());
-  const std::string text = textOf(report);
-  EXPECT_TRUE(has(text, "is decided for 9 of 9 against"));
-  EXPECT_TRUE(has(text, "box2d-impulse refused the scene: odd <b>"));
-  EXPECT_TRUE(has(text, " not measured, for they did not fit into the budget of 12 min 00 s"));
-  EXPECT_TRUE(has(text, "would take about 140 s, budget 60 s"));
-  EXPECT_TRUE(has(text, "a disk left the cell at step 37; odd <b>"));
-  EXPECT_TRUE(has(text, "### grain for 10 %: t_c/10\n[run]\nsteps_per_contact = 10\n"));
-  for (const char* plot : {"[cost_collision]", "[cost_trajectory]", "[cost_averages]"})
-    EXPECT_TRUE(has(text, plot)) << plot;
-  EXPECT_TRUE(has(textOf(reportOf(CostResults{})), "Nothing was measured."));
-}
-
 }  // namespace
 }  // namespace crossgrain::reports

@@ -72,30 +72,6 @@ TEST(Csv, ProfilesCountRingsFromOneAndLeaveAbsentCellsEmpty) {
             std::string::npos);
 }
 
-TEST(Csv, DistributionsAreRowsOfWhatIsThere) {
-  const CompareResults results = compareFromJson(nlohmann::json::parse(R"({
-    "runs": [{"engine": "one", "packing": 2, "distributions": [
-      {"quantity": "spin", "ring": 0, "axes": [{"low": -1, "width": 0.5, "count": 3}],
-       "density": [0.25, 0, 1.5], "stderr": [0.125, 0, 0.5], "outside": 0.125, "samples": 8},
-      {"quantity": "joint", "ring": null, "samples": 4, "outside": 0,
-       "axes": [{"low": 0, "width": 1, "count": 2}, {"low": 10, "width": 2, "count": 1}],
-       "density": [0, 0.5], "stderr": []}]}]})"));
-  EXPECT_EQ(averageTable(results, "distributions.csv"),
-            "engine,packing,quantity,ring,low,high,density,stderr,low_2,high_2,stderr_kind\n"
-            "one,2,spin,1,-1,-0.5,0.25,0.125,,,within_run\n"
-            "one,2,spin,1,0,0.5,1.5,0.5,,,within_run\n"
-            "one,2,spin,1,,,0.125,,,,within_run\n"
-            "one,2,joint,all,1,2,0.5,,10,12,within_run\n");
-}
-
-TEST(Csv, SeriesKeepTheContractsColumnsAndAppendFurtherOnes) {
-  EXPECT_EQ(averageTable(tiny(), "series.csv"),
-            "engine,packing,t_s,wheel_torque,outer_pressure,kinetic_energy,coordination,"
-            "max_overlap,sliding_fraction,zz_extra\n"
-            "one,0,0,,,1,,,,7\n"
-            "one,0,0.25,0.002,,2,,,,8\n");
-}
-
 TEST(Csv, AgreementHasRingsWithTheirPlaceAndNoVerdict) {
   EXPECT_EQ(agreementCsv(tiny()),
             "a,b,field,ring,difference,stderr,low,high,margin,place,detects,within_share,"
@@ -187,20 +163,6 @@ TEST(Csv, CollisionsShowASweepWithoutPointsByItsStatus) {
             "model difference,fell short,held,2e-14\n"
             "two,walton,\"soft, cut\",,,,,,,,failed,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,,it hung,"
             "failed,,,\n");
-}
-
-TEST(Csv, QuotesCommasAndQuotesInNames) {
-  CompareResults results = tiny();
-  results.runs[0].engine = "a,\"b\"";
-  EXPECT_NE(averageTable(results, "profiles.csv").find("\n\"a,\"\"b\"\"\",0,slicing"),
-            std::string::npos);
-}
-
-TEST(Csv, EveryRunRingAndFieldOfTheSampleHasARow) {
-  const CompareResults results = sample::compareResults(2, 10);
-  const std::string table = averageTable(results, "profiles.csv");
-  // 4 engines × 2 packings − 1 failed run, and 4 ensembles; 7 fields, 20 rings; one header.
-  EXPECT_EQ(std::ranges::count(table, '\n'), (4 * 2 - 1 + 4) * 7 * 20 + 1);
 }
 
 }  // namespace

@@ -21,17 +21,33 @@ const Figure& figureNamed(const std::vector<Figure>& figures, const std::string&
   throw std::runtime_error("no figure " + name);
 }
 
-TEST(Styles, AnEngineKeepsItsColourAndAMirrorSharesItsPeers) {
-  const CompareResults results = sample::compareResults(1, 10);
-  const auto engines = engineRuns(results);
-  ASSERT_EQ(engines.size(), 5u);
-  EXPECT_EQ(engines[3].mirrors, engines[1].name);
-  EXPECT_EQ(engines[3].style.colour, engines[1].style.colour);
-  EXPECT_TRUE(engines[3].style.dashed);
-  EXPECT_NE(engines[3].style.pointType, engines[1].style.pointType);
-  EXPECT_NE(engines[0].style.colour, engines[1].style.colour);
-  EXPECT_NE(engines[0].style.colour, engines[2].style.colour);
-  EXPECT_NE(engines[4].style.colour, engines[2].style.colour);
+EngineRow named(const char* name, const char* mirrors = "") {
+  return {name, "", "", mirrors, Status::finished, ""};
+}
+
+TEST(EngineStyles, AreTheSameInEveryReport) {
+  const auto two = engineStyles({named("grain"), named("box2d-penalty")});
+  const auto three = engineStyles({named("my-own"), named("yade"), named("box2d-penalty")});
+  EXPECT_EQ(two[1], three[2]);
+  EXPECT_EQ(engineStyles({named("my-own")})[0], three[0]);
+}
+
+TEST(EngineStyles, AMirrorHasItsPeersColourDashedWhetherOrNotThatIsThere) {
+  const LineStyle peer = engineStyles({named("yade")})[0];
+  for (const LineStyle& mirror : {engineStyles({named("grain-as-yade")})[0],
+                                  engineStyles({named("grain"), named("x", "yade")})[1]}) {
+    EXPECT_EQ(mirror.colour, peer.colour);
+    EXPECT_TRUE(mirror.dashed);
+    EXPECT_NE(mirror.pointType, peer.pointType);
+  }
+}
+
+TEST(EngineStyles, NoTwoOfAReportLookAlike) {
+  std::vector<EngineRow> engines;
+  for (int k = 0; k < 20; ++k) engines.push_back(named(fmt::format("engine-{}", k).c_str()));
+  const auto styles = engineStyles(engines);
+  for (std::size_t a = 0; a < styles.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(styles[a] == styles[b]) << a << " " << b;
 }
 
 TEST(Profiles, OfRingsWithoutAWheelAreOverTheRadius) {
@@ -68,18 +84,6 @@ TEST(Profiles, AreMadeDimensionlessAsInTheThesis) {
   ASSERT_EQ(spin.points.size(), 1u);
   EXPECT_DOUBLE_EQ(spin.points[0].y, -0.1);
   EXPECT_DOUBLE_EQ(spin.points[0].error.value(), 0.01);
-}
-
-TEST(Profiles, SayWhatTheirBarsAre) {
-  const CompareResults several = sample::compareResults(4, 10),
-                       single = sample::compareResults(1, 10), two = sample::compareResults(2, 10);
-  EXPECT_EQ(describeBars(engineRuns(several)),
-            "Bars: ± one standard error of the mean over packings.");
-  EXPECT_NE(describeBars(engineRuns(single)).find("conditional on its one packing"),
-            std::string::npos);
-  // One of two runs of the second engine failed: the other is drawn pale.
-  EXPECT_NE(describeBars(engineRuns(two)).find("over packings; pale, without: one run of yade"),
-            std::string::npos);
 }
 
 TEST(Figures, AWideSpreadOfPositiveValuesTakesALogAxis) {

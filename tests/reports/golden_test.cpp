@@ -30,15 +30,23 @@ ConformanceResults conformanceResults() {
   return results;
 }
 
+/// Runs and, of others, claims: what a report of the thesis has of both.
+ThesisResults thesisResults() {
+  ThesisResults results = sample::thesisClaims();
+  results.cases = sample::thesisResults().cases;
+  results.runs = sample::thesisResults().runs;
+  return results;
+}
+
 void expectKept(const char* name, const nlohmann::json& results) {
   const auto file =
       std::filesystem::path(__FILE__).parent_path() / "golden" / (std::string(name) + ".txt");
-  const std::string text = textOf(crossgrain::reportOf(results));
+  const std::string text = wholeTextOf(crossgrain::reportOf(results));
   if (std::getenv("CROSSGRAIN_KEEP_GOLDEN")) writeFile(file, text);
   EXPECT_EQ(readFile(file).value_or("there is none"), text) << file;
 }
 
-TEST(GoldenReports, SayTheSame) {
+TEST(GoldenReports, Text_IsAsKept) {
   expectKept("average", toJson(sample::averageResults()));
   expectKept("collide", toJson(sample::collideResults()));
   expectKept("compare", toJson(sample::compareResults(4, 10)));
@@ -49,6 +57,7 @@ TEST(GoldenReports, SayTheSame) {
   expectKept("rev", toJson(sample::revResults()));
   expectKept("scale", toJson(sample::scaleResults()));
   expectKept("stability", toJson(sample::stabilityResults()));
+  expectKept("thesis", toJson(thesisResults()));
 }
 
 }  // namespace

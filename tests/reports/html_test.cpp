@@ -102,36 +102,6 @@ TEST(Html, EveryBlock_IsEscapedAndTypeset) {
   EXPECT_FALSE(has(page, "a<b"));
 }
 
-TEST(Plots, ExistAsSvgAndPdfWithScriptAndData) {
-  const fs::path plots = compared().folder.path() / "plots";
-  for (const char* name :
-       {"overview", "profile_volume_fraction", "profile_azimuthal_velocity",
-        "profile_azimuthal_velocity_log", "profile_spin", "profile_stress_rr", "profile_stress_pp",
-        "profile_stress_rp", "profile_fabric_trace", "check_1", "series_wheel_torque",
-        "series_outer_pressure", "series_coordination"})
-    for (const char* kind : {".svg", ".pdf", ".gp", ".dat"}) {
-      const auto content = readFile(plots / (std::string(name) + kind));
-      ASSERT_TRUE(content.has_value()) << name << kind;
-      EXPECT_GT(content->size(), 300u) << name << kind;
-      const bool data = std::string(kind) == ".dat";
-      EXPECT_TRUE(!data || !has(*content, "nan")) << name;
-    }
-  for (const char* name : {"collision_1.svg", "collision_1.pdf"})
-    EXPECT_GT(fs::file_size(collided().folder.path() / "plots" / name), 1000u) << name;
-  for (const char* name : {"origins_1_grain.svg", "origins_1_grain.pdf", "forces_2_yade.svg"})
-    EXPECT_GT(fs::file_size(plots / name), 1000u) << name;
-  for (const fs::path& folder : {plots, collided().folder.path() / "plots"})
-    EXPECT_FALSE(fs::exists(folder / "gnuplot.log")) << "gnuplot had something to say";
-}
-
-TEST(Report, IsTheSameWhenRebuilt) {
-  const fs::path dir = collided().folder.path();
-  const TemporaryFolder again;
-  writeReport(readResults(dir), again.path());
-  for (const char* file : {"results.json", "collisions.csv", "report.html"})
-    EXPECT_EQ(readFile(again.path() / file), readFile(dir / file)) << file;
-}
-
 TEST(Report, StandsResultsWithAlmostNothingInThem) {
   const TemporaryFolder folder;
   for (const char* kind : {"average", "effects", "rev", "collide"})
@@ -169,21 +139,6 @@ TEST(Report, NamesWhatIsWrongInAFile) {
   broken = whole;
   broken["engines"][1] = 7;
   EXPECT_EQ(complaint(broken), file + ": engines.1: is number, not an object");
-}
-
-TEST(Report, SaysWhatAFileHoldsThatItShouldNot) {
-  const TemporaryFolder folder;
-  json broken = toJson(sample::collideResults());
-  broken["variants"][0]["curves"][1]["points"]["psi_f"][3] = "fast";
-  try {
-    writeReport(broken, folder.path());
-    FAIL() << "written";
-  } catch (const BadInput& error) {
-    EXPECT_TRUE(has(error.what(),
-                    "results.json: variants.0.curves.1.points.psi_f.3: is string, not a number"))
-        << error.what();
-  }
-  EXPECT_FALSE(fs::exists(folder.path() / "results.json"));
 }
 
 /// Sets PATH for its lifetime.

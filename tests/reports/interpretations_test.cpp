@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/render/html.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -106,18 +105,6 @@ TEST(InterpretationChanges, OnePairHasNoError) {
   EXPECT_EQ(1, row->pairs);
   EXPECT_NEAR(-0.05, changeOf(*row, "ν, ring 1").change.value(), 1e-12);
   EXPECT_FALSE(changeOf(*row, "ν, ring 1").error);
-}
-
-TEST(InterpretationChanges, AreATableAndOnThePage) {
-  const ThesisResults results = twoInterpretations();
-  const std::string csv = interpretationsCsv(results);
-  EXPECT_TRUE(
-      has(csv, "engine,family,reading,nu,rotations,number,unit,default,change,stderr,pairs\n"));
-  EXPECT_TRUE(has(csv, "engine,spacing,wall spacing 7 mm,0.796,5 to 8,\"ν, ring 1\",,0.8,"));
-  EXPECT_TRUE(has(csv, "engine,kn,k_n 176"));
-  const std::string page = html(reportOf(results), "", std::nullopt);
-  EXPECT_TRUE(has(page, "What each interpretation changes"));
-  EXPECT_TRUE(has(page, "<td class=\"n\">2</td><td class=\"n\">−0.035"));
 }
 
 }  // namespace

@@ -1,30 +1,15 @@
+// The matrix that every report begins with: as text, as Markdown, and what stands in it by study.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <random>
 #include <sstream>
 
-#include "reports/collide/report.hpp"
-#include "reports/common/engines.hpp"
-#include "reports/common/labels.hpp"
 #include "reports/common/overview.hpp"
-#include "reports/cost/report.hpp"
-#include "reports/effects/report.hpp"
-#include "reports/flow/endpoint_text.hpp"
-#include "reports/flow/figures.hpp"
-#include "reports/flow/overview.hpp"
-#include "reports/flow/report.hpp"
 #include "reports/lockstep/overview.hpp"
 #include "reports/regression/regression.hpp"
 #include "reports/render/html.hpp"
-#include "reports/stability/report.hpp"
-#include "reports/stability/table.hpp"
-#include "results/json_fields.hpp"
 #include "tests/reports/report_text.hpp"
-#include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -34,17 +19,6 @@ std::vector<std::string> linesOf(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
-}
-
-/// State and number of a cell.
-std::string shown(const OverviewCell& cell) {
-  return fmt::format("{} {}", cellWord(cell.verdict), cell.shown);
-}
-
-const OverviewRow& rowOf(const Overview& overview, const std::string& name) {
-  const auto found = std::ranges::find(overview.rows, name, &OverviewRow::name);
-  if (found == overview.rows.end()) throw std::runtime_error("no row " + name);
-  return *found;
 }
 
 Overview made(std::size_t rows, std::size_t columns) {
@@ -59,11 +33,6 @@ Overview made(std::size_t rows, std::size_t columns) {
   }
   overview.conclusion = {"One.", "Two."};
   return overview;
-}
-
-TEST(Endpoints, OfAnAssemblyGoByTheirNames) {
-  EXPECT_EQ(endpointSymbol("stress_ratio", true), "σ_rφ/σ_rr");
-  EXPECT_EQ(endpointSymbol("stress_ratio", false), "stress ratio");
 }
 
 TEST(OverviewText, IsAlignedWhateverTheLettersTake) {
@@ -98,14 +67,14 @@ TEST(OverviewText, LeavesOutColumnsWhereTheirBlocksAreTooMany) {
     }
 }
 
-TEST(OverviewMarkdown, ManyQuestionsAreRows) {
-  const std::string text = overviewMarkdown(made(2, mostColumns + 1), "t");
-  EXPECT_TRUE(has(text, "\n| question 11 | ✗ 0.3 µm | ✗ 0.3 µm |\n"));
-}
-
 TEST(OverviewText, KeepsToTheWidthOfTheTerminal) {
   for (const std::string& line : linesOf(overviewText(made(3, 9), {60, false})))
     EXPECT_LE(line.size(), 60u + 6u) << line;  // marks and µ take bytes more than places
+}
+
+TEST(OverviewMarkdown, ManyQuestionsAreRows) {
+  const std::string text = overviewMarkdown(made(2, mostColumns + 1), "t");
+  EXPECT_TRUE(has(text, "\n| question 11 | ✗ 0.3 µm | ✗ 0.3 µm |\n"));
 }
 
 TEST(OverviewMarkdown, IsATableWhateverTheNames) {
@@ -116,425 +85,30 @@ TEST(OverviewMarkdown, IsATableWhateverTheNames) {
   EXPECT_TRUE(has(text, "| a\\|b\\_c | ✓ 0.3 µm |\n\nOne.\n\nTwo.\n"));
 }
 
-TEST(CompareOverview, HasTheWorstEndpointAndSurrogates) {
-  const Overview overview = compareOverview(sample::compareResults(4, 30));
-  ASSERT_EQ(overview.columns[1].name, "largest difference from grain");
-  EXPECT_EQ(shown(rowOf(overview, "grain").cells[1]), "not_applicable ");
-  EXPECT_EQ(shown(rowOf(overview, "yade").cells[1]), "good 0.200 margins");
-  EXPECT_EQ(rowOf(overview, "yade").cells[1].words, "pressure");
-  // Not its mirror's own rows: its runs are yade's.
-  EXPECT_EQ(rowOf(overview, "grain~yade").cells[1].words, "surrogate of yade");
-  const OverviewCell& alarmed = rowOf(overview, "box2d-impulse").cells[1];
-  EXPECT_EQ(shown(alarmed), "bad 1.10 margins");
-  EXPECT_EQ(alarmed.words, "ALARM: pressure; on 1 packing in another regime");
-  EXPECT_EQ(shown(rowOf(overview, "yade").cells[3]), "bad 1 of 4");
-  EXPECT_EQ(shown(rowOf(overview, "grain").cells[3]), "good 0 of 4");
-  EXPECT_EQ(shown(rowOf(overview, "odd-one").cells[3]), "not_applicable refused");
-}
-
-/// Two engines; the second disagrees on one of two endpoints.
-CompareResults disagreeing() {
-  CompareResults results;
-  results.engines = {{"ours", "", "", "", Status::finished, ""},
-                     {"theirs", "", "", "", Status::finished, ""}};
-  for (const auto& [endpoint, answer] :
-       {std::pair("pressure", Verdict::fail), std::pair("coordination", Verdict::pass)}) {
-    EndpointRow row;
-    row.a = "ours";
-    row.b = "theirs";
-    row.endpoint = endpoint;
-    row.verdict = answer;
-    row.distance = answer == Verdict::fail ? 3.0 : 0.1;
-    results.endpoints.rows.push_back(row);
-  }
-  return results;
-}
-
-LockstepRow lockstepRow(Equivalence verdict) {
-  LockstepRow row;
-  row.engine = "theirs";
-  row.verdict = verdict;
-  row.equivalent = verdict == Equivalence::differs ? 0.02 : 1e-5;
-  return row;
-}
-
-TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
-  CompareResults results = disagreeing();
-  EXPECT_EQ(shown(rowOf(compareOverview(results), "theirs").cells[1]), "bad 3.00 margins");
-  EXPECT_EQ(compareConclusion(results)[0],
-            "Against ours: theirs disagreed on pressure and agreed on 1 of 2 endpoints.");
-  EXPECT_EQ(
-      compareConclusion(results)[1],
-      "Causes of differences: no mirror shows whether the difference of theirs comes from its "
-      "law or its implementation.");
-
-  results.lockstep.emplace();
-  results.lockstep->rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
-  const Overview same = compareOverview(results);
-  EXPECT_EQ(shown(rowOf(same, "theirs").cells[0]), "good 0.0100 × limit");
-  EXPECT_EQ(shown(rowOf(same, "theirs").cells[1]), "model_difference 3.00 margins");
-  EXPECT_EQ(same.conclusion[1],
-            "Causes of differences: theirs differs by the law that it declares.");
-
-  results.lockstep->rows = {lockstepRow(Equivalence::differs)};
-  results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
-  const Overview other = compareOverview(results);
-  EXPECT_EQ(shown(rowOf(other, "theirs").cells[0]), "bad 20.0 × limit");
-  EXPECT_EQ(shown(rowOf(other, "theirs").cells[1]), "bad 3.00 margins");
-  EXPECT_EQ(
-      other.conclusion[1],
-      "Causes of differences: theirs does not have the law that it declares (deviation found: "
-      "the tangential damping).");
-}
-
-/// A mirror of "theirs", and what it answers to it where the two peers disagree.
-void addMirror(CompareResults& results, Verdict answer) {
-  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
-  EndpointRow row = results.endpoints.rows[0];
-  row.a = "mirror";
-  row.kind = PairKind::mirrorImplementation;
-  row.verdict = answer;
-  results.endpoints.rows.push_back(row);
-}
-
-TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
-  CompareResults results = disagreeing();
-  addMirror(results, Verdict::undecided);
-  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
-  results.endpoints.rows.back().verdict = Verdict::pass;
-  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
-}
-
-TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
-  CompareResults results = disagreeing();
-  results.lockstep.emplace();
-  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
-  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
-
-  addMirror(results, Verdict::fail);
-  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
-  EXPECT_EQ(compareOverview(results).conclusion[1],
-            "Causes of differences: theirs disagrees with its own mirror in " +
-                endpointWords(results.endpoints.rows[0].endpoint) + ".");
-}
-
-TEST(CompareOverview, NamesTheNextStep) {
-  CompareResults results = disagreeing();
-  EXPECT_TRUE(has(compareConclusion(results).back(), "Next: compare the margins with"));
-  results.endpoints.rows[1].verdict = Verdict::undecided;
-  results.endpoints.rows[1].needs = 12;
-  EXPECT_EQ(compareConclusion(results).back(),
-            "Next: more packings, about 12 for the coordination of theirs against ours; the case "
-            "plans no further interim analysis ([looks] in its file).");
-  results.endpoints.looks.planned = {{8, 0.01}};
-  EXPECT_TRUE(
-      has(compareConclusion(results).back(), "ours; the same command with a larger --budget"));
-  for (EndpointRow& row : results.endpoints.rows) row.verdict = Verdict::pass;
-  EXPECT_EQ(compareConclusion(results),
-            (std::vector<std::string>{"Against ours: theirs agreed on both endpoints.",
-                                      "Nothing is left to decide at these margins."}));
-  results.endpoints.alarms = {{"ours", "theirs", PairKind::peer, "all disks are gone"}};
-  EXPECT_EQ(compareConclusion(results).back(),
-            "Next: see the alarm on theirs: all disks are gone.");
-  results.nothingJudged = NothingJudged{"the case has no margins", false};
-  EXPECT_EQ(compareConclusion(results).back(), "Nothing was judged: the case has no margins.");
-}
-
-/// Some of the endpoints of some pairs, answered at random; sometimes nothing was judged.
-CompareResults randomResults(std::mt19937& random) {
-  const auto upTo = [&](int most) { return std::uniform_int_distribution(0, most)(random); };
-  const auto margins = [&] { return std::uniform_real_distribution(-6.0, 6.0)(random); };
-  CompareResults results;
-  for (const char* name : {"ours", "second", "third"})
-    results.engines.push_back({name, "", "", "", Status::finished, ""});
-  if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of both engines", false};
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = a + 1; b < 3; ++b)
-      for (const char* endpoint : {"pressure", "coordination", "mean_spin", "spin_at_wheel"}) {
-        if (upTo(4) == 0) continue;
-        EndpointRow row;
-        row.a = results.engines[a].name;
-        row.b = results.engines[b].name;
-        row.endpoint = endpoint;
-        row.verdict = results.nothingJudged ? Verdict::undecided
-                                            : std::array{Verdict::pass, Verdict::borderline,
-                                                         Verdict::fail, Verdict::undecided}
-                                                  .at(static_cast<std::size_t>(upTo(3)));
-        row.distance = margins();
-        if (row.verdict == Verdict::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
-        results.endpoints.rows.push_back(row);
-      }
-  SurrogateEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
-  for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
-    own.spotCheck.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
-  results.endpoints.surrogates = {own};
-  return results;
-}
-
-TEST(CompareSentences, TheFarthestEndpointIsNamed) {
-  std::mt19937 random(1);
-  for (int k = 0; k < 300; ++k) {
-    const CompareResults results = randomResults(random);
-    const SurrogateEngine& own = results.endpoints.surrogates.front();
-    const auto farthest = std::ranges::max_element(
-        own.spotCheck, {},
-        [](const SpotCheckNumber& number) { return std::abs(*number.difference); });
-    EXPECT_TRUE(has(describe(own), "margins of " + spaced(farthest->endpoint))) << describe(own);
-  }
-}
-
-TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
-  std::mt19937 random(2);
-  int named = 0;
-  for (int k = 0; k < 300; ++k) {
-    const CompareResults results = randomResults(random);
-    const std::string next = compareConclusion(results).back();
-    const auto isOpen = [](const EndpointRow& row) { return row.verdict == Verdict::undecided; };
-    const bool shownIsOpen =
-        std::ranges::any_of(results.endpoints.rows,
-                            [&](const EndpointRow& row) { return isOpen(row) && row.a == "ours"; });
-    if (!has(next, ", about ")) continue;
-    ++named;
-    const auto row = std::ranges::find_if(results.endpoints.rows, [&](const EndpointRow& each) {
-      return each.needs &&
-             has(next, fmt::format("about {} for the {} of {} against {};", *each.needs,
-                                   endpointWords(each.endpoint), each.b, each.a));
-    });
-    ASSERT_NE(row, results.endpoints.rows.end()) << next;
-    EXPECT_TRUE(isOpen(*row)) << next;
-    EXPECT_EQ(shownIsOpen, row->a == "ours") << next;
-    rowOf(compareOverview(results), row->b);  // throws where the matrix does not have it
-  }
-  EXPECT_GT(named, 100);
-}
-
-TEST(CompareSentences, DoNotContradictEachOther) {
-  std::mt19937 random(3);
-  int judgedNothing = 0;
-  for (int k = 0; k < 300; ++k) {
-    const CompareResults results = randomResults(random);
-    const Overview overview = compareOverview(results);
-    const std::string head = fmt::format("{}", fmt::join(overview.conclusion, " "));
-    const bool open = std::ranges::any_of(results.endpoints.rows, [](const EndpointRow& row) {
-      return row.verdict == Verdict::undecided;
-    });
-    EXPECT_FALSE(open && has(head, "Nothing is left to decide")) << head;
-    if (!results.nothingJudged) {
-      EXPECT_FALSE(has(head, "Nothing was judged")) << head;
-      continue;
-    }
-    ++judgedNothing;
-    EXPECT_TRUE(has(head, "Nothing was judged")) << head;
-    for (const char* verdict : {"agree", "undecided", "borderline"})
-      EXPECT_FALSE(has(head, verdict)) << head;
-    for (const OverviewRow& row : overview.rows)
-      EXPECT_TRUE(row.cells[1].verdict == Verdict::notMeasured ||
-                  row.cells[1].verdict == Verdict::notApplicable);
-  }
-  EXPECT_GT(judgedNothing, 30);
-}
-
-TEST(CompareReport, TheTableHasTheMatrixMarkOfTheSameAnswer) {
-  CompareResults results = disagreeing();
-  results.lockstep.emplace();
-  results.lockstep->rules.referencePerturbation = "kn";
-  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
-  const std::string text = textOf(compareReport(results));
-  EXPECT_TRUE(has(text, "≠ disagree by the declared law // 3.00 margins")) << text;
-  EXPECT_FALSE(has(text, "| ✗ disagree"));
-}
-
-TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
-  CompareResults results = disagreeing();
-  results.rings.rTilde = {0.5, 1.5, 2.5};
-  AgreementRow row;
-  row.a = "ours";
-  row.b = "theirs";
-  row.field = "spin";
-  for (const double margins : {0.5, 87.0, -6.0}) {
-    AgreementRing ring;
-    ring.ring = row.rings.size();
-    ring.difference = 2.0 * margins;
-    ring.margin = 2.0;
-    row.rings.push_back(ring);
-  }
-  results.agreement = {row};
-  const Figure figure = differenceFigures(results, engineRuns(results)).at(0);
-  const Panel& panel = figure.panels.at(0);
-  ASSERT_EQ(panel.curves.size(), 3u);
-  EXPECT_EQ(panel.curves[1].points.at(0).label, "87.0");
-  EXPECT_EQ(panel.curves[2].points.at(0).label, "−6.00");
-  for (const std::size_t k : {1u, 2u}) EXPECT_TRUE(isSeen(panel, panel.curves[k]));
-  EXPECT_TRUE(has(figure.caption, "beyond 5 margins"));
-}
-
-TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
-  CompareResults results = disagreeing();
-  results.rings.rTilde = {0.5, 1.5};
-  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
-  Profile profile;
-  profile.method = "slicing";
-  profile.field = "spin";
-  profile.mean = {1.0, 0.5};
-  profile.standardError = {0.1, 0.1};
-  for (const auto& [name, runs] : {std::pair("ours", 2), std::pair("theirs", 1), {"mirror", 2}}) {
-    for (int k = 0; k < runs; ++k) {
-      FlowRun run;
-      run.engine = name;
-      run.packing = k;
-      run.profiles = {profile};
-      results.runs.push_back(run);
-    }
-    if (runs > 1) {
-      CouetteEnsemble mean;
-      mean.engine = name;
-      mean.profiles = {profile};
-      results.ensemble.push_back(mean);
-    }
-  }
-  results.endpoints.surrogates = {{"theirs", "mirror", 1e-4, 16, 0, {}, {}, true}};
-  const auto engines = engineRuns(results);
-  const auto figures = profileFigures(results, engines);
-  const auto figure = std::ranges::find(figures, "profile_spin", &Figure::name);
-  ASSERT_NE(figure, figures.end());
-  const auto& curves = figure->panels.at(0).curves;
-  ASSERT_EQ(curves.size(), 3u);
-  EXPECT_EQ(curves[1].name, "theirs, one run");
-  EXPECT_NE(curves[1].style.colour, engines[1].style.colour);
-  EXPECT_FALSE(curves[1].points.at(0).error);
-  EXPECT_EQ(curves[2].name, "mirror");
-  EXPECT_EQ(curves[2].style.colour, engines[2].style.colour);
-  EXPECT_TRUE(curves[2].points.at(0).error);
-  EXPECT_TRUE(has(describeBars(engines), "theirs (its verdicts rest on mirror)"));
-}
-
-TEST(CollideOverview, HasTheLargestShareOfALimitByLaw) {
-  CollideResults results = sample::collideResults();
-  const Overview overview = collideOverview(results);
-  ASSERT_EQ(overview.columns[0].name, "cases passed");
-  ASSERT_EQ(overview.columns[1].name,
-            "tangential rebound Ψ_f");  // no engine has scores of the others
-  // 12/50² at t_c/50, half of it is told, the limit is 0.01.
-  EXPECT_EQ(shown(rowOf(overview, "grain").cells[1]), "good 0.24 × limit");
-  EXPECT_EQ(shown(rowOf(overview, "yade").cells[1]), "bad 1.2 × limit");
-  EXPECT_EQ(rowOf(overview, "yade").cells[1].anchor, "case_1");
-  EXPECT_EQ(shown(rowOf(overview, "grain").cells[0]), "good 6 of 6");
-  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].verdict, Verdict::fail);
-  EXPECT_EQ(
-      overview.conclusion[0],
-      "Passed every sweep: grain; failed: box2d-impulse (2 of 2 sweeps) and yade (2 of 6); not "
-      "judged: odd-one.");
-  EXPECT_EQ(overview.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
-  EXPECT_EQ(overview.conclusion.back(), "Next: see why sweeps failed, in the table of scores.");
-
-  for (CollisionVariant& variant : results.variants)
-    for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade") {
-        DeclaredScore& declared = curve.declared.emplace();
-        declared.law = {{"tension", std::string("cut")}};
-        declared.reference = DeclaredReference::oracle;
-        declared.score.verdict = Verdict::pass;
-        QuantityScore& psi = declared.score.of[QuantityId::psiF].emplace();
-        psi.max = 0.001;
-        psi.limit = 0.01;
-        psi.held = true;
-      }
-  const Overview declared = collideOverview(results);
-  EXPECT_EQ(shown(rowOf(declared, "yade").cells[1]), "model_difference 1.2 × limit");
-  // Four of yade's sweeps hold in spite of it, two differ: it explains nothing.
-  EXPECT_EQ(declared.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
-  for (CollisionVariant& variant : results.variants)
-    for (CollisionCurve& curve : variant.curves)
-      if (curve.engine == "yade" && curve.score.verdict == Verdict::pass)
-        curve.declared->law.clear();
-  EXPECT_EQ(collideOverview(results).conclusion[1],
-            "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
-}
-
-TEST(CollideOverview, ConclusionIsShortForManyEngines) {
-  const std::vector<std::string> conclusion =
-      collideOverview(sample::manyCollideResults()).conclusion;
-  EXPECT_LE(conclusion.size(), 3u);
-  for (const std::string& sentence : conclusion) EXPECT_LE(sentence.size(), 240u) << sentence;
-  EXPECT_TRUE(
-      has(conclusion[0], "box2d-impulse-3 (2 of 2), yade (2 of 6), yade-2 (2 of 6) and 1 more."));
-}
-
-TEST(StabilityOverview, CountsRunsByFamily) {
-  const Overview overview = stabilityOverview(sample::stabilityResults());
-  ASSERT_EQ(overview.columns.size(), 1u);
-  EXPECT_EQ(overview.columns[0].name, "energy");
-  EXPECT_EQ(shown(rowOf(overview, "grain").cells[0]), "borderline 2 of 3");
-  EXPECT_EQ(shown(rowOf(overview, "odd-one").cells[0]), "bad 1 of 2");
-  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].words, "pile");
-  EXPECT_EQ(rowOf(overview, "odd-one").cells[0].anchor, "case_1");
-  EXPECT_EQ(overview.conclusion[1], "Unstable: odd-one in pile.");
-}
-
-TEST(StabilityOverview, OfTransformsNamesWhatDiffers) {
-  StabilityResults results;
-  results.engines = {{"mine", "", "", "", Status::finished, ""},
-                     {"theirs", "", "", "", Status::finished, ""}};
-  for (const auto& [measure, variant] :
-       {std::pair("turned", "turned by 1 rad"), std::pair("renumbered", "renumbered")}) {
-    HardCase one;
-    one.name = "cell";
-    one.variant = variant;
-    one.measure = measure;
-    results.cases.push_back(one);
-    for (const EngineRow& engine : results.engines) {
-      StabilityRun run;
-      run.engine = engine.name;
-      run.name = "cell";
-      run.variant = variant;
-      run.measure = measure;
-      run.verdict = Verdict::pass;
-      results.runs.push_back(run);
-    }
-  }
-  EXPECT_TRUE(areTransforms(results));
-  EXPECT_EQ(stabilityOverview(results).conclusion[0], "mine and theirs: both runs the same.");
-  results.runs[1].verdict = Verdict::fail;
-  const Overview overview = stabilityOverview(results);
-  ASSERT_EQ(overview.columns.size(), 2u);
-  EXPECT_EQ(shown(rowOf(overview, "theirs").cells[0]), "bad 0 of 1");
-  EXPECT_EQ(shown(rowOf(overview, "theirs").cells[1]), "good 1 of 1");
-  EXPECT_EQ(overview.conclusion[0], "mine: both runs the same; theirs: 1 of 2 runs the same.");
-  EXPECT_EQ(overview.conclusion[1],
-            "Different after a transformation: theirs with cell turned by 1 rad.");
-  EXPECT_FALSE(areTransforms(sample::stabilityResults()));
-}
-
-TEST(CostOverview, HasSettingAndTimeForEachAccuracy) {
-  const Overview overview = costOverview(sample::costResults());
-  ASSERT_FALSE(overview.columns.empty());
-  EXPECT_EQ(overview.columns[0].name, "collisions 10\u00a0%");
-  const OverviewCell& first = rowOf(overview, "grain").cells[0];
-  EXPECT_EQ(first.verdict, Verdict::pass);
-  EXPECT_FALSE(first.shown.empty());
-  EXPECT_TRUE(has(first.words, "t_c/"));
-  EXPECT_LE(overview.conclusion.size(), 3u);
-  EXPECT_TRUE(has(overview.conclusion.back(), "--budget 1400s measures the "));
-}
-
-TEST(EffectsOverview, HasAnEffectPerRow) {
-  const Overview overview = effectsOverview(sample::effectsResults(4));
-  EXPECT_EQ(overview.rowsAre, "without");
-  EXPECT_EQ(shown(rowOf(overview, "friction").cells[0]), "figure 50.0 %");
-  EXPECT_EQ(rowOf(overview, "friction").cells[1].verdict, Verdict::modelDifference);
-  EXPECT_EQ(shown(rowOf(overview, "tension").cells[0]), "not_applicable refused");
-  EXPECT_TRUE(has(overview.conclusion[0], "friction changes a profile"));
+TEST(MatrixHtml, ManyRows_HaveLimitedLines) {
+  Overview overview;
+  overview.columns = {{"slide", "", ""}};
+  overview.rows.assign(mostRows, OverviewRow{"ours", true, {OverviewCell{}}});
+  const auto isTall = [&](bool wrapped) {
+    return has(htmlMatrix(overview, {}, wrapped), "overview tall");
+  };
+  EXPECT_FALSE(isTall(false));
+  overview.rows.push_back(overview.rows.front());
+  EXPECT_TRUE(isTall(false));
+  EXPECT_FALSE(isTall(true));
 }
 
 TEST(LockstepOverview, NamesTheDeviationFound) {
   LockstepResults results;
   results.engines = {{"theirs", "", "", "", Status::finished, ""}};
   results.lockstep.rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
-  results.lockstep.rows = {lockstepRow(Equivalence::differs)};
-  results.lockstep.rows[0].term = NamedTerm{"kn", -0.02, 0.1};
+  LockstepRow& row = results.lockstep.rows.emplace_back();
+  row.engine = "theirs";
+  row.verdict = Equivalence::differs;
+  row.equivalent = 0.02;
+  row.term = NamedTerm{"kn", -0.02, 0.1};
   EXPECT_EQ(shown(lockstepOverview(results).rows[0].cells[0]), "bad 2.00 % of kₙ");
-  results.lockstep.rows[0].term = NamedTerm{"mu", -0.02, 0.1};
+  row.term = NamedTerm{"mu", -0.02, 0.1};
   const Overview overview = lockstepOverview(results);
   EXPECT_EQ(shown(overview.rows[0].cells[0]), "bad 20.0 × limit");
   EXPECT_EQ(shown(overview.rows[0].cells[4]), "bad −2.00 %");
@@ -554,82 +128,10 @@ TEST(DiffOverview, NamesWhatHasChanged) {
   other.collisions = {{"case", "", "psi_f", 3, 9, 0.1, 0.05, 1.0, 0.1}};
   results.rows = {same, other};
   const Overview overview = diffOverview(results);
-  EXPECT_EQ(shown(rowOf(overview, "one").cells[1]), "good same bits");
-  EXPECT_EQ(shown(rowOf(overview, "two").cells[1]), "bad 5.00 %");
+  EXPECT_EQ(shown(rowNamed(overview, "one").cells[1]), "good same bits");
+  EXPECT_EQ(shown(rowNamed(overview, "two").cells[1]), "bad 5.00 %");
   EXPECT_EQ(overview.conclusion[0], "one: same bits; two: differs.");
   EXPECT_EQ(overview.conclusion[1], "Next: where the change of two is meant, keep a new baseline.");
-}
-
-EngineRow named(const char* name, const char* mirrors = "") {
-  return {name, "", "", mirrors, Status::finished, ""};
-}
-
-TEST(EngineStyles, AreTheSameInEveryReport) {
-  const auto two = engineStyles({named("grain"), named("box2d-penalty")});
-  const auto three = engineStyles({named("my-own"), named("yade"), named("box2d-penalty")});
-  EXPECT_EQ(two[1], three[2]);
-  EXPECT_EQ(engineStyles({named("my-own")})[0], three[0]);
-}
-
-TEST(EngineStyles, AMirrorHasItsPeersColourDashedWhetherOrNotThatIsThere) {
-  const LineStyle peer = engineStyles({named("yade")})[0];
-  for (const LineStyle& mirror : {engineStyles({named("grain-as-yade")})[0],
-                                  engineStyles({named("grain"), named("x", "yade")})[1]}) {
-    EXPECT_EQ(mirror.colour, peer.colour);
-    EXPECT_TRUE(mirror.dashed);
-    EXPECT_NE(mirror.pointType, peer.pointType);
-  }
-}
-
-TEST(EngineStyles, NoTwoOfAReportLookAlike) {
-  std::vector<EngineRow> engines;
-  for (int k = 0; k < 20; ++k) engines.push_back(named(fmt::format("engine-{}", k).c_str()));
-  const auto styles = engineStyles(engines);
-  for (std::size_t a = 0; a < styles.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(styles[a] == styles[b]) << a << " " << b;
-}
-
-TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
-  CompareResults results;
-  results.engines = {named("ours"), named("theirs")};
-  results.rings.rTilde = {0.5, 1.5};
-  AgreementRow row;
-  row.a = "theirs";  // the reference is second: the sign is turned
-  row.b = "ours";
-  row.field = "stress_rr";
-  AgreementRing ring;
-  ring.difference = 4.0;
-  ring.low = 3.0;
-  ring.high = 5.0;
-  ring.margin = 2.0;
-  row.rings = {ring};
-  ring.ring = 1;
-  ring.margin.reset();
-  row.rings.push_back(ring);
-  results.agreement = {row};
-  const auto figures = differenceFigures(results, engineRuns(results));
-  ASSERT_EQ(figures.size(), 1u);
-  EXPECT_EQ(figures[0].name, "difference_stress_rr");
-  const Panel& panel = figures[0].panels[0];
-  EXPECT_EQ(panel.band->high, 1.0);
-  ASSERT_EQ(panel.curves.size(), 1u);
-  EXPECT_EQ(panel.curves[0].name, "theirs");
-  ASSERT_EQ(panel.curves[0].points.size(), 1u);  // a ring without a margin has no place
-  EXPECT_EQ(panel.curves[0].points[0].y, -2.0);
-  EXPECT_EQ(*panel.curves[0].points[0].error, 0.5);
-}
-
-TEST(MatrixHtml, ManyRows_HaveLimitedLines) {
-  Overview overview;
-  overview.columns = {{"slide", "", ""}};
-  overview.rows.assign(mostRows, OverviewRow{"ours", true, {OverviewCell{}}});
-  const auto isTall = [&](bool wrapped) {
-    return has(htmlMatrix(overview, {}, wrapped), "overview tall");
-  };
-  EXPECT_FALSE(isTall(false));
-  overview.rows.push_back(overview.rows.front());
-  EXPECT_TRUE(isTall(false));
-  EXPECT_FALSE(isTall(true));
 }
 
 }  // namespace

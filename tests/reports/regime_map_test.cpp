@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "reports/thesis/report.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
 namespace {

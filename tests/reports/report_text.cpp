@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "reports/common/overview.hpp"
+#include "results/json_fields.hpp"
 
 namespace crossgrain::reports {
 
@@ -64,11 +65,46 @@ std::string blocksText(const Blocks& blocks) {
 
 }  // namespace
 
+namespace {
+
+/// Caption, axes and curves of a figure, each with its number of points and the first of them.
+std::string figureText(const Figure& figure) {
+  std::string text = fmt::format("\n[{}] {}\n", figure.name, figure.caption);
+  for (const Panel& panel : figure.panels) {
+    text += fmt::format("  {} over {}:", panel.yLabel, panel.xLabel);
+    for (const Curve& curve : panel.curves) {
+      text += fmt::format(" {}: {}", curve.name, curve.points.size());
+      if (curve.points.empty()) continue;
+      const Point& first = curve.points.front();
+      text += fmt::format(" from ({:.4g}, {:.4g})", first.x, first.y);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// The name of a table, its columns and its first and last row.
+std::string tableText(const std::string& name, const std::string& content) {
+  const std::size_t head = content.find('\n') + 1, first = content.find('\n', head) + 1;
+  const std::size_t last = content.size() < 2 ? 0 : content.rfind('\n', content.size() - 2) + 1;
+  return fmt::format("\n{}\n{}{}", name, content.substr(0, first),
+                     last >= first ? content.substr(last) : "");
+}
+
+}  // namespace
+
 std::string textOf(const Report& report) {
   std::string text = overviewMarkdown(report.overview, titleOf(report.head)) + "\n";
   for (const std::string& note : report.notes) text += "* " + note + "\n";
   for (const Section& section : report.sections)
     text += fmt::format("\n## {} ({})\n{}", section.title, section.id, blocksText(section.blocks));
+  return text;
+}
+
+std::string wholeTextOf(const Report& report) {
+  std::string text = textOf(report);
+  for (const Figure& figure : report.figures) text += figureText(figure);
+  for (const auto& [name, content] : report.tables) text += tableText(name, content);
   return text;
 }
 
@@ -80,6 +116,16 @@ const std::string& csvOf(const Report& report, const std::string& name) {
 
 std::string junitOf(const Report& report) {
   return junitXml(report.head.kind, report.checks.value());
+}
+
+std::string shown(const OverviewCell& cell) {
+  return fmt::format("{} {}", cellWord(cell.verdict), cell.shown);
+}
+
+const OverviewRow& rowNamed(const Overview& overview, const std::string& name) {
+  const auto found = std::ranges::find(overview.rows, name, &OverviewRow::name);
+  if (found == overview.rows.end()) throw std::runtime_error("no row " + name);
+  return *found;
 }
 
 }  // namespace crossgrain::reports

@@ -9,7 +9,7 @@
 #include "reports/site/history.hpp"
 #include "results/schema.hpp"
 #include "support/files.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -36,25 +36,6 @@ const Curve& curveNamed(const Panel& panel, const std::string& name) {
   return *found;
 }
 
-TEST(ThesisFigures, AllThatTheResultsCanShowInTheThesisOrder) {
-  std::vector<std::string> names;
-  for (const Figure& figure : sampleFigures()) names.push_back(figure.name);
-  std::vector<std::string> expected;
-  for (const char* number :
-       {"5.5",  "5.6",  "5.7",  "6.1",  "6.2",  "6.3",  "6.4",  "6.5",  "6.6",  "6.7",
-        "6.8",  "6.10", "6.11", "7.4",  "7.5",  "7.6",  "7.7",  "7.8",  "7.9",  "7.11",
-        "7.12", "7.13", "7.14", "7.15", "7.17", "7.18", "7.19", "7.21", "7.22", "7.23",
-        "7.24", "8.3",  "8.4",  "8.5",  "8.6",  "8.7",  "9.1",  "9.2",  "9.3",  "9.4"})
-    expected.push_back(nameOf(number));
-  EXPECT_EQ(expected, names);
-  for (const Figure& figure : sampleFigures()) {
-    EXPECT_NE(std::string::npos, figure.caption.find("Thesis: ")) << figure.name;
-    EXPECT_NE(std::string::npos, figure.caption.find("Found: ")) << figure.name;
-    EXPECT_EQ(std::string::npos, figure.caption.find("no data")) << figure.caption;
-    EXPECT_EQ(std::string::npos, figure.caption.find("nan")) << figure.caption;
-  }
-}
-
 /// What a results file keeps is all that figures are drawn from.
 TEST(ThesisFigures, CompactedResults_GiveTheSame) {
   const std::vector<Figure> figures = thesisFigures(compacted(sample::thesisResults()));
@@ -108,17 +89,6 @@ TEST(ThesisFigures, MeansAreOverPackings) {
   // One packing has its own error: 1 % in the sample.
   const Point& single = curveNamed(panel, "beta").points.front();
   EXPECT_NEAR(0.01 * single.y, single.error.value(), 1e-12);
-}
-
-TEST(ThesisFigures, SayWhatWasFoundByRule) {
-  // The sample's velocity decays over 1.9 d, its shear stress as r⁻².
-  const std::string& velocity = thesisFigureNumbered("6.7").caption;
-  EXPECT_NE(std::string::npos, velocity.find("ν̄ = 0.796, alpha: decay length 1.90")) << velocity;
-  const std::string& stress = thesisFigureNumbered("7.12").caption;
-  EXPECT_NE(std::string::npos, stress.find("σ_rφ: exponent −2.00")) << stress;
-  const std::string& directions = thesisFigureNumbered("7.8").caption;
-  EXPECT_NE(std::string::npos, directions.find("most contacts at 0.472 π, 2.00 times"))
-      << directions;
 }
 
 TEST(ThesisFigures, AxesAreTheThesisOnesUnlessDataLieBeyond) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/render/html.hpp"
-#include "tests/reports/has.hpp"
+#include "tests/reports/report_text.hpp"
 
 namespace crossgrain::reports {
 namespace {

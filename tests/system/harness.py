@@ -3,12 +3,14 @@
 CROSSGRAIN in the environment is the program; CROSSGRAIN_CACHE where packings are kept.
 """
 
+import csv
 import fcntl
 import json
 import os
 import pathlib
 import pty
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -21,7 +23,11 @@ import uuid
 PROGRAM = os.environ["CROSSGRAIN"]
 # Examples and engines of tests say "python3": the one that runs these tests has numpy, the first in PATH need not.
 os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
-CASES = pathlib.Path(__file__).resolve().parents[2] / "cases"
+HOME = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(os.environ.get("CROSSGRAIN_BUILD", HOME / "build/release"))
+CASES = HOME / "cases"
+# An engine of a user's own in each language.
+PYTHON, CPP = HOME / "examples/python/engine.toml", BUILD / "examples/cpp/engine.toml"
 COUETTE = CASES / "couette/quick.toml"
 COLLISION = CASES / "collision/figure-4-3.toml"
 HARD_SPHERE = CASES / "collision/hard-sphere.toml"
@@ -112,6 +118,8 @@ class Running:
         before, found = {}, []
 
         def computing():
+            if self.process.poll() is not None:
+                raise AssertionError(f"it ended before {engine} was seen at work: {self.stderr()}")
             # Workers go from run to run: what one has used before the runs began tells nothing.
             now = {pid: cpu_time(pid) for pid in self.workers(engine)}
             for pid, seconds in now.items():
@@ -211,19 +219,16 @@ class SystemTest(unittest.TestCase):
         file.write_text(text, encoding="utf-8")
         return file
 
-    def run_program(self, *arguments, env=None, timeout=PATIENCE, **options):
+    def call(self, *command, env=None, timeout=PATIENCE, cwd=None, **options):
+        """Any program, with changes of the environment."""
         done = subprocess.run(
-            [PROGRAM, *map(str, arguments)],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            encoding="utf-8",
-            cwd=self.folder,
-            env=environment(env),
-            timeout=timeout,
-            check=False,
-            **options,
-        )
+            [*map(str, command)], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", cwd=cwd or self.folder,
+            env=environment(env), timeout=timeout, check=False, **options,
+        )  # fmt: skip
         return self.check_no_crash(Finished(done.returncode, done.stdout, done.stderr))
+
+    def run_program(self, *arguments, **options):
+        return self.call(PROGRAM, *arguments, **options)
 
     def compare(self, *arguments, case=COUETTE, engines="grain", out=None, **options):
         """A short `compare` of the small cell, with no engines but those named."""
@@ -276,6 +281,27 @@ class SystemTest(unittest.TestCase):
 
     def results(self, out=None):
         return json.loads(((out or self.out) / "results.json").read_text(encoding="utf-8"))
+
+    def rows(self, table, out=None):
+        with open((out or self.out) / table, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def changed_example(self, *pieces):
+        """The engine in Python with pieces of its program changed: before, after, before, after …"""
+        folder = self.folder / f"own{len(list(self.folder.glob('own*')))}"
+        folder.mkdir()
+        program = PYTHON.with_name("engine.py").read_text(encoding="utf-8")
+        for before, after in zip(pieces[::2], pieces[1::2]):
+            self.assertIn(before, program)
+            program = program.replace(before, after)
+        (folder / "engine.py").write_text(program, encoding="utf-8")
+        shutil.copy(PYTHON, folder)
+        return folder / "engine.toml"
+
+    def engine_file(self, name, *command):
+        """An engine file for that command."""
+        words = json.dumps([str(word) for word in command])
+        return self.write(f"{name}.toml", f'name = "{name}"\nsummary = "a test"\ncommand = {words}\n')
 
     def finished_runs(self):
         """Run files by name, with the time of their last change [ns]."""

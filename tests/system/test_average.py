@@ -1,125 +1,183 @@
-"""crossgrain average: a run's own snapshots give the run's own profiles; bad files end in one line."""
+"""Averages, snapshots and packings: a run's own snapshots give its profiles, by this program and by another; packings of a
+user's own and those that are kept."""
 
-import csv
+import itertools
+import json
+import math
+import os
+import pathlib
 import subprocess
 import unittest
 
-from harness import BAD_INPUT, CASES, COUETTE, HELD, FELL_SHORT, SystemTest, settings
+import h5py
 
-# By Debian's own Python, which has the package, whichever one runs the tests.
-H5PY = """
-import h5py, numpy, sys
-with h5py.File(sys.argv[1]) as file:
-    first = file["snapshot-000"]
-    assert file.attrs["engine"] == b"grain" or file.attrs["engine"] == "grain"
-    assert first["position"].shape == (len(file["disks/radius"]), 2), first["position"].shape
-    assert first["contacts/normal"].shape == (len(first["contacts/i"]), 2)
-    assert numpy.allclose(numpy.linalg.norm(first["contacts/normal"], axis=1), 1.0)
-    assert (file["disks/index"][:] == numpy.arange(len(file["disks/radius"]))).all()
-    print(*(name for name in file if name.startswith("snapshot-")))
-"""
+from harness import BAD_INPUT, CASES, COUETTE, HELD, HOME, SystemTest, settings
 
+OTHER = pathlib.Path(__file__).with_name("independent_averages.py")
 METHODS = '["slicing","straight_cut","centre","line_gaussian","line_heaviside"]'
+SMALL = 0.0037  # m, cases/couette/quick.toml; the cell reaches from 0.03 to 0.075 m
 
 
-class Average(SystemTest):
-    def rows(self, folder):
-        with open(folder / "profiles.csv", encoding="utf-8", newline="") as file:
-            return [row for row in csv.DictReader(file) if row["packing"] == "0"]
+class Snapshots(SystemTest):
+    def average(self, snapshots, *arguments, case=COUETTE):
+        return self.run_program("average", snapshots, case, "--out", self.folder / "again", *arguments)
 
-    def average(self, *arguments, snapshots, out, case=COUETTE):
-        return self.run_program("average", str(snapshots), str(case), "--out", str(out), *arguments)
-
-    def test_a_runs_own_snapshots_give_its_profiles(self):
+    def test_profiles_are_worked_out_again_from_snapshots(self):
         changes = ["--set", f"averaging.method={METHODS}"]
-        done = self.compare(
-            *settings(averaging__rotations=0.05, run__keep_snapshots=100000), *changes
+        self.assert_status(self.compare(*settings(averaging__rotations=0.05, run__keep_snapshots=100000), *changes), HELD)
+        snapshots = self.out / "snapshots/grain-p0.h5"
+        self.assert_status(self.average(snapshots, *changes), HELD)
+        run, again = (
+            [row for row in self.rows("profiles.csv", folder) if row["packing"] == "0"] for folder in (self.out, self.folder / "again")
         )
-        self.assert_status(done, HELD, FELL_SHORT)
-        snapshots = self.out / "snapshots" / "grain-p0.h5"
-        done = subprocess.run(
-            ["/usr/bin/python3", "-c", H5PY, str(snapshots)], capture_output=True, text=True
-        )
-        self.assertEqual("", done.stderr)
-        self.assertEqual(20, len(done.stdout.split()))
-        again = self.folder / "again"
-        done = self.average(*changes, snapshots=snapshots, out=again)
-        self.assert_status(done, HELD)
-        self.assertTrue((again / "report.html").is_file())
-        run, averaged = self.rows(self.out), self.rows(again)
         self.assertGreater(len(run), 1000)
         # A file of snapshots does not know since when the wheel has turned.
         for row in run:
             self.assertEqual("0.07", row.pop("to_rotation"))
             row |= {"from_rotation": "", "to_rotation": "", "prepared_rotations": ""}
-        self.assertEqual(run, averaged)
-
-    def test_ring_widths(self):
-        done = self.compare(*settings(averaging__rotations=0.05, run__keep_snapshots=4))
-        self.assert_status(done, HELD, FELL_SHORT)
-        snapshots = self.out / "snapshots" / "grain-p0.h5"
-        out = self.folder / "rev"
-        done = self.run_program(
-            "rev", str(snapshots), str(COUETTE), "--out", str(out), "--quiet"
+        self.assertEqual(run, again)
+        # A program that shares no code with this one.
+        other = subprocess.run(
+            ["/usr/bin/python3", OTHER, snapshots, self.out / "results.json"], capture_output=True, text=True, check=False
         )
-        self.assert_status(done, HELD)
-        with open(out / "rev.csv", encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual(
-            "engine,method,field,r_m,width_over_d,mean,stderr,unit".split(","), list(rows[0])
-        )
-        filling = [row for row in rows if row["field"] == "volume_fraction"]
-        self.assertEqual(5, len({row["method"] for row in filling}))
-        spread = {}  # of the volume fraction over ring widths, by method
-        for method in ("slicing", "centre"):
-            values = [float(row["mean"]) for row in filling if row["method"] == method]
-            spread[method] = max(values) - min(values)
-            if method == "slicing":  # Lätzel 2003, section 5.3: never above 1
-                self.assertLess(max(values), 1.0)
-        self.assertGreater(spread["centre"], 1.2 * spread["slicing"])
-        with open(out / "rev_meetings.csv", encoding="utf-8", newline="") as file:
-            near = [r for r in csv.DictReader(file) if r["field"] == "volume_fraction"]
-        self.assertEqual(8, len(near))
-        # The report alone can be made again.
-        done = self.run_program("report", str(out))
-        self.assert_status(done, HELD)
+        self.assertEqual("", other.stderr)
+        found = json.loads(other.stdout)
+        self.assertEqual([], found["missing"])
+        self.assertGreaterEqual(len(found["worst"]), 43)
+        for field, worst in found["worst"].items():
+            # Of the field's largest value: sums of some hundred disks, cut near tangency.
+            self.assertLess(worst, 1e-10, field)
+        # The other cell, wheel and packing; tests/studies/snapshot_fit_test.cpp has each misfit.
+        done = self.average(snapshots, "--fresh", case=CASES / "couette/nu-0.804.toml")
+        self.assert_one_error(done, BAD_INPUT, "grain-p0.h5 does not fit", "nu-0.804.toml", "disks, not 2921")
 
-    def test_snapshots_of_another_cell(self):
-        done = self.compare(*settings(averaging__rotations=0.02, run__keep_snapshots=2))
-        self.assert_status(done, HELD)
-        snapshots = self.out / "snapshots" / "grain-p0.h5"
-        big = CASES / "couette/nu-0.804.toml"
-        for command in ("average", "rev"):
-            with self.subTest(command):
-                out = self.folder / "other"
-                done = self.run_program(command, snapshots, big, "--out", out)
-                self.assert_one_error(
-                    done, BAD_INPUT, "grain-p0.h5 does not fit", "nu-0.804.toml", "disks, not 2921",
-                    "the wheel's radius 0.03 m, not 0.1032 m",
-                )  # fmt: skip
-                self.assertFalse(out.exists())
-        for change, told in (
-            ({"cell__omega": 2}, "a wheel that turns at 1 rad/s, not 2 rad/s"),
-            ({"particles__small": 200}, "disks, not "),
-        ):
-            with self.subTest(told):
-                done = self.average(*settings(**change), snapshots=snapshots, out=self.folder / "x")
-                self.assert_one_error(done, BAD_INPUT, told)
-
-    def test_bad_files(self):
-        for what in ("missing.h5", "text.h5"):
-            self.write("text.h5", "no HDF5")
-            done = self.average(snapshots=self.folder / what, out=self.folder / "x")
-            self.assert_one_error(done, BAD_INPUT, what, "cannot be read as an HDF5 file")
-
-    def test_damaged_files(self):
+    def test_damaged_files_are_refused(self):
         """Some of them crash HDF5, or have it go round for ever."""
-        files = sorted(CASES.parent.glob("tests/fuzz/corpus/packings/*.h5"))
+        files = sorted(HOME.glob("tests/fuzz/corpus/packings/*.h5"))
         self.assertGreater(len(files), 10)
         for file in files:
             with self.subTest(file.name):
-                done = self.average(snapshots=file, out=self.folder / "x")
-                self.assert_one_error(done, BAD_INPUT, file.name)
+                self.assert_one_error(self.average(file), BAD_INPUT, file.name)
+
+
+def ring_of_disks(count, radius=0.05):
+    angles = [2 * math.pi * k / count for k in range(count)]
+    return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
+
+
+class PackingFile(SystemTest):
+    """particles.file"""
+
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "mine.h5"
+        self.case = self.write("own.toml", f'[case]\nextends = "{COUETTE}"\n[particles]\nfile = "mine.h5"\n')
+
+    def check(self, *arguments, **datasets):
+        """Of the packing with these datasets; without any, of the file as it is."""
+        if datasets:
+            with h5py.File(self.file, "w") as file:
+                for name, values in datasets.items():
+                    file[name] = values
+        return self.run_program("check", self.case, "--engines", "grain", "--no-timing", *arguments)
+
+    def test_sound_one_runs_with_its_number_of_disks(self):
+        self.assertIn("own: 12 disks", self.check(radius=[SMALL] * 12, position=ring_of_disks(12)).stdout)
+        short = settings(preparation__packings=1, averaging__rotations=0.01, averaging__settle_rotations=0.0)
+        self.assert_status(self.compare(*short, case=self.case), HELD)
+        cell = self.results()["cell"]
+        self.assertEqual((12, 0), (cell["small"], cell["large"]))
+
+    def test_wrong_one_is_refused(self):
+        two = ring_of_disks(2)
+        near, over, same = ([*ring_of_disks(12)] for _ in range(3))
+        near[7] = (near[3][0], near[3][1] + 2 * SMALL - 0.001)  # 1 mm of overlap
+        over[7] = (over[3][0], over[3][1] + 0.002)  # 7.4 − 2 = 5.4 mm, allowed 0.2·3.7 mm
+        same[7] = same[3]
+        for told, datasets in (
+            (("disk 3 and disk 7", "0.0054 m", "max_overlap = 0.2", "0.00074 m"), {"radius": [SMALL] * 12, "position": over}),
+            (("disk 3 and disk 7", "0.001 m"), {"radius": [SMALL] * 12, "position": near}),
+            (("disk 3 and disk 7", "same centre"), {"radius": [SMALL] * 12, "position": same}),
+            # Half its radius above a wall disk of the wheel at (R_i, 0).
+            (("overlap by",), {"radius": [SMALL], "position": [(0.03 + SMALL / 2, 0.0)]}),
+            (("disk 1",), {"radius": [SMALL] * 2, "position": [(0.05, 0.0), (0.2, 0.0)]}),
+            (("position of disk 1", "not finite"), {"radius": [SMALL] * 2, "position": [(0.05, 0.0), (math.nan, 0.05)]}),
+            (("velocity", "not finite"), {"radius": [SMALL] * 2, "position": two, "velocity": [(0.0, 0.0), (math.inf, 0.0)]}),
+            (("radius of disk 1", "-0.1"), {"radius": [SMALL, -0.1], "position": two}),
+            (("position has 4 values", "3 disks"), {"radius": [SMALL] * 3, "position": two}),
+            (("position",), {"radius": [SMALL] * 3}),
+        ):
+            with self.subTest(told):
+                self.assert_one_line(self.check(**datasets), BAD_INPUT, "mine.h5", *told)
+        self.assert_status(self.check("--set=particles.max_overlap=0.3", radius=[SMALL] * 12, position=near), HELD)
+        self.file.write_text("radius position\n0.0037 0 0\n", encoding="utf-8")
+        self.assert_one_line(self.check(), BAD_INPUT, "mine.h5", "cannot be read as an HDF5 file")
+        self.file.unlink()
+        self.assert_one_line(self.check(), BAD_INPUT, "particles.file", "mine.h5", "no such file")
+
+    def test_cut_short_or_overwritten_one_crashes_nothing(self):
+        self.check(radius=[SMALL] * 200, position=ring_of_disks(200))
+        whole = self.file.read_bytes()
+        for size in (100, len(whole) // 2, len(whole) - 8):
+            self.file.write_bytes(whole[:size])
+            self.assert_one_line(self.check(), BAD_INPUT, "mine.h5")
+        for part in range(8):  # refused, or the damage lies where nothing is kept
+            start, end = len(whole) * part // 8, len(whole) * (part + 1) // 8
+            self.file.write_bytes(whole[:start] + b"\xff" * (end - start) + whole[end:])
+            done = self.check()
+            self.assertIn(done.status, (HELD, BAD_INPUT))
+
+
+class KeptPackings(SystemTest):
+    """Packings that crossgrain prepares itself."""
+
+    def setUp(self):
+        super().setUp()
+        self.cache = self.folder / "cache"
+
+    def compare_with_cache(self, *arguments):
+        short = settings(
+            preparation__shrink_time=0.2, preparation__rotations=0.0, averaging__rotations=0.01, averaging__settle_rotations=0.0
+        )
+        return self.compare("--fresh", *short, *arguments, env={"CROSSGRAIN_CACHE": str(self.cache)})
+
+    def test_are_prepared_once_and_anew_where_they_are_others_or_damaged(self):
+        prepared, cached = "packing 0: prepared", "packing 0: from the cache"
+        for arguments, told, kept in (
+            ((), prepared, 2), ((), cached, 2), (("--set=averaging.rings=4",), cached, 2),
+            (("--seed=5",), prepared, 4), (("--set=particles.small=209",), prepared, 6),
+        ):  # fmt: skip
+            with self.subTest(arguments):
+                done = self.compare_with_cache(*arguments)
+                self.assert_status(done, HELD)
+                self.assertIn(told, done.stderr)
+                self.assertEqual(kept, len(list(self.cache.iterdir())))
+        for file in self.cache.iterdir():
+            os.truncate(file, file.stat().st_size // 2)
+        self.assertIn(prepared, self.compare_with_cache().stderr)
+
+    def test_of_different_seeds_have_nothing_in_common_and_are_files_of_a_user_too(self):
+        for seed in (1, 2):
+            self.assert_status(self.compare_with_cache(f"--seed={seed}"), HELD)
+        files = sorted(self.cache.iterdir())
+        self.assertEqual(4, len(files))
+        places = []
+        for file in files:
+            with h5py.File(file) as packing:
+                places.append(packing["position"][:])
+        for a, b in itertools.combinations(places, 2):
+            self.assertGreater(abs(a - b).min(axis=1).mean(), 1e-3)
+        # Freshly compressed disks overlap: a lot may be allowed, or hardly any.
+        as_file = settings(particles__file=files[0], preparation__packings=1)
+        self.assert_status(self.compare_with_cache("--quiet", *as_file, "--set=particles.max_overlap=1.0"), HELD)
+        done = self.compare_with_cache("--quiet", *as_file, "--set=particles.max_overlap=1e-9")
+        self.assert_one_line(done, BAD_INPUT, files[0].name, " overlap by")
+
+    def test_where_they_cannot_be_kept_cost_time_and_not_the_run(self):
+        self.cache = self.write("file", "") / "below"
+        done = self.compare_with_cache()
+        self.assert_status(done, HELD)
+        self.assertRegex(done.stderr, r"prepared, not kept for next time: .*file")
 
 
 if __name__ == "__main__":

@@ -103,36 +103,91 @@ TEST_F(Worker, HasANewFileForEachExchangeUnlessItWritesOver) {
   EXPECT_EQ(filesLeft(), std::set<std::string>{"toy.log"});
 }
 
-TEST_F(Worker, IsNotTakenAtWhatItWroteBefore) {
-  const std::string stale = " is unusable: toy.bin: position[0] is -nan";
-  EXPECT_EQ(snapshotFailure("forgets"), "toy, toy at t = 0 s: its answer to snapshot" + stale);
-  // Its own file under that name: ours is another.
-  EXPECT_EQ(snapshotFailure("replaces"), "toy, toy at t = 0 s: its answer to snapshot" + stale);
+TEST_F(Worker, ThatEnded_IsReportedWithItsLastWords) {
+  const std::string ended = "toy, toy at t = 0 s: ended (", during = ") during advance(t = 0.5 s)";
+  for (const auto& [mischief, how, words] : {
+           std::tuple("exit", "exit status 3", std::string()),
+           {"die", "signal 6 (Aborted)",
+            "; the end of its log: first line | assertion failed: mass > 0"},
+           {"traceback", "exit status 1", "; its error: KeyError: 'HOME'"},
+           {"log", "exit status 3",
+            "; the end of its log: " + std::string(200, 'y') + " … | last words"},
+           {"disk", "signal 25 (File size limit exceeded)", ""},
+       })
+    EXPECT_EQ(advanceFailure(mischief), ended + how + during + words);
 }
 
-TEST_F(Worker, PassesRefusalsOnAndLivesOn) {
+TEST_F(Worker, AnswerToAdvanceThatCannotBe_IsRefused) {
+  for (const auto& [mischief, reason] : {
+           std::pair("garbage", "is not a JSON object: 'Welcome to the engine!'"),
+           {"deep", "has more than 16 objects and lists in each other"},
+           {"endless", "is longer than 8 MiB"},
+           {"order", "is unusable: it has 'stats', which answers stats, and no 'time'"},
+           {"typo", "is unusable: it has no 'time' (it has: ok, tmie)"},
+           {"type", "is unusable: type must be number, but is string"},
+           {"twice", "has the key 'time' twice in one object"},
+       })
+    EXPECT_EQ(advanceFailure(mischief),
+              std::string("toy, toy at t = 0 s: its answer to advance(t = 0.5 s) ") + reason);
+  const auto engine = start("more");
+  engine->load(test::toyScene(), {});
+  engine->advance(0.5);
+  EXPECT_EQ(failureOf([&] { engine->advance(0.6); }),
+            "toy, toy at t = 0.5 s: before advance(t = 0.6 s) it answered what nobody had asked: "
+            "'{\"ok\":true,\"time\":0.6}'");
+}
+
+TEST_F(Worker, SnapshotThatCannotBe_IsRefused) {
+  for (const auto& [mischief, reason] : {
+           std::pair("nan", "toy.bin: velocity[2] is nan"),
+           {"few", "toy.bin: position is 2 × f64, expected 4 × f64"},
+           {"ids", "contact 0 is of 0 and 99, not of 0 ≤ i < j < 5"},
+           {"short",
+            "toy-2.bin is too short: position needs 4 × 8 bytes from byte 0, the file has 8 bytes"},
+           {"pipe", "toy-2.bin is not a regular file"},
+           {"device", "toy-2.bin is not a regular file"},
+           // The file does have that many, and takes no room: all but its beginning is a hole.
+           {"many", "it lists 500000000 contacts, more than 500 of 5 bodies"},
+           // Nothing that it wrote before is taken, nor its own file under that name.
+           {"forgets", "toy.bin: position[0] is -nan"},
+           {"replaces", "toy.bin: position[0] is -nan"},
+       })
+    EXPECT_EQ(snapshotFailure(mischief),
+              std::string("toy, toy at t = 0 s: its answer to snapshot is unusable: ") + reason);
+}
+
+TEST_F(Worker, AnswerToHelloOrLoadThatCannotBe_IsRefused) {
+  for (const auto& [mischief, reason] : {
+           std::pair("option",
+                     "unknown law option 'colour' (there are: normal, damper, tangential, tension, "
+                     "coulomb_bound, dashpot, spring_reset, spring_update, lever_arm, "
+                     "velocity_arm, plane_arm, history, damping_velocity, integrator)"),
+           {"value", "tension cannot be 'red' (it is one of: allow, cut)"},
+           {"no value", "tension has no value"},
+       })
+    EXPECT_EQ(failureOf([&] { start(mischief); }),
+              std::string("toy: its answer to hello is unusable: law_options: ") + reason);
+  EXPECT_EQ(failureOf([&] { start("step")->load(test::toyScene(), {}); }),
+            "toy, toy at t = 0 s: its answer to load is unusable: dt = 0 s is no time step, with "
+            "4e-05 s in the scene");
+}
+
+TEST_F(Worker, Refusal_IsPassedOnInBoundsAndTheWorkerLivesOn) {
   const auto worker = start("");
-  EXPECT_EQ(failureOf<UnsupportedScene>([&] {
-              worker->load(test::toyScene(), {{"refuse", true}});
-            }),
-            "has no such thing");
+  const auto refusal = [&](const SettingValue& reason) {
+    return failureOf<UnsupportedScene>([&] {
+      worker->load(test::toyScene(), {{"refuse", reason}});
+    });
+  };
+  EXPECT_EQ(refusal(true), "has no such thing");
+  EXPECT_EQ(refusal(std::string(1'000'000, 'x') + "\nmore"),
+            std::string(longestReason, 'x') + " …");
   EXPECT_EQ(failureOf([&] {
               worker->load(test::toyScene(), {{"throw", true}});
             }),
             "toy, toy at t = 0 s: could not allocate");
   worker->load(test::toyScene(), {});
   EXPECT_NEAR(worker->advance(0.5), 0.5, 1e-12);
-}
-
-TEST_F(Worker, SaysHowItEnded) {
-  EXPECT_EQ(advanceFailure("exit"),
-            "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s)");
-  EXPECT_EQ(advanceFailure("die"),
-            "toy, toy at t = 0 s: ended (signal 6 (Aborted)) during advance(t = 0.5 s);"
-            " the end of its log: first line | assertion failed: mass > 0");
-  EXPECT_EQ(advanceFailure("traceback"),
-            "toy, toy at t = 0 s: ended (exit status 1) during advance(t = 0.5 s);"
-            " its error: KeyError: 'HOME'");
 }
 
 TEST_F(Worker, IsKilledWhenItHangs) {
@@ -142,72 +197,6 @@ TEST_F(Worker, IsKilledWhenItHangs) {
   const Seconds took = std::chrono::steady_clock::now() - begin;
   EXPECT_GE(took.count(), 1.0);
   EXPECT_LT(took.count(), 60.0);  // on however busy a machine
-}
-
-TEST_F(Worker, IsDistrusted) {
-  EXPECT_EQ(advanceFailure("garbage"),
-            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) is not a JSON object: 'Welcome "
-            "to the engine!'");
-  EXPECT_EQ(snapshotFailure("short"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is too short: "
-            "position needs 4 × 8 bytes from byte 0, the file has 8 bytes");
-  EXPECT_EQ(snapshotFailure("nan"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy.bin: velocity[2] is "
-            "nan");
-  EXPECT_EQ(snapshotFailure("few"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy.bin: position is 2 × "
-            "f64, expected 4 × f64");
-  EXPECT_EQ(snapshotFailure("ids"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: contact 0 is of 0 and 99, "
-            "not of 0 ≤ i < j < 5");
-}
-
-TEST_F(Worker, HasBoundsOnWhatItSays) {
-  EXPECT_EQ(advanceFailure("deep"),
-            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) has more than 16 objects and "
-            "lists in each other");
-  EXPECT_EQ(advanceFailure("endless"),
-            "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) is longer than 8 MiB");
-  const auto worker = start("");
-  const std::string refusal = failureOf<UnsupportedScene>([&] {
-    worker->load(test::toyScene(), {{"refuse", std::string(1'000'000, 'x') + "\nmore"}});
-  });
-  EXPECT_EQ(refusal, std::string(longestReason, 'x') + " …");
-}
-
-TEST_F(Worker, HasBoundsOnWhatItWrites) {
-  EXPECT_EQ(advanceFailure("log"),
-            "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s); the end of its "
-            "log: " +
-                std::string(200, 'y') + " … | last words");
-  EXPECT_EQ(advanceFailure("disk"),
-            "toy, toy at t = 0 s: ended (signal 25 (File size limit exceeded)) during advance(t = "
-            "0.5 s)");
-  EXPECT_EQ(snapshotFailure("pipe"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is not a regular "
-            "file");
-  EXPECT_EQ(snapshotFailure("device"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: toy-2.bin is not a regular "
-            "file");
-  // The file does have that many, and takes no room: all but its beginning is a hole.
-  EXPECT_EQ(snapshotFailure("many"),
-            "toy, toy at t = 0 s: its answer to snapshot is unusable: it lists 500000000 "
-            "contacts, more than 500 of 5 bodies");
-}
-
-TEST_F(Worker, AnswersWhatItIsAsked) {
-  const std::string advance = "toy, toy at t = 0 s: its answer to advance(t = 0.5 s) ";
-  EXPECT_EQ(advanceFailure("order"),
-            advance + "is unusable: it has 'stats', which answers stats, and no 'time'");
-  EXPECT_EQ(advanceFailure("typo"), advance + "is unusable: it has no 'time' (it has: ok, tmie)");
-  EXPECT_EQ(advanceFailure("type"), advance + "is unusable: type must be number, but is string");
-  EXPECT_EQ(advanceFailure("twice"), advance + "has the key 'time' twice in one object");
-  const auto engine = start("more");
-  engine->load(test::toyScene(), {});
-  engine->advance(0.5);
-  EXPECT_EQ(failureOf([&] { engine->advance(0.6); }),
-            "toy, toy at t = 0.5 s: before advance(t = 0.6 s) it answered what nobody had asked: "
-            "'{\"ok\":true,\"time\":0.6}'");
 }
 
 TEST_F(Worker, HoldsNobodyWithWhatItPutsInTheScratchFolder) {
@@ -242,21 +231,6 @@ TEST_F(Worker, IsHeldToItsMemory) {
   EXPECT_EQ(failureOf([&] { engine.advance(0.5); }),
             "toy, toy at t = 0 s: ended (exit status 4) during advance(t = 0.5 s); its memory is "
             "limited to 1.07374e+09 bytes");
-}
-
-TEST_F(Worker, SaysAtOnceWhatCannotBe) {
-  EXPECT_EQ(failureOf([&] { start("option"); }),
-            "toy: its answer to hello is unusable: law_options: unknown law option 'colour' (there are: normal, "
-            "damper, tangential, tension, coulomb_bound, dashpot, spring_reset, spring_update, "
-            "lever_arm, velocity_arm, plane_arm, history, damping_velocity, integrator)");
-  EXPECT_EQ(failureOf([&] { start("value"); }),
-            "toy: its answer to hello is unusable: law_options: tension cannot be 'red' (it is one of: allow, "
-            "cut)");
-  EXPECT_EQ(failureOf([&] { start("no value"); }),
-            "toy: its answer to hello is unusable: law_options: tension has no value");
-  EXPECT_EQ(failureOf([&] { start("step")->load(test::toyScene(), {}); }),
-            "toy, toy at t = 0 s: its answer to load is unusable: dt = 0 s is no time step, with "
-            "4e-05 s in the scene");
 }
 
 TEST_F(Worker, MayPrintWhatItLikes) {

@@ -1,0 +1,131 @@
+// Collisions: what is counted, what is no success, what differs by its model.
+#include <gtest/gtest.h>
+
+#include "reports/collide/report.hpp"
+#include "reports/common/overview.hpp"
+#include "tests/reports/report_text.hpp"
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+/// What engines simulate is compared with the effects of the variant that they
+/// ran.
+TEST(CollideReport, Effects_AreThoseOfEachVariant) {
+  CollideResults results = sample::collideResults();
+  const std::string all = textOf(reportOf(results));
+  EXPECT_TRUE(has(all, "| friction | called for | ✓ simulated |"));
+  // The sample's engines simulate moving walls, which no collision calls for.
+  EXPECT_TRUE(has(all, "| moving walls | – | + though not called for |"));
+  results.variants[1].effects = {"normal_damping", "rotation"};
+  EXPECT_TRUE(has(textOf(reportOf(results)),
+                  "| friction | called for in 1 of 2 scenes | ✓ simulated; + "
+                  "though not called for "
+                  "in 3 of 6 runs |"));
+  for (CollisionVariant& variant : results.variants)
+    variant.effects.reset();  // of an earlier version
+  EXPECT_FALSE(has(textOf(reportOf(results)), "though not called for"));
+}
+
+/// YADE passes the law that it declares, tension cut, wherever it does not pass the scene's.
+CollideResults withDeclaredLaw() {
+  CollideResults results = sample::collideResults();
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves)
+      if (curve.engine == "yade") {
+        DeclaredScore& declared = curve.declared.emplace();
+        declared.law = {{"tension", std::string("cut")}};
+        declared.reference = DeclaredReference::oracle;
+        declared.score = curve.score;
+        declared.score.of[QuantityId::psiF]->max = 0.001;
+        declared.score.of[QuantityId::psiF]->held = true;
+        declared.score.verdict = Verdict::pass;
+      }
+  return results;
+}
+
+TEST(CollideOverview, LargestShareOfALimit_IsAModelDifferenceWhereTheDeclaredLawPasses) {
+  const Overview scene = collideOverview(sample::collideResults());
+  // 12/50² at t_c/50, half of it is told, the limit is 0.01.
+  EXPECT_EQ(shown(rowNamed(scene, "grain").cells[1]), "good 0.24 × limit");
+  EXPECT_EQ(shown(rowNamed(scene, "yade").cells[1]), "bad 1.2 × limit");
+  CollideResults results = withDeclaredLaw();
+  const Overview declared = collideOverview(results);
+  EXPECT_EQ(shown(rowNamed(declared, "yade").cells[1]), "model_difference 1.2 × limit");
+  // Four of yade's sweeps hold in spite of it, two differ: it explains nothing.
+  EXPECT_EQ(declared.conclusion[1], "Fails most often: tangential rebound Ψ_f.");
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves)
+      if (curve.engine == "yade" && curve.score.verdict == Verdict::pass)
+        curve.declared->law.clear();
+  EXPECT_EQ(collideOverview(results).conclusion[1],
+            "Laws differ most by: tension cut (yade); fails most often: tangential rebound Ψ_f.");
+}
+
+TEST(CollideReport, ModelDifference_IsNoFailure) {
+  const CollideResults results = withDeclaredLaw();
+  EXPECT_TRUE(has(textOf(reportOf(results)), "| ≠ 4 of 6 passed, 2 ≠"));
+  const SweepCount count = countOf(results);
+  EXPECT_EQ(count.modelDifference, 2);
+  EXPECT_EQ(count.beyondLimits, 2);
+}
+
+TEST(CollideReport, NothingJudged_IsNoSuccess) {
+  CollideResults results = sample::collideResults();
+  for (CollisionVariant& variant : results.variants)
+    for (CollisionCurve& curve : variant.curves) {
+      curve.score.verdict = Verdict::notMeasured;
+      if (auto& psi = curve.score.of[QuantityId::psiF]) {
+        psi->limit.reset();
+        psi->held.reset();
+      }
+    }
+  EXPECT_EQ(collideOverview(results).conclusion.back(),
+            "Nothing was judged: the case has no [collision.margins] for what "
+            "was measured.");
+  EXPECT_EQ(countOf(results).judged(), 0);
+  for (CollisionVariant& variant : results.variants) {
+    variant.oracleReason = "no limit";
+    for (CollisionCurve& curve : variant.curves) curve.score.of[QuantityId::psiF].reset();
+  }
+  EXPECT_EQ(nothingJudged(results), "there is no oracle to judge by: no limit");
+  EXPECT_EQ(nothingJudged(sample::collideResults()), "");
+}
+
+TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
+  CollideResults results = sample::collideResults();
+  SchemeScore& own = results.variants[0].curves[0].ownScheme.emplace();
+  own.position = 2e-14;
+  own.velocity = 1e-9;
+  own.limit = 1e-12;
+  own.held = false;
+  const std::string page = textOf(reportOf(results));
+  EXPECT_TRUE(has(page, "own scheme 1×10⁻⁹"));
+  EXPECT_TRUE(has(page, "| ✗ 1×10⁻⁹ |"));
+  EXPECT_EQ(verdictOf(results.variants[0].curves[0]), Verdict::fail);
+}
+
+/// A mirror beside its peer shows what the peer should do; alone it is an
+/// engine like any other.
+TEST(CollideReport, MirrorsBesideTheirPeers_AreNotCounted) {
+  CollideResults results = sample::collideResults();
+  const int before = countOf(results).judged();
+  results.engines[1].mirrors = "grain";
+  EXPECT_EQ(countOf(results).judged(), before - 6);
+  results.engines[1].mirrors = "somebody else";
+  EXPECT_EQ(countOf(results).judged(), before);
+}
+
+TEST(CollideScores, PassedBetweenTimeSteps_IsLeftOut) {
+  // 3 + 3 + 1 curves, less the middle ones of two engines that passed.
+  CollideResults results = sample::collideResults();
+  const auto rows = [&] { return scoreTable(casesOf(results).front()).rows.size(); };
+  const std::size_t before = rows();
+  CollisionCurve& middle = results.variants[0].curves[2];
+  ASSERT_EQ(middle.engine, "grain");
+  middle.score.verdict = Verdict::fail;
+  EXPECT_EQ(rows(), before + 1) << "what failed is there";
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

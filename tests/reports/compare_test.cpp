@@ -1,0 +1,330 @@
+// What a comparison concludes: causes and next steps by rule, and sentences that are true of random
+// results.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+#include "reports/common/engines.hpp"
+#include "reports/common/labels.hpp"
+#include "reports/flow/endpoint_text.hpp"
+#include "reports/flow/figures.hpp"
+#include "reports/flow/overview.hpp"
+#include "reports/flow/report.hpp"
+#include "results/json_fields.hpp"
+#include "tests/reports/report_text.hpp"
+#include "tests/reports/sample_results.hpp"
+
+namespace crossgrain::reports {
+namespace {
+
+/// Two engines; the second disagrees on one of two endpoints.
+CompareResults disagreeing() {
+  CompareResults results;
+  results.engines = {{"ours", "", "", "", Status::finished, ""},
+                     {"theirs", "", "", "", Status::finished, ""}};
+  for (const auto& [endpoint, answer] :
+       {std::pair("pressure", Verdict::fail), std::pair("coordination", Verdict::pass)}) {
+    EndpointRow row;
+    row.a = "ours";
+    row.b = "theirs";
+    row.endpoint = endpoint;
+    row.verdict = answer;
+    row.distance = answer == Verdict::fail ? 3.0 : 0.1;
+    results.endpoints.rows.push_back(row);
+  }
+  return results;
+}
+
+LockstepRow lockstepRow(Equivalence verdict) {
+  LockstepRow row;
+  row.engine = "theirs";
+  row.verdict = verdict;
+  row.equivalent = verdict == Equivalence::differs ? 0.02 : 1e-5;
+  return row;
+}
+
+TEST(CompareOverview, NamesTheLawAsCauseOnlyWhereThatIsShown) {
+  CompareResults results = disagreeing();
+  EXPECT_EQ(shown(rowNamed(compareOverview(results), "theirs").cells[1]), "bad 3.00 margins");
+  EXPECT_EQ(compareConclusion(results)[0],
+            "Against ours: theirs disagreed on pressure and agreed on 1 of 2 endpoints.");
+  EXPECT_EQ(
+      compareConclusion(results)[1],
+      "Causes of differences: no mirror shows whether the difference of theirs comes from its "
+      "law or its implementation.");
+
+  results.lockstep.emplace();
+  results.lockstep->rules = {1e-10, 1e-3, 1e-3, "kn", 0.05};
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
+  const Overview same = compareOverview(results);
+  EXPECT_EQ(shown(rowNamed(same, "theirs").cells[0]), "good 0.0100 × limit");
+  EXPECT_EQ(shown(rowNamed(same, "theirs").cells[1]), "model_difference 3.00 margins");
+  EXPECT_EQ(same.conclusion[1],
+            "Causes of differences: theirs differs by the law that it declares.");
+
+  results.lockstep->rows = {lockstepRow(Equivalence::differs)};
+  results.lockstep->rows[0].term = NamedTerm{"gt", 0.02, 0.1};
+  const Overview other = compareOverview(results);
+  EXPECT_EQ(shown(rowNamed(other, "theirs").cells[0]), "bad 20.0 × limit");
+  EXPECT_EQ(shown(rowNamed(other, "theirs").cells[1]), "bad 3.00 margins");
+  EXPECT_EQ(
+      other.conclusion[1],
+      "Causes of differences: theirs does not have the law that it declares (deviation found: "
+      "the tangential damping).");
+}
+
+/// A mirror of "theirs", and what it answers to it where the two peers disagree.
+void addMirror(CompareResults& results, Verdict answer) {
+  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
+  EndpointRow row = results.endpoints.rows[0];
+  row.a = "mirror";
+  row.kind = PairKind::mirrorImplementation;
+  row.verdict = answer;
+  results.endpoints.rows.push_back(row);
+}
+
+TEST(CompareOverview, AMirrorThatAgreesWithItsPeerIsAModelDifference) {
+  CompareResults results = disagreeing();
+  addMirror(results, Verdict::undecided);
+  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
+  results.endpoints.rows.back().verdict = Verdict::pass;
+  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
+}
+
+TEST(CompareOverview, DisagreementWithItsMirrorIsNoModelDifference) {
+  CompareResults results = disagreeing();
+  results.lockstep.emplace();
+  results.lockstep->rows = {lockstepRow(Equivalence::sameLaw)};
+  EXPECT_TRUE(isModelDifference(results, results.engines[1]));
+
+  addMirror(results, Verdict::fail);
+  EXPECT_FALSE(isModelDifference(results, results.engines[1]));
+  EXPECT_EQ(compareOverview(results).conclusion[1],
+            "Causes of differences: theirs disagrees with its own mirror in " +
+                endpointWords(results.endpoints.rows[0].endpoint) + ".");
+}
+
+TEST(CompareOverview, NamesTheNextStep) {
+  CompareResults results = disagreeing();
+  EXPECT_TRUE(has(compareConclusion(results).back(), "Next: compare the margins with"));
+  results.endpoints.rows[1].verdict = Verdict::undecided;
+  results.endpoints.rows[1].needs = 12;
+  EXPECT_EQ(compareConclusion(results).back(),
+            "Next: more packings, about 12 for the coordination of theirs against ours; the case "
+            "plans no further interim analysis ([looks] in its file).");
+  results.endpoints.looks.planned = {{8, 0.01}};
+  EXPECT_TRUE(
+      has(compareConclusion(results).back(), "ours; the same command with a larger --budget"));
+  for (EndpointRow& row : results.endpoints.rows) row.verdict = Verdict::pass;
+  EXPECT_EQ(compareConclusion(results),
+            (std::vector<std::string>{"Against ours: theirs agreed on both endpoints.",
+                                      "Nothing is left to decide at these margins."}));
+  results.endpoints.alarms = {{"ours", "theirs", PairKind::peer, "all disks are gone"}};
+  EXPECT_EQ(compareConclusion(results).back(),
+            "Next: see the alarm on theirs: all disks are gone.");
+  results.nothingJudged = NothingJudged{"the case has no margins", false};
+  EXPECT_EQ(compareConclusion(results).back(), "Nothing was judged: the case has no margins.");
+}
+
+/// Some of the endpoints of some pairs, answered at random; sometimes nothing was judged.
+CompareResults randomResults(std::mt19937& random) {
+  const auto upTo = [&](int most) { return std::uniform_int_distribution(0, most)(random); };
+  const auto margins = [&] { return std::uniform_real_distribution(-6.0, 6.0)(random); };
+  CompareResults results;
+  for (const char* name : {"ours", "second", "third"})
+    results.engines.push_back({name, "", "", "", Status::finished, ""});
+  if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of both engines", false};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = a + 1; b < 3; ++b)
+      for (const char* endpoint : {"pressure", "coordination", "mean_spin", "spin_at_wheel"}) {
+        if (upTo(4) == 0) continue;
+        EndpointRow row;
+        row.a = results.engines[a].name;
+        row.b = results.engines[b].name;
+        row.endpoint = endpoint;
+        row.verdict = results.nothingJudged ? Verdict::undecided
+                                            : std::array{Verdict::pass, Verdict::borderline,
+                                                         Verdict::fail, Verdict::undecided}
+                                                  .at(static_cast<std::size_t>(upTo(3)));
+        row.distance = margins();
+        if (row.verdict == Verdict::undecided && upTo(3) > 0) row.needs = 5 + upTo(200);
+        results.endpoints.rows.push_back(row);
+      }
+  SurrogateEngine own{"second", "mirror", 1e-4, 16, 0, {}, {}, true};
+  for (const char* endpoint : {"pressure", "coordination", "mean_spin"})
+    own.spotCheck.push_back({endpoint, margins(), 0.5 + std::abs(margins()), 0.01 * upTo(100), {}});
+  results.endpoints.surrogates = {own};
+  return results;
+}
+
+TEST(CompareSentences, TheFarthestEndpointIsNamed) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const SurrogateEngine& own = results.endpoints.surrogates.front();
+    const auto farthest = std::ranges::max_element(
+        own.spotCheck, {},
+        [](const SpotCheckNumber& number) { return std::abs(*number.difference); });
+    EXPECT_TRUE(has(describe(own), "margins of " + spaced(farthest->endpoint))) << describe(own);
+  }
+}
+
+TEST(CompareSentences, ThePairThatIsNextIsOpenAndOneOfThoseShown) {
+  std::mt19937 random(2);
+  int named = 0;
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const std::string next = compareConclusion(results).back();
+    const auto isOpen = [](const EndpointRow& row) { return row.verdict == Verdict::undecided; };
+    const bool shownIsOpen =
+        std::ranges::any_of(results.endpoints.rows,
+                            [&](const EndpointRow& row) { return isOpen(row) && row.a == "ours"; });
+    if (!has(next, ", about ")) continue;
+    ++named;
+    const auto row = std::ranges::find_if(results.endpoints.rows, [&](const EndpointRow& each) {
+      return each.needs &&
+             has(next, fmt::format("about {} for the {} of {} against {};", *each.needs,
+                                   endpointWords(each.endpoint), each.b, each.a));
+    });
+    ASSERT_NE(row, results.endpoints.rows.end()) << next;
+    EXPECT_TRUE(isOpen(*row)) << next;
+    EXPECT_EQ(shownIsOpen, row->a == "ours") << next;
+    rowNamed(compareOverview(results), row->b);  // throws where the matrix does not have it
+  }
+  EXPECT_GT(named, 100);
+}
+
+TEST(CompareSentences, DoNotContradictEachOther) {
+  std::mt19937 random(3);
+  int judgedNothing = 0;
+  for (int k = 0; k < 300; ++k) {
+    const CompareResults results = randomResults(random);
+    const Overview overview = compareOverview(results);
+    const std::string head = fmt::format("{}", fmt::join(overview.conclusion, " "));
+    const bool open = std::ranges::any_of(results.endpoints.rows, [](const EndpointRow& row) {
+      return row.verdict == Verdict::undecided;
+    });
+    EXPECT_FALSE(open && has(head, "Nothing is left to decide")) << head;
+    if (!results.nothingJudged) {
+      EXPECT_FALSE(has(head, "Nothing was judged")) << head;
+      continue;
+    }
+    ++judgedNothing;
+    EXPECT_TRUE(has(head, "Nothing was judged")) << head;
+    for (const char* verdict : {"agree", "undecided", "borderline"})
+      EXPECT_FALSE(has(head, verdict)) << head;
+    for (const OverviewRow& row : overview.rows)
+      EXPECT_TRUE(row.cells[1].verdict == Verdict::notMeasured ||
+                  row.cells[1].verdict == Verdict::notApplicable);
+  }
+  EXPECT_GT(judgedNothing, 30);
+}
+
+TEST(DifferenceFigures, WhatLiesBeyondTheAxisIsMarkedWithItsNumber) {
+  CompareResults results = disagreeing();
+  results.rings.rTilde = {0.5, 1.5, 2.5};
+  AgreementRow row;
+  row.a = "ours";
+  row.b = "theirs";
+  row.field = "spin";
+  for (const double margins : {0.5, 87.0, -6.0}) {
+    AgreementRing ring;
+    ring.ring = row.rings.size();
+    ring.difference = 2.0 * margins;
+    ring.margin = 2.0;
+    row.rings.push_back(ring);
+  }
+  results.agreement = {row};
+  const Figure figure = differenceFigures(results, engineRuns(results)).at(0);
+  const Panel& panel = figure.panels.at(0);
+  ASSERT_EQ(panel.curves.size(), 3u);
+  EXPECT_EQ(panel.curves[1].points.at(0).label, "87.0");
+  EXPECT_EQ(panel.curves[2].points.at(0).label, "−6.00");
+  for (const std::size_t k : {1u, 2u}) EXPECT_TRUE(isSeen(panel, panel.curves[k]));
+  EXPECT_TRUE(has(figure.caption, "beyond 5 margins"));
+}
+
+TEST(DifferenceFigures, AreInMarginsWithTheirBand) {
+  CompareResults results = disagreeing();
+  results.rings.rTilde = {0.5, 1.5};
+  AgreementRow row;
+  row.a = "theirs";  // the reference is second: the sign is turned
+  row.b = "ours";
+  row.field = "stress_rr";
+  AgreementRing ring;
+  ring.difference = 4.0;
+  ring.low = 3.0;
+  ring.high = 5.0;
+  ring.margin = 2.0;
+  row.rings = {ring};
+  ring.ring = 1;
+  ring.margin.reset();
+  row.rings.push_back(ring);
+  results.agreement = {row};
+  const auto figures = differenceFigures(results, engineRuns(results));
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].name, "difference_stress_rr");
+  const Panel& panel = figures[0].panels[0];
+  EXPECT_EQ(panel.band->high, 1.0);
+  ASSERT_EQ(panel.curves.size(), 1u);
+  EXPECT_EQ(panel.curves[0].name, "theirs");
+  ASSERT_EQ(panel.curves[0].points.size(), 1u);  // a ring without a margin has no place
+  EXPECT_EQ(panel.curves[0].points[0].y, -2.0);
+  EXPECT_EQ(*panel.curves[0].points[0].error, 0.5);
+}
+
+TEST(ProfileFigures, ASingleRunBesideMeansIsPaleAndItsMirrorIsNamed) {
+  CompareResults results = disagreeing();
+  results.rings.rTilde = {0.5, 1.5};
+  results.engines.push_back({"mirror", "", "", "theirs", Status::finished, ""});
+  Profile profile;
+  profile.method = "slicing";
+  profile.field = "spin";
+  profile.mean = {1.0, 0.5};
+  profile.standardError = {0.1, 0.1};
+  for (const auto& [name, runs] : {std::pair("ours", 2), std::pair("theirs", 1), {"mirror", 2}}) {
+    for (int k = 0; k < runs; ++k) {
+      FlowRun run;
+      run.engine = name;
+      run.packing = k;
+      run.profiles = {profile};
+      results.runs.push_back(run);
+    }
+    if (runs > 1) {
+      CouetteEnsemble mean;
+      mean.engine = name;
+      mean.profiles = {profile};
+      results.ensemble.push_back(mean);
+    }
+  }
+  results.endpoints.surrogates = {{"theirs", "mirror", 1e-4, 16, 0, {}, {}, true}};
+  const auto engines = engineRuns(results);
+  const auto figures = profileFigures(results, engines);
+  const auto figure = std::ranges::find(figures, "profile_spin", &Figure::name);
+  ASSERT_NE(figure, figures.end());
+  const auto& curves = figure->panels.at(0).curves;
+  ASSERT_EQ(curves.size(), 3u);
+  EXPECT_EQ(curves[1].name, "theirs, one run");
+  EXPECT_NE(curves[1].style.colour, engines[1].style.colour);
+  EXPECT_FALSE(curves[1].points.at(0).error);
+  EXPECT_EQ(curves[2].name, "mirror");
+  EXPECT_EQ(curves[2].style.colour, engines[2].style.colour);
+  EXPECT_TRUE(curves[2].points.at(0).error);
+  EXPECT_TRUE(has(describeBars(engines), "theirs (its verdicts rest on mirror)"));
+}
+
+TEST(CompareReport, Cost_IsSummedOverFinishedRuns) {
+  const std::string text = textOf(compareReport(sample::compareResults(4, 300)));
+  // 7.85 s at dt = 4e-5 s are 196 250 steps a run; 4 runs of the first engine,
+  // 3 of the second.
+  EXPECT_TRUE(has(text, "| steps | 785\u202f000 | 588\u202f750 |"));
+  // 1.1e-4 s of wall time a step.
+  EXPECT_TRUE(has(text, "| wall time per step | 110 |"));
+}
+
+}  // namespace
+}  // namespace crossgrain::reports

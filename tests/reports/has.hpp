@@ -1,3 +1,0 @@
-#pragma once
-
-#include "tests/reports/report_text.hpp"

@@ -1,0 +1,367 @@
+"""crossgrain compare and collide as whole runs: the same bits, interim analyses, mirrors, scenes of a user's own.
+
+What they write is kept in tests/golden."""
+
+import json
+import shutil
+import subprocess
+import sys
+import unittest
+
+from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HARD_SPHERE, HELD, HOME, SystemTest, settings
+
+SHORT = settings(averaging__rotations=0.02)
+SHEAR = CASES / "assembly/plane-shear.toml"
+
+
+class Compare(SystemTest):
+    def test_same_bits_however_many_jobs_and_from_the_case_in_the_results(self):
+        """Whether the packings come from a cache, and however many runs are side by side."""
+        tables = []
+        for jobs, cache in ((1, "one"), (2, "two")):
+            out = self.folder / cache
+            done = self.compare(*SHORT, f"--jobs={jobs}", out=out, env={"CROSSGRAIN_CACHE": str(self.folder / f"{cache}-cache")})
+            self.assert_status(done, HELD)
+            tables.append([(out / name).read_bytes() for name in ("profiles.csv", "series.csv")])
+        self.assertEqual(*tables)
+        case = self.write("again.toml", self.results(self.folder / "one")["case"]["toml"])
+        again = self.run_program("compare", case, "--engines", "grain", "--out", self.folder / "again")
+        self.assert_status(again, HELD)
+        self.assertEqual(tables[0][0], (self.folder / "again/profiles.csv").read_bytes())
+        self.assert_status(self.compare(*SHORT, "--seed=9"), HELD)
+        self.assertNotEqual(tables[0][0], (self.out / "profiles.csv").read_bytes())
+
+    def test_energy_ledger_accounts_for_the_work_of_the_wheel(self):
+        done = self.compare(*SHORT, *settings(run__energy_ledger="true"), engines="grain,box2d-penalty")
+        self.assert_status(done, HELD, FELL_SHORT)
+        for row in self.rows("series.csv"):
+            if row["engine"] != "grain":  # has no ledger
+                self.assertEqual("", row["energy_residual"])
+                continue
+            self.assertGreater(float(row["energy_lost_sliding"]), 0.0)
+            # Springs stretched after their force, 50 steps a contact: a few per cent at most.
+            put_in = float(row["energy_work_of_walls"]) + float(row["energy_initial"])
+            self.assertLess(abs(float(row["energy_residual"])), 0.05 * put_in)
+
+    def test_one_engine_is_neither_undecided_nor_decided(self):
+        done = self.compare("--quiet", *SHORT, "--set=preparation.packings=1")
+        self.assert_status(done, HELD)
+        self.assertIn("nothing was judged: one engine has nothing", done.stdout)
+        overview = self.results()["overview"]
+        states = {cell["state"] for row in overview["rows"] for cell in row["cells"]}
+        for contradiction in ("undecided", "every endpoint"):
+            self.assertNotIn(contradiction, done.stdout + " ".join(overview["conclusion"]))
+        self.assertNotIn("undecided", states)
+
+    def test_quick_makes_nothing_longer(self):
+        done = self.compare("--dry-run", "--set=preparation.packings=1")
+        self.assertIn("1 packings", done.stdout)
+
+
+class InterimAnalyses(SystemTest):
+    SHORT = settings(
+        preparation__packings=4, preparation__shrink_time=0.3, preparation__rotations=0.05,
+        averaging__settle_rotations=0.02, averaging__rotations=0.05, looks__count=3,
+    )  # fmt: skip
+
+    def compare_short(self, engines, *arguments):
+        return self.run_program("compare", COUETTE, "--engines", engines, "--out", self.out, *self.SHORT, *arguments)
+
+    def test_mirror_is_evaluated_in_place_of_its_peer(self):
+        done = self.compare_short("grain,box2d-penalty")
+        self.assert_status(done, HELD)
+        rows = self.rows("endpoints.csv")
+        self.assertEqual(9, len(rows))
+        self.assertEqual({"grain-as-box2d-penalty"}, {row["carrier_b"] for row in rows})
+        self.assertLess(max(float(row["bound"]) for row in rows), 1e-6)
+        self.assertEqual(1, [run["engine"] for run in self.results()["runs"]].count("box2d-penalty"))
+        self.assertIn("box2d-penalty: evaluated through its mirror grain-as-box2d-penalty", done.stdout)
+        self.assertIn("16 equal windows leave at most 19 % of states different", done.stdout)
+
+    def test_next_analysis_goes_on_where_the_budget_ended(self):
+        engines = "grain,box2d-impulse"
+        stiff = '--set=averaging.endpoints.mean_spin={ absolute = 1e-9, why = "never" }'
+        first = self.compare_short(engines, "--budget=0.1s", stiff)
+        self.assert_status(first, FELL_SHORT)
+        self.assertRegex(first.stdout, r"Analysed after 4 packings \(1 of 3 interim analyses\), agree tested at 2\.3\d % in each; 1\.25 of 5 %")
+        self.assertRegex(first.stderr, r"the first analysis, at 4 packings, is likely to end after \S+ s, .* beyond the budget of 0\.1 s")
+        decided = {
+            row["endpoint"]: row["answer"] for row in self.rows("endpoints.csv") if row["answer"] not in ("undecided", "borderline")
+        }
+        runs = self.finished_runs()
+        second = self.compare_short(engines, "--budget=10m", stiff)
+        self.assert_status(second, FELL_SHORT)
+        self.assertRegex(second.stdout, r"Analysed after 4, 8, 12 packings \(3 of 3 interim analyses\), .*; 5 of 5 %")
+        now = self.finished_runs()
+        self.assertEqual(runs, {name: now[name] for name in runs})
+        for row in self.rows("endpoints.csv"):
+            if row["endpoint"] in decided:
+                self.assertEqual((decided[row["endpoint"]], "1"), (row["answer"], row["look"]))
+
+
+class Collide(SystemTest):
+    FEW = settings(collision__steps_per_contact=50, collision__psi=[0.5, 2.0, 4.0])
+
+    def collide(self, case, engines, *arguments):
+        return self.run_program("collide", case, "--engines", engines, "--out", self.out, *arguments)
+
+    def test_folder_of_collisions_is_one_report_and_mirrors_run_where_they_are_wanted(self):
+        folder = self.folder / "mine"
+        folder.mkdir()
+        for name, mirrors in (("a", "false"), ("b", "true")):
+            (folder / f"{name}.toml").write_text(
+                f'[case]\nextends = "{COLLISION}"\n[run]\nmirrors = {mirrors}\n[collision]\npsi = [0.5, 2.0]\nsteps_per_contact = 50\n'
+            )
+        (folder / "c.toml").write_text(f'[case]\nkind = "couette"\nextends = "{COUETTE}"\n')
+        self.assert_status(self.collide(folder, "box2d-penalty", "-k", "*-cut"), HELD, FELL_SHORT)
+        mirror = "grain-as-box2d-penalty"
+        ran = {(row["case"], row["engine"]) for row in self.rows("collisions.csv")}
+        self.assertEqual({("a", "box2d-penalty"), ("b", "box2d-penalty"), ("b", mirror)}, ran)
+        page = (self.out / "report.html").read_text(encoding="utf-8")
+        for words in ('href="#case_2"', '<h2 id="case_2">b<', "spring-cut"):
+            self.assertIn(words, page)
+        self.assertEqual(1, page.count("Model or implementation?"))
+
+    def test_model_difference_is_no_fault_unless_strict(self):
+        """An engine true to conventions that the case lets it have does what it says; whether that is the scene's law, too,
+        is asked under --strict."""
+        wall = CASES / "collision/wall-oblique.toml"
+        for strict, status in (((), HELD), (("--strict",), FELL_SHORT)):
+            done = self.collide(wall, "box2d-penalty", "-k", "fixed", "--set=run.mirrors=false", *self.FEW, *strict)
+            self.assert_status(done, status)
+            self.assertRegex(done.stdout, r"0 curves passed, 1 differ by their model, 0 failed")
+        (row, *_) = self.rows("collisions.csv")
+        self.assertEqual(
+            ("model difference", "fell short", "held"), (row["outcome"], row["verdict_scene"], row["verdict_declared"])
+        )
+
+    def test_impulses_follow_waltons_law(self):
+        """Ψ_f = max(−e_t0 Ψ_i, Ψ_i − 3 (1 + e_n) µ)."""
+        self.assert_status(self.collide(HARD_SPHERE, "box2d-impulse", "--set=run.mirrors=false"), HELD)
+        rows = self.rows("collisions.csv")
+        self.assertEqual(2 * 41, len(rows))
+        for row in rows:
+            psi = float(row["psi_i"])
+            expected = max(-{"e_t0-0": 0.0, "e_t0-0.5": 0.5}[row["variant"]] * psi, psi - 3 * 1.9 * 0.44)
+            self.assertAlmostEqual(expected, float(row["psi_f_reference"]), places=9)
+            self.assertAlmostEqual(expected, float(row["psi_f"]), delta=1e-3)
+            self.assertAlmostEqual(0.9, float(row["e_n"]), delta=1e-3)
+
+    def test_same_bits_however_many_jobs(self):
+        tables = []
+        for jobs in (1, 2):
+            done = self.collide(COLLISION, "grain,box2d-penalty", f"--jobs={jobs}", "--fresh", "-k", "*-cut", *self.FEW)
+            self.assert_status(done, HELD, FELL_SHORT)
+            tables.append((self.out / "collisions.csv").read_bytes())
+        self.assertEqual(*tables)
+
+
+# A disk that falls on a fixed one, without run.dt.
+FILES = """
+[case]
+kind = "assembly"
+extends = "LAWS/rough.toml"
+[assembly]
+duration = 0.02
+gravity = [0.0, -9.81]
+[assembly.start]
+file = ["start-0.csv", "start-1.csv", "start-2.csv", "start-3.csv"]
+density = 6.4
+[looks]
+count = 2
+[average]
+bins = "whole"
+low = [-0.01, 0.0]
+high = [0.01, 0.02]
+from = 0.01
+snapshots = 5
+[[endpoints]]
+name = "height"
+quantity = "top"
+absolute = 0.001
+why = "a test"
+[run]
+mirrors = false
+"""
+
+# A disk that flies out of the averaged part.
+LEAVES = """
+[case]
+kind = "assembly"
+extends = "LAWS/rough.toml"
+[run]
+mirrors = false
+[assembly]
+duration = 0.1
+[[assembly.disks]]
+position = [0.0, 0.0]
+radius = 0.0037
+mass = 2.75e-4
+velocity = [0.5, 0.0]
+velocity_rms = 0.001
+[average]
+bins = "whole"
+low = [-0.02, -0.02]
+high = [0.02, 0.02]
+from = 0.0
+snapshots = 20
+[[endpoints]]
+name = "place"
+quantity = "mean_x"
+absolute = 0.01
+why = "a test"
+"""
+
+
+class Assemblies(SystemTest):
+    """Scenes that a case or a file of disks makes up."""
+
+    def compare(self, case, *arguments, engines="grain"):
+        return self.run_program("compare", case, "--engines", engines, "--out", self.out, "--quiet", *arguments)
+
+    def test_plane_shear_in_slabs(self):
+        short = settings(
+            assembly__duration=0.06, average__from=0.03, average__snapshots=10, preparation__packings=1, looks__count=1,
+            run__mirrors="false", run__energy_ledger="true",
+        )  # fmt: skip
+        self.assert_status(self.compare(SHEAR, *short), HELD, FELL_SHORT)
+        top = [row for row in self.rows("profiles.csv") if row["field"] == "velocity_x" and row["ring"] == "6"]
+        self.assertAlmostEqual(0.0604 * 11 / 12, float(top[0]["r_m"]))
+        self.assertGreater(float(top[0]["mean"]), 0.0)  # the top wall pulls to the right
+        self.assertIn("energy_work_of_walls", self.rows("series.csv")[0])
+
+    def test_lockstep_begins_where_the_walls_are(self):
+        """With walls elsewhere than the mirror's, or disks, the first steps would part them by far more than rounding."""
+        done = self.run_program(
+            "lockstep", SHEAR, "--engines", "box2d-penalty", "--starts=2", "--out", self.out, "--quiet",
+            *settings(assembly__duration=0.2, average__from=0.1),
+        )  # fmt: skip
+        self.assert_status(done, HELD)
+        last = self.rows("lockstep.csv")[-1]
+        self.assertIn(last["verdict"], ("same_to_rounding", "same_law"))
+        self.assertLess(float(last["largest_d"]), 1e-8)
+
+    def test_start_of_the_users_own(self):
+        for file in ("make_start.py", "from-file.toml"):
+            shutil.copy(HOME / "examples/starts" / file, self.folder)
+        case = self.folder / "from-file.toml"
+        case.write_text(case.read_text(encoding="utf-8").replace("../../cases", str(CASES)), encoding="utf-8")
+        subprocess.run([sys.executable, "make_start.py"], cwd=self.folder, check=True)
+        short = settings(assembly__duration=0.05, average__from=0.02, preparation__packings=2)
+        self.assert_status(self.compare(case, *short), HELD)
+        self.assertEqual(60, self.results()["region"]["disks"])
+        start = self.folder / "start.csv"
+        lines = start.read_text(encoding="utf-8").splitlines()
+        lines[4] = lines[4].replace("0.00", "O.00", 1)
+        start.write_text("\n".join(lines), encoding="utf-8")
+        bad = self.compare(case)
+        self.assert_status(bad, BAD_INPUT)
+        self.assertRegex(bad.error_lines()[0], r"start\.csv:5: \w+ = .*: must be a number")
+
+    def test_files_are_counted_once_and_another_fixed_disk_is_another_case(self):
+        """Four files are four packings however many analyses, and need no run.dt."""
+        for k in range(4):
+            self.write(f"start-{k}.csv", f"x,y,radius,fixed\n0,{0.0077 + 0.0001 * k},0.0037,0\n0,0,0.0037,1\n")
+        case = self.write("case.toml", FILES.replace("LAWS", str(CASES / "laws")))
+        self.assert_status(self.compare(case), HELD)
+        self.assertEqual(4, len(self.results()["packings"]))
+        before = self.finished_runs()
+        self.assert_status(self.compare(case), HELD)
+        self.assertEqual(before, self.finished_runs())
+        for k in range(4):
+            start = self.folder / f"start-{k}.csv"
+            start.write_text(start.read_text(encoding="utf-8").replace("0,0,0.0037", "0.001,0,0.0037"), encoding="utf-8")
+        self.assert_one_line(self.compare(case), BAD_INPUT, "depends on what has changed: packing:", "--fresh")
+
+    def test_closed_forms_find_a_law_a_little_off(self):
+        """Every engine, the reference too, is judged by the case's expected values on one start."""
+        for name, change in {"bounce": "law.gn=2.1", "roll": "law.mu=0.21", "squeeze": "law.kn=103"}.items():
+            with self.subTest(name):
+                case = CASES / f"assembly/{name}.toml"
+                self.out = self.folder / name
+                self.assert_status(self.compare(case, engines="grain,box2d-penalty"), HELD)
+                judged = [row for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"]
+                self.assertEqual({"grain", "box2d-penalty"}, {row["b"] for row in judged})
+                self.assertEqual({"small_difference"}, {row["answer"] for row in judged})
+                self.out = self.folder / f"{name}-off"
+                self.assert_status(self.compare(case, f"--set={change}"), FELL_SHORT)
+                self.assertIn("disagree", {row["answer"] for row in self.rows("endpoints.csv")})
+
+    def test_engine_that_loses_its_disk_has_no_mean(self):
+        """The only disk leaves the averaged part: a mean of what was seen before is no value."""
+        case = self.write("case.toml", LEAVES.replace("LAWS", str(CASES / "laws")))
+        self.assertNotEqual(HELD, self.compare(case, engines="grain,box2d-penalty").status)
+        row = self.rows("endpoints.csv")[0]
+        self.assertEqual(("undecided", "0", "4"), (row["answer"], row["packings"], row["lost"]))
+        self.assertRegex(row["reason"], r"grain, packing 0: no mean_x in \d+ of 20 snapshots")
+
+
+class Plan(SystemTest):
+    """An array of jobs for Slurm, run here by hand, and what is merged of them."""
+
+    AWKWARD = "my jobs $(touch pwned) 'x'"
+
+    def setUp(self):
+        super().setUp()
+        self.slurm = self.folder / self.AWKWARD
+
+    def plan(self, *arguments):
+        return self.run_program(
+            "plan", COUETTE, "--engines", "grain,box2d-penalty", "--slurm", self.slurm, "--quick", "--set=run.mirrors=false",
+            *SHORT, *arguments,
+        )  # fmt: skip
+
+    def shell(self, *command, **variables):
+        """As Slurm runs it: elsewhere, with the folder that it was submitted from in the environment."""
+        env = {"SLURM_SUBMIT_DIR": str(self.slurm)} | variables
+        return self.call(*command, cwd="/", env=env)
+
+    def test_jobs_run_and_are_merged_and_what_is_not_as_planned_is_reported(self):
+        self.assert_status(self.plan("--seeds=1,2,3"), HELD)
+        names = [job["name"] for job in json.loads((self.slurm / "plan.json").read_text(encoding="utf-8"))["jobs"]]
+        nothing = self.run_program("report", self.slurm, "--out", self.folder / "site")
+        self.assert_status(nothing, BAD_INPUT)
+        self.assertIn("none of its 3 jobs has results", nothing.stderr.splitlines()[-1])
+        self.assert_one_line(self.run_program("report", self.slurm), BAD_INPUT, "holds a plan", "--out")
+        for number in ("1", "2"):
+            job = self.shell("bash", self.slurm / "array.sh", SLURM_ARRAY_TASK_ID=number)
+            self.assertEqual("", job.stderr)
+            self.assertIn(job.status, (HELD, FELL_SHORT), job.stdout)
+        # The third has not run; the second is then made the first's.
+        merged = self.shell("bash", self.slurm / "merge.sh")
+        self.assertEqual((FELL_SHORT, f"crossgrain: {names[2]}: missing: it has not begun\n"), (merged.status, merged.stderr))
+        site = (self.slurm / "site/index.html").read_text(encoding="utf-8")
+        self.assertEqual([True, True, False], [name in site for name in names])
+        results = self.slurm / "results"
+        shutil.rmtree(results / names[1])
+        for name in names[1:]:
+            shutil.copytree(results / names[0], results / name)
+        kept = results / names[2] / "results.json"
+        kept.write_bytes(kept.read_bytes()[:-100])
+        again = self.run_program("report", self.slurm, "--out", self.folder / "site")
+        self.assert_status(again, FELL_SHORT)
+        doubled, broken = again.stderr.splitlines()
+        self.assertEqual(f"crossgrain: {names[1]}: doubled: its folder holds the results of {names[0]}", doubled)
+        self.assertTrue(broken.startswith(f"crossgrain: {names[2]}: broken: "), broken)
+        self.assertFalse(list(self.folder.rglob("pwned")))
+
+    def test_submits_the_array_and_then_the_merging(self):
+        self.assert_status(self.plan("--seeds=1,2"), HELD)
+        self.assert_one_line(self.plan(), BAD_INPUT, "is there already")
+        sbatch = self.write("sbatch", '#!/bin/sh\nprintf "%s|" "$PWD" "$@" >> "$LOG"; echo >> "$LOG"; echo "17;cluster"\n')
+        sbatch.chmod(0o755)
+        log = self.folder / "log"
+        done = self.shell(self.slurm / "submit", "--comment=a b", PATH=f"{self.folder}:/usr/bin:/bin", LOG=str(log))
+        self.assertEqual((HELD, ""), (done.status, done.stderr))
+        self.assertEqual(
+            [
+                f"{self.slurm}|--parsable|--comment=a b|array.sh|",
+                f"{self.slurm}|--parsable|--dependency=afterany:17|--comment=a b|merge.sh|",
+            ],
+            log.read_text(encoding="utf-8").splitlines(),
+        )
+        self.assertIn("#SBATCH --array=1-2\n", (self.slurm / "array.sh").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    unittest.main()

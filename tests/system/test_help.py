@@ -1,0 +1,141 @@
+"""What the program says of itself: help and its examples, lists, the page of commands, completion in bash."""
+
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import unittest
+
+from harness import BAD_INPUT, CASES, HELD, PROGRAM, SystemTest
+
+HOME = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(HOME / "docs"))
+import commands as reference  # noqa: E402
+
+
+class Help(SystemTest):
+    @classmethod
+    def setUpClass(cls):
+        def help_of(*arguments):
+            return subprocess.run([PROGRAM, *arguments], capture_output=True, encoding="utf-8", check=True).stdout
+
+        cls.of_program = help_of("--help")
+        section = cls.of_program.partition("Subcommands:\n")[2].partition("\n\n")[0]
+        cls.commands = re.findall(r"(?m)^  (\S+) +\S", section)
+        cls.of = {command: help_of(command, "--help") for command in cls.commands}
+        cls.short = {command: (help_of(command, "-h"), help_of("help", command)) for command in cls.commands[:3]}
+        cls.version = help_of("--version")
+
+    def examples(self):
+        for command, text in self.of.items():
+            found = re.findall(r"(?m)^  crossgrain (.*)$", text)
+            self.assertNotEqual([], found, command)
+            yield from ((command, shlex.split(example, comments=True)) for example in found)
+
+    def test_help_has_usage_exit_status_and_environment(self):
+        for command, text in self.of.items():
+            with self.subTest(command):
+                self.assertRegex(text, rf"Usage: crossgrain {command}\b")
+                self.assertRegex(text, r"Exit status:\n  0 +passed")
+                self.assertIn("CROSSGRAIN_CACHE", text)
+        for command, others in self.short.items():
+            self.assertEqual({self.of[command]}, set(others))
+        self.assertRegex(self.of_program, r"Exit status:\n  0 +passed[\s\S]*\n  130 +interrupted")
+        self.assertNotIn("__serve", self.of_program)
+        self.assertRegex(self.version, r"^\d+\.\d+\.\d+\n$")
+
+    def test_examples_run_up_to_where_they_would_write(self):
+        """Each is run where the case files are; --out is a file."""
+        (self.folder / "cases").symlink_to(CASES)
+        (self.folder / "examples").symlink_to(HOME / "examples")
+        (self.folder / "taken").write_text("", encoding="utf-8")
+        for command, words in self.examples():
+            with self.subTest(shlex.join(words)):
+                if "--out" in words and command != "report":
+                    words[words.index("--out") + 1] = "taken/out"
+                    self.assert_one_error(self.run_program(*words), BAD_INPUT, "taken")
+                elif command in ("report", "diff", "replay"):  # of what another command left
+                    self.assert_one_line(self.run_program(*words), BAD_INPUT, words[1])
+                elif command not in ("identify", "engines", "conformance", "check"):  # take seconds, and have tests of their own
+                    self.assert_status(self.run_program(*words), HELD)
+
+    def test_examples_take_no_folder_of_another_command_and_read_what_one_left(self):
+        left, read = {}, []
+        for command, words in self.examples():
+            for option, place in zip(words, words[1:]):
+                if option in ("--out", "--slurm"):
+                    self.assertEqual(command, left.setdefault(place, command), place)
+                elif place.startswith("out/"):
+                    read.append(place)
+        self.assertIn("out/compare", left)
+        self.assertEqual([], [place for place in read if not any(place.startswith(one) for one in left)])
+
+    def test_page_of_commands_is_that_of_help(self):
+        """After a change of --help: docs/commands.py PROGRAM."""
+        page = reference.PAGE.read_text(encoding="utf-8")
+        self.assertEqual(reference.written(page, reference.table_of(PROGRAM)), page)
+
+    def complete(self, *words):
+        """Of the last word, as bash calls it: --option=value are three words."""
+        quoted = " ".join(f"'{word}'" for word in (PROGRAM, *words))
+        done = subprocess.run(
+            ["bash", "-c", f"set -u; source {HOME / 'cli/completion.bash'}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)};"
+             " _crossgrain; printf '%s\\n' \"${COMPREPLY[@]}\""],
+            capture_output=True, encoding="utf-8", check=True, cwd=self.folder,
+        )  # fmt: skip
+        self.assertEqual("", done.stderr)
+        return set(done.stdout.split())
+
+    def test_completion(self):
+        commands = self.complete("")
+        self.assertLessEqual(set(self.commands), commands)
+        self.assertFalse([word for word in commands if word.startswith("__")])
+        for command, text in self.of.items():
+            with self.subTest(command):
+                self.assertEqual(set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z0-9-]+)", text)), self.complete(command, "--"))
+        for words, expected in (
+            (("comp",), {"compare"}), (("--v",), {"--version"}), (("calibrate", "--tension", "="), {"allow", "cut"}),
+            (("calibrate", "--tension", "c"), {"cut"}), (("list", "m"), {"measures"}), (("help", "sta"), {"stability"}),
+            (("compare", "x"), set()),  # files are bash's own
+        ):  # fmt: skip
+            self.assertEqual(expected, self.complete(*words), words)
+
+
+class List(SystemTest):
+    def listed(self, *arguments):
+        done, text = (self.run_program("list", *arguments, *json_) for json_ in (["--json"], []))
+        self.assert_status(done, HELD)
+        rows = json.loads(done.stdout)
+        self.assertEqual(len(rows), len(text.stdout.splitlines()))
+        for row, line in zip(rows, text.stdout.splitlines()):
+            self.assertIn(row.get("name") or row["key"], line)
+        return rows
+
+    def test_cases(self):
+        rows = {row["file"]: row for row in self.listed("cases", CASES)}
+        quick = rows[str(CASES / "couette/quick.toml")]
+        self.assertEqual(("quick", "couette"), (quick["name"], quick["kind"]))
+        self.assertIn("small cell", quick["what"])
+        self.assertFalse([file for file in rows if "/laws/" in file], "these are no cases")
+        self.assertLessEqual({str(file) for file in CASES.glob("hard/*.toml")}, set(rows))
+        self.assertTrue(all(row["what"] for row in rows.values()))
+        self.assert_one_line(self.run_program("list", "cases", "."), BAD_INPUT, ".: there is no case file")
+        (self.folder / "cases").symlink_to(CASES)
+        self.assertTrue(self.listed("cases")[0]["file"].startswith("cases/"))
+
+    def test_fields_measures_and_keys(self):
+        """That keys are the loader's is tested beside the loader."""
+        fields = {row["name"]: row for row in self.listed("fields")}
+        self.assertEqual("m/s", fields["azimuthal_velocity"]["unit"])
+        self.assertIn("Σ", fields["stress_rr"]["what"])
+        self.assertEqual("radii", {row["name"]: row for row in self.listed("measures")}["max_overlap"]["unit"])
+        keys = {(row["section"], row["key"]): row for row in self.listed("keys")}
+        self.assertEqual(("N/m", "required (linear)"), (keys["law", "kn"]["unit"], keys["law", "kn"]["default"]))
+        self.assertEqual("allow, cut", keys["law", "tension"]["values"])
+        self.assertFalse([row for row in keys.values() if "`" in row["what"] + row["default"]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,253 @@
+"""lockstep, stability with its transforms, baseline and diff, cost and scale as whole runs: what a plain run and golden folders do not show."""
+
+import json
+import pathlib
+import sys
+import unittest
+
+from harness import BUILD, CASES, COLLISION, COUETTE, ENGINE_FAILED, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest, settings
+
+PLANTED = BUILD / "tests/faults/planted_engine"
+HARD = CASES / "hard"
+
+
+class StudyTest(SystemTest):
+    def piped(self, name, at_advance, *command):
+        """An engine file for that worker, asked through a pipe that does something at each request to advance."""
+        pipe = self.write(
+            f"{name}.py",
+            "import os, subprocess, sys, time\n"
+            "requests = os.fdopen(os.dup(3))  # workers read from 3 and answer on 4\n"
+            "own, engines = os.pipe()[::-1]\n"
+            "os.dup2(engines, 3)\n"
+            "subprocess.Popen(sys.argv[1:], pass_fds=(3, 4))\n"
+            "for line in requests:\n"
+            f"    if '\"advance\"' in line: {at_advance}\n"
+            "    os.write(own, line.encode())\n",
+        )
+        return self.engine_file(name, sys.executable, pipe, *command)
+
+
+class Lockstep(SystemTest):
+    def test_rigid_disks_are_equivalent_to_their_precision(self):
+        """Single precision is reported as such, and by rule."""
+        case = HOME / "tests/studies/rigid.toml"
+        done = self.run_program("lockstep", case, "--engines", "box2d-impulse", "--out", self.out, "--quiet")
+        self.assert_status(done, HELD)
+        row = self.results()["lockstep"]["rows"][0]
+        self.assertEqual("same_to_its_precision", row["verdict"])
+        for at in row["separations"]:
+            self.assertGreater(at["largest"], 1e-7)  # rounding is there
+            self.assertLess(at["median"], at["rounding"])
+        self.assertEqual(16, row["same_to_its_precision"])
+
+
+class Stability(SystemTest):
+    def verdicts(self, case, *arguments, statuses=(HELD, FELL_SHORT), **options):
+        done = self.run_program("stability", HARD / f"{case}.toml", *arguments, "--fresh", "--out", self.out, **options)
+        self.assert_status(done, *statuses)
+        return {row["verdict"] for row in self.rows("stability.csv")}
+
+    def test_cases_after_public_threads_catch_what_they_are_named_after(self):
+        """A slipping contact that keeps its anchor, friction of velocity alone, a bounce in seven steps."""
+        keeps = self.engine_file("keeps", PLANTED, "keep_spring=1")
+        self.assertEqual({"unstable"}, self.verdicts("pushed-and-let-go", "--engines", keeps))
+        self.assertEqual({"unstable"}, self.verdicts("pinched", "--engines", "grain", "--set=law.tangential=viscous"))
+        self.assertEqual({"degraded"}, self.verdicts("bouncing-ball", "-k", "*/soft", "--engines", "grain", "--set=run.dt=4e-4"))
+
+    def test_where_no_packing_can_be_prepared_the_other_cases_go_on(self):
+        """The guard of the engine that prepares them ends it at a rim of 3 m/s; the others never ran there."""
+        self.verdicts(
+            "couette-rates", "--engines", "grain", "--set=engines.grain.max_overlap=1.0", statuses=(HELD,),
+            env={"CROSSGRAIN_CACHE": str(self.folder / "cache")},
+        )  # fmt: skip
+        rows = {row["variant"]: row for row in self.rows("stability.csv")}
+        self.assertEqual(("stable", "refused"), (rows["1"]["verdict"], rows["1e2"]["verdict"]))
+        self.assertRegex(rows["1e2"]["reason"], "no packing was prepared: .*overlap by")
+
+
+TRANSFORMS = [
+    "turned by 90°", "turned by 1 rad", "mirrored", "lengths by 2⁻¹⁰", "masses by 2⁻¹⁰", "times by 2¹⁰",
+    "renumbered", "restarted", "in one go",
+]  # fmt: skip
+# Four layers of disks on a floor that slides under them against a stop: gravity, walls that move, stick and slip.
+SLIDING = HARD / "restart.toml"
+
+
+class Transforms(StudyTest):
+    def planted(self, name, **patch):
+        """An engine with those numbers planted."""
+        return self.engine_file(name, PLANTED, *(f"{fault}={value}" for fault, value in patch.items()))
+
+    def transform(self, *engines, status, more=()):
+        names = ",".join(map(str, engines))
+        done = self.run_program("stability", "--transforms", SLIDING, *more, "--engines", names, "--out", self.out)
+        self.assert_status(done, status)
+        return done
+
+    def of(self, verdict, engine):
+        rows = self.rows("stability.csv")
+        return [row["variant"] for row in rows if (row["verdict"], row["engine"]) == (verdict, engine)]
+
+    def test_faults_show_in_the_transform_that_they_break(self):
+        expected = {
+            "right": ({}, []),
+            "gravity-x": ({"gravity_x": 0}, ["turned by 90°", "turned by 1 rad"]),
+            "wall-y": ({"wall_velocity_y": 0}, ["turned by 90°", "turned by 1 rad"]),
+            "odd": ({"mu_odd": 0.9}, ["renumbered"]),
+            "handed": ({"mu_anticlockwise": 0.9}, ["mirrored"]),
+            "absolute": ({"least_overlap": 1e-9}, None),
+            "forgetful": ({"look_forgets": 1}, ["in one go"]),
+        }
+        self.transform(*(self.planted(name, **patch) for name, (patch, _) in expected.items()), status=FELL_SHORT)
+        for name, (_, variants) in expected.items():
+            if variants is None:
+                self.assertIn("lengths by 2⁻¹⁰", self.of("unstable", name))
+            else:
+                self.assertEqual(variants, self.of("unstable", name), name)
+        self.assertEqual(["restarted"], self.of("refused", "right"))
+        for row in self.rows("stability.csv"):
+            if row["verdict"] == "unstable":
+                self.assertGreater(float(row["value"]), float(row["limit"]))
+                self.assertRegex(row["reason"], r"^disk \d+ is where it should not be")
+
+    def test_what_the_budget_has_no_time_for_is_not_run_until_there_is(self):
+        slow = self.piped("slow", "time.sleep(float(os.environ['DELAY']))", PLANTED)
+        command = ["stability", "--transforms", SLIDING, "--engines", slow, "--out", self.out]
+        # Some forty snapshots at a third of a second: the run that the others are compared with is given up.
+        done = self.run_program(*command, "--budget=1s", env={"DELAY": "0.3"})
+        self.assert_status(done, FELL_SHORT)
+        self.assertEqual(TRANSFORMS, self.of("not_run", "slow"))
+        for row in self.rows("stability.csv"):
+            self.assertEqual("", row["value"])
+            self.assertRegex(row["reason"], "its part of the budget, [0-9.e-]+ s, leaves no time for it")
+        self.assertIn("nothing was judged: the budget ended", done.stdout)
+        done = self.run_program(*command, "--budget=1h", env={"DELAY": "0"})
+        self.assert_status(done, HELD)
+        self.assertEqual(len(TRANSFORMS) - 1, len(self.of("stable", "slow")))
+
+    def test_worker_gets_absolute_paths_from_a_relative_output_folder(self):
+        """It may work in a folder of its own."""
+        worker = self.write("elsewhere.sh", f'#!/bin/sh\ncd /\nexec "{PROGRAM}" __serve grain\n')
+        worker.chmod(0o755)
+        engine = self.engine_file("elsewhere", worker)
+        self.out = pathlib.Path("o")
+        self.transform(engine, status=HELD)
+        self.out = self.folder / "o"
+        self.assertIn("restarted", self.of("stable", "elsewhere"))
+
+
+class Baseline(StudyTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "before.baseline"
+
+    def keep(self, engines, *arguments, case=COUETTE, file=None):
+        done = self.run_program("baseline", case, "--engines", engines, "--out", file or self.file, "--quiet", *arguments)
+        self.assert_status(done, HELD)
+        return done
+
+    def diff(self, engines, *arguments, **options):
+        return self.run_program("diff", self.file, "--engines", engines, "--quiet", *arguments, **options)
+
+    def test_same_engines_are_the_same_bits_without_any_packing(self):
+        engines = "grain,box2d-penalty,box2d-impulse"
+        again = self.folder / "again.baseline"
+        self.keep(engines, "--starts=1")
+        self.keep(engines, "--starts=1", file=again)
+        self.assertEqual(self.file.read_bytes(), again.read_bytes())
+        done = self.diff(engines, env={"CROSSGRAIN_CACHE": str(self.folder / "empty")})
+        self.assert_status(done, HELD)
+        for engine in engines.split(","):
+            self.assertRegex(done.stdout, rf"(?m)^{engine} \(.*\) against {engine} \(.*\): same bits$")
+        self.assertFalse((self.folder / "empty").exists())
+
+    def test_changed_constant_is_named_with_its_amount_and_a_tiny_one_is_the_same_law(self):
+        self.keep("grain", "--starts=3")
+        done = self.diff("grain", "--set=law.mu=0.441", "--json")
+        self.assert_status(done, FELL_SHORT)
+        row = json.loads(done.stdout)["engines"][0]
+        self.assertEqual(("differs", "mu"), (row["verdict"], row["windows"]["term"]["name"]))
+        self.assertAlmostEqual(1.0 / 440.0, row["windows"]["term"]["amount"], delta=1e-5)
+        done = self.diff("grain", "--set=law.kn=352.1001")
+        self.assert_status(done, HELD)
+        self.assertIn("same law", done.stdout)
+
+    def test_engine_that_refuses_the_case_is_left_out(self):
+        done = self.keep("grain,box2d-impulse", "--starts=1", '--set=run.may_differ=["rounding"]')
+        self.assertRegex(done.stdout, r"before.baseline: kept of grain \S+$")
+        self.assertRegex(done.error_lines()[0], "^crossgrain: box2d-impulse cannot run ")
+
+    def test_averages_are_compared_where_they_were_kept(self):
+        short = [*settings(averaging__settle_rotations=0.02, averaging__rotations=0.05), "--starts=4", "--endpoints"]
+        self.keep("grain", *short)
+        self.assertNotIn("averages from", self.diff("grain").stdout)  # the same bits need no runs
+        done = self.diff("grain", "--set=law.kn=3521", "--set=run.dt=1e-5")
+        self.assert_status(done, FELL_SHORT)
+        self.assertRegex(done.stdout, r"averages from 4 starts:[\s\S]*\n    pressure +disagree: [0-9.]+ margins")
+
+    def test_collisions(self):
+        self.keep("grain", "--set=collision.psi=[0.5, 2.0]", case=COLLISION)
+        self.assertRegex(self.diff("grain").stdout, r"figure-4-3, 0 starts[\s\S]*same bits")
+        done = self.diff("grain", "--set=law.gn=0.2")
+        self.assert_status(done, FELL_SHORT)
+        self.assertRegex(done.stdout, r"(?m)^    e_n +\d+ of \d+ changed, most by −")
+
+    def test_engine_that_fails_is_status_3(self):
+        self.keep("grain", "--starts=1")
+        self.assert_status(self.diff(self.piped("dies", "os._exit(7)", PROGRAM, "__serve", "grain")), ENGINE_FAILED)
+
+
+class Cost(SystemTest):
+    def cost(self, *arguments):
+        return self.run_program(
+            "cost", CASES / "cost/quick.toml", "--engines", "grain", "--out", self.out, "--quick",
+            *settings(cost__kinds=["collision"], cost__knobs=["time_step"]), *arguments,
+        )  # fmt: skip
+
+    def test_printed_fragment_is_a_case(self):
+        done = self.cost("--quiet", "--want", "10%")
+        self.assert_status(done, HELD)
+        case = self.write("pasted.toml", f'[case]\nextends = "{CASES / "cost/quick.toml"}"\n\n{done.stdout}')
+        self.assert_status(self.run_program("check", case, "--engines", "grain", "--no-timing"), HELD)
+
+    def test_what_does_not_fit_the_budget_is_not_measured(self):
+        done = self.cost("--budget", "0.002s")
+        self.assert_status(done, HELD)
+        self.assertIn("do not fit", done.stderr)
+        # "undecided" is what files call it; it is neither that of a target nor not reached.
+        left_out = [point for point in self.results()["points"] if point["status"] == "undecided"]
+        self.assertTrue(left_out)
+        self.assertRegex(done.stdout, rf"\b{len(left_out)} not measured\n")
+        for point in left_out:
+            self.assertIn("would take about", point["reason"])
+            self.assertIsNone(point["error"])
+
+
+class Scale(StudyTest):
+    SMALL = ("--disks=1000", "--steps=40", "--repetitions=2", "--quiet")
+
+    def test_threads_do_the_same_steps_and_columns_follow_from_each_other(self):
+        done = self.run_program("scale", "--engines", "grain", "--out", self.out, *self.SMALL, "--threads=1,2")
+        self.assert_status(done, HELD)
+        self.assertEqual("", done.stderr)
+        one, two = self.rows("scale.csv")
+        self.assertEqual(one["contacts_per_step"], two["contacts_per_step"])
+        for row in (one, two):
+            self.assertAlmostEqual(float(row["ns_per_disk"]), float(row["step_s"]) / 1000 * 1e9)
+            # The in-house engine alone is some MB, and no more than some tens.
+            self.assertTrue(2e6 < float(row["memory_bytes"]) < 2e8, row["memory_bytes"])
+        self.assertAlmostEqual(float(two["strong"]), float(one["step_s"]) / (2 * float(two["step_s"])))
+        self.assertEqual("", two["weak"], "nobody ran 500 disks")
+
+    def test_engine_that_dies_leaves_the_others_timings(self):
+        """A worker that ends while it steps: one line, status 3, and what was timed is there."""
+        dies = self.piped("dies", "os._exit(7)", PROGRAM, "__serve", "grain")
+        done = self.run_program("scale", f"--engines=grain,{dies}", "--out", self.out, *self.SMALL, "--threads=1")
+        self.assert_one_line(done, ENGINE_FAILED, "dies", "exit status 7", "advance")
+        self.assertEqual(["ran", "failed"], [row["status"] for row in self.rows("scale.csv")])
+        self.assertEqual(1, len(self.finished_runs()))
+
+
+if __name__ == "__main__":
+    unittest.main()
