@@ -1,7 +1,7 @@
 """A campaign that is killed, that finds the disk full, that sees the clock set back: whatever happens to it, the same
 command goes on and ends with the results of one that nothing happened to.
 
-    endurance.py --crossgrain PROGRAM --shims FOLDER --out FOLDER [--kills 100] [--full 50] [--clocks 5] [--seed 1]
+    endurance.py --crossgrain PROGRAM --mishaps LIBRARY --out FOLDER [--kills 100] [--full 50] [--clocks 5] [--seed 1]
 
 Instants and writes are drawn from the seed. One line for each that went wrong, a summary at the end; exit status 1 if any
 did.
@@ -41,7 +41,7 @@ class Campaign:
     def __init__(self, options):
         self.program = str(options.crossgrain.resolve())
         self.folder = options.out.resolve()
-        self.shims = options.shims.resolve()
+        self.mishaps = str(options.mishaps.resolve())
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
 
@@ -90,7 +90,7 @@ class Campaign:
         return None
 
     def full(self, out, at):
-        status, said = self.finish(out, LD_PRELOAD=str(self.shims / "libfull_disk.so"), FULL_DISK_AT=str(at))
+        status, said = self.finish(out, LD_PRELOAD=self.mishaps, FULL_DISK_AT=str(at))
         if status in (HELD, FELL_SHORT):
             return None  # a packing that cannot be kept costs time, not the run
         lines = [line for line in said.splitlines() if line.startswith("crossgrain: ")]
@@ -101,7 +101,7 @@ class Campaign:
         return None
 
     def clock(self, out, after):
-        status, said = self.finish(out, LD_PRELOAD=str(self.shims / "libclock_back.so"), CLOCK_BACK_AFTER=str(after))
+        status, said = self.finish(out, LD_PRELOAD=self.mishaps, CLOCK_BACK_AFTER=str(after))
         return None if status in (HELD, FELL_SHORT) else f"status {status}, {said.strip()[-300:]}"
 
     def trials(self, name, happen, draws, expected):
@@ -120,7 +120,7 @@ class Campaign:
 
 def writes_of(campaign, out):
     count = campaign.folder / "writes"
-    status, said = campaign.finish(out, LD_PRELOAD=str(campaign.shims / "libfull_disk.so"), FULL_DISK_COUNT=str(count))
+    status, said = campaign.finish(out, LD_PRELOAD=campaign.mishaps, FULL_DISK_COUNT=str(count))
     if status not in (HELD, FELL_SHORT):
         sys.exit(f"the undisturbed campaign fails: status {status}, {said}")
     campaign.clear(out)
@@ -130,7 +130,7 @@ def writes_of(campaign, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--crossgrain", type=pathlib.Path, required=True)
-    parser.add_argument("--shims", type=pathlib.Path, required=True, help="folder of the libraries for LD_PRELOAD")
+    parser.add_argument("--mishaps", type=pathlib.Path, required=True, help="library for LD_PRELOAD")
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--kills", type=int, default=100)
     parser.add_argument("--full", type=int, default=50)

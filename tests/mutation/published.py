@@ -78,11 +78,8 @@ def publish(records, project, folder):
 
 
 def taken_up(row, source):
-    """The mutant of the source that a published row is of; None where its line is gone, or where a row of before there were
-    columns may be of several."""
+    """The mutant of the source that a published row is of; None where its line is gone."""
     before, _, after = row["change"].partition(" → ")
     alike = {mutant.key: mutant for mutant in mutants.mutants_of(row["file"], source)
              if mutant.text.strip() == row["code"] and (mutant.before, mutant.after) == (before, "" if after == "nothing" else after)}
-    if "column" in row:
-        return next((mutant for mutant in alike.values() if mutant.key[2] + 1 == int(row["column"])), None)
-    return next(iter(alike.values())) if len(alike) == 1 else None
+    return next((mutant for mutant in alike.values() if mutant.key[2] + 1 == int(row["column"])), None)

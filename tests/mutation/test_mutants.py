@@ -46,13 +46,10 @@ class TakenUp(unittest.TestCase):
         found = published.taken_up({"file": "a.cpp", "line": "7", **row}, self.source)
         return found and (found.line, found.column)
 
-    def test_a_line_that_has_moved_is_known_by_its_text(self):
-        self.assertEqual((3, 2), self.place(code="x * y;", change="* → /"))
-        self.assertIsNone(self.place(code="x * z;", change="* → /"))
-        self.assertIsNone(self.place(code="x * y;", change="/ → *"))
-
-    def test_of_several_operators_the_column_in_the_code_tells(self):
-        self.assertIsNone(self.place(code="a = b + c + d;", change="+ → -"))
+    def test_moved_line_is_known_by_its_text_and_the_column_in_it(self):
+        self.assertEqual((3, 2), self.place(code="x * y;", change="* → /", column="3"))
+        self.assertIsNone(self.place(code="x * z;", change="* → /", column="3"))
+        self.assertIsNone(self.place(code="x * y;", change="/ → *", column="3"))
         self.assertEqual((2, 8), self.place(code="a = b + c + d;", change="+ → -", column="7"))
         self.assertEqual((2, 12), self.place(code="a = b + c + d;", change="+ → -", column="11"))
         self.assertIsNone(self.place(code="a = b + c + d;", change="+ → -", column="8"))

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "results/json_fields.hpp"
-
 namespace crossgrain::inline results {
 namespace {
 
@@ -36,7 +34,7 @@ ScaleResults scaleStudy() {
   return results;
 }
 
-TEST(ScaleFigures, OfOneWorker) {
+TEST(ScaleFigures, OneWorker_HasStepSpreadMemoryAndRatio) {
   const ScaleResults results = scaleStudy();
   const ScaleFigures one = scaleFigures(results, results.points[0]);
   EXPECT_EQ(one.step, 10e-6);             // the fastest of 10, 12 and 15 µs
@@ -44,11 +42,12 @@ TEST(ScaleFigures, OfOneWorker) {
   EXPECT_DOUBLE_EQ(*one.perDisk, 10e-9);  // 10 µs for 1000 disks
   EXPECT_DOUBLE_EQ(*one.bytes, 500.0);    // 5·10⁵ for 1000
   EXPECT_DOUBLE_EQ(*one.ratio, 1.0);
+  EXPECT_DOUBLE_EQ(*scaleFigures(results, results.points[2]).ratio, 4.0);  // of the other engine
   EXPECT_FALSE(one.strong);
   EXPECT_FALSE(one.weak);
 }
 
-TEST(ScaleFigures, StrongIsOnTheSameCellAndWeakOnOneOfAsManyDisksAWorker) {
+TEST(ScaleFigures, SeveralWorkers_HaveStrongAndWeakEfficiency) {
   const ScaleResults results = scaleStudy();
   const ScaleFigures two = scaleFigures(results, results.points[4]);
   EXPECT_DOUBLE_EQ(*two.strong, 24.0 / (2 * 16.0));
@@ -59,12 +58,7 @@ TEST(ScaleFigures, StrongIsOnTheSameCellAndWeakOnOneOfAsManyDisksAWorker) {
   EXPECT_FALSE(four.weak);  // nobody ran 500 disks
 }
 
-TEST(ScaleFigures, AnotherEngineIsHeldAgainstTheFirst) {
-  const ScaleResults results = scaleStudy();
-  EXPECT_DOUBLE_EQ(*scaleFigures(results, results.points[2]).ratio, 4.0);
-}
-
-TEST(ScaleFigures, WhatDidNotRunHasNoneAndLendsNone) {
+TEST(ScaleFigures, FailedPoint_HasNoneAndLendsNone) {
   ScaleResults results = scaleStudy();
   results.points[0].status = Status::failed;
   const ScaleFigures failed = scaleFigures(results, results.points[0]);
@@ -75,21 +69,10 @@ TEST(ScaleFigures, WhatDidNotRunHasNoneAndLendsNone) {
   EXPECT_FALSE(scaleFigures(results, results.points[2]).ratio);
 }
 
-TEST(ScaleFigures, WorkersInWords) {
+TEST(ScaleFigures, Workers_AreNamedByTheirKind) {
   EXPECT_EQ(describeWorkers({"grain", "threads"}, 1), "1 thread");
   EXPECT_EQ(describeWorkers({"lammps", "ranks"}, 4), "4 ranks");
   EXPECT_EQ(describeWorkers({"yade", ""}, 1), "one process");
-}
-
-TEST(ScaleResults, RoundTrip) {
-  ScaleResults results = scaleStudy();
-  results.elapsed = 1.5;
-  results.points[1].status = Status::refused;
-  results.points[1].reason = "no memory";
-  results.points[2].differs = {"bottom_friction"};
-  const Json there = Json::parse(toJson(results).dump());
-  EXPECT_EQ(Json::parse(toJson(scaleFromJson(there)).dump()), there);
-  EXPECT_TRUE(there["points"][1]["memory_bytes"].is_null());
 }
 
 }  // namespace

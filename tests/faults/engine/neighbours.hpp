@@ -56,47 +56,20 @@ class Neighbours {
     return true;
   }
 
-  /// Cells of the largest reach and a skin; fewer and larger ones where a scene is thin and wide.
+  /// Every disk with all that follow it: the list is made anew every fifty steps or so.
   void find(const std::vector<Vector>& position, const std::vector<double>& radius,
             std::size_t disks) {
     if (position.empty()) return;
-    Vector low = position[0], high = position[0];
-    for (const Vector& x : position) {
+    for (const Vector& x : position)
       if (!std::isfinite(x.x) || !std::isfinite(x.y))
         throw std::runtime_error("the position of a disk is not a number");
-      low = {std::min(low.x, x.x), std::min(low.y, x.y)};
-      high = {std::max(high.x, x.x), std::max(high.y, x.y)};
-    }
-    const double largest = *std::max_element(radius.begin(), radius.end());
     skin_ = 0.3 * *std::min_element(radius.begin(), radius.end());
-    const double most = std::sqrt(4.0 * static_cast<double>(position.size())) + 2.0;
-    const double cell =
-        std::max({2.0 * largest + skin_, (high.x - low.x) / most, (high.y - low.y) / most});
-    const auto across = [&](double from, double to) {
-      return static_cast<std::size_t>((to - from) / cell) + 1;
-    };
-    const std::size_t columns = across(low.x, high.x), rows = across(low.y, high.y);
-    std::vector<std::vector<std::size_t>> members(columns * rows);
-    std::vector<std::size_t> column, row;
-    for (std::size_t k = 0; k < position.size(); ++k) {
-      column.push_back(across(low.x, position[k].x) - 1);
-      row.push_back(across(low.y, position[k].y) - 1);
-      members[row[k] * columns + column[k]].push_back(k);
-    }
-    for (std::size_t i = 0; i < disks; ++i) {
-      const std::size_t first = pairs.size();
-      for (std::size_t r = row[i] - (row[i] > 0); r <= std::min(row[i] + 1, rows - 1); ++r)
-        for (std::size_t c = column[i] - (column[i] > 0); c <= std::min(column[i] + 1, columns - 1);
-             ++c)
-          for (const std::size_t j : members[r * columns + c]) {
-            if (j <= i) continue;
-            const Vector apart = position[i] - position[j];
-            const double reach = radius[i] + radius[j] + skin_;
-            if (dot(apart, apart) < reach * reach) pairs.push_back({i, j});
-          }
-      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
-                [](const Pair& one, const Pair& other) { return one.before(other); });
-    }
+    for (std::size_t i = 0; i < disks; ++i)
+      for (std::size_t j = i + 1; j < position.size(); ++j) {
+        const Vector apart = position[i] - position[j];
+        const double reach = radius[i] + radius[j] + skin_;
+        if (dot(apart, apart) < reach * reach) pairs.push_back({i, j});
+      }
   }
 
   std::vector<Vector> positionsAtListBuild_;  ///< where everything was when the list was made

@@ -1,6 +1,8 @@
-// For LD_PRELOAD: from the write to a file that is numbered FULL_DISK_AT on, counted in each
-// process, the disk is full. FULL_DISK_COUNT names a file that gets the number of writes of each
-// process that ends by itself. What the C library writes by itself (fprintf) is not seen.
+// For LD_PRELOAD, mishaps that the environment asks for, counted in each process: from the write to
+// a file that is numbered FULL_DISK_AT on the disk is full; after CLOCK_BACK_AFTER looks at the
+// time of day the clock has been set back by an hour (clocks that only count on are left alone).
+// FULL_DISK_COUNT names a file that gets the number of writes of each process that ends by itself.
+// What the C library writes by itself (fprintf) is not seen.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,6 +12,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 
 namespace {
@@ -65,5 +68,15 @@ ssize_t pwrite64(int fd, const void* from, size_t bytes, off64_t at) {
 }
 ssize_t writev(int fd, const iovec* parts, int count) {
   return unlessFull<ssize_t(int, const iovec*, int)>("writev", fd, parts, count);
+}
+int clock_gettime(clockid_t clock, timespec* now) {
+  static const auto real =
+      reinterpret_cast<int (*)(clockid_t, timespec*)>(dlsym(RTLD_NEXT, "clock_gettime"));
+  static const char* const after = std::getenv("CLOCK_BACK_AFTER");
+  static std::atomic<long> looks;
+  const int status = real(clock, now);
+  if (clock == CLOCK_REALTIME && after != nullptr && ++looks > std::atol(after))
+    now->tv_sec -= 3600;
+  return status;
 }
 }
