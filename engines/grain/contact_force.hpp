@@ -111,4 +111,78 @@ GRAIN_INLINE ContactForce<Real> contactForce(const L& law, const ContactMotion<R
   return springForce(law, contact, normal, bound, spring);
 }
 
+/// 1/(J + m a²) of a disk from its inverse mass and moment of inertia; of a wall, whose are 0, 0.
+template <class Real>
+GRAIN_INLINE Real inverseRollingInertia(Real inverseMass, Real inverseInertia, Real a) {
+  const Real sum = inverseMass + inverseInertia * a * a;  // (J + m a²)/(m J)
+  return sum > Real(0) ? inverseMass * inverseInertia / sum : Real(0);
+}
+
+/// Lengths of a pair, or of a disk of radius a at a plane (other: 0).
+template <class L, class Real>
+GRAIN_INLINE RollingMotion<Real> rollingMotion(const L& law, Real a, Real other, Real spin) {
+  const RollingConventions c = law.rollingConventions;
+  const Real effective = other > Real(0) ? a * other / (a + other) : a;
+  const Real smallest = other > Real(0) ? smaller(a, other) : a;
+  RollingMotion<Real> motion{};
+  motion.spin = spin;
+  motion.length = c.length == RollingLength::smallerRadius    ? smallest
+                  : c.length == RollingLength::twiceEffective ? effective + effective
+                                                              : effective;
+  const Real radii = other > Real(0) ? a * other : a * a;
+  motion.square = c.stiffness == RollingStiffness::constant ? Real(1)
+                  : c.stiffness == RollingStiffness::radii  ? radii
+                                                            : motion.length * motion.length;
+  return motion;
+}
+
+/// µ_r L N [N m].
+template <class L, class Real>
+GRAIN_INLINE Real rollingBound(const L& law, const RollingMotion<Real>& motion,
+                               const ContactMotion<Real>& contact, Real normal) {
+  const RollingLoad of = law.rollingConventions.load;
+  Real load = normal;
+  if (of == RollingLoad::elastic) load = elasticForce(law, contact);
+  if (of == RollingLoad::magnitude) load = magnitude(normal);
+  return law.muR * motion.length * larger(load, Real(0));
+}
+
+/// γ_r L² of a dashpot [N m s]. @see RollingDamper
+template <class L, class Real>
+GRAIN_INLINE Real rollingDamping(const L& law, const RollingMotion<Real>& motion) {
+  if (seesRollingInertia(law))
+    return Real(2) * law.gr * squareRoot(motion.inertia * law.kr * motion.square);
+  return law.gr * motion.length * motion.length;
+}
+
+/// The rolling resistance on i. `angle` is θ, kept as long as the contact lasts. Like a tangential
+/// spring it slips where the bound is met: θ is what carries the bound then.
+template <class L, class Real>
+GRAIN_INLINE RollingTorque<Real> rollingTorque(const L& law, const RollingMotion<Real>& motion,
+                                               const ContactMotion<Real>& contact, Real normal,
+                                               Real& angle) {
+  if (law.rolling == Rolling::viscous)
+    return {-law.gr * motion.length * motion.length * motion.spin, Real(0)};
+  const Real bound = rollingBound(law, motion, contact, normal);
+  if (law.rolling == Rolling::viscousByLoad) return {-bound * motion.length * motion.spin, Real(0)};
+  if (law.rolling == Rolling::constantTorque) return {-signedLike(bound, motion.spin), Real(1)};
+  const RollingConventions c = law.rollingConventions;
+  const Real stiffness = law.kr * motion.square;
+  const Real stretch = motion.spin * law.dt;
+  const Real part = law.stretch == Stretch::after    ? Real(0)
+                    : law.stretch == Stretch::before ? Real(1)
+                                                     : Real(0.5);
+  const Real stretched = law.stretch == Stretch::after ? angle : angle + part * stretch;
+  const Real spring = -stiffness * stretched;
+  const Real viscous = -rollingDamping(law, motion) * motion.spin;
+  const Real trial = spring + viscous;
+  const Real tested = c.dashpotOutsideBound ? spring : trial;
+  const bool holds = magnitude(tested) <= bound;
+  const Real slipping = withSignOf(bound, tested);
+  Real slipped = -(c.resetSpringOnly ? slipping - viscous : slipping) / stiffness;
+  if (law.stretch == Stretch::midpoint) slipped += Real(0.5) * stretch;
+  angle = holds ? stretched + (Real(1) - part) * stretch : slipped;
+  return {holds ? trial : slipping, holds ? Real(0) : Real(1)};
+}
+
 }  // namespace grain

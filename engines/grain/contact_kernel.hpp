@@ -18,9 +18,11 @@ struct alignas(64) ContactBlock {
   Vec<Real> distance[blockSize], velocity[blockSize];  ///< of i relative to j
   Real radiusI[blockSize], radiusJ[blockSize], spinI[blockSize], spinJ[blockSize];
   Real inverseMass[blockSize], inverseInertiaI[blockSize], inverseInertiaJ[blockSize];
+  Real inverseRollingI[blockSize], inverseRollingJ[blockSize];  ///< 1/(J + m a²)
   Vec<Real> force[blockSize];
   Real leverI[blockSize], leverJ[blockSize];
   Real normal[blockSize], tangential[blockSize], sliding[blockSize];
+  Real rolling[blockSize], rollingSlides[blockSize];
 };
 
 /// A few vectors at a time; a library's way to copy has its beginnings to pay for.
@@ -57,14 +59,20 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
         b.inverseInertiaJ[p] = disks.inverseInertia[j];
       }
     }
+    if (seesRollingInertia(law)) {
+      b.inverseRollingI[p] =
+          inverseRollingInertia(disks.inverseMass[i], disks.inverseInertia[i], disks.radius[i]);
+      b.inverseRollingJ[p] =
+          inverseRollingInertia(disks.inverseMass[j], disks.inverseInertia[j], disks.radius[j]);
+    }
   }
 }
 
 /// The contact kernel: geometry, relative motion, law, force. Pairs that do not touch (yet) take
 /// part with no force.
-/// Writes the block, and each pair its own spring: the loop may be taken side by side.
+/// Writes the block, and each pair its own springs: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* springs,
+GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* springs, Real* angles,
                                   std::size_t count, ContactBlock<Real>& b) {
   const bool friction = law.tangential != Tangential::none;
   const bool history =
@@ -120,6 +128,20 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
       b.leverI[p] = leverI * ft;
       b.leverJ[p] = leverJ * ft;
     }
+    if (law.rolling != Rolling::none) {
+      RollingMotion<Real> rolling =
+          rollingMotion(law, b.radiusI[p], b.radiusJ[p], b.spinI[p] - b.spinJ[p]);
+      if (seesRollingInertia(law))
+        rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
+      Real angle = law.rolling == Rolling::spring ? angles[p] : Real(0);
+      const RollingTorque<Real> resistance =
+          rollingTorque(law, rolling, motion, force.normal, angle);
+      if (law.rolling == Rolling::spring) angles[p] = touches * angle;
+      b.rolling[p] = touches * resistance.torque;
+      b.rollingSlides[p] = touches * resistance.sliding;
+      b.leverI[p] -= b.rolling[p];
+      b.leverJ[p] += b.rolling[p];
+    }
     b.normal[p] = fn;
     b.tangential[p] = ft;
     b.sliding[p] = touches * force.sliding;
@@ -157,11 +179,16 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
     const std::int32_t* j = pairs.j + begin;
     gather(law, disks, i, j, count, b);
     touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr,
-                         pairs.spring == nullptr ? nullptr : pairs.spring + begin, count, b);
+                         pairs.spring == nullptr ? nullptr : pairs.spring + begin,
+                         pairs.angle == nullptr ? nullptr : pairs.angle + begin, count, b);
     if (pairs.normal != nullptr) {
       copy(b.normal, count, pairs.normal + begin);
       copy(b.tangential, count, pairs.tangential + begin);
       copy(b.sliding, count, pairs.sliding + begin);
+    }
+    if (law.rolling != Rolling::none && pairs.rolling != nullptr) {
+      copy(b.rolling, count, pairs.rolling + begin);
+      copy(b.rollingSlides, count, pairs.rollingSlides + begin);
     }
     if (pairs.addTo == AddTo::none) {
       copy(b.force, count, pairs.stored.force + begin);

@@ -38,6 +38,38 @@ enum class Lever {
 enum class PlaneLever { surface, middle, radius };
 enum class Damping { lagged, predicted, implicit };
 enum class Stretch { after, before, midpoint };  ///< when ξ += v_t dt, relative to the force
+/// Resistance of a contact against the relative spin ω_r = ω_i − ω_j of its bodies: a torque M on i
+/// and −M on j (the types of Ai et al. 2011). L is a length, N a load. @see RollingConventions
+enum class Rolling {
+  none,
+  constantTorque,  ///< A: M = −µ_r L N sign(ω_r)
+  viscous,         ///< B: M = −γ_r L² ω_r
+  viscousByLoad,   ///< B: M = −µ_r L N · L ω_r, µ_r [s/m] (Zhou et al. 1999)
+  spring  ///< C: M* = −k_r θ − γ_r L² ω_r with θ = ∫ω_r dt, limited to µ_r L N
+};
+/// L; R₁₂ = a_i a_j/(a_i + a_j), at a plane a_i.
+enum class RollingLength { effective, twiceEffective, smallerRadius };
+/// k_r of a spring: its constant times L², times a_i a_j, or as it is [N m].
+enum class RollingStiffness { lengthSquare, radii, constant };
+/// What a rolling spring's dashpot is: γ_r L² with γ_r [kg/s], or 2 η √(I k_r) with η [-] and
+/// 1/I = Σ 1/(J + m a²) over the bodies that move.
+enum class RollingDamper { constant, critical };
+/// N: max(f_n, 0), |f_n|, or the elastic part of f_n alone.
+enum class RollingLoad { compression, magnitude, elastic };
+
+/// What engines differ in that resist rolling alike.
+struct RollingConventions {
+  RollingLength length = RollingLength::effective;
+  RollingStiffness stiffness = RollingStiffness::lengthSquare;
+  RollingDamper damper = RollingDamper::constant;
+  RollingLoad load = RollingLoad::compression;
+  bool dashpotOutsideBound = false;  ///< hold only the spring's torque against the bound, which
+                                     ///< alone is left while it slips
+  bool resetSpringOnly = false;  ///< on slip spring and dashpot, not the spring, carry the bound
+
+  bool operator==(const RollingConventions&) const = default;
+};
+
 enum class Integrator { positionVerlet, velocityVerlet, semiImplicitEuler };
 
 /// The contact law and its conventions.
@@ -67,7 +99,15 @@ struct Law {
   PlaneLever planeLever = PlaneLever::surface;
   Stretch stretch = Stretch::after;
   Damping damping = Damping::predicted;
+  Rolling rolling = Rolling::none;
+  double kr = 0.0;   ///< rolling stiffness [N/m], of RollingStiffness::constant [N m]
+  double gr = 0.0;   ///< rolling damping [kg/s] or as RollingDamper says
+  double muR = 0.0;  ///< [-], of Rolling::viscousByLoad [s/m]
+  RollingConventions rollingConventions;
 
+  /// Whether any torque acts on disks.
+  bool turnsDisks() const { return friction() || rolling != Rolling::none; }
+  bool rollingSprings() const { return rolling == Rolling::spring && kr > 0.0; }
   bool friction() const { return tangential != Tangential::none && mu > 0.0; }
   bool springs() const {
     return friction() &&
@@ -86,6 +126,21 @@ struct ContactMotion {
   Real tangentialCompliance;
   Real radius = 0;  ///< R₁₂ = a_i a_j/(a_i + a_j); read by Hertz' law [m]
   Real mass = 0;    ///< m₁₂ = m_i m_j/(m_i + m_j); read by critical dampers [kg]
+};
+
+/// The same of its rolling.
+template <class Real>
+struct RollingMotion {
+  Real spin;         ///< ω_r = ω_i − ω_j [rad/s]
+  Real length;       ///< L [m]
+  Real square;       ///< what k_r's constant multiplies [m²] or 1
+  Real inertia = 0;  ///< I; read by critical dampers [kg m²]
+};
+
+template <class Real>
+struct RollingTorque {
+  Real torque;   ///< M on i; −M on j [N m]
+  Real sliding;  ///< 1 where the bound holds, else 0
 };
 
 template <class Real>

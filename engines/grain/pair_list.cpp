@@ -27,25 +27,34 @@ void PairList<Real>::append(std::int32_t diskI, std::int32_t diskJ) {
 }
 
 template <class Real>
-void PairList<Real>::storeSprings() {
-  for (std::size_t k = 0; k < count; ++k) farSpring[far[k]] = spring[k];
+void PairList<Real>::storeSprings(PairSprings springs) {
+  if (springs.sliding)
+    for (std::size_t k = 0; k < count; ++k) farSpring[far[k]] = spring[k];
+  if (springs.rolling)
+    for (std::size_t k = 0; k < count; ++k) farAngle[far[k]] = angle[k];
 }
 
 template <class Real>
-void PairList<Real>::carry() {
+void PairList<Real>::carry(PairSprings springs) {
   kept.clear();
-  for (std::size_t p = 0; p < farI.size(); ++p)
-    if (farSpring[p] != Real(0)) kept.push_back({farI[p], farJ[p], farSpring[p]});
+  for (std::size_t p = 0; p < farI.size(); ++p) {
+    const Real slid = springs.sliding ? farSpring[p] : Real(0);
+    const Real rolled = springs.rolling ? farAngle[p] : Real(0);
+    if (slid != Real(0) || rolled != Real(0)) kept.push_back({farI[p], farJ[p], slid, rolled});
+  }
 }
 
 template <class Real>
-void PairList<Real>::takeKept() {
-  farSpring.assign(farI.size(), Real(0));
+void PairList<Real>::takeKept(PairSprings springs) {
+  if (springs.sliding) farSpring.assign(farI.size(), Real(0));
+  if (springs.rolling) farAngle.assign(farI.size(), Real(0));
   auto next = kept.begin();
   for (std::size_t p = 0; p < farI.size(); ++p) {
     while (next != kept.end() && std::tie(next->i, next->j) < std::tie(farI[p], farJ[p])) ++next;
     if (next == kept.end()) return;
-    if (next->i == farI[p] && next->j == farJ[p]) farSpring[p] = static_cast<Real>(next->spring);
+    if (next->i != farI[p] || next->j != farJ[p]) continue;
+    if (springs.sliding) farSpring[p] = static_cast<Real>(next->spring);
+    if (springs.rolling) farAngle[p] = static_cast<Real>(next->angle);
   }
 }
 
@@ -63,12 +72,13 @@ TooDeep PairList<Real>::firstDeep(const Places& now, double maxOverlap) const {
 
 template <class Real>
 std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double> allowance,
-                                       double maxOverlap, bool springs) {
+                                       double maxOverlap, PairSprings springs) {
   const std::size_t room = farI.size();
   for (auto* ids : {&i, &j})
     if (ids->size() < room) ids->resize(room);
   if (far.size() < room) far.resize(room);
-  if (springs && spring.size() < room) spring.resize(room);
+  if (springs.sliding && spring.size() < room) spring.resize(room);
+  if (springs.rolling && angle.size() < room) angle.resize(room);
   std::size_t n = 0, touching = 0, deep = 0;
   for (std::size_t p = 0; p < room; ++p) {
     const auto a = static_cast<std::size_t>(farI[p]);
@@ -88,8 +98,10 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
   }
   if (deep > 0) throw firstDeep(now, maxOverlap);
   count = n;
-  if (springs)
+  if (springs.sliding)
     for (std::size_t k = 0; k < count; ++k) spring[k] = farSpring[far[k]];
+  if (springs.rolling)
+    for (std::size_t k = 0; k < count; ++k) angle[k] = farAngle[far[k]];
   if (now.origin.empty()) return touching;
   shift.resize(room);
   for (std::size_t k = 0; k < count; ++k) {
@@ -101,9 +113,11 @@ std::size_t PairList<Real>::chooseNear(const Places& now, std::span<const double
 }
 
 template <class Real>
-PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation) {
+PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation, bool rolls) {
   if (record)
     for (auto* array : {&normal, &tangential, &sliding}) array->resize(i.size());
+  if (record && rolls)
+    for (auto* array : {&rolling, &rollingSlides}) array->resize(i.size());
   if (addTo == AddTo::none) force.resize(i.size());
   if (addTo == AddTo::none && rotation) {
     leverI.resize(i.size());
@@ -114,9 +128,12 @@ PairView<Real> PairList<Real>::view(AddTo addTo, bool record, bool rotation) {
           j.data(),
           shift.data(),
           spring.empty() ? nullptr : spring.data(),
+          angle.empty() ? nullptr : angle.data(),
           record ? normal.data() : nullptr,
           record ? tangential.data() : nullptr,
           record ? sliding.data() : nullptr,
+          record && rolls ? rolling.data() : nullptr,
+          record && rolls ? rollingSlides.data() : nullptr,
           addTo,
           {force.data(), leverI.data(), leverJ.data()}};
 }

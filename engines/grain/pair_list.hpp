@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engines/grain/kernels.hpp"
@@ -21,11 +22,26 @@ struct TooDeep {
   std::size_t i, j;
 };
 
-/// The tangential spring of a pair on its way from one list to the next.
+/// Which springs pairs have.
+struct PairSprings {
+  bool sliding = false, rolling = false;
+
+  bool any() const { return sliding || rolling; }
+};
+
+/// The springs of a pair on their way from one list to the next.
 struct KeptSpring {
   std::int32_t i, j;
-  double spring;
+  double spring;  ///< ξ
+  double angle;   ///< θ
 };
+
+/// ξ does not change with the order of the two disks: n and s turn round, v_t as well; but θ of j
+/// against i is the opposite of θ of i against j.
+inline void swapDisks(KeptSpring& kept) {
+  std::swap(kept.i, kept.j);
+  kept.angle = -kept.angle;
+}
 
 /// Pairs in ascending (i, j) on two levels: those with surfaces nearer than the skin when they were
 /// collected, and of these the ones that their disks' allowances may bring together. A step works
@@ -33,13 +49,14 @@ struct KeptSpring {
 template <class Real>
 struct PairList {
   std::vector<std::int32_t> farI, farJ;
-  std::vector<Real> farSpring;
+  std::vector<Real> farSpring, farAngle;
   std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
   std::vector<std::int32_t> i, j;
   std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
-  Array<Real> spring;
-  Array<Vec<Real>> shift;                   ///< origin of i − origin of j, of local coordinates
-  Array<Real> normal, tangential, sliding;  ///< the last step's results, where asked for
+  Array<Real> spring, angle;
+  Array<Vec<Real>> shift;  ///< origin of i − origin of j, of local coordinates
+  // The last step's results, where asked for.
+  Array<Real> normal, tangential, sliding, rolling, rollingSlides;
   Array<Vec<Real>> force;
   Array<Real> leverI, leverJ;    ///< forces for two threads to add
   std::vector<KeptSpring> kept;  ///< in ascending (i, j)
@@ -48,21 +65,21 @@ struct PairList {
   void append(std::int32_t diskI, std::int32_t diskJ);
 
   /// The near springs back to the far list.
-  void storeSprings();
+  void storeSprings(PairSprings springs);
   /// Keeps the far list's springs for the next one, and takes them up there: both lists are in one
   /// order, so that one walk through both finds every pair.
-  void carry();
-  void takeKept();
+  void carry(PairSprings springs);
+  void takeKept(PairSprings springs);
 
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
   /// @returns how many of the near pairs touch
   /// @throws TooDeep
   std::size_t chooseNear(const Places& now, std::span<const double> allowance, double maxOverlap,
-                         bool springs);
+                         PairSprings springs);
 
   TooDeep firstDeep(const Places& now, double maxOverlap) const;
 
-  PairView<Real> view(AddTo addTo, bool record, bool rotation);
+  PairView<Real> view(AddTo addTo, bool record, bool rotation, bool rolls);
 };
 
 }  // namespace grain

@@ -23,7 +23,7 @@ void requireFinite(const Places& now) {
 }
 
 template <class Real>
-PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, bool springs, Skin skin,
+PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, PairSprings springs, Skin skin,
                            double maxOverlap)
     : moving_(moving),
       springs_(springs),
@@ -52,7 +52,7 @@ void PairLists<Real>::update(const Places& now, std::span<const double> travel,
   const double used = skinUsed(now);
   for (auto& part : lists_)
     for (PairList<Real>& list : part)
-      if (springs_) list.storeSprings();
+      if (springs_.any()) list.storeSprings(springs_);
   if (!(used <= 0.5 * skin_.skin())) {
     skin_.tune(counts(), used);
     carrySprings();
@@ -74,8 +74,7 @@ void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Pl
     spring.i = newNumber[static_cast<std::size_t>(spring.i)];
     if (spring.j < static_cast<std::int32_t>(moving_))
       spring.j = newNumber[static_cast<std::size_t>(spring.j)];
-    // ξ does not change with the order of the two disks: n and s turn round, v_t as well.
-    if (spring.j < spring.i) std::swap(spring.i, spring.j);
+    if (spring.j < spring.i) swapDisks(spring);
   }
   restoreSprings(std::move(kept), now, travel, team);
 }
@@ -83,11 +82,15 @@ void PairLists<Real>::renumber(std::span<const std::int32_t> newNumber, const Pl
 template <class Real>
 std::vector<KeptSpring> PairLists<Real>::stretched() const {
   std::vector<KeptSpring> found;
-  if (!springs_) return found;
+  if (!springs_.any()) return found;
   for (const auto& part : lists_)
     for (const PairList<Real>& list : part)
-      for (std::size_t k = 0; k < list.count; ++k)
-        if (list.spring[k] != Real(0)) found.push_back({list.i[k], list.j[k], list.spring[k]});
+      for (std::size_t k = 0; k < list.count; ++k) {
+        const Real slid = springs_.sliding ? list.spring[k] : Real(0);
+        const Real rolled = springs_.rolling ? list.angle[k] : Real(0);
+        if (slid != Real(0) || rolled != Real(0))
+          found.push_back({list.i[k], list.j[k], slid, rolled});
+      }
   return found;
 }
 
@@ -151,9 +154,9 @@ double PairLists<Real>::skinUsed(const Places& now) const {
 
 template <class Real>
 void PairLists<Real>::carrySprings() {
-  if (!springs_) return;
+  if (!springs_.any()) return;
   for (auto& part : lists_)
-    for (PairList<Real>& list : part) list.carry();
+    for (PairList<Real>& list : part) list.carry(springs_);
 }
 
 template <class Real>
@@ -189,8 +192,8 @@ void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
                              : Sort::across)
           .append(static_cast<std::int32_t>(i), j);
   }
-  if (springs_)
-    for (PairList<Real>& list : lists) list.takeKept();
+  if (springs_.any())
+    for (PairList<Real>& list : lists) list.takeKept(springs_);
 }
 
 template <class Real>

@@ -22,7 +22,9 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
     const Real height = dx * plane.nx + dy * plane.ny;
     const Real overlap = disks.radius[i] - height;
     Real spring = plane.spring == nullptr ? Real(0) : plane.spring[i];
+    Real angle = plane.angle == nullptr ? Real(0) : plane.angle[i];
     ContactForce<Real> force{Real(0), Real(0), Real(0)};
+    RollingTorque<Real> resistance{Real(0), Real(0)};
     if (overlap > Real(0)) {
       const Real reach = planePoint(law, disks.radius[i], height);
       const Real armX = static_cast<Real>(plane.x) + dx - reach * plane.nx - plane.centreX;
@@ -48,16 +50,31 @@ static std::size_t planeKernel(const GeneralLaw<Real>& general, const ContactVie
       disks.force[i].x += force.normal * plane.nx - force.tangential * plane.ny;
       disks.force[i].y += force.normal * plane.ny + force.tangential * plane.nx;
       if (law.rotation) disks.torque[i] -= lever * force.tangential;
+      if (law.rolling != Rolling::none) {
+        RollingMotion<Real> rolling =
+            rollingMotion(law, disks.radius[i], Real(0), disks.spin[i] - plane.spin);
+        if (seesRollingInertia(law))
+          rolling.inertia =
+              Real(1) /
+              inverseRollingInertia(disks.inverseMass[i], disks.inverseInertia[i], disks.radius[i]);
+        resistance = rollingTorque(law, rolling, motion, force.normal, angle);
+        disks.torque[i] += resistance.torque;
+      }
       ++touching;
     } else {
-      spring = Real(0);
+      spring = angle = Real(0);
     }
     if (plane.spring != nullptr) plane.spring[i] = spring;
+    if (plane.angle != nullptr) plane.angle[i] = angle;
     if (plane.normal != nullptr) {
       plane.overlap[i] = overlap;
       plane.normal[i] = force.normal;
       plane.tangential[i] = force.tangential;
       plane.sliding[i] = force.sliding;
+    }
+    if (law.rolling != Rolling::none && plane.rolling != nullptr) {
+      plane.rolling[i] = resistance.torque;
+      plane.rollingSlides[i] = resistance.sliding;
     }
   }
   return touching;
