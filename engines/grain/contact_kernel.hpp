@@ -72,8 +72,9 @@ GRAIN_INLINE void gather(const L& law, const ContactView<Real>& disks, const std
 /// part with no force.
 /// Writes the block, and each pair its own springs: the loop may be taken side by side.
 template <class L, class Real>
-GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* springs, Real* angles,
-                                  std::size_t count, ContactBlock<Real>& b) {
+GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift,
+                                  const PairMemory<Real>& kept, std::size_t count,
+                                  ContactBlock<Real>& b) {
   const bool friction = law.tangential != Tangential::none;
   const bool history =
       law.tangential == Tangential::spring || law.tangential == Tangential::springDashpot;
@@ -89,7 +90,7 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
     const Real distance2 = dx * dx + dy * dy;
     // A factor and not a choice: compilers turn choices into branches, and then give up the
     // vectors.
-    const Real touches = distance2 < reach * reach ? Real(1) : Real(0);
+    Real touches = distance2 < reach * reach ? Real(1) : Real(0);
     const Real distance = squareRoot(distance2);
     const Real inverse = Real(1) / distance;
     const Real nx = dx * inverse;
@@ -97,7 +98,12 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
 
     ContactMotion<Real> motion{};
     motion.overlap = reach - distance;
-    if (law.normal == Normal::hertz) motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+    if (law.normal == Normal::hertz || law.cohesion != Cohesion::none)
+      motion.radius = b.radiusI[p] * b.radiusJ[p] / reach;
+    if (law.cohesion == Cohesion::area) motion.reach = reach;
+    Real memory = remembers(law) ? kept.memory[p] : Real(0);
+    if (law.cohesion == Cohesion::jkr)
+      touches = memory = isBonded(law, motion.overlap, motion.radius, memory);
     if (law.damper == Damper::critical) motion.mass = Real(1) / b.inverseMass[p];
     if (law.normalDamping) motion.normalVelocity = b.velocity[p].x * nx + b.velocity[p].y * ny;
     if (seesCompliances(law)) motion.normalCompliance = law.halfStep * b.inverseMass[p];
@@ -117,11 +123,12 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
                                                        armJ * leverJ * b.inverseInertiaJ[p]);
     }
 
-    Real spring = history ? springs[p] : Real(0);
-    const ContactForce<Real> force = contactForce(law, motion, spring);
+    Real spring = history ? kept.spring[p] : Real(0);
+    const ContactForce<Real> force = contactForce(law, motion, spring, memory);
     const Real fn = touches * force.normal;
     const Real ft = touches * force.tangential;
-    if (history) springs[p] = touches * spring;
+    if (history) kept.spring[p] = touches * spring;
+    if (remembers(law)) kept.memory[p] = touches * memory;
     b.force[p].x = friction ? fn * nx - ft * ny : fn * nx;
     b.force[p].y = friction ? fn * ny + ft * nx : fn * ny;
     if (law.rotation) {
@@ -133,10 +140,9 @@ GRAIN_INLINE std::size_t applyLaw(const L& law, const Vec<Real>* shift, Real* sp
           rollingMotion(law, b.radiusI[p], b.radiusJ[p], b.spinI[p] - b.spinJ[p]);
       if (seesRollingInertia(law))
         rolling.inertia = Real(1) / (b.inverseRollingI[p] + b.inverseRollingJ[p]);
-      Real angle = law.rolling == Rolling::spring ? angles[p] : Real(0);
-      const RollingTorque<Real> resistance =
-          rollingTorque(law, rolling, motion, force.normal, angle);
-      if (law.rolling == Rolling::spring) angles[p] = touches * angle;
+      Real angle = law.rolling == Rolling::spring ? kept.angle[p] : Real(0);
+      const RollingTorque<Real> resistance = rollingTorque(law, rolling, motion, force.load, angle);
+      if (law.rolling == Rolling::spring) kept.angle[p] = touches * angle;
       b.rolling[p] = touches * resistance.torque;
       b.rollingSlides[p] = touches * resistance.sliding;
       b.leverI[p] -= b.rolling[p];
@@ -179,8 +185,7 @@ static std::size_t contactKernel(const GeneralLaw<Real>& general, const ContactV
     const std::int32_t* j = pairs.j + begin;
     gather(law, disks, i, j, count, b);
     touching += applyLaw(law, hasLocalCoordinates<Real> ? pairs.shift + begin : nullptr,
-                         pairs.spring == nullptr ? nullptr : pairs.spring + begin,
-                         pairs.angle == nullptr ? nullptr : pairs.angle + begin, count, b);
+                         pairs.kept.from(begin), count, b);
     if (pairs.normal != nullptr) {
       copy(b.normal, count, pairs.normal + begin);
       copy(b.tangential, count, pairs.tangential + begin);

@@ -32,6 +32,29 @@ double smallestRadius(const Disks& disks) {
   return disks.size() == 0 ? 1.0 : *std::ranges::min_element(disks.radius);
 }
 
+/// How far apart bodies may be in contact [m]: it grows with R₁₂ < a_i.
+double adhesionRange(const Setup& setup, const auto& law) {
+  if (setup.law.cohesion != Cohesion::jkr || setup.disks.size() == 0) return 0.0;
+  const double largest = *std::ranges::max_element(setup.disks.radius);
+  return 1.001 * static_cast<double>(jkrRange(law, static_cast<decltype(law.kn)>(largest)));
+}
+
+/// @throws std::invalid_argument naming what a law cannot be
+void requireSound(const Law& law) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(what);
+  };
+  const bool rigid = law.normal == Normal::impulse;
+  require(!rigid || law.rolling == Rolling::none, "impulses know no resistance to rolling");
+  require(!rigid || law.cohesion == Cohesion::none, "impulses know no cohesion");
+  require(law.rolling != Rolling::spring || law.kr > 0.0, "a rolling spring needs a stiffness > 0");
+  require(law.cohesion != Cohesion::jkr || (law.normal == Normal::hertz && law.w > 0.0),
+          "JKR needs Hertz' law and a work of adhesion > 0");
+  require(law.cohesion != Cohesion::elastoPlastic ||
+              (law.normal == Normal::linear && law.k2 >= law.kn && law.kc >= 0.0),
+          "an elasto-plastic contact needs the linear law, k2 >= kn and kc >= 0");
+}
+
 std::size_t partCount(const Setup& setup) {
   // A part with no disk would be of no use.
   const std::size_t most = std::max<std::size_t>(setup.disks.size(), 1);
@@ -72,8 +95,10 @@ Core<Real>::Core(Setup setup)
       maxOverlap_(setup.maxOverlap > 0.0 ? setup.maxOverlap
                                          : std::numeric_limits<double>::infinity()),
       lists_(moving_, partCount(setup),
-             {setup.law.springs(), setup.rotation && setup.law.rollingSprings()},
-             Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_),
+             {setup.law.springs(), setup.rotation && setup.law.rollingSprings(),
+              setup.law.remembers()},
+             Skin(setup.skin, smallestRadius(setup.disks)), maxOverlap_,
+             adhesionRange(setup, law_)),
       team_(partCount(setup)),
       reports_(partCount(setup)),
       touching_(partCount(setup)),
@@ -81,18 +106,16 @@ Core<Real>::Core(Setup setup)
   if (!(dt_ > 0.0)) throw std::invalid_argument("the time step must be > 0 s");
   if (law_.normal == Normal::impulse && integrator_ != Integrator::semiImplicitEuler)
     throw std::invalid_argument("impulses need semi-implicit Euler steps");
-  if (law_.normal == Normal::impulse && law_.rolling != Rolling::none)
-    throw std::invalid_argument("impulses know no resistance to rolling");
-  if (law_.rolling == Rolling::spring && !(setup.law.kr > 0.0))
-    throw std::invalid_argument("a rolling spring needs a stiffness > 0");
+  requireSound(setup.law);
   const MotionEffects effects = motionEffects(setup);
   motion_ = kernels_.motion[indexOf(effects)];
   contacts_ = kernels_.generalContacts;
   planes_ = kernels_.generalPlanes;
   if (const auto set = conventionSet(law_); set && !setup.generalKernels) {
-    const std::size_t variant = indexOf({law_.tangential, law_.cutTension, law_.normalDamping,
-                                         law_.rotation, law_.rolling == Rolling::spring},
-                                        *set);
+    const std::size_t variant =
+        indexOf({law_.tangential, law_.cutTension, law_.normalDamping, law_.rotation,
+                 law_.rolling == Rolling::spring, law_.cohesion == Cohesion::area},
+                *set);
     if (kernels_.contacts[variant] != nullptr) contacts_ = kernels_.contacts[variant];
     if (kernels_.planes[variant] != nullptr) planes_ = kernels_.planes[variant];
   }
@@ -110,7 +133,7 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
     wallBegin_.push_back(next);
     next += wall.diskX.size();
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
-      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+      placedPlanes_.push_back({walls_.size(), member, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
     walls_.emplace_back(std::move(wall));
   }
   wallBegin_.push_back(next);
@@ -119,6 +142,7 @@ void Core<Real>::buildWalls(std::vector<Wall> walls) {
     placed.plane = walls_[placed.wall].plane(placed.member);
     if (lists_.springs().sliding) placed.spring.assign(moving_, Real(0));
     if (lists_.springs().rolling) placed.angle.assign(moving_, Real(0));
+    if (lists_.springs().memory) placed.memory.assign(moving_, Real(0));
   }
 }
 
@@ -216,13 +240,16 @@ void Core<Real>::beginUnderWay(const std::vector<Contact>& forces) {
     std::ranges::fill(plateSpring_, Vec<Real>{});
     addForcesOfStart(lags);
   };
+  PairMap<Stretches> memories;  // bonds and largest overlaps are as they were
+  if (lists_.springs().memory)
+    for (const Contact& contact : forces) memories[{contact.i, contact.j}].memory = contact.memory;
   constexpr int roundsOfVelocities = 20, mostOfSprings = 30;
   for (int round = 0; lags && round < roundsOfVelocities; ++round) {
     addMissing(wanted);
     goBack(0.5 * dt_);
-    evaluate({});
+    evaluate(memories);
   }
-  PairMap<Stretches> springs;
+  PairMap<Stretches> springs = memories;
   for (int round = 0; round < mostOfSprings; ++round) {
     if (stretch(wanted, springs)) break;
     evaluate(springs);
@@ -306,9 +333,7 @@ bool Core<Real>::stretch(const PairMap<const Contact*>& wanted, PairMap<Stretche
           stretched({contact.tangentialForce, contact.sliding},
                     {want.tangentialForce, want.sliding}, forcePerStretch(contact), own.spring);
     if (lists_.springs().rolling) {
-      Contact placed = contact;
-      placed.i = static_cast<std::int32_t>(placeOf(contact.i));
-      placed.j = static_cast<std::int32_t>(placeOf(contact.j));
+      const Contact placed = byPlace(contact);
       settled &= stretched({contact.rollingTorque, contact.rollingSlides},
                            {want.rollingTorque, want.rollingSlides},
                            static_cast<double>(law_.kr * rollingLengths(placed).square), own.angle);
@@ -328,10 +353,7 @@ std::size_t Core<Real>::placeOf(std::int32_t number) const {
 template <class Real>
 double Core<Real>::forcePerStretch(const Contact& contact) const {
   if (law_.history == History::force) return 1.0;
-  ContactMotion<Real> motion{};
-  motion.overlap = static_cast<Real>(contact.overlap);
-  motion.radius = pairRadius(placeOf(contact.i), placeOf(contact.j));
-  return static_cast<double>(tangentialStiffness(law_, motion));
+  return static_cast<double>(tangentialStiffness(law_, geometryOf(byPlace(contact))));
 }
 
 /// @param springs  by numbers i < j; all others are relaxed
@@ -340,7 +362,8 @@ void Core<Real>::setSprings(const PairMap<Stretches>& springs) {
   if (!lists_.springs().any()) return;
   std::vector<KeptSpring> pairs;
   for (PlacedPlane& placed : placedPlanes_)
-    for (Array<Real>* array : {&placed.spring, &placed.angle}) std::ranges::fill(*array, Real(0));
+    for (Array<Real>* array : {&placed.spring, &placed.angle, &placed.memory})
+      std::ranges::fill(*array, Real(0));
   for (const auto& [numbers, stretches] : springs) {
     const auto i = static_cast<std::int32_t>(placeOf(numbers.first));
     const std::size_t other = placeOf(numbers.second);
@@ -349,9 +372,11 @@ void Core<Real>::setSprings(const PairMap<Stretches>& springs) {
       const auto place = static_cast<std::size_t>(i);
       if (lists_.springs().sliding) placed.spring[place] = static_cast<Real>(stretches.spring);
       if (lists_.springs().rolling) placed.angle[place] = static_cast<Real>(stretches.angle);
+      if (lists_.springs().memory) placed.memory[place] = static_cast<Real>(stretches.memory);
       continue;
     }
-    KeptSpring kept{i, static_cast<std::int32_t>(other), stretches.spring, stretches.angle};
+    KeptSpring kept{i, static_cast<std::int32_t>(other), stretches.spring, stretches.angle,
+                    stretches.memory};
     if (kept.j < kept.i) swapDisks(kept);
     pairs.push_back(kept);
   }
@@ -435,8 +460,9 @@ PlaneView<Real> Core<Real>::planeView(PlacedPlane& placed, bool record) {
           real(wall.vy),
           real(wall.spin),
           origin_.empty() ? nullptr : origin_.data(),
-          placed.spring.empty() ? nullptr : placed.spring.data(),
-          placed.angle.empty() ? nullptr : placed.angle.data(),
+          {placed.spring.empty() ? nullptr : placed.spring.data(),
+           placed.angle.empty() ? nullptr : placed.angle.data(),
+           placed.memory.empty() ? nullptr : placed.memory.data()},
           record ? placed.overlap.data() : nullptr,
           record ? placed.normal.data() : nullptr,
           record ? placed.tangential.data() : nullptr,

@@ -68,7 +68,7 @@ class Core {
     std::size_t wall, member;
     Plane plane;  ///< as it stands now
     // By the disks' places.
-    Array<Real> spring, angle, overlap, normal, tangential, sliding, rolling, rollingSlides;
+    Array<Real> spring, angle, memory, overlap, normal, tangential, sliding, rolling, rollingSlides;
   };
 
   // The step.
@@ -103,6 +103,7 @@ class Core {
   void addMissing(const PairMap<const Contact*>& wanted);
   struct Stretches {
     double spring = 0.0, angle = 0.0;  ///< ξ, θ
+    double memory = 0.0;
   };
   bool stretch(const PairMap<const Contact*>& wanted, PairMap<Stretches>& springs) const;
   std::size_t placeOf(std::int32_t number) const;
@@ -158,6 +159,9 @@ class Core {
   void forPairsByPlace(VisitPair&& visitPair, VisitPlane&& visitPlane) const;
   std::vector<Contact> softContacts() const;
   double ownRadius(const Contact& contact) const;
+  /// What the law's energies and stiffnesses ask for, of a contact of places.
+  ContactMotion<Real> geometryOf(const Contact& contact) const;
+  Contact byPlace(Contact contact) const;
   /// The lengths of a contact of places.
   RollingMotion<Real> rollingLengths(const Contact& contact) const;
   Real pairRadius(std::size_t i, std::size_t j) const;
@@ -272,6 +276,7 @@ void Core<Real>::forDiskArrays(Visit&& visit) {
   for (PlacedPlane& placed : placedPlanes_) {
     visit(placed.spring);
     visit(placed.angle);
+    visit(placed.memory);
   }
 }
 

@@ -13,7 +13,8 @@ constexpr double EnergyLedger::*sums[] = {
     &EnergyLedger::lostNormalDamping, &EnergyLedger::lostTangentialDamping,
     &EnergyLedger::lostSliding,       &EnergyLedger::lostRollingDamping,
     &EnergyLedger::lostRolling,       &EnergyLedger::lostBottom,
-    &EnergyLedger::lostRelease};
+    &EnergyLedger::lostRelease,       &EnergyLedger::lostPlastic,
+    &EnergyLedger::lostDetachment};
 
 auto pairOf(const SpringAccount& spring) {
   return std::tie(spring.i, spring.j);
@@ -96,7 +97,7 @@ GRAIN_INLINE void LedgerSums::spend(double EnergyLedger::*term, double loss) {
 }
 
 void LedgerSums::release(const SpringBook& book, const SpringAccount& before) {
-  ledger.lostRelease += before.energy;
+  ledger.*book.released += before.energy;
   if (before.sliding != 0) spend(book.lost, -before.openingWork);
 }
 

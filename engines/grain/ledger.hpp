@@ -21,7 +21,9 @@ struct EnergyLedger {
   double lostNormalDamping = 0.0, lostTangentialDamping = 0.0, lostSliding = 0.0;
   double lostRollingDamping = 0.0, lostRolling = 0.0;  ///< by dashpots, at the bound
   double lostBottom = 0.0;                             ///< to the plate
-  double lostRelease = 0.0;  ///< springs still stretched when a contact ends
+  double lostRelease = 0.0;     ///< springs still stretched when a contact ends
+  double lostPlastic = 0.0;     ///< by contacts that yield
+  double lostDetachment = 0.0;  ///< bonds that still pull when a contact ends
 
   double states() const {
     return kinetic + elasticNormal + elasticTangential + elasticRolling + potential + plateSprings;
@@ -82,7 +84,8 @@ class LedgerSums {
   void lose(double EnergyLedger::*term, const HalfKicks& power) { add(term, power, -1.0); }
   /// Powers [W] that a convention gives the disks.
   void gain(const HalfKicks& power) { add(&EnergyLedger::gainedByConvention, power, 1.0); }
-  enum class Spring { sliding, rolling };
+  /// `body` is the normal force of a law that remembers: one that yields counts as sliding.
+  enum class Spring { sliding, rolling, body };
   /// One spring, in ascending (i, j): its account to be filled in, then what it did.
   /// @param power  of the spring on the disks [W]
   SpringAccount& nextSpring(Spring of) { return bookOf(of).next.emplace_back(); }
@@ -110,7 +113,8 @@ class LedgerSums {
  private:
   /// All contacts' springs of one kind.
   struct SpringBook {
-    double EnergyLedger::*lost;  ///< what slides at its bound
+    double EnergyLedger::*lost;      ///< what slides at its bound
+    double EnergyLedger::*released;  ///< what a contact still holds when it ends
     std::vector<SpringAccount> springs = {}, next = {};
     std::size_t place = 0;  ///< in springs
   };
@@ -124,8 +128,10 @@ class LedgerSums {
 
   Scheme scheme_;
   EnergyLedger pending_;  ///< of the openings
-  std::array<SpringBook, 2> books_{SpringBook{&EnergyLedger::lostSliding},
-                                   SpringBook{&EnergyLedger::lostRolling}};
+  std::array<SpringBook, 3> books_{
+      SpringBook{&EnergyLedger::lostSliding, &EnergyLedger::lostRelease},
+      SpringBook{&EnergyLedger::lostRolling, &EnergyLedger::lostRelease},
+      SpringBook{&EnergyLedger::lostPlastic, &EnergyLedger::lostDetachment}};
 };
 
 }  // namespace grain

@@ -112,9 +112,11 @@ void LedgerObserver<Real>::flushPairs() {
   gatherPairs();
   core_.kernels_.ledgerPairs(core_.law_.lever, core_.law_.velocityLever, b, pairCount_);
   for (std::size_t p = 0; p < pairCount_; ++p) {
-    if (b.touches[p] == Real(0)) continue;
     const PairList<Real>& list = *pairList_[p];
     const std::size_t k = pairPlace_[p];
+    if (core_.law_.cohesion == Cohesion::jkr ? !(list.memory[k] > Real(0))
+                                             : b.touches[p] == Real(0))
+      continue;
     const Contact contact{list.i[k],
                           list.j[k],
                           static_cast<double>(b.nx[p]),
@@ -126,7 +128,8 @@ void LedgerObserver<Real>::flushPairs() {
                           list.sliding[k] != Real(0),
                           core_.rolls() ? static_cast<double>(list.rolling[k]) : 0.0,
                           list.angle.empty() ? 0.0 : static_cast<double>(list.angle[k]),
-                          core_.rolls() && list.rollingSlides[k] != Real(0)};
+                          core_.rolls() && list.rollingSlides[k] != Real(0),
+                          list.memory.empty() ? 0.0 : static_cast<double>(list.memory[k])};
     ContactKinematics touch;
     touch.nx = contact.nx;
     touch.ny = contact.ny;
@@ -227,13 +230,20 @@ void LedgerObserver<Real>::accountContact(const Contact& contact) {
 template <class Real>
 void LedgerObserver<Real>::accountContact(const Contact& contact, const ContactKinematics& touch,
                                           const BodyMotion* wall) {
-  ContactMotion<Real> motion{};
-  motion.overlap = static_cast<Real>(contact.overlap);
-  motion.radius =
-      core_.pairRadius(static_cast<std::size_t>(contact.i), static_cast<std::size_t>(contact.j));
-  const auto elastic = static_cast<double>(elasticForce(core_.law_, motion));
-  sums_.ledger.elasticNormal += static_cast<double>(storedEnergy(core_.law_, motion, Real(0)));
-  sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - elastic, touch.normal));
+  const ContactMotion<Real> motion = core_.geometryOf(contact);
+  Real memory = static_cast<Real>(contact.memory);
+  const auto body = static_cast<double>(bodyForce(core_.law_, motion, memory));
+  const auto energy = static_cast<double>(bodyEnergy(core_.law_, motion, memory));
+  sums_.ledger.elasticNormal += energy;
+  sums_.lose(&EnergyLedger::lostNormalDamping, times(contact.normalForce - body, touch.normal));
+  if (core_.lists_.springs().memory) {
+    SpringAccount& account = sums_.nextSpring(LedgerSums::Spring::body);
+    account.i = contact.i;
+    account.j = contact.j;
+    account.sliding = core_.law_.cohesion == Cohesion::elastoPlastic;
+    account.energy = energy;
+    sums_.settleSpring(LedgerSums::Spring::body, times(body, touch.normal));
+  }
   if (wall != nullptr) {
     const BodyMotion still{};
     const double power = -(contact.normalForce * touch.along(still, *wall) +

@@ -22,18 +22,19 @@ struct TooDeep {
   std::size_t i, j;
 };
 
-/// Which springs pairs have.
+/// What pairs remember: springs of sliding and of rolling, and what their law does besides.
 struct PairSprings {
-  bool sliding = false, rolling = false;
+  bool sliding = false, rolling = false, memory = false;
 
-  bool any() const { return sliding || rolling; }
+  bool any() const { return sliding || rolling || memory; }
 };
 
-/// The springs of a pair on their way from one list to the next.
+/// The same on its way from one list to the next.
 struct KeptSpring {
   std::int32_t i, j;
-  double spring;  ///< ξ
-  double angle;   ///< θ
+  double spring;        ///< ξ
+  double angle;         ///< θ
+  double memory = 0.0;  ///< as of contactForce()
 };
 
 /// ξ does not change with the order of the two disks: n and s turn round, v_t as well; but θ of j
@@ -49,11 +50,11 @@ inline void swapDisks(KeptSpring& kept) {
 template <class Real>
 struct PairList {
   std::vector<std::int32_t> farI, farJ;
-  std::vector<Real> farSpring, farAngle;
+  std::vector<Real> farSpring, farAngle, farMemory;
   std::size_t count = 0;  ///< near pairs; the arrays below have room for all far ones
   std::vector<std::int32_t> i, j;
   std::vector<std::uint32_t> far;  ///< a near pair's place among the far ones
-  Array<Real> spring, angle;
+  Array<Real> spring, angle, memory;
   Array<Vec<Real>> shift;  ///< origin of i − origin of j, of local coordinates
   // The last step's results, where asked for.
   Array<Real> normal, tangential, sliding, rolling, rollingSlides;
@@ -72,10 +73,11 @@ struct PairList {
   void takeKept(PairSprings springs);
 
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
+  /// @param range  how far apart bodies may be in contact [m]
   /// @returns how many of the near pairs touch
   /// @throws TooDeep
   std::size_t chooseNear(const Places& now, std::span<const double> allowance, double maxOverlap,
-                         PairSprings springs);
+                         PairSprings springs, double range);
 
   TooDeep firstDeep(const Places& now, double maxOverlap) const;
 

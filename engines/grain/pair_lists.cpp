@@ -24,10 +24,11 @@ void requireFinite(const Places& now) {
 
 template <class Real>
 PairLists<Real>::PairLists(std::size_t moving, std::size_t parts, PairSprings springs, Skin skin,
-                           double maxOverlap)
+                           double maxOverlap, double range)
     : moving_(moving),
       springs_(springs),
       maxOverlap_(maxOverlap),
+      range_(range),
       skin_(skin),
       lists_(parts),
       row_(parts) {}
@@ -86,10 +87,10 @@ std::vector<KeptSpring> PairLists<Real>::stretched() const {
   for (const auto& part : lists_)
     for (const PairList<Real>& list : part)
       for (std::size_t k = 0; k < list.count; ++k) {
-        const Real slid = springs_.sliding ? list.spring[k] : Real(0);
-        const Real rolled = springs_.rolling ? list.angle[k] : Real(0);
-        if (slid != Real(0) || rolled != Real(0))
-          found.push_back({list.i[k], list.j[k], slid, rolled});
+        const KeptSpring pair{list.i[k], list.j[k], springs_.sliding ? list.spring[k] : Real(0),
+                              springs_.rolling ? list.angle[k] : Real(0),
+                              springs_.memory ? list.memory[k] : Real(0)};
+        if (pair.spring != 0.0 || pair.angle != 0.0 || pair.memory != 0.0) found.push_back(pair);
       }
   return found;
 }
@@ -164,7 +165,7 @@ void PairLists<Real>::collect(const Places& now, ThreadTeam& team) {
   requireFinite(now);
   skin_.beginRebuild();
   const double largest = now.radius.empty() ? 1.0 : *std::ranges::max_element(now.radius);
-  grid_.sort(now.position, 2.0 * largest + skin_.skin());
+  grid_.sort(now.position, 2.0 * largest + range_ + skin_.skin());
   team.run([&](std::size_t part) { collectPart(part, now); });
   built_.assign(now.position.begin(), now.position.end());
   skin_.endRebuild();
@@ -182,7 +183,8 @@ void PairLists<Real>::collectPart(std::size_t part, const Places& now) {
     grid_.around(i, [&](std::int32_t j) {
       if (j <= static_cast<std::int32_t>(i)) return;
       const Vec<double> d = now.position[i] - now.position[static_cast<std::size_t>(j)];
-      const double reach = now.radius[i] + now.radius[static_cast<std::size_t>(j)] + skin_.skin();
+      const double reach =
+          now.radius[i] + now.radius[static_cast<std::size_t>(j)] + range_ + skin_.skin();
       if (d.x * d.x + d.y * d.y < reach * reach) row.push_back(j);
     });
     std::ranges::sort(row);
@@ -201,7 +203,7 @@ void PairLists<Real>::refresh(const Places& now, ThreadTeam& team) {
   touching_.assign(parts(), 0);
   team.run([&](std::size_t part) {
     for (PairList<Real>& list : lists_[part])
-      touching_[part] += list.chooseNear(now, allowance_, maxOverlap_, springs_);
+      touching_[part] += list.chooseNear(now, allowance_, maxOverlap_, springs_, range_);
   });
   skin_.endRefresh(counts());
 }

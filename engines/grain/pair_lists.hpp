@@ -39,8 +39,9 @@ class PairLists {
  public:
   /// @param moving   disks 0 … moving−1 move; those after belong to walls and never meet each other
   /// @param maxOverlap  of any pair, in units of the smaller radius; it may be infinite
+  /// @param range  how far apart bodies may be in contact [m]
   PairLists(std::size_t moving, std::size_t parts, PairSprings springs, Skin skin,
-            double maxOverlap);
+            double maxOverlap, double range = 0.0);
 
   std::size_t partBegin(std::size_t part) const { return moving_ * part / parts(); }
   std::size_t parts() const { return lists_.size(); }
@@ -86,7 +87,7 @@ class PairLists {
 
   std::size_t moving_;
   PairSprings springs_;
-  double maxOverlap_;
+  double maxOverlap_, range_;
   Skin skin_;
   CellGrid grid_;
   std::vector<std::array<PairList<Real>, 3>> lists_;

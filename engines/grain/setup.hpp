@@ -54,6 +54,7 @@ struct Contact {
   double rollingTorque = 0.0;  ///< M on i, −M on j [N m]
   double angle = 0.0;          ///< θ after the evaluation [rad]
   bool rollingSlides = false;  ///< M is at its bound
+  double memory = 0.0;         ///< as of contactForce() [1] or [m]
 };
 
 /// The same with i < j: the force acts on the lower number.
