@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "engines/grain/contact_force.hpp"
@@ -347,22 +346,7 @@ TEST_P(CohesionLedger, KernelsThreadsAndRestarts_GiveTheSameBits) {
     for (const Contact& contact : whole.contacts()) pulling += contact.normalForce < 0.0;
     // An area softens the linear law: it pulls at no overlap.
     EXPECT_EQ(pulling > 0, GetParam() != Cohesion::area);
-    grain::Setup general = setup, threaded = setup;
-    general.generalKernels = true;
-    threaded.threads = 2;
-    for (grain::Setup* other : {&general, &threaded}) {
-      Simulation simulation(grain::Setup{*other});
-      simulation.advance(8250);
-      EXPECT_EQ(test::difference(simulation, whole), "");
-    }
-    Simulation half(grain::Setup{setup});
-    half.advance(8150);
-    std::stringstream kept;
-    half.save(kept);
-    Simulation restored(grain::Setup{setup});
-    restored.restore(kept);
-    restored.advance(100);
-    EXPECT_EQ(test::difference(restored, whole), "");
+    test::expectSameBits(setup, whole);
   }
 }
 

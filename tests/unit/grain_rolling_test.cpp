@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "tests/unit/grain_packed.hpp"
@@ -376,23 +375,7 @@ TEST_P(RollingBits, KernelsThreadsAndRestarts_GiveTheSame) {
   }
   EXPECT_EQ(slides > 0, rolling == Rolling::constantTorque || rolling == Rolling::spring);
   EXPECT_EQ(holds > 0, rolling != Rolling::constantTorque);
-
-  grain::Setup general = setup, threaded = setup;
-  general.generalKernels = true;
-  threaded.threads = 2;
-  for (grain::Setup* other : {&general, &threaded}) {
-    Simulation simulation(grain::Setup{*other});
-    simulation.advance(8250);
-    EXPECT_EQ(test::difference(simulation, whole), "");
-  }
-  Simulation half(grain::Setup{setup});
-  half.advance(8150);
-  std::stringstream kept;
-  half.save(kept);
-  Simulation restored(grain::Setup{setup});
-  restored.restore(kept);
-  restored.advance(100);
-  EXPECT_EQ(test::difference(restored, whole), "");
+  test::expectSameBits(setup, whole);
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, RollingBits,
